@@ -1,0 +1,1 @@
+//! The rule runtime and the skills of the reactive agents.

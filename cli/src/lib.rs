@@ -1,0 +1,1 @@
+//! The binary pelea: the only composition root.

@@ -1,0 +1,1 @@
+//! The Deep State Representation: one typed, versioned graph that agents share.

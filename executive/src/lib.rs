@@ -1,0 +1,1 @@
+//! PELEA: High Level Executive, Monitoring and Decision Support.

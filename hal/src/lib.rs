@@ -1,0 +1,1 @@
+//! Hardware abstraction: one trait per capability, and simulated devices.

@@ -1,0 +1,1 @@
+//! HighToLow: a high-level action refined into intentions on the graph.

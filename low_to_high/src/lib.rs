@@ -1,0 +1,1 @@
+//! LowToHigh: from binary tokens and metric attributes to n-ary predicates.

@@ -1,0 +1,1 @@
+//! Mission folders, contents and scenarios as typed models, checked as a whole.

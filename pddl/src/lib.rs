@@ -1,0 +1,1 @@
+//! PDDL and HDDL: lossless syntax, typed model, diagnostics, printer.

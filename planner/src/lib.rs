@@ -1,0 +1,1 @@
+//! Grounding, heuristics and forward search.

@@ -1,0 +1,1 @@
+//! Plan validation by the semantics of PDDL, on its own evaluator.

@@ -1,0 +1,1 @@
+//! PDDL read as graph: dictionary, conditions as patterns, effects as edits.
