@@ -1,0 +1,85 @@
+//! Conditions: preconditions, goals, bodies of axioms, guards of methods.
+
+use super::{Application, Expression, ObjectId, PredicateId, VariableId};
+use crate::Span;
+
+/// A variable or a constant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Term {
+    /// A slot of the schema.
+    Variable(VariableId),
+    /// A constant or object.
+    Object(ObjectId),
+}
+
+/// A predicate applied to terms; arity and types fit.
+#[derive(Clone, Debug)]
+pub struct Atom {
+    /// Which predicate.
+    pub predicate: PredicateId,
+    /// Its arguments.
+    pub arguments: Vec<Term>,
+    /// The whole list in the source.
+    pub span: Span,
+}
+
+/// How two numbers are compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Comparison {
+    /// `<`
+    Less,
+    /// `<=`
+    LessEqual,
+    /// `=`
+    Equal,
+    /// `>=`
+    GreaterEqual,
+    /// `>`
+    Greater,
+}
+
+/// A condition with its place.
+#[derive(Clone, Debug)]
+pub struct Condition {
+    /// What it says.
+    pub kind: ConditionKind,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// The forms of a condition.
+#[derive(Clone, Debug)]
+pub enum ConditionKind {
+    /// Conjunction; empty is true.
+    And(Vec<Condition>),
+    /// Disjunction; empty is false.
+    Or(Vec<Condition>),
+    /// Negation.
+    Not(Box<Condition>),
+    /// Implication.
+    Imply(Box<Condition>, Box<Condition>),
+    /// Some binding of these slots.
+    Exists(Vec<VariableId>, Box<Condition>),
+    /// Every binding of these slots.
+    Forall(Vec<VariableId>, Box<Condition>),
+    /// A predicate holds.
+    Atom(Atom),
+    /// Two terms are the same object.
+    Same(Term, Term),
+    /// Two numbers compare.
+    Compare(Comparison, Box<Expression>, Box<Expression>),
+    /// An object fluent has this value.
+    FluentIs(Application, Term),
+}
+
+impl Condition {
+    /// The condition that always holds.
+    pub fn always(span: Span) -> Self {
+        Self { kind: ConditionKind::And(Vec::new()), span }
+    }
+
+    /// Whether it is the empty conjunction.
+    pub fn is_always(&self) -> bool {
+        matches!(&self.kind, ConditionKind::And(parts) if parts.is_empty())
+    }
+}

@@ -1,0 +1,171 @@
+//! Domains.
+//!
+//! Beyond PDDL, a domain of ours may `(:import a b)`: the types, constants, predicates and functions
+//! of the named domains are then declared here too (ids are this domain's own; names link them). And a
+//! vocabulary (requirement `:vocabulary`) says who writes what:
+//! `(:writes speech (is ?r speaking) (finish ?r speaking) said)`.
+
+use super::{
+    Action, ActionId, CompoundTask, Condition, DurativeAction, DurativeActionId, FunctionId, IndexVec,
+    Method, MethodId, Name, ObjectId, PredicateId, Requirements, TaskId, TypeId, TypeSet, TypeTable,
+    Variables,
+};
+use crate::Span;
+
+/// A predicate.
+#[derive(Clone, Debug)]
+pub struct Predicate {
+    /// Its name.
+    pub name: Name,
+    /// Its typed parameters.
+    pub variables: Variables,
+    /// Whether an axiom derives it.
+    pub derived: bool,
+    /// Where it was declared.
+    pub span: Span,
+}
+
+/// What a function yields.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FunctionValue {
+    /// A number.
+    Number,
+    /// An object.
+    Object(TypeSet),
+}
+
+/// A function.
+#[derive(Clone, Debug)]
+pub struct Function {
+    /// Its name.
+    pub name: Name,
+    /// Its typed parameters.
+    pub variables: Variables,
+    /// What it yields.
+    pub value: FunctionValue,
+    /// Where it was declared.
+    pub span: Span,
+}
+
+/// A constant or object.
+#[derive(Clone, Debug)]
+pub struct Object {
+    /// Its name.
+    pub name: Name,
+    /// Its type (an `either` of several is possible).
+    pub types: TypeSet,
+    /// Where it was declared.
+    pub span: Span,
+}
+
+/// `(:derived (p ?x) body)`. The head's arguments are the parameters, in order.
+#[derive(Clone, Debug)]
+pub struct Axiom {
+    /// What is derived.
+    pub predicate: PredicateId,
+    /// Parameters and quantified variables.
+    pub variables: Variables,
+    /// When it holds.
+    pub body: Condition,
+    /// The whole definition.
+    pub span: Span,
+}
+
+/// The symbol of a token.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum TokenSymbol {
+    /// An edge label.
+    Predicate(PredicateId),
+    /// An attribute.
+    Function(FunctionId),
+    /// The nodes of a type.
+    Type(TypeId),
+}
+
+/// Tokens of one symbol; `None` stands for any argument.
+#[derive(Clone, Debug)]
+pub struct TokenPattern {
+    /// Which symbol.
+    pub symbol: TokenSymbol,
+    /// Fixed arguments; empty means any.
+    pub arguments: Vec<Option<ObjectId>>,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// What an agent may write.
+#[derive(Clone, Debug)]
+pub struct Permission {
+    /// The agent's name.
+    pub agent: Name,
+    /// The tokens.
+    pub tokens: Vec<TokenPattern>,
+    /// The whole section.
+    pub span: Span,
+}
+
+/// A domain.
+#[derive(Clone, Debug)]
+pub struct Domain {
+    /// Its name.
+    pub name: Name,
+    /// Its flags.
+    pub requirements: Requirements,
+    /// Names of imported domains.
+    pub imports: Vec<Name>,
+    /// Its types.
+    pub types: TypeTable,
+    /// Its constants.
+    pub constants: IndexVec<ObjectId, Object>,
+    /// Its predicates.
+    pub predicates: IndexVec<PredicateId, Predicate>,
+    /// Its functions.
+    pub functions: IndexVec<FunctionId, Function>,
+    /// Its instantaneous actions.
+    pub actions: IndexVec<ActionId, Action>,
+    /// Its durative actions, rules and intentions.
+    pub durative_actions: IndexVec<DurativeActionId, DurativeAction>,
+    /// Its axioms.
+    pub axioms: Vec<Axiom>,
+    /// Its compound tasks.
+    pub tasks: IndexVec<TaskId, CompoundTask>,
+    /// Its methods.
+    pub methods: IndexVec<MethodId, Method>,
+    /// Who may write what.
+    pub permissions: Vec<Permission>,
+    /// Language features that the model does not hold, with their places; a command that needs the
+    /// whole meaning refuses by name.
+    pub unsupported: Vec<crate::Diagnostic>,
+}
+
+impl Domain {
+    /// The predicate of that name.
+    pub fn predicate(&self, name: &str) -> Option<PredicateId> {
+        self.predicates.enumerate().find(|(_, p)| &*p.name == name).map(|(id, _)| id)
+    }
+
+    /// The function of that name.
+    pub fn function(&self, name: &str) -> Option<FunctionId> {
+        self.functions.enumerate().find(|(_, f)| &*f.name == name).map(|(id, _)| id)
+    }
+
+    /// The constant of that name.
+    pub fn constant(&self, name: &str) -> Option<ObjectId> {
+        self.constants.enumerate().find(|(_, o)| &*o.name == name).map(|(id, _)| id)
+    }
+
+    /// The action of that name.
+    pub fn action(&self, name: &str) -> Option<ActionId> {
+        self.actions.enumerate().find(|(_, a)| &*a.name == name).map(|(id, _)| id)
+    }
+
+    /// The durative action of that name.
+    pub fn durative_action(&self, name: &str) -> Option<DurativeActionId> {
+        self.durative_actions.enumerate().find(|(_, a)| &*a.name == name).map(|(id, _)| id)
+    }
+
+    /// The compound task of that name.
+    pub fn task(&self, name: &str) -> Option<TaskId> {
+        self.tasks.enumerate().find(|(_, t)| &*t.name == name).map(|(id, _)| id)
+    }
+}

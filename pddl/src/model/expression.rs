@@ -1,0 +1,52 @@
+//! Numeric expressions and applications of functions.
+
+use super::{FunctionId, Term};
+use crate::Span;
+
+/// A function applied to terms; arity and types fit.
+#[derive(Clone, Debug)]
+pub struct Application {
+    /// Which function.
+    pub function: FunctionId,
+    /// Its arguments.
+    pub arguments: Vec<Term>,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// Operators of arithmetic.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ArithmeticOperator {
+    /// `+`
+    Add,
+    /// `-`, also the unary one with a single operand.
+    Subtract,
+    /// `*`
+    Multiply,
+    /// `/`
+    Divide,
+}
+
+/// A numeric expression with its place.
+#[derive(Clone, Debug)]
+pub struct Expression {
+    /// What it computes.
+    pub kind: ExpressionKind,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// The forms of an expression.
+#[derive(Clone, Debug)]
+pub enum ExpressionKind {
+    /// A literal. Its shortest decimal form is the source's value up to 15 digits.
+    Number(f64),
+    /// The value of a numeric fluent.
+    Fluent(Application),
+    /// An operator over one or more operands.
+    Arithmetic(ArithmeticOperator, Vec<Expression>),
+    /// `?duration` of the durative action around it.
+    Duration,
+    /// `total-time` in a metric.
+    TotalTime,
+}

@@ -1,0 +1,80 @@
+//! HDDL: compound tasks, methods and task networks.
+//!
+//! A network is stored with its partial order as pairs of positions; `:ordered-subtasks` is the
+//! chain. A primitive subtask may be an action or, in a `methods.hddl` of ours, a durative action
+//! (an intention: edits at start, what shall be seen at end, the deadline as its duration).
+
+use super::{ActionId, Condition, DurativeActionId, Name, TaskId, Term, Variables};
+use crate::Span;
+
+/// A compound task.
+#[derive(Clone, Debug)]
+pub struct CompoundTask {
+    /// Its name.
+    pub name: Name,
+    /// Its typed parameters.
+    pub variables: Variables,
+    /// The whole definition.
+    pub span: Span,
+}
+
+/// One way to carry out a task.
+#[derive(Clone, Debug)]
+pub struct Method {
+    /// Its name.
+    pub name: Name,
+    /// Parameters and quantified variables.
+    pub variables: Variables,
+    /// What it decomposes.
+    pub task: TaskId,
+    /// The task's arguments in terms of the method's variables.
+    pub task_arguments: Vec<Term>,
+    /// When it may be used (`:constraints` are conjoined).
+    pub precondition: Condition,
+    /// What it becomes.
+    pub network: TaskNetwork,
+    /// The whole definition.
+    pub span: Span,
+}
+
+/// Subtasks and their partial order.
+#[derive(Clone, Debug, Default)]
+pub struct TaskNetwork {
+    /// The subtasks, in the order of the source.
+    pub subtasks: Vec<Subtask>,
+    /// `before` ends before `after` starts; acyclic.
+    pub orderings: Vec<Ordering>,
+}
+
+/// One constraint of the partial order, by positions in [`TaskNetwork::subtasks`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Ordering {
+    /// The earlier subtask.
+    pub before: u32,
+    /// The later subtask.
+    pub after: u32,
+}
+
+/// A step of a network.
+#[derive(Clone, Debug)]
+pub struct Subtask {
+    /// Its id in the source, if any.
+    pub id: Option<Name>,
+    /// What it is.
+    pub head: SubtaskHead,
+    /// Its arguments.
+    pub arguments: Vec<Term>,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// What a subtask names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SubtaskHead {
+    /// A compound task.
+    Task(TaskId),
+    /// An action.
+    Action(ActionId),
+    /// A durative action.
+    DurativeAction(DurativeActionId),
+}

@@ -1,0 +1,44 @@
+//! The typed model: what a file means once every name is resolved.
+//!
+//! Problem: planners, validators and translators must not look at text. Idea: one plain data
+//! structure per file kind; names are interned per domain and every reference is a typed id, every
+//! variable a slot of its schema. Invariant: a model exists only if its file had no errors, so ids
+//! are in range and arities and types fit. All nodes carry the span they came from.
+//!
+//! Source: Fox & Long, "PDDL2.1", JAIR 2003; Kovacs, "BNF definition of PDDL 3.1", 2011;
+//! Höller et al., "HDDL", AAAI 2020. Deviations (`:import`, `:writes`, outcomes of rules) are on
+//! [`Domain`] and [`Rule`].
+
+mod action;
+mod condition;
+mod domain;
+mod effect;
+mod expression;
+mod htn;
+mod ids;
+mod index;
+mod name;
+mod problem;
+mod requirements;
+mod types;
+mod variables;
+
+pub use action::{
+    Action, DurationConstraint, DurativeAction, Rule, SkillCall, TimeSpecifier, TimedCondition, TimedEffect,
+};
+pub use condition::{Atom, Comparison, Condition, ConditionKind, Term};
+pub use domain::{
+    Axiom, Domain, Function, FunctionValue, Object, Permission, Predicate, TokenPattern, TokenSymbol,
+};
+pub use effect::{AssignOperator, AssignedValue, Effect, EffectKind};
+pub use expression::{Application, ArithmeticOperator, Expression, ExpressionKind};
+pub use htn::{CompoundTask, Method, Ordering, Subtask, SubtaskHead, TaskNetwork};
+pub use ids::{
+    ActionId, DurativeActionId, FunctionId, MethodId, ObjectId, PredicateId, TaskId, TypeId, VariableId,
+};
+pub use index::{Idx, IndexVec};
+pub use name::Name;
+pub use problem::{Fact, FluentFact, FluentValue, GroundApplication, Metric, Objective, Problem};
+pub use requirements::{Requirement, Requirements};
+pub use types::{Type, TypeSet, TypeTable};
+pub use variables::{Variable, Variables};

@@ -1,0 +1,91 @@
+//! `:requirements`.
+
+use std::collections::BTreeSet;
+
+macro_rules! requirements {
+    ($($(#[$doc:meta])* $variant:ident = $text:literal,)*) => {
+        /// A requirement flag.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum Requirement { $($(#[$doc])* $variant,)* }
+
+        impl Requirement {
+            /// Every flag.
+            pub const ALL: &'static [Self] = &[$(Self::$variant,)*];
+
+            /// As written, with the colon.
+            pub const fn as_str(self) -> &'static str {
+                match self { $(Self::$variant => $text,)* }
+            }
+        }
+    };
+}
+
+requirements! {
+    /// Basic STRIPS.
+    Strips = ":strips",
+    /// Types.
+    Typing = ":typing",
+    /// `not` in conditions.
+    NegativePreconditions = ":negative-preconditions",
+    /// `or`, `imply` in conditions.
+    DisjunctivePreconditions = ":disjunctive-preconditions",
+    /// `=` over terms.
+    Equality = ":equality",
+    /// `exists`.
+    ExistentialPreconditions = ":existential-preconditions",
+    /// `forall` in conditions.
+    UniversalPreconditions = ":universal-preconditions",
+    /// Both quantifiers.
+    QuantifiedPreconditions = ":quantified-preconditions",
+    /// `when`.
+    ConditionalEffects = ":conditional-effects",
+    /// Numeric and object fluents.
+    Fluents = ":fluents",
+    /// Numeric fluents.
+    NumericFluents = ":numeric-fluents",
+    /// Object fluents.
+    ObjectFluents = ":object-fluents",
+    /// All of ADL.
+    Adl = ":adl",
+    /// Durative actions.
+    DurativeActions = ":durative-actions",
+    /// Duration inequalities.
+    DurationInequalities = ":duration-inequalities",
+    /// Continuous effects.
+    ContinuousEffects = ":continuous-effects",
+    /// Derived predicates.
+    DerivedPredicates = ":derived-predicates",
+    /// Timed initial literals.
+    TimedInitialLiterals = ":timed-initial-literals",
+    /// Timed initial fluents.
+    TimedInitialFluents = ":timed-initial-fluents",
+    /// Preferences.
+    Preferences = ":preferences",
+    /// Trajectory constraints.
+    Constraints = ":constraints",
+    /// `total-cost` alone.
+    ActionCosts = ":action-costs",
+    /// Goal utilities.
+    GoalUtilities = ":goal-utilities",
+    /// PDDL+ processes and events.
+    Time = ":time",
+    /// HDDL tasks and methods.
+    Hierarchy = ":hierarchy",
+    /// HDDL method preconditions.
+    MethodPreconditions = ":method-preconditions",
+    /// Ours: durative actions are agents' rules, with skills, claims, priorities and outcomes.
+    AgentRules = ":agent-rules",
+    /// Ours: `:writes` says which agent may write which token.
+    Vocabulary = ":vocabulary",
+}
+
+/// A set of requirement flags, as written.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Requirements(pub BTreeSet<Requirement>);
+
+impl Requirements {
+    /// Whether the flag is declared.
+    pub fn contains(&self, requirement: Requirement) -> bool {
+        self.0.contains(&requirement)
+    }
+}

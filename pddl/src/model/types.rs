@@ -1,0 +1,115 @@
+//! The hierarchy of types.
+//!
+//! PDDL allows several parents (`either` on the right of a type) and PDDL 3.1 lets types be used as
+//! unary predicates; both are served by a closure computed once. Invariant: acyclic, `object` on top.
+
+use super::{IndexVec, Name, TypeId};
+use crate::Span;
+
+/// A declared type.
+#[derive(Clone, Debug)]
+pub struct Type {
+    /// Its name.
+    pub name: Name,
+    /// Its direct supertypes; empty for `object` alone.
+    pub parents: Vec<TypeId>,
+    /// Where it was declared.
+    pub span: Span,
+}
+
+/// A union of types: `(either a b)`, or one type.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TypeSet(pub Vec<TypeId>);
+
+impl TypeSet {
+    /// `object`: anything.
+    pub fn any() -> Self {
+        Self(vec![TypeTable::OBJECT])
+    }
+}
+
+/// All types of a domain with the closure of "is a".
+#[derive(Clone, Debug)]
+pub struct TypeTable {
+    types: IndexVec<TypeId, Type>,
+    /// `ancestors[t]` holds `t` and everything above it, sorted.
+    ancestors: IndexVec<TypeId, Vec<TypeId>>,
+}
+
+impl TypeTable {
+    /// The root type.
+    pub const OBJECT: TypeId = TypeId(0);
+
+    /// Closes the hierarchy. `types[0]` must be `object`, and the hierarchy acyclic (the checker of
+    /// sources reports cycles before it comes here); a cycle would be cut, not looped over.
+    pub fn new(types: IndexVec<TypeId, Type>) -> Self {
+        let ancestors = types
+            .ids()
+            .map(|t| {
+                let mut seen = vec![t];
+                let mut next = 0;
+                while let Some(&u) = seen.get(next) {
+                    next += 1;
+                    for &p in &types[u].parents {
+                        if !seen.contains(&p) {
+                            seen.push(p);
+                        }
+                    }
+                }
+                if !seen.contains(&Self::OBJECT) {
+                    seen.push(Self::OBJECT);
+                }
+                seen.sort_unstable();
+                seen
+            })
+            .collect();
+        Self { types, ancestors }
+    }
+
+    /// The type of that name.
+    pub fn find(&self, name: &str) -> Option<TypeId> {
+        self.types.enumerate().find(|(_, t)| &*t.name == name).map(|(id, _)| id)
+    }
+
+    /// Whether every `sub` is a `super_`.
+    pub fn is_subtype(&self, sub: TypeId, super_: TypeId) -> bool {
+        self.ancestors[sub].binary_search(&super_).is_ok()
+    }
+
+    /// Whether an instance of `sub` belongs to the union.
+    pub fn is_in(&self, sub: TypeId, union: &TypeSet) -> bool {
+        union.0.iter().any(|&t| self.is_subtype(sub, t))
+    }
+
+    /// Whether each member of `sub` belongs to `super_`.
+    pub fn is_subset(&self, sub: &TypeSet, super_: &TypeSet) -> bool {
+        sub.0.iter().all(|&t| self.is_in(t, super_))
+    }
+
+    /// The type and all its supertypes, sorted by id.
+    pub fn ancestors(&self, of: TypeId) -> &[TypeId] {
+        &self.ancestors[of]
+    }
+
+    /// All types with their ids.
+    pub fn enumerate(&self) -> impl DoubleEndedIterator<Item = (TypeId, &Type)> + ExactSizeIterator {
+        self.types.enumerate()
+    }
+
+    /// How many, `object` included.
+    pub fn len(&self) -> usize {
+        self.types.len()
+    }
+
+    /// Never: `object` is always there.
+    pub fn is_empty(&self) -> bool {
+        self.types.is_empty()
+    }
+}
+
+impl std::ops::Index<TypeId> for TypeTable {
+    type Output = Type;
+    fn index(&self, id: TypeId) -> &Type {
+        &self.types[id]
+    }
+}
