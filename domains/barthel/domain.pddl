@@ -1,0 +1,118 @@
+; The Barthel test as a planning problem: plain PDDL that any planner reads.
+;
+; Nothing here says how something is said or shown: each action has a task of the same name in
+; methods.hddl, and each predicate that an action changes is sensed, by perception.pddl.
+(define (domain barthel)
+  (:requirements :strips :typing :negative-preconditions)
+  (:types
+    person part - object
+    item - part)
+  (:predicates
+    ; how the person and the session are
+    (present ?p - person)             ; in view, in front of the robot
+    (away ?p - person)                ; out of view for so long that calling is of no use
+    (wants-help ?p - person)
+    (clinician-needed ?p - person)    ; two items stayed without an answer
+    (paused ?p - person)
+    (aborted ?p - person)
+    ; how far the test is
+    (next ?i ?j - part)
+    (opens-with ?i - part)
+    (closes-with ?i - part)
+    (greeted ?p - person)
+    (introduced ?i - item)
+    (described ?i - item)
+    (unanswered-once ?i - item)
+    (unanswered-twice ?i - item)
+    (done ?i - part)                  ; answered, or passed over after two silences
+    (thanked ?p - person)
+    (reported ?p - person))
+
+  ; ---- the protocol ------------------------------------------------------------------------
+  (:action greet
+    :parameters (?p - person)
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (clinician-needed ?p))
+                       (not (paused ?p)) (not (aborted ?p)))
+    :effect (greeted ?p))
+
+  (:action explain
+    :parameters (?p - person ?i ?j - part)
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (clinician-needed ?p))
+                       (not (paused ?p)) (not (aborted ?p))
+                       (greeted ?p) (next ?i ?j) (opens-with ?i))
+    :effect (done ?i))
+
+  (:action introduce
+    :parameters (?p - person ?i - part ?j - item)
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (clinician-needed ?p))
+                       (not (paused ?p)) (not (aborted ?p))
+                       (next ?i ?j) (done ?i))
+    :effect (introduced ?j))
+
+  (:action describe
+    :parameters (?p - person ?i - item)
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (clinician-needed ?p))
+                       (not (paused ?p)) (not (aborted ?p))
+                       (introduced ?i))
+    :effect (described ?i))
+
+  (:action ask
+    :parameters (?p - person ?i - item)
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (clinician-needed ?p))
+                       (not (paused ?p)) (not (aborted ?p))
+                       (described ?i) (not (unanswered-once ?i)))
+    :effect (done ?i))
+
+  ; No answer in time: describe by voice again, show all options, ask again.
+  (:action ask-again
+    :parameters (?p - person ?i - item)
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (clinician-needed ?p))
+                       (not (paused ?p)) (not (aborted ?p))
+                       (unanswered-once ?i) (not (unanswered-twice ?i)))
+    :effect (done ?i))
+
+  ; None again: the next item.
+  (:action pass-over
+    :parameters (?p - person ?i - item)
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (clinician-needed ?p))
+                       (not (paused ?p)) (not (aborted ?p))
+                       (unanswered-twice ?i))
+    :effect (done ?i))
+
+  (:action thank
+    :parameters (?p - person ?i ?j - part)
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (clinician-needed ?p))
+                       (not (paused ?p)) (not (aborted ?p))
+                       (next ?i ?j) (done ?i) (closes-with ?j))
+    :effect (thanked ?p))
+
+  (:action report
+    :parameters (?p - person)
+    :precondition (and (thanked ?p) (not (aborted ?p)))
+    :effect (reported ?p))
+
+  ; ---- what may happen at any moment -------------------------------------------------------
+  (:action call-back
+    :parameters (?p - person)
+    :precondition (and (not (present ?p)) (not (away ?p)) (not (paused ?p)) (not (aborted ?p)))
+    :effect (present ?p))
+
+  (:action have-fetched
+    :parameters (?p - person)
+    :precondition (and (not (present ?p)) (away ?p) (not (paused ?p)) (not (aborted ?p)))
+    :effect (and (present ?p) (not (away ?p))))
+
+  (:action get-help
+    :parameters (?p - person)
+    :precondition (and (wants-help ?p) (not (paused ?p)) (not (aborted ?p)))
+    :effect (not (wants-help ?p)))
+
+  (:action call-clinician
+    :parameters (?p - person)
+    :precondition (and (clinician-needed ?p) (not (paused ?p)) (not (aborted ?p)))
+    :effect (not (clinician-needed ?p)))
+
+  (:action await-resumption
+    :parameters (?p - person)
+    :precondition (and (paused ?p) (not (aborted ?p)))
+    :effect (not (paused ?p))))

@@ -1,0 +1,61 @@
+; LowToHigh: what the tokens of the graph mean for the plan.
+;
+; `told` needs the voice and the screen, and makes do with one where the other does not work: a
+; sentence that has been shown is not told before it has also been said.
+(define (domain barthel-perception)
+  (:requirements :typing :equality :negative-preconditions :disjunctive-preconditions
+                 :quantified-preconditions :derived-predicates)
+  (:import clarc barthel)
+  (:predicates
+    (unusable ?d - device)
+    (told ?u - utterance ?i - part)
+    (answered ?i - item))
+
+  (:derived (unusable ?d - device)
+    (or (is ?d broken) (is ?d doubted)))
+
+  (:derived (told ?u - utterance ?i - part)
+    (and (or (was_said_in ?u ?i) (was_shown_in ?u ?i))
+         (or (was_said_in ?u ?i) (unusable speaker))
+         (or (was_shown_in ?u ?i) (unusable screen))))
+
+  (:derived (answered ?i - item)
+    (exists (?o - option) (was_chosen_in ?o ?i)))
+
+  ; the person and the session
+  (:derived (present ?p - person)
+    (exists (?r - robot) (is_with ?p ?r)))
+  (:derived (away ?p - person)
+    (exists (?m - room) (has_left ?p ?m)))
+  (:derived (wants-help ?p - person)
+    (asks ?p help))
+  (:derived (clinician-needed ?p - person)
+    (and (exists (?i ?j - item)
+           (and (not (= ?i ?j)) (unanswered-twice ?i) (unanswered-twice ?j)))
+         (not (exists (?c - clinician) (attended ?c unanswered)))))
+  (:derived (paused ?p - person)
+    (exists (?t - test) (is ?t paused)))
+  (:derived (aborted ?p - person)
+    (exists (?t - test) (is ?t aborted)))
+
+  ; how far the test is
+  (:derived (greeted ?p - person)
+    (told greeting opening))
+  (:derived (introduced ?i - item)
+    (told introduction ?i))
+  (:derived (described ?i - item)
+    (and (introduced ?i)
+         (forall (?o - option) (imply (offers ?i ?o) (told ?o ?i)))))
+  (:derived (unanswered-once ?i - item)
+    (and (was_unanswered_in first-question ?i) (not (answered ?i))))
+  (:derived (unanswered-twice ?i - item)
+    (and (was_unanswered_in second-question ?i) (not (answered ?i))))
+  (:derived (done ?i - phase)
+    (told explanation ?i))
+  (:derived (done ?i - item)
+    (or (answered ?i)
+        (and (unanswered-twice ?i) (told moving-on ?i))))
+  (:derived (thanked ?p - person)
+    (exists (?i - phase) (told farewell ?i)))
+  (:derived (reported ?p - person)
+    (exists (?c - clinician) (was_delivered_to report ?c))))

@@ -1,0 +1,105 @@
+; Speech: text to speech, and the answers that are spoken.
+;
+; A rule is the graph before (at start), what stands in it meanwhile (effects at start), what must
+; keep holding or the skill is stopped in the same commit (over all), and the graph after, by
+; outcome: `end` when the skill succeeds, `abort` when a reflex stops it, `timeout` when the
+; duration is over, and whatever else the skill can report.
+(define (domain speech)
+  (:requirements :typing :equality :negative-preconditions :existential-preconditions
+                 :fluents :durative-actions :agent-rules)
+  (:import clarc)
+
+  (:durative-action say
+    :parameters (?r - robot ?p - person ?t - test ?i - part ?u - remark)
+    :duration (<= ?duration 60)
+    :condition (and
+      (at start (not (is ?r speaking)))
+      (at start (not (is speaker broken)))
+      (over all (is_in ?t ?i))
+      (over all (= (label ?t ?i) ?u))
+      (over all (is_with ?p ?r))
+      (over all (not (is ?t paused)))
+      (over all (not (is ?t aborted))))
+    :effect (and
+      (at start (not (is_not ?r speaking)))
+      (at start (not (finish ?r speaking)))
+      (at start (is ?r speaking))
+      (at end (not (is ?r speaking)))
+      (at end (finish ?r speaking))
+      (at end (was_said_in ?u ?i))
+      (at end (assign (label ?t ?i) undefined))
+      (at abort (not (is ?r speaking)))
+      (at abort (is_not ?r speaking))
+      (at timeout (not (is ?r speaking)))
+      (at timeout (is_not ?r speaking))
+      (at timeout (is speaker broken))
+      (at failure (not (is ?r speaking)))
+      (at failure (is_not ?r speaking))
+      (at failure (is speaker broken)))
+    :skill (say ?i ?u)
+    :claims (loudspeaker)
+    :priority 50)
+
+  (:durative-action call-out
+    :parameters (?r - robot ?t - test ?i - part ?u - summons)
+    :duration (<= ?duration 60)
+    :condition (and
+      (at start (not (is ?r speaking)))
+      (at start (not (is speaker broken)))
+      (over all (is_in ?t ?i))
+      (over all (= (label ?t ?i) ?u)))
+    :effect (and
+      (at start (not (is_not ?r speaking)))
+      (at start (not (finish ?r speaking)))
+      (at start (is ?r speaking))
+      (at end (not (is ?r speaking)))
+      (at end (finish ?r speaking))
+      (at end (was_said_in ?u ?i))
+      (at end (assign (label ?t ?i) undefined))
+      (at abort (not (is ?r speaking)))
+      (at abort (is_not ?r speaking))
+      (at timeout (not (is ?r speaking)))
+      (at timeout (is_not ?r speaking))
+      (at timeout (is speaker broken))
+      (at failure (not (is ?r speaking)))
+      (at failure (is_not ?r speaking))
+      (at failure (is speaker broken)))
+    :skill (say ?i ?u)
+    :claims (loudspeaker)
+    :priority 70)
+
+  ; An answer may be spoken or touched: this rule opens the ear, the panel's rule `touch` follows
+  ; the same `waiting`; whoever ends it first stops the other.
+  (:durative-action hear
+    :parameters (?r - robot ?p - person ?t - test ?i - item ?a - answer ?q - question)
+    :duration (<= ?duration 15)
+    :condition (and
+      (at start (can ?p ?a))
+      (over all (is_in ?t ?i))
+      (over all (= (question ?t ?i) ?q))
+      (over all (is_with ?p ?r))
+      (over all (not (is ?t paused)))
+      (over all (not (is ?t aborted)))
+      (over all (waiting ?p ?a)))
+    :results (?o - option)
+    :effect (and
+      (at start (not (can ?p ?a)))
+      (at start (waiting ?p ?a))
+      (at end (not (waiting ?p ?a)))
+      (at end (got ?p ?a))
+      (at end (was_chosen_in ?o ?i))
+      (at abort (not (waiting ?p ?a)))
+      (at timeout (not (waiting ?p ?a)))
+      (at timeout (was_unanswered_in ?q ?i))
+      (at misheard (not (waiting ?p ?a)))
+      (at misheard (was_misheard_in ?q ?i))
+      (at misheard (was_unanswered_in ?q ?i)))
+    :skill (listen ?i))
+
+  (:durative-action hear-request
+    :parameters (?r - robot ?p - person ?q - request)
+    :condition (and
+      (at start (not (asks ?p ?q)))
+      (over all (is_with ?p ?r)))
+    :effect (at end (asks ?p ?q))
+    :skill (spot ?q)))

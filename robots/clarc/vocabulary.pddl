@@ -1,0 +1,79 @@
+; The dictionary: every token that may stand in CLARC's Deep State Representation.
+;
+; A type is a kind of node (below `frame`: a node with a pose), a binary predicate the label of an
+; edge, a function an attribute: unary of a node, binary of a pair of nodes. `:writes` says which
+; agent may write which token; `_` and variables stand for any node. Whatever is not written here
+; cannot be written into the graph.
+(define (domain clarc)
+  (:requirements :typing :equality :fluents :vocabulary)
+  (:types
+    frame symbol value agent resource - object
+    text pose - value
+    world body device - frame
+    robot person - body
+    clinician room test part utterance answer state command request need document - symbol
+    item phase - part
+    remark summons - utterance    ; a summons is also spoken to somebody who is not in view
+    option question - remark)
+  (:constants
+    pelea speech panel person-agent cgamed - agent
+    loudspeaker display - resource
+    speaker screen - device
+    speaking showing paused aborted broken doubted - state
+    pause resume abort - command
+    help - request
+    answer - answer
+    report - document
+    unanswered assistance absence trouble - need)
+  (:predicates
+    ; what the robot, its devices and the test are doing
+    (is ?x - (either robot device test) ?s - state)
+    (is_not ?r - robot ?s - state)
+    (finish ?r - robot ?s - state)
+    ; where the test is, and what was said and shown there
+    (is_in ?t - test ?p - part)
+    (precedes ?x ?y - (either part option))
+    (offers ?i - item ?o - option)
+    (was_said_in ?u - utterance ?p - part)
+    (was_shown_in ?u - utterance ?p - part)
+    ; the person
+    (is_with ?p - person ?r - robot)
+    (has_left ?p - person ?m - room)
+    (asks ?p - person ?q - request)
+    (can ?p - person ?a - answer)
+    (waiting ?p - person ?a - answer)
+    (got ?p - person ?a - answer)
+    (was_chosen_in ?o - option ?i - item)
+    (was_unanswered_in ?q - question ?i - item)
+    (was_misheard_in ?q - question ?i - item)
+    ; the clinician
+    (is_needed_for ?c - clinician ?n - need)
+    (is_called_for ?c - clinician ?n - need)
+    (attended ?c - clinician ?n - need)
+    (is_due_to ?d - document ?c - clinician)
+    (was_delivered_to ?d - document ?c - clinician))
+  (:functions
+    (rt ?parent ?child - frame) - pose
+    (distance ?a ?b - frame) - number
+    (label ?t - test ?p - part) - utterance     ; the sentence to say now
+    (view ?t - test ?p - part) - utterance      ; the page to show now
+    (question ?t - test ?p - part) - question   ; what the person is being asked
+    (score ?i - item ?o - option) - number)
+
+  (:writes pelea
+    is_in label view question (can _ answer) (got _ answer)
+    (is _ doubted) (is_needed_for _ _) (attended _ _) (is_due_to _ _))
+  (:writes speech
+    (is _ speaking) (is_not _ speaking) (finish _ speaking) (is speaker broken)
+    label was_said_in
+    can waiting got was_chosen_in was_unanswered_in was_misheard_in
+    (asks _ help))
+  (:writes panel
+    (is _ showing) (is_not _ showing) (finish _ showing) (is screen broken)
+    view was_shown_in
+    waiting got was_chosen_in)
+  (:writes person-agent is_with has_left rt)
+  (:writes cgamed
+    (is _ paused) (is _ aborted)
+    is_needed_for is_called_for attended (asks _ help)
+    is_due_to was_delivered_to))

@@ -1,0 +1,17 @@
+; Where CLARC stands before anybody is seen.
+; Poses are in metres and radians, of the second frame in the first.
+(define (problem consulting-room)
+  (:domain clarc)
+  (:objects
+    world - world
+    robot - robot
+    person - person
+    room - room
+    clinician - clinician)
+  (:init
+    (is_not robot speaking)
+    (is_not robot showing)
+    (= (rt_x world robot) 0)
+    (= (rt_x robot speaker) 0.1) (= (rt_z robot speaker) 1.1)
+    (= (rt_x robot screen) 0.2) (= (rt_z robot screen) 1.2))
+  (:goal (and)))
