@@ -1,3 +1,79 @@
-//! The project's own commands.
+//! The project's own commands, `cargo xtask NAME`.
+//!
+//! `ci` is what `.ci/run` runs: `test`, `lint`, `tidy`. One build profile (release) serves them all,
+//! because the planner's tests want its speed and two profiles would build everything twice.
 
-fn main() {}
+mod arrows;
+mod cargo;
+mod sources;
+
+use std::process::ExitCode;
+
+const HELP: &str = "cargo xtask COMMAND
+
+  test   every test of the workspace, by nextest where it is installed, and the documentation's examples
+  lint   rustfmt --check, clippy and rustdoc, without a warning
+  tidy   the arrows of ARCHITECTURE.md equal those of cargo, and every source keeps the house rules
+  ci     test, lint, tidy
+";
+
+fn main() -> ExitCode {
+    let command = std::env::args().nth(1).unwrap_or_default();
+    let done = match command.as_str() {
+        "test" => test(),
+        "lint" => lint(),
+        "tidy" => tidy(),
+        "ci" => test().and_then(|()| lint()).and_then(|()| tidy()),
+        _ => {
+            eprint!("{HELP}");
+            return ExitCode::from(2);
+        }
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("xtask: {failure}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Why a command did not succeed.
+#[derive(Debug, thiserror::Error)]
+enum Failure {
+    #[error("`{0}` failed")]
+    Command(String),
+    #[error("`{0}` could not be started: {1}")]
+    NotStarted(String, std::io::Error),
+    #[error("cargo metadata: {0}")]
+    Metadata(#[from] cargo_metadata::Error),
+    #[error("{0}: {1}")]
+    File(String, std::io::Error),
+    #[error("{0} finding(s), listed above")]
+    Findings(usize),
+}
+
+fn test() -> Result<(), Failure> {
+    if cargo::has_nextest() {
+        cargo::run(&["nextest", "run", "--release", "--workspace", "--no-tests=pass"])?;
+        cargo::run(&["test", "--release", "--workspace", "--doc"])
+    } else {
+        cargo::run(&["test", "--release", "--workspace"])
+    }
+}
+
+fn lint() -> Result<(), Failure> {
+    cargo::run(&["fmt", "--all", "--check"])?;
+    cargo::run(&["clippy", "--release", "--workspace", "--all-targets", "--", "-D", "warnings"])?;
+    cargo::run_with(&["doc", "--release", "--workspace", "--no-deps"], "RUSTDOCFLAGS", "-D warnings")
+}
+
+fn tidy() -> Result<(), Failure> {
+    let root = cargo::root();
+    let mut findings = arrows::check(&root)?;
+    findings.extend(sources::check(&root)?);
+    for finding in &findings {
+        eprintln!("tidy: {finding}");
+    }
+    if findings.is_empty() { Ok(()) } else { Err(Failure::Findings(findings.len())) }
+}
