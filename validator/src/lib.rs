@@ -1,1 +1,50 @@
-//! Plan validation by the semantics of PDDL, on its own evaluator.
+//! Plan validation by the semantics of PDDL, on an evaluator of its own.
+//!
+//! The planner that finds a plan must not be the one who says that it is right, so nothing here is
+//! shared with it but `pddl`'s typed model: no grounding, no compiled operators. Conditions and effects
+//! are read from the model as they stand, over one state that is changed in place.
+//!
+//! ```no_run
+//! use pddl::{Source, parse_domain, parse_plan, parse_problem};
+//!
+//! let domain = Source::new("d.pddl", "(define (domain d) (:predicates (lit))
+//!     (:action light :parameters () :precondition (not (lit)) :effect (lit)))");
+//! let domain = parse_domain(&domain, &[]).model.expect("a domain");
+//! let problem = Source::new("p.pddl", "(define (problem p) (:domain d) (:init) (:goal (lit)))");
+//! let problem = parse_problem(&problem, &domain).model.expect("a problem");
+//! let plan = parse_plan(&Source::new("plan", "(light)"), &domain, &problem).model.expect("a plan");
+//!
+//! let verdict = validator::validate(&domain, &problem, &plan);
+//! assert!(verdict.is_valid());
+//! ```
+//!
+//! From the ground up: `number` (exact arithmetic), `universe` (which objects a type has), `state`
+//! (facts and fluents, each with the step that changed it last), `expression`, `condition` and `solve`
+//! (what holds), `axiom` (what follows), `effect` (what an action does), `run` (the plan, step by step),
+//! [`Verdict`] with `why` (what was missing) and `words` (how to say it).
+
+mod axiom;
+mod condition;
+mod effect;
+mod expression;
+mod number;
+mod run;
+mod scene;
+mod solve;
+mod state;
+mod trace;
+mod universe;
+mod verdict;
+mod why;
+mod words;
+
+pub use expression::NumericFault;
+pub use number::Number;
+pub use run::{Validator, validate};
+pub use state::{GroundAtom, Value};
+pub use trace::{Diff, FluentChange, Trace};
+pub use verdict::{
+    EffectFault, Failure, Feature, IllFormed, MetricValue, Near, Operand, StepFault, StepIndex, Unsatisfied,
+    Unsupported, Valid, Verdict,
+};
+pub use words::{File, Finding, Place, explain, show_application, show_atom, show_diff, show_step};

@@ -1,0 +1,99 @@
+//! Whether a condition holds.
+//!
+//! A comparison over an undefined fluent is neither true nor false, and neither is its negation: only
+//! what certainly holds is satisfied. So negation is carried inwards: [`Scene::satisfied`] asks whether
+//! a condition certainly is what is `wanted`, and the one place where "all bindings are" becomes "no
+//! binding may not be" turns [`Strictness`] around. An undefined object fluent, by contrast, has a value
+//! like any other in PDDL 3.1 (`undefined`) and differs from every object.
+//!
+//! Source: Fox & Long, "PDDL2.1", JAIR 2003, §6: comparisons with ⊥ are undefined, "so that enclosing
+//! propositions are also undefined and not satisfied in any state"; disjunctions and quantifiers are
+//! split before, hence one true disjunct suffices. Kovacs, "BNF definition of PDDL 3.1", 2011.
+
+use crate::number::Number;
+use crate::scene::{Binding, Scene};
+use crate::state::Value;
+use pddl::model::{Comparison, Condition, ConditionKind};
+
+/// What to make of an undefined comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Strictness {
+    /// It is not satisfied.
+    Certain,
+    /// It is not refuted.
+    Possible,
+}
+
+impl Strictness {
+    fn turned(self) -> Self {
+        match self {
+            Self::Certain => Self::Possible,
+            Self::Possible => Self::Certain,
+        }
+    }
+}
+
+pub(crate) fn compares(comparison: Comparison, left: Number, right: Number) -> bool {
+    match comparison {
+        Comparison::Less => left < right,
+        Comparison::LessEqual => left <= right,
+        Comparison::Equal => left == right,
+        Comparison::GreaterEqual => left >= right,
+        Comparison::Greater => left > right,
+    }
+}
+
+impl Scene<'_> {
+    /// Whether the condition holds, all numbers in it being defined as far as they matter.
+    pub(crate) fn holds(&self, condition: &Condition, binding: &mut Binding) -> bool {
+        self.satisfied(condition, true, Strictness::Certain, binding)
+    }
+
+    pub(crate) fn satisfied(
+        &self,
+        condition: &Condition,
+        wanted: bool,
+        strictness: Strictness,
+        binding: &mut Binding,
+    ) -> bool {
+        match &condition.kind {
+            ConditionKind::And(parts) | ConditionKind::Or(parts) => {
+                let conjunction = matches!(condition.kind, ConditionKind::And(_)) == wanted;
+                let mut each = parts.iter().map(|part| self.satisfied(part, wanted, strictness, binding));
+                if conjunction { each.all(|s| s) } else { each.any(|s| s) }
+            }
+            ConditionKind::Not(part) => self.satisfied(part, !wanted, strictness, binding),
+            ConditionKind::Imply(if_, then) => {
+                if wanted {
+                    self.satisfied(if_, false, strictness, binding)
+                        || self.satisfied(then, true, strictness, binding)
+                } else {
+                    self.satisfied(if_, true, strictness, binding)
+                        && self.satisfied(then, false, strictness, binding)
+                }
+            }
+            ConditionKind::Exists(variables, body) | ConditionKind::Forall(variables, body) => {
+                let one_is_enough = matches!(condition.kind, ConditionKind::Exists(..)) == wanted;
+                if one_is_enough {
+                    self.some_binding(variables, body, wanted, strictness, binding)
+                } else {
+                    !self.some_binding(variables, body, !wanted, strictness.turned(), binding)
+                }
+            }
+            ConditionKind::Atom(atom) => {
+                binding.with_objects(&atom.arguments, |arguments| self.state.holds(atom.predicate, arguments))
+                    == wanted
+            }
+            ConditionKind::Same(left, right) => (binding.object(*left) == binding.object(*right)) == wanted,
+            ConditionKind::Compare(comparison, left, right) => {
+                match (self.number(left, binding), self.number(right, binding)) {
+                    (Ok(left), Ok(right)) => compares(*comparison, left, right) == wanted,
+                    _ => strictness == Strictness::Possible,
+                }
+            }
+            ConditionKind::FluentIs(application, value) => {
+                (self.fluent(application, binding) == Some(Value::Object(binding.object(*value)))) == wanted
+            }
+        }
+    }
+}

@@ -1,0 +1,258 @@
+//! What an action does to a state.
+//!
+//! All conditions and values are read in the state before; then deletes, adds and assignments happen at
+//! once, an add winning over a delete of the same atom. For one fluent, increases and decreases add up,
+//! scalings multiply, and equal assignments agree; any other pair of changes conflicts, and the action
+//! has no result. [`Changes`] is reused from step to step, so an ordinary step allocates only for atoms
+//! and fluents never seen before.
+//!
+//! Source: Fox & Long, "PDDL2.1", JAIR 2003, Definitions 6 to 9 and §8. Deviation: assigning the same
+//! value twice (two instances of a `forall`) is no conflict.
+
+use crate::condition::Strictness;
+use crate::expression::NumericFault;
+use crate::number::{NoResult, Number};
+use crate::scene::{Binding, Scene};
+use crate::state::{GroundAtom, Moment, State, Value};
+use crate::trace::{Diff, FluentChange};
+use crate::verdict::EffectFault;
+use indexmap::IndexMap;
+use indexmap::map::Entry;
+use pddl::Span;
+use pddl::model::{
+    Application, AssignOperator, AssignedValue, Atom, Condition, Effect, EffectKind, GroundApplication,
+    ObjectId, PredicateId, VariableId,
+};
+use rustc_hash::FxBuildHasher;
+use std::ops::ControlFlow;
+
+#[derive(Clone, Copy, Debug)]
+enum Update {
+    Assign(Option<Value>),
+    Shift(Number),
+    Scale(Number),
+}
+
+#[derive(Clone, Debug, Default)]
+struct Atoms {
+    heads: Vec<(PredicateId, u32)>,
+    arguments: Vec<ObjectId>,
+}
+
+impl Atoms {
+    fn push(&mut self, atom: &Atom, binding: &Binding) {
+        let arity =
+            u32::try_from(atom.arguments.len()).expect("an atom of a file has less than 2^32 arguments");
+        self.heads.push((atom.predicate, arity));
+        self.arguments.extend(atom.arguments.iter().map(|&t| binding.object(t)));
+    }
+
+    fn clear(&mut self) {
+        self.heads.clear();
+        self.arguments.clear();
+    }
+
+    fn each(&self, mut visit: impl FnMut(PredicateId, &[ObjectId])) {
+        let mut rest = self.arguments.as_slice();
+        for &(predicate, arity) in &self.heads {
+            let (arguments, tail) = rest.split_at(arity as usize);
+            rest = tail;
+            visit(predicate, arguments);
+        }
+    }
+}
+
+/// The changes of one step.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Changes {
+    adds: Atoms,
+    deletes: Atoms,
+    updates: IndexMap<GroundApplication, (Update, Span), FxBuildHasher>,
+}
+
+impl Changes {
+    pub(crate) fn clear(&mut self) {
+        self.adds.clear();
+        self.deletes.clear();
+        self.updates.clear();
+    }
+
+    /// Collects what `effect` does in the state of `scene`.
+    pub(crate) fn collect(
+        &mut self,
+        scene: Scene<'_>,
+        effect: &Effect,
+        binding: &mut Binding,
+    ) -> Result<(), EffectFault> {
+        match &effect.kind {
+            EffectKind::And(parts) => parts.iter().try_for_each(|part| self.collect(scene, part, binding)),
+            EffectKind::Add(atom) => {
+                self.adds.push(atom, binding);
+                Ok(())
+            }
+            EffectKind::Delete(atom) => {
+                self.deletes.push(atom, binding);
+                Ok(())
+            }
+            EffectKind::Assign(operator, application, value) => {
+                self.assign(scene, *operator, application, value, effect.span, binding)
+            }
+            EffectKind::Forall(variables, body) => self.collect_all(scene, variables, body, binding),
+            EffectKind::When(condition, body) => {
+                if scene.holds(condition, binding) {
+                    self.collect(scene, body, binding)
+                } else {
+                    Ok(())
+                }
+            }
+        }
+    }
+
+    fn collect_all(
+        &mut self,
+        scene: Scene<'_>,
+        variables: &[VariableId],
+        body: &Effect,
+        binding: &mut Binding,
+    ) -> Result<(), EffectFault> {
+        match &body.kind {
+            EffectKind::And(parts) => {
+                parts.iter().try_for_each(|part| self.collect_all(scene, variables, part, binding))
+            }
+            EffectKind::Forall(more, body) => {
+                self.collect_all(scene, &[variables, more].concat(), body, binding)
+            }
+            EffectKind::When(condition, body) => {
+                self.collect_each(scene, variables, &[(condition, true)], body, binding)
+            }
+            _ => self.collect_each(scene, variables, &[], body, binding),
+        }
+    }
+
+    fn collect_each(
+        &mut self,
+        scene: Scene<'_>,
+        variables: &[VariableId],
+        guards: &[(&Condition, bool)],
+        body: &Effect,
+        binding: &mut Binding,
+    ) -> Result<(), EffectFault> {
+        let mut result = Ok(());
+        let flow = scene.each_binding(variables, guards, Strictness::Certain, binding, &mut |binding| {
+            result = self.collect(scene, body, binding);
+            if result.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        });
+        debug_assert_eq!(flow.is_break(), result.is_err());
+        result
+    }
+
+    fn assign(
+        &mut self,
+        scene: Scene<'_>,
+        operator: AssignOperator,
+        application: &Application,
+        value: &AssignedValue,
+        span: Span,
+        binding: &Binding,
+    ) -> Result<(), EffectFault> {
+        let update = match value {
+            AssignedValue::Undefined => Update::Assign(None),
+            AssignedValue::Object(term) => Update::Assign(Some(Value::Object(binding.object(*term)))),
+            AssignedValue::Number(expression) => {
+                let number = scene.number(expression, binding).map_err(EffectFault::Numeric)?;
+                match operator {
+                    AssignOperator::Assign => Update::Assign(Some(Value::Number(number))),
+                    AssignOperator::Increase => Update::Shift(number),
+                    AssignOperator::Decrease => Update::Shift(number.negated()),
+                    AssignOperator::ScaleUp => Update::Scale(number),
+                    AssignOperator::ScaleDown => {
+                        Update::Scale(Number::integer(1).over(number).map_err(|f| numeric(f, span))?)
+                    }
+                }
+            }
+        };
+        match self.updates.entry(scene.ground(application, binding)) {
+            Entry::Vacant(entry) => {
+                entry.insert((update, span));
+            }
+            Entry::Occupied(mut entry) => {
+                let (before, first) = *entry.get();
+                let both = match (before, update) {
+                    (Update::Shift(a), Update::Shift(b)) => {
+                        Update::Shift(a.plus(b).map_err(|f| numeric(f, span))?)
+                    }
+                    (Update::Scale(a), Update::Scale(b)) => {
+                        Update::Scale(a.times(b).map_err(|f| numeric(f, span))?)
+                    }
+                    (Update::Assign(a), Update::Assign(b)) if a == b => update,
+                    _ => {
+                        return Err(EffectFault::Conflict {
+                            fluent: entry.key().clone(),
+                            first,
+                            second: span,
+                        });
+                    }
+                };
+                entry.insert((both, first));
+            }
+        }
+        Ok(())
+    }
+
+    /// Makes the changes; nothing is changed if one of them has no result.
+    pub(crate) fn apply(
+        &self,
+        state: &mut State,
+        now: Moment,
+        mut diff: Option<&mut Diff>,
+    ) -> Result<(), EffectFault> {
+        let mut values = Vec::with_capacity(self.updates.len());
+        for (fluent, &(update, span)) in &self.updates {
+            let before = state.fluent(fluent);
+            let after = match (update, before) {
+                (Update::Assign(value), _) => value,
+                (Update::Shift(by), Some(Value::Number(number))) => {
+                    Some(Value::Number(number.plus(by).map_err(|f| numeric(f, span))?))
+                }
+                (Update::Scale(by), Some(Value::Number(number))) => {
+                    Some(Value::Number(number.times(by).map_err(|f| numeric(f, span))?))
+                }
+                (Update::Shift(_) | Update::Scale(_), _) => {
+                    let fluent = fluent.clone();
+                    return Err(EffectFault::Numeric(NumericFault::Undefined { fluent, span }));
+                }
+            };
+            values.push((before, after));
+        }
+        for (fluent, (before, after)) in self.updates.keys().zip(values) {
+            if before != after {
+                state.set_fluent(fluent.clone(), after);
+                state.stale = true;
+                if let Some(diff) = &mut diff {
+                    diff.fluents.push(FluentChange { fluent: fluent.clone(), before, after });
+                }
+            }
+        }
+        self.adds.each(|predicate, arguments| {
+            if state.facts[predicate].add(arguments, now) {
+                state.stale = true;
+                if let Some(diff) = &mut diff {
+                    diff.added.push(GroundAtom { predicate, arguments: arguments.into() });
+                }
+            }
+        });
+        self.deletes.each(|predicate, arguments| {
+            if state.facts[predicate].delete(arguments, now) {
+                state.stale = true;
+                if let Some(diff) = &mut diff {
+                    diff.deleted.push(GroundAtom { predicate, arguments: arguments.into() });
+                }
+            }
+        });
+        Ok(())
+    }
+}
+
+fn numeric(fault: NoResult, span: Span) -> EffectFault {
+    EffectFault::Numeric(NumericFault::of(fault, span))
+}

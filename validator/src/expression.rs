@@ -1,0 +1,114 @@
+//! The value of a numeric expression.
+//!
+//! An expression has no value where a fluent in it has none, where it divides by zero, or where the
+//! result is not finite. `total-time` of a sequential plan is its number of steps.
+//!
+//! Source: Fox & Long, "PDDL2.1", JAIR 2003, §6 (undefined values).
+
+use crate::number::{NoResult, Number};
+use crate::scene::{Binding, Scene};
+use crate::state::Value;
+use pddl::Span;
+use pddl::model::{Application, ArithmeticOperator, Expression, ExpressionKind, GroundApplication};
+
+/// Why an expression has no value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NumericFault {
+    /// A fluent has no value.
+    Undefined {
+        /// Which one.
+        fluent: GroundApplication,
+        /// Where it is read.
+        span: Span,
+    },
+    /// A divisor is zero.
+    DivisionByZero {
+        /// The division.
+        span: Span,
+    },
+    /// The result is too large for a double.
+    Overflow {
+        /// The operation.
+        span: Span,
+    },
+    /// `?duration`, which no instantaneous action has.
+    Duration {
+        /// Where it stands.
+        span: Span,
+    },
+}
+
+impl NumericFault {
+    pub(crate) fn of(result: NoResult, span: Span) -> Self {
+        match result {
+            NoResult::DivisionByZero => Self::DivisionByZero { span },
+            NoResult::Overflow => Self::Overflow { span },
+        }
+    }
+
+    /// Where it is.
+    pub fn span(&self) -> Span {
+        match self {
+            Self::Undefined { span, .. }
+            | Self::DivisionByZero { span }
+            | Self::Overflow { span }
+            | Self::Duration { span } => *span,
+        }
+    }
+}
+
+impl Scene<'_> {
+    pub(crate) fn ground(&self, application: &Application, binding: &Binding) -> GroundApplication {
+        GroundApplication {
+            function: application.function,
+            arguments: application.arguments.iter().map(|&t| binding.object(t)).collect(),
+        }
+    }
+
+    pub(crate) fn fluent(&self, application: &Application, binding: &Binding) -> Option<Value> {
+        self.state.fluent(&self.ground(application, binding))
+    }
+
+    pub(crate) fn number(&self, expression: &Expression, binding: &Binding) -> Result<Number, NumericFault> {
+        let span = expression.span;
+        match &expression.kind {
+            ExpressionKind::Number(value) => Number::from_f64(*value).ok_or(NumericFault::Overflow { span }),
+            ExpressionKind::Fluent(application) => match self.fluent(application, binding) {
+                Some(Value::Number(number)) => Ok(number),
+                _ => Err(NumericFault::Undefined { fluent: self.ground(application, binding), span }),
+            },
+            ExpressionKind::Arithmetic(operator, operands) => {
+                self.arithmetic(*operator, operands, span, binding)
+            }
+            ExpressionKind::Duration => Err(NumericFault::Duration { span }),
+            ExpressionKind::TotalTime => Ok(Number::integer(i64::from(self.elapsed))),
+        }
+    }
+
+    fn arithmetic(
+        &self,
+        operator: ArithmeticOperator,
+        operands: &[Expression],
+        span: Span,
+        binding: &Binding,
+    ) -> Result<Number, NumericFault> {
+        let Some((first, rest)) = operands.split_first() else {
+            return Ok(Number::ZERO);
+        };
+        let mut result = self.number(first, binding)?;
+        if rest.is_empty() && operator == ArithmeticOperator::Subtract {
+            return Ok(result.negated());
+        }
+        for operand in rest {
+            let operand = self.number(operand, binding)?;
+            result = match operator {
+                ArithmeticOperator::Add => result.plus(operand),
+                ArithmeticOperator::Subtract => result.minus(operand),
+                ArithmeticOperator::Multiply => result.times(operand),
+                ArithmeticOperator::Divide => result.over(operand),
+            }
+            .map_err(|fault| NumericFault::of(fault, span))?;
+        }
+        Ok(result)
+    }
+}

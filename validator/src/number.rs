@@ -1,0 +1,271 @@
+//! Numbers as a plan's referee needs them: 0.1 + 0.2 is 0.3.
+//!
+//! Problem: with floating point, a plan that spends 0.1 ten times has not spent 1. Idea: rationals over
+//! 128-bit integers, which hold every decimal a file writes and every sum, difference, product and
+//! quotient of them that ordinary tasks make. Where an exact result would need more than 128 bits, the
+//! value goes on as the nearest double and says so ([`Number::is_exact`]). Invariant: exact numbers are
+//! in lowest terms with a positive denominator; doubles are finite. Cost: integers never take a greatest
+//! common divisor.
+
+use std::cmp::Ordering;
+use std::fmt;
+
+/// A finite number, exact wherever 128 bits allow.
+#[derive(Clone, Copy)]
+pub struct Number(Form);
+
+#[derive(Clone, Copy)]
+enum Form {
+    Ratio { numerator: i128, denominator: i128 },
+    Double(f64),
+}
+
+/// An operation has no finite result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum NoResult {
+    DivisionByZero,
+    Overflow,
+}
+
+fn greatest_common_divisor(mut a: u128, mut b: u128) -> u128 {
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    a
+}
+
+impl Number {
+    /// Nothing.
+    pub const ZERO: Self = Self::integer(0);
+
+    /// A whole number.
+    pub const fn integer(value: i64) -> Self {
+        Self(Form::Ratio { numerator: value as i128, denominator: 1 })
+    }
+
+    /// The value that the shortest decimal form of `value` writes; `None` if it is not finite.
+    pub fn from_f64(value: f64) -> Option<Self> {
+        if !value.is_finite() {
+            return None;
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "a whole number below 2^53 is an i64")]
+        if value.fract() == 0.0 && value.abs() < 9e15 {
+            return Some(Self::integer(value as i64));
+        }
+        Some(decimal(&value.to_string()).unwrap_or(Self(Form::Double(value))))
+    }
+
+    /// As a double, to about 15 digits.
+    pub fn to_f64(self) -> f64 {
+        match self.0 {
+            Form::Ratio { numerator, denominator } => numerator as f64 / denominator as f64,
+            Form::Double(value) => value,
+        }
+    }
+
+    /// Whether nothing was rounded.
+    pub fn is_exact(self) -> bool {
+        matches!(self.0, Form::Ratio { .. })
+    }
+
+    fn ratio(numerator: i128, denominator: i128) -> Option<Self> {
+        let divisor = greatest_common_divisor(numerator.unsigned_abs(), denominator.unsigned_abs());
+        let divisor = i128::try_from(divisor).ok()?;
+        let (numerator, denominator) = (numerator.checked_div(divisor)?, denominator.checked_div(divisor)?);
+        Some(Self(if denominator < 0 {
+            Form::Ratio { numerator: numerator.checked_neg()?, denominator: denominator.checked_neg()? }
+        } else {
+            Form::Ratio { numerator, denominator }
+        }))
+    }
+
+    fn double(value: f64) -> Result<Self, NoResult> {
+        if value.is_finite() { Ok(Self(Form::Double(value))) } else { Err(NoResult::Overflow) }
+    }
+
+    pub(crate) fn plus(self, other: Self) -> Result<Self, NoResult> {
+        if let (Form::Ratio { numerator: a, denominator: b }, Form::Ratio { numerator: c, denominator: d }) =
+            (self.0, other.0)
+        {
+            let exact = if b == 1 && d == 1 {
+                a.checked_add(c).map(|numerator| Self(Form::Ratio { numerator, denominator: 1 }))
+            } else {
+                (|| Self::ratio(a.checked_mul(d)?.checked_add(c.checked_mul(b)?)?, b.checked_mul(d)?))()
+            };
+            if let Some(exact) = exact {
+                return Ok(exact);
+            }
+        }
+        Self::double(self.to_f64() + other.to_f64())
+    }
+
+    pub(crate) fn negated(self) -> Self {
+        match self.0 {
+            Form::Ratio { numerator, denominator } => match numerator.checked_neg() {
+                Some(numerator) => Self(Form::Ratio { numerator, denominator }),
+                None => Self(Form::Double(-self.to_f64())),
+            },
+            Form::Double(value) => Self(Form::Double(-value)),
+        }
+    }
+
+    pub(crate) fn minus(self, other: Self) -> Result<Self, NoResult> {
+        self.plus(other.negated())
+    }
+
+    pub(crate) fn times(self, other: Self) -> Result<Self, NoResult> {
+        if let (Form::Ratio { numerator: a, denominator: b }, Form::Ratio { numerator: c, denominator: d }) =
+            (self.0, other.0)
+        {
+            let exact = if b == 1 && d == 1 {
+                a.checked_mul(c).map(|numerator| Self(Form::Ratio { numerator, denominator: 1 }))
+            } else {
+                (|| Self::ratio(a.checked_mul(c)?, b.checked_mul(d)?))()
+            };
+            if let Some(exact) = exact {
+                return Ok(exact);
+            }
+        }
+        Self::double(self.to_f64() * other.to_f64())
+    }
+
+    pub(crate) fn over(self, other: Self) -> Result<Self, NoResult> {
+        if other == Self::ZERO {
+            return Err(NoResult::DivisionByZero);
+        }
+        if let (Form::Ratio { numerator: a, denominator: b }, Form::Ratio { numerator: c, denominator: d }) =
+            (self.0, other.0)
+            && let Some(exact) = (|| Self::ratio(a.checked_mul(d)?, b.checked_mul(c)?))()
+        {
+            return Ok(exact);
+        }
+        Self::double(self.to_f64() / other.to_f64())
+    }
+}
+
+/// Reads `-12.5` exactly, if 128 bits hold it.
+fn decimal(text: &str) -> Option<Number> {
+    let (negative, digits) = match text.strip_prefix('-') {
+        Some(rest) => (true, rest),
+        None => (false, text),
+    };
+    let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
+    let mut numerator: i128 = 0;
+    for byte in whole.bytes().chain(fraction.bytes()) {
+        let digit = byte.checked_sub(b'0').filter(|&d| d < 10)?;
+        numerator = numerator.checked_mul(10)?.checked_add(i128::from(digit))?;
+    }
+    let denominator = 10_i128.checked_pow(u32::try_from(fraction.len()).ok()?)?;
+    Number::ratio(if negative { -numerator } else { numerator }, denominator)
+}
+
+/// The digits after the point, if they end.
+fn fraction_digits(numerator: i128, denominator: i128) -> Option<String> {
+    const MOST: usize = 18;
+    let denominator = denominator.unsigned_abs();
+    let mut rest = numerator.unsigned_abs() % denominator;
+    let mut digits = String::new();
+    while rest != 0 {
+        rest = rest.checked_mul(10).filter(|_| digits.len() < MOST)?;
+        digits.push(char::from(b'0' + u8::try_from(rest / denominator).ok()?));
+        rest %= denominator;
+    }
+    Some(digits)
+}
+
+impl PartialEq for Number {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Number {}
+
+impl PartialOrd for Number {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Number {
+    fn cmp(&self, other: &Self) -> Ordering {
+        if let (Form::Ratio { numerator: a, denominator: b }, Form::Ratio { numerator: c, denominator: d }) =
+            (self.0, other.0)
+        {
+            if b == d {
+                return a.cmp(&c);
+            }
+            if let (Some(left), Some(right)) = (a.checked_mul(d), c.checked_mul(b)) {
+                return left.cmp(&right);
+            }
+        }
+        self.to_f64().partial_cmp(&other.to_f64()).unwrap_or(Ordering::Equal)
+    }
+}
+
+impl fmt::Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Form::Ratio { numerator, denominator: 1 } => write!(f, "{numerator}"),
+            Form::Ratio { numerator, denominator } => match fraction_digits(numerator, denominator) {
+                Some(digits) => {
+                    let sign = if numerator < 0 { "-" } else { "" };
+                    write!(f, "{sign}{}.{digits}", (numerator / denominator).unsigned_abs())
+                }
+                None => write!(f, "{numerator}/{denominator}"),
+            },
+            Form::Double(value) => write!(f, "{value}"),
+        }
+    }
+}
+
+impl fmt::Debug for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Number;
+    use proptest::prelude::*;
+
+    fn number(value: f64) -> Number {
+        Number::from_f64(value).unwrap()
+    }
+
+    #[test]
+    fn decimals_are_exact() {
+        assert_eq!(number(0.1).plus(number(0.2)).unwrap(), number(0.3));
+        assert_eq!(number(1.0).over(number(3.0)).unwrap().times(number(3.0)).unwrap(), number(1.0));
+        assert_eq!(number(1.0).over(number(3.0)).unwrap().to_string(), "1/3");
+        assert_eq!(number(-12.5).to_string(), "-12.5");
+        assert_eq!(number(-0.0).to_string(), "0");
+    }
+
+    #[test]
+    fn what_has_no_result_says_so() {
+        assert!(number(1.0).over(number(0.0)).is_err());
+        assert!(number(1e300).times(number(1e300)).is_err());
+        assert!(Number::from_f64(f64::NAN).is_none());
+    }
+
+    #[test]
+    fn large_values_go_on_as_doubles() {
+        let large = number(1e30).times(number(1e30)).unwrap();
+        assert!(!large.is_exact());
+        assert!(large > number(1e59));
+    }
+
+    proptest! {
+        #[test]
+        fn agrees_with_doubles(a in -1e9..1e9f64, b in -1e9..1e9f64) {
+            let close = |x: Number, y: f64| (x.to_f64() - y).abs() <= 1e-6 * y.abs().max(1.0);
+            prop_assert!(close(number(a).plus(number(b)).unwrap(), a + b));
+            prop_assert!(close(number(a).minus(number(b)).unwrap(), a - b));
+            prop_assert!(close(number(a).times(number(b)).unwrap(), a * b));
+            prop_assert_eq!(number(a) < number(b), a < b);
+            prop_assert_eq!(number(a).to_string(), a.to_string());
+        }
+    }
+}

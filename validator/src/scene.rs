@@ -1,0 +1,77 @@
+//! What an evaluation looks at: a schema's variables with their values, and the state.
+//!
+//! A binding is an array with a place for each variable of the schema, quantified ones included, so
+//! nothing is ever substituted. Quantified variables are unbound outside of their quantifier.
+
+use crate::state::State;
+use crate::universe::{Extent, Universe};
+use pddl::model::{Idx, ObjectId, Term, VariableId, Variables};
+
+/// The values of a schema's variables.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Binding(Vec<Option<ObjectId>>);
+
+impl Binding {
+    /// The parameters are `arguments`; everything else is unbound.
+    pub(crate) fn new(variables: &Variables, arguments: &[ObjectId]) -> Self {
+        let mut binding = Self::default();
+        binding.reset(variables, arguments);
+        binding
+    }
+
+    pub(crate) fn reset(&mut self, variables: &Variables, arguments: &[ObjectId]) {
+        self.0.clear();
+        self.0.extend(arguments.iter().copied().map(Some));
+        self.0.resize(variables.slots.len(), None);
+    }
+
+    pub(crate) fn get(&self, variable: VariableId) -> Option<ObjectId> {
+        self.0[variable.index()]
+    }
+
+    pub(crate) fn set(&mut self, variable: VariableId, object: Option<ObjectId>) {
+        self.0[variable.index()] = object;
+    }
+
+    /// The object, if the term is one already.
+    pub(crate) fn term(&self, term: Term) -> Option<ObjectId> {
+        match term {
+            Term::Object(object) => Some(object),
+            Term::Variable(variable) => self.get(variable),
+        }
+    }
+
+    /// The object of a term that must have one.
+    pub(crate) fn object(&self, term: Term) -> ObjectId {
+        self.term(term).expect("a condition is evaluated inside the quantifiers that bind its variables")
+    }
+
+    /// Calls `with` with the objects of `terms`, without allocating for ordinary arities.
+    pub(crate) fn with_objects<R>(&self, terms: &[Term], with: impl FnOnce(&[ObjectId]) -> R) -> R {
+        let mut few = [ObjectId(0); 8];
+        if let Some(few) = few.get_mut(..terms.len()) {
+            for (place, &term) in few.iter_mut().zip(terms) {
+                *place = self.object(term);
+            }
+            with(few)
+        } else {
+            with(&terms.iter().map(|&t| self.object(t)).collect::<Vec<_>>())
+        }
+    }
+}
+
+/// A state seen through a schema's variables.
+#[derive(Clone, Copy)]
+pub(crate) struct Scene<'a> {
+    pub(crate) universe: &'a Universe,
+    pub(crate) state: &'a State,
+    pub(crate) variables: &'a Variables,
+    /// How many steps lie behind: `total-time` of a sequential plan.
+    pub(crate) elapsed: u32,
+}
+
+impl<'a> Scene<'a> {
+    pub(crate) fn extent(&self, variable: VariableId) -> &'a Extent {
+        self.universe.extent(&self.variables[variable].types)
+    }
+}

@@ -1,0 +1,71 @@
+//! Which objects a variable ranges over.
+//!
+//! One extent per type, and one per union of types that some schema uses, computed once per problem.
+//! Invariant: every type set of a variable that is evaluated has its extent. Membership is O(1).
+
+use pddl::model::{Domain, Idx, IndexVec, ObjectId, Problem, TypeId, TypeSet, Variables};
+use rustc_hash::FxHashMap;
+
+/// The objects of a type or union, in the order of their declaration.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Extent {
+    pub(crate) objects: Vec<ObjectId>,
+    members: Vec<bool>,
+}
+
+impl Extent {
+    fn new(domain: &Domain, problem: &Problem, types: &TypeSet) -> Self {
+        let members: Vec<bool> =
+            problem.objects.iter().map(|o| domain.types.is_subset(&o.types, types)).collect();
+        let objects =
+            members.iter().enumerate().filter(|&(_, &m)| m).map(|(i, _)| ObjectId::from_index(i)).collect();
+        Self { objects, members }
+    }
+
+    pub(crate) fn contains(&self, object: ObjectId) -> bool {
+        self.members.get(object.index()).copied().unwrap_or(false)
+    }
+}
+
+/// All extents of a problem.
+#[derive(Clone, Debug)]
+pub(crate) struct Universe {
+    types: IndexVec<TypeId, Extent>,
+    unions: FxHashMap<Vec<TypeId>, Extent>,
+}
+
+impl Universe {
+    pub(crate) fn new(domain: &Domain, problem: &Problem) -> Self {
+        let types = domain
+            .types
+            .enumerate()
+            .map(|(id, _)| Extent::new(domain, problem, &TypeSet(vec![id])))
+            .collect();
+        let mut universe = Self { types, unions: FxHashMap::default() };
+        for action in &domain.actions {
+            universe.index(domain, problem, &action.variables);
+        }
+        for axiom in &domain.axioms {
+            universe.index(domain, problem, &axiom.variables);
+        }
+        universe.index(domain, problem, &problem.goal_variables);
+        universe
+    }
+
+    fn index(&mut self, domain: &Domain, problem: &Problem, variables: &Variables) {
+        for variable in &variables.slots {
+            if variable.types.0.len() != 1 {
+                self.unions
+                    .entry(variable.types.0.clone())
+                    .or_insert_with(|| Extent::new(domain, problem, &variable.types));
+            }
+        }
+    }
+
+    pub(crate) fn extent(&self, types: &TypeSet) -> &Extent {
+        match types.0.as_slice() {
+            [one] => &self.types[*one],
+            union => self.unions.get(union).expect("every variable's types were indexed"),
+        }
+    }
+}

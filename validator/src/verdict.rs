@@ -1,0 +1,299 @@
+//! What there is to say about a plan, as data.
+
+use crate::expression::NumericFault;
+use crate::number::Number;
+use crate::state::GroundAtom;
+use pddl::Span;
+use pddl::model::{Comparison, GroundApplication, Name, ObjectId, Objective, PredicateId, VariableId};
+
+/// A step's position in the plan, from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct StepIndex(pub u32);
+
+impl StepIndex {
+    /// As people count: from 1.
+    pub fn number(self) -> u64 {
+        u64::from(self.0) + 1
+    }
+}
+
+/// The outcome of validating a plan.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Every step can be taken and the goal holds in the end.
+    Valid(Valid),
+    /// It is not a plan for the problem.
+    Invalid(Failure),
+    /// The task uses a feature whose meaning this crate does not know. Nothing was checked.
+    Unsupported(Unsupported),
+    /// The task has no meaning. Nothing was checked.
+    IllFormed(IllFormed),
+}
+
+impl Verdict {
+    /// Whether the plan is valid.
+    pub fn is_valid(&self) -> bool {
+        matches!(self, Self::Valid(_))
+    }
+}
+
+/// A valid plan's figures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Valid {
+    /// Its length.
+    pub steps: u32,
+    /// The metric, if the problem has one with a value in the last state.
+    pub metric: Option<MetricValue>,
+}
+
+impl Valid {
+    /// What the plan costs: the metric where there is one, otherwise its length.
+    pub fn cost(&self) -> Number {
+        self.metric.map_or(Number::integer(i64::from(self.steps)), |metric| metric.value)
+    }
+}
+
+/// What the problem's metric comes to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MetricValue {
+    /// Which way it should go.
+    pub objective: Objective,
+    /// Its value.
+    pub value: Number,
+}
+
+/// Why a plan is not valid.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Failure {
+    /// A step is not an instance of an action. (A plan that was read from text has none.)
+    Step {
+        /// Which one.
+        step: StepIndex,
+        /// What is wrong with it.
+        fault: StepFault,
+    },
+    /// A step cannot be taken.
+    Precondition {
+        /// Which one.
+        step: StepIndex,
+        /// What its precondition lacks; spans are of the domain.
+        parts: Vec<Unsatisfied>,
+    },
+    /// A step that can be taken has no result.
+    Effect {
+        /// Which one.
+        step: StepIndex,
+        /// Why; spans are of the domain.
+        fault: EffectFault,
+    },
+    /// The goal does not hold in the end.
+    Goal {
+        /// What it lacks; spans are of the problem.
+        parts: Vec<Unsatisfied>,
+    },
+}
+
+/// Why a step is not an instance of an action.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StepFault {
+    /// There is no such action.
+    UnknownAction,
+    /// The number of arguments is wrong.
+    Arity {
+        /// Parameters of the action.
+        expected: usize,
+        /// Arguments of the step.
+        found: usize,
+    },
+    /// An argument is not of its parameter's type.
+    Type {
+        /// The parameter.
+        parameter: VariableId,
+        /// The argument.
+        object: ObjectId,
+    },
+}
+
+/// Why effects have no result.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum EffectFault {
+    /// Two effects give a fluent different values.
+    Conflict {
+        /// The fluent.
+        fluent: GroundApplication,
+        /// One effect.
+        first: Span,
+        /// The other.
+        second: Span,
+    },
+    /// A value cannot be computed.
+    Numeric(NumericFault),
+}
+
+/// One smallest unsatisfied part of a condition.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Unsatisfied {
+    /// An atom should hold.
+    Missing {
+        /// Which one.
+        atom: GroundAtom,
+        /// The step that deleted it last; `None` if it never held.
+        deleted_by: Option<StepIndex>,
+        /// Whether an axiom would have to derive it.
+        derived: bool,
+        /// Where it is asked for.
+        span: Span,
+    },
+    /// An atom should not hold.
+    Present {
+        /// Which one.
+        atom: GroundAtom,
+        /// The step that added it last; `None` if it held from the beginning, or follows by an axiom.
+        added_by: Option<StepIndex>,
+        /// Whether an axiom derives it.
+        derived: bool,
+        /// Where it is forbidden.
+        span: Span,
+    },
+    /// Two objects should be the same.
+    Different {
+        /// One.
+        left: ObjectId,
+        /// The other.
+        right: ObjectId,
+        /// Where that is asked for.
+        span: Span,
+    },
+    /// Two objects should be different.
+    Same {
+        /// The object that both are.
+        object: ObjectId,
+        /// Where that is forbidden.
+        span: Span,
+    },
+    /// A comparison fails, or cannot be made.
+    Comparison {
+        /// The comparison.
+        comparison: Comparison,
+        /// Whether it should be true.
+        wanted: bool,
+        /// Its left side.
+        left: Operand,
+        /// Its right side.
+        right: Operand,
+        /// Where it stands.
+        span: Span,
+    },
+    /// An object fluent has the wrong value.
+    Fluent {
+        /// Which one.
+        fluent: GroundApplication,
+        /// The object that it should be, or should not be.
+        value: ObjectId,
+        /// Whether it should.
+        wanted: bool,
+        /// What it is; `None` is undefined.
+        actual: Option<ObjectId>,
+        /// Where it stands.
+        span: Span,
+    },
+    /// None of several alternatives holds.
+    Alternatives {
+        /// What each lacks. No alternative at all is `(or)`.
+        branches: Vec<Vec<Unsatisfied>>,
+        /// The disjunction.
+        span: Span,
+    },
+    /// Something should be so for all objects, and is not for these.
+    Counterexample {
+        /// The quantified variables' values.
+        binding: Vec<(Name, ObjectId)>,
+        /// What is wrong with them.
+        parts: Vec<Unsatisfied>,
+        /// The quantifier.
+        span: Span,
+    },
+    /// Something should be so for some objects, and is for none.
+    NoWitness {
+        /// The objects that lack least, as far as a bounded search shows; `None` if there are no objects.
+        closest: Option<Near>,
+        /// The quantifier.
+        span: Span,
+    },
+}
+
+impl Unsatisfied {
+    /// Where it stands.
+    pub fn span(&self) -> Span {
+        match self {
+            Self::Missing { span, .. }
+            | Self::Present { span, .. }
+            | Self::Different { span, .. }
+            | Self::Same { span, .. }
+            | Self::Comparison { span, .. }
+            | Self::Fluent { span, .. }
+            | Self::Alternatives { span, .. }
+            | Self::Counterexample { span, .. }
+            | Self::NoWitness { span, .. } => *span,
+        }
+    }
+}
+
+/// Objects that almost satisfy a condition.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Near {
+    /// The quantified variables' values.
+    pub binding: Vec<(Name, ObjectId)>,
+    /// What they lack.
+    pub parts: Vec<Unsatisfied>,
+}
+
+/// A side of a comparison.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Operand {
+    /// Its value, or why it has none.
+    pub value: Result<Number, NumericFault>,
+    /// The fluents in it with their values.
+    pub fluents: Vec<(GroundApplication, Option<Number>)>,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// A feature whose meaning is not known here.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unsupported {
+    /// Which one.
+    pub feature: Feature,
+    /// Where it is used.
+    pub span: Span,
+}
+
+/// Features that are not supported.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Feature {
+    /// Something that the domain's model does not hold, in the parser's words.
+    InDomain(String),
+    /// Something that the problem's model does not hold, in the parser's words.
+    InProblem(String),
+    /// A plan for a task network must come with its decomposition.
+    TaskNetwork,
+}
+
+/// Why a task has no meaning although each of its parts has.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum IllFormed {
+    /// A derived predicate depends on its own negation.
+    Unstratified {
+        /// The predicate.
+        predicate: PredicateId,
+        /// An axiom on the circle.
+        span: Span,
+    },
+    /// An action adds or deletes what axioms derive.
+    DerivedInEffect {
+        /// The predicate.
+        predicate: PredicateId,
+        /// The effect.
+        span: Span,
+    },
+}

@@ -1,0 +1,198 @@
+//! The smallest unsatisfied parts of a condition that does not hold.
+//!
+//! The walk mirrors `condition`: of a conjunction the parts that fail, of a disjunction what each
+//! branch lacks, of a universal condition one counterexample, of an existential one the objects that
+//! come closest. Runs once per failure, so it may cost more than an evaluation; the search for the
+//! closest objects is bounded.
+
+use crate::axiom::Strata;
+use crate::condition::Strictness;
+use crate::scene::{Binding, Scene};
+use crate::state::{GroundAtom, Moment, Value};
+use crate::verdict::{Near, Operand, StepIndex, Unsatisfied};
+use pddl::Span;
+use pddl::model::{
+    Application, Atom, Condition, ConditionKind, Expression, ExpressionKind, Name, ObjectId, Term, VariableId,
+};
+use std::ops::ControlFlow;
+
+/// How many bindings are tried for the closest one.
+const BINDINGS_TRIED: usize = 512;
+
+fn step_before(moment: Moment) -> Option<StepIndex> {
+    moment.checked_sub(1).map(StepIndex)
+}
+
+/// Explains failures in one scene.
+pub(crate) struct Why<'a> {
+    pub(crate) scene: Scene<'a>,
+    pub(crate) strata: &'a Strata,
+}
+
+impl Why<'_> {
+    /// What keeps `condition` from being as `wanted`; empty if nothing does.
+    pub(crate) fn unsatisfied(
+        &self,
+        condition: &Condition,
+        wanted: bool,
+        binding: &mut Binding,
+    ) -> Vec<Unsatisfied> {
+        if self.scene.satisfied(condition, wanted, Strictness::Certain, binding) {
+            return Vec::new();
+        }
+        let span = condition.span;
+        match &condition.kind {
+            ConditionKind::And(parts) | ConditionKind::Or(parts) => {
+                let conjunction = matches!(condition.kind, ConditionKind::And(_)) == wanted;
+                let branches = parts.iter().map(|part| self.unsatisfied(part, wanted, binding)).collect();
+                combine(conjunction, branches, span)
+            }
+            ConditionKind::Not(part) => self.unsatisfied(part, !wanted, binding),
+            ConditionKind::Imply(if_, then) => {
+                let branches =
+                    vec![self.unsatisfied(if_, !wanted, binding), self.unsatisfied(then, wanted, binding)];
+                combine(!wanted, branches, span)
+            }
+            ConditionKind::Exists(variables, body) | ConditionKind::Forall(variables, body) => {
+                if matches!(condition.kind, ConditionKind::Exists(..)) == wanted {
+                    vec![self.no_witness(variables, body, wanted, span, binding)]
+                } else {
+                    vec![self.counterexample(variables, body, wanted, span, binding)]
+                }
+            }
+            ConditionKind::Atom(atom) => vec![self.atom(atom, wanted, binding)],
+            ConditionKind::Same(left, right) => {
+                let (left, right) = (binding.object(*left), binding.object(*right));
+                vec![if wanted {
+                    Unsatisfied::Different { left, right, span }
+                } else {
+                    Unsatisfied::Same { object: left, span }
+                }]
+            }
+            ConditionKind::Compare(comparison, left, right) => {
+                let (left, right) = (self.operand(left, binding), self.operand(right, binding));
+                vec![Unsatisfied::Comparison { comparison: *comparison, wanted, left, right, span }]
+            }
+            ConditionKind::FluentIs(application, value) => {
+                vec![self.fluent(application, *value, wanted, span, binding)]
+            }
+        }
+    }
+
+    fn atom(&self, atom: &Atom, wanted: bool, binding: &Binding) -> Unsatisfied {
+        let arguments: Box<[_]> = atom.arguments.iter().map(|&t| binding.object(t)).collect();
+        let record = self.scene.state.facts[atom.predicate].record(&arguments);
+        let span = atom.span;
+        let derived = self.strata.derives(atom.predicate);
+        let since = record.filter(|r| r.holds != wanted).and_then(|r| step_before(r.since));
+        let atom = GroundAtom { predicate: atom.predicate, arguments };
+        if wanted {
+            Unsatisfied::Missing { atom, deleted_by: since, derived, span }
+        } else {
+            Unsatisfied::Present { atom, added_by: since, derived, span }
+        }
+    }
+
+    fn fluent(
+        &self,
+        application: &Application,
+        value: Term,
+        wanted: bool,
+        span: Span,
+        binding: &Binding,
+    ) -> Unsatisfied {
+        let actual = match self.scene.fluent(application, binding) {
+            Some(Value::Object(object)) => Some(object),
+            _ => None,
+        };
+        let fluent = self.scene.ground(application, binding);
+        Unsatisfied::Fluent { fluent, value: binding.object(value), wanted, actual, span }
+    }
+
+    fn operand(&self, expression: &Expression, binding: &Binding) -> Operand {
+        let mut fluents = Vec::new();
+        self.fluents(expression, binding, &mut fluents);
+        Operand { value: self.scene.number(expression, binding), fluents, span: expression.span }
+    }
+
+    fn fluents(
+        &self,
+        expression: &Expression,
+        binding: &Binding,
+        into: &mut Vec<(pddl::model::GroundApplication, Option<crate::Number>)>,
+    ) {
+        match &expression.kind {
+            ExpressionKind::Fluent(application) => {
+                let value = match self.scene.fluent(application, binding) {
+                    Some(Value::Number(number)) => Some(number),
+                    _ => None,
+                };
+                into.push((self.scene.ground(application, binding), value));
+            }
+            ExpressionKind::Arithmetic(_, operands) => {
+                for operand in operands {
+                    self.fluents(operand, binding, into);
+                }
+            }
+            ExpressionKind::Number(_) | ExpressionKind::Duration | ExpressionKind::TotalTime => {}
+        }
+    }
+
+    fn named(&self, variables: &[VariableId], binding: &Binding) -> Vec<(Name, ObjectId)> {
+        variables
+            .iter()
+            .filter_map(|&v| binding.get(v).map(|object| (self.scene.variables[v].name.clone(), object)))
+            .collect()
+    }
+
+    fn counterexample(
+        &self,
+        variables: &[VariableId],
+        body: &Condition,
+        wanted: bool,
+        span: Span,
+        binding: &mut Binding,
+    ) -> Unsatisfied {
+        let mut found = (Vec::new(), Vec::new());
+        let guards = [(body, !wanted)];
+        let flow =
+            self.scene.each_binding(variables, &guards, Strictness::Possible, binding, &mut |binding| {
+                found = (self.named(variables, binding), self.unsatisfied(body, wanted, binding));
+                ControlFlow::Break(())
+            });
+        debug_assert!(flow.is_break(), "a universal condition that does not hold has a counterexample");
+        Unsatisfied::Counterexample { binding: found.0, parts: found.1, span }
+    }
+
+    fn no_witness(
+        &self,
+        variables: &[VariableId],
+        body: &Condition,
+        wanted: bool,
+        span: Span,
+        binding: &mut Binding,
+    ) -> Unsatisfied {
+        let mut closest: Option<Near> = None;
+        let mut tried = 0;
+        let flow = self.scene.each_binding(variables, &[], Strictness::Certain, binding, &mut |binding| {
+            let parts = self.unsatisfied(body, wanted, binding);
+            if closest.as_ref().is_none_or(|best| parts.len() < best.parts.len()) {
+                closest = Some(Near { binding: self.named(variables, binding), parts });
+            }
+            tried += 1;
+            if tried < BINDINGS_TRIED { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        });
+        debug_assert_eq!(flow.is_break(), tried == BINDINGS_TRIED);
+        Unsatisfied::NoWitness { closest, span }
+    }
+}
+
+fn combine(conjunction: bool, mut branches: Vec<Vec<Unsatisfied>>, span: Span) -> Vec<Unsatisfied> {
+    if conjunction {
+        branches.into_iter().flatten().collect()
+    } else if branches.len() == 1 {
+        branches.remove(0)
+    } else {
+        vec![Unsatisfied::Alternatives { branches, span }]
+    }
+}
