@@ -1,1 +1,48 @@
 //! Hardware abstraction: one trait per capability, and simulated devices.
+//!
+//! Problem: what a robot does must not depend on whose loudspeaker, ear or screen it has. Idea: a capability
+//! is a trait of asynchronous [`Operation`]s; a back end implements it; [`conformance`] is the one suite that
+//! every back end must pass. The first back end is [`sim`]: a room with a simulated person, clinician and
+//! devices.
+//!
+//! ```
+//! use hal::sim::{ClinicianScript, PatientScript, SimRoom};
+//!
+//! let runtime = tokio::runtime::Builder::new_current_thread().enable_time().build().unwrap();
+//! runtime.block_on(async {
+//!     let room = SimRoom::new(PatientScript::default(), ClinicianScript::default());
+//!     let devices = room.devices();
+//!     devices.speech_out.say("Hello", "en").await.unwrap();
+//!     room.fail(hal::Device::SpeechOut);
+//!     assert!(devices.speech_out.say("Hello again", "en").await.is_err());
+//! });
+//! ```
+//!
+//! **Invariant:** this crate creates no runtime, spawns no task and reads no clock but tokio's; with that
+//! clock paused, simulated time runs as fast as the machine and the same script gives the same events.
+//!
+//! | module | holds |
+//! |---|---|
+//! | `device`, `operation` | which devices there are, their errors, the stop protocol |
+//! | `speech`, `screen`, `skeleton`, `clinic` | the capabilities |
+//! | [`sim`] | the simulated room |
+//! | [`conformance`] | what every back end must do |
+
+pub mod conformance;
+pub mod sim;
+
+mod clinic;
+mod device;
+mod operation;
+mod question;
+mod screen;
+mod skeleton;
+mod speech;
+
+pub use clinic::Clinic;
+pub use device::{Device, DeviceError, Devices};
+pub use operation::Operation;
+pub use question::{Phrase, Question};
+pub use screen::{Buttons, Page, PageId, Screen};
+pub use skeleton::{Pose, Skeleton};
+pub use speech::{Heard, SpeechIn, SpeechOut};

@@ -1,0 +1,102 @@
+//! Which devices there are, and how they fail.
+
+use std::fmt;
+use std::sync::Arc;
+use std::time::Duration;
+
+use serde::{Deserialize, Serialize};
+
+use crate::{Buttons, Clinic, Screen, Skeleton, SpeechIn, SpeechOut};
+
+/// A capability, by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Device {
+    /// Text to speech.
+    SpeechOut,
+    /// Speech recognition.
+    SpeechIn,
+    /// What shows pages.
+    Screen,
+    /// What is touched.
+    Buttons,
+    /// Who is in view.
+    Skeleton,
+    /// The clinician's console.
+    Clinic,
+}
+
+impl Device {
+    /// Every device, in the order of their declaration.
+    pub const ALL: [Self; 6] =
+        [Self::SpeechOut, Self::SpeechIn, Self::Screen, Self::Buttons, Self::Skeleton, Self::Clinic];
+}
+
+impl fmt::Display for Device {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::SpeechOut => "speech-out",
+            Self::SpeechIn => "speech-in",
+            Self::Screen => "screen",
+            Self::Buttons => "buttons",
+            Self::Skeleton => "skeleton",
+            Self::Clinic => "clinic",
+        })
+    }
+}
+
+/// Why a device did not do what it was asked.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum DeviceError {
+    /// It is not there, or no longer.
+    #[error("{device} is disconnected")]
+    Disconnected {
+        /// Which one.
+        device: Device,
+    },
+    /// It did not answer in time.
+    #[error("{device} did not answer within {after:?}")]
+    Timeout {
+        /// Which one.
+        device: Device,
+        /// How long it was waited for.
+        after: Duration,
+    },
+    /// It answered that it cannot do this.
+    #[error("{device} refused: {reason}")]
+    Refused {
+        /// Which one.
+        device: Device,
+        /// The device's own words.
+        reason: String,
+    },
+}
+
+impl DeviceError {
+    /// The device that failed.
+    pub fn device(&self) -> Device {
+        match self {
+            Self::Disconnected { device } | Self::Timeout { device, .. } | Self::Refused { device, .. } => {
+                *device
+            }
+        }
+    }
+}
+
+/// One back end of each capability: what a robot consists of, seen from its agents.
+#[derive(Clone)]
+#[expect(missing_docs, reason = "the types say what they are")]
+pub struct Devices {
+    pub speech_out: Arc<dyn SpeechOut>,
+    pub speech_in: Arc<dyn SpeechIn>,
+    pub screen: Arc<dyn Screen>,
+    pub buttons: Arc<dyn Buttons>,
+    pub skeleton: Arc<dyn Skeleton>,
+    pub clinic: Arc<dyn Clinic>,
+}
+
+impl fmt::Debug for Devices {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Devices").finish_non_exhaustive()
+    }
+}

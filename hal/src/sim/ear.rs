@@ -1,0 +1,86 @@
+//! Speech in: what the person says, while they are in view and a device listens.
+
+use tokio::time::Instant;
+
+use super::event::RoomEvent;
+use super::room::SimRoom;
+use super::script::{By, Reply};
+use super::state::State;
+use super::waiting::{Activity, Step};
+use crate::{Device, DeviceError, Heard, Operation, Phrase, Question, SpeechIn};
+
+impl SpeechIn for SimRoom {
+    fn listen<'a>(&'a self, question: &'a Question) -> Operation<'a, Heard> {
+        self.operate(Listening { question, open: false })
+    }
+
+    fn spot<'a>(&'a self, request: &'a Question) -> Operation<'a, ()> {
+        self.operate(move |state: &mut State, now: Instant| {
+            if let Err(error) = state.check(Device::SpeechIn) {
+                return Step::Done(Err(error));
+            }
+            if !state.in_view || !state.works(Device::SpeechIn) {
+                return Step::Idle;
+            }
+            let Some(at) = state.requests.iter().position(|asked| *asked == request.topic) else {
+                return Step::Idle;
+            };
+            state.requests.remove(at);
+            state.happens(now, RoomEvent::PersonAsks { request: request.topic.clone() });
+            Step::Done(Ok(()))
+        })
+    }
+}
+
+struct Listening<'a> {
+    question: &'a Question,
+    open: bool,
+}
+
+impl Activity<Heard> for Listening<'_> {
+    fn step(&mut self, state: &mut State, now: Instant) -> Step<Result<Heard, DeviceError>> {
+        if !std::mem::replace(&mut self.open, true) {
+            state.open(self.question, now);
+        }
+        if let Err(error) = state.check(Device::SpeechIn) {
+            state.close(self.question);
+            return Step::Done(Err(error));
+        }
+        let Some((at, reply)) = state.reply(self.question) else { return Step::Idle };
+        let Some((said, heard)) = spoken(state, &reply, &self.question.options) else { return Step::Idle };
+        if now < at {
+            return Step::Until(at);
+        }
+        state.answered();
+        state.happens(now, RoomEvent::PersonSays { words: said });
+        if !state.works(Device::SpeechIn) {
+            return Step::Idle;
+        }
+        state.close(self.question);
+        Step::Done(Ok(heard))
+    }
+
+    fn stop(&mut self, state: &mut State, _: Instant) {
+        state.close(self.question);
+    }
+}
+
+/// What is said aloud, and what an ear makes of it; `None` for a reply that is not spoken.
+fn spoken(state: &State, reply: &Reply, options: &[Phrase]) -> Option<(String, Heard)> {
+    match reply {
+        Reply::Silent => None,
+        Reply::Misheard { words, .. } => Some((words.clone(), Heard::NotUnderstood(words.clone()))),
+        Reply::Answer { option, by, .. } => {
+            let phrase = chosen(options, *option)?;
+            match by {
+                By::Touch if state.offers(&phrase.id) => None,
+                By::Touch | By::Voice => Some((phrase.words.clone(), Heard::Phrase(phrase.id.clone()))),
+            }
+        }
+    }
+}
+
+/// The option of that number, or the last.
+pub(super) fn chosen(options: &[Phrase], option: usize) -> Option<&Phrase> {
+    options.get(option).or(options.last())
+}

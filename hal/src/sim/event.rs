@@ -1,0 +1,62 @@
+//! What can be heard and seen in the room: the record of a simulation, and the dialogue on a terminal.
+
+use std::time::Duration;
+
+use serde::{Deserialize, Serialize};
+
+use crate::{Device, Page};
+
+/// Something that can be heard or seen.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "event", rename_all = "snake_case")]
+#[expect(missing_docs, reason = "the fields are the terms of the variant")]
+pub enum RoomEvent {
+    /// The robot begins a sentence.
+    RobotSays { text: String },
+    /// The robot falls silent within a sentence.
+    RobotStops { said: String },
+    /// A page stands on the screen.
+    ScreenShows { page: Page },
+    /// The screen is empty.
+    ScreenClears,
+    /// The person answers aloud.
+    PersonSays { words: String },
+    /// The person touches an option.
+    PersonTouches { option: String, words: String },
+    /// The person asks for something.
+    PersonAsks { request: String },
+    /// The person is out of view.
+    PersonLeaves,
+    /// The person is out of the room, and out of view.
+    PersonLeavesRoom,
+    /// The person is in view again.
+    PersonReturns,
+    /// The robot calls the clinician.
+    ClinicianCalled { need: String },
+    /// The robot takes its call back.
+    CallWithdrawn { need: String },
+    /// The clinician enters.
+    ClinicianArrives { need: String },
+    /// The clinician has seen to it, and goes.
+    ClinicianGoes { need: String },
+    /// The clinician presses a command.
+    ClinicianCommands { command: String },
+    /// The clinician has the report.
+    ReportDelivered { report: serde_json::Value },
+    /// A device fails from now on.
+    DeviceFails { device: Device },
+    /// A device claims success from now on, and does nothing.
+    DeviceLies { device: Device },
+    /// A device works again.
+    DeviceRecovers { device: Device },
+}
+
+/// An event with its time.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Moment {
+    /// Since the simulation started.
+    pub at: Duration,
+    /// What happened.
+    #[serde(flatten)]
+    pub event: RoomEvent,
+}

@@ -1,0 +1,82 @@
+//! Speech out: a sentence takes a time proportional to its words.
+
+use std::time::Duration;
+
+use tokio::time::Instant;
+
+use super::event::RoomEvent;
+use super::room::SimRoom;
+use super::state::{State, seconds};
+use super::waiting::{Activity, Step};
+use crate::{Device, DeviceError, Operation, SpeechOut};
+
+/// Two and a half words a second: slow, for old ears.
+pub const SECONDS_PER_WORD: f64 = 0.4;
+
+impl SpeechOut for SimRoom {
+    fn say<'a>(&'a self, text: &'a str, _language: &'a str) -> Operation<'a, ()> {
+        self.operate(Saying { text, since: None, aloud: false })
+    }
+}
+
+struct Saying<'a> {
+    text: &'a str,
+    /// When it began; `None` while another sentence is being said.
+    since: Option<Instant>,
+    /// Whether it can be heard.
+    aloud: bool,
+}
+
+impl Activity<()> for Saying<'_> {
+    fn step(&mut self, state: &mut State, now: Instant) -> Step<Result<(), DeviceError>> {
+        if let Err(error) = state.check(Device::SpeechOut) {
+            self.stop(state, now);
+            return Step::Done(Err(error));
+        }
+        let since = match self.since {
+            Some(since) => since,
+            None if state.speaking => return Step::Idle,
+            None => {
+                state.speaking = true;
+                self.since = Some(now);
+                self.aloud = state.works(Device::SpeechOut);
+                if self.aloud {
+                    state.happens(now, RoomEvent::RobotSays { text: self.text.to_owned() });
+                }
+                now
+            }
+        };
+        let over = since + duration(self.text);
+        if now < over {
+            return Step::Until(over);
+        }
+        state.speaking = false;
+        state.changed = true;
+        if self.aloud {
+            state.perceive();
+        }
+        Step::Done(Ok(()))
+    }
+
+    fn stop(&mut self, state: &mut State, now: Instant) {
+        let Some(since) = self.since.take() else { return };
+        state.speaking = false;
+        state.changed = true;
+        if self.aloud {
+            let words = (now - since).as_secs_f64() / SECONDS_PER_WORD;
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "whole words were said"
+            )]
+            let said = self.text.split_whitespace().take(words as usize).collect::<Vec<_>>().join(" ");
+            state.happens(now, RoomEvent::RobotStops { said });
+        }
+    }
+}
+
+fn duration(text: &str) -> Duration {
+    #[expect(clippy::cast_precision_loss, reason = "no sentence has 2^52 words")]
+    let words = text.split_whitespace().count() as f64;
+    seconds(words * SECONDS_PER_WORD)
+}

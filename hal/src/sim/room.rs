@@ -1,0 +1,173 @@
+//! The handle of a simulated room: what a scenario's director may do to it.
+
+use std::fmt;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use tokio::time::Instant;
+
+use super::event::{Moment, RoomEvent};
+use super::script::{ClinicianScript, PatientScript, Reply};
+use super::state::{Behaviour, State};
+use crate::{Device, Devices};
+
+type Observer = Box<dyn FnMut(&Moment) + Send>;
+
+/// A simulated room. Clones are the same room.
+#[derive(Clone)]
+pub struct SimRoom {
+    inner: Arc<Inner>,
+}
+
+struct Inner {
+    state: Mutex<State>,
+    /// Whoever watches, and how many moments they have been told.
+    observers: Mutex<(Vec<Observer>, usize)>,
+}
+
+impl fmt::Debug for SimRoom {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("SimRoom").finish_non_exhaustive()
+    }
+}
+
+impl SimRoom {
+    /// A room whose time starts now, on tokio's clock.
+    pub fn new(patient: PatientScript, clinician: ClinicianScript) -> Self {
+        let state = Mutex::new(State::new(patient, clinician, Instant::now()));
+        Self { inner: Arc::new(Inner { state, observers: Mutex::new((Vec::new(), 0)) }) }
+    }
+
+    /// The devices in it.
+    pub fn devices(&self) -> Devices {
+        let room = || Arc::new(self.clone());
+        Devices {
+            speech_out: room(),
+            speech_in: room(),
+            screen: room(),
+            buttons: room(),
+            skeleton: room(),
+            clinic: room(),
+        }
+    }
+
+    /// Calls `observer` for each moment from now on, in order. It must not touch the room.
+    pub fn observe(&self, observer: impl FnMut(&Moment) + Send + 'static) {
+        lock(&self.inner.observers).0.push(Box::new(observer));
+    }
+
+    /// Everything that has happened.
+    pub fn moments(&self) -> Vec<Moment> {
+        lock(&self.inner.state).moments.clone()
+    }
+
+    /// Whether the person is in view.
+    pub fn person_in_view(&self) -> bool {
+        lock(&self.inner.state).in_view
+    }
+
+    /// The person goes out of view.
+    pub fn lose_person(&self) {
+        self.change(|state, now| state.set_view(false, now, RoomEvent::PersonLeaves));
+    }
+
+    /// The person leaves the room. The devices see no difference to [`SimRoom::lose_person`].
+    pub fn leave_room(&self) {
+        self.change(|state, now| state.set_view(false, now, RoomEvent::PersonLeavesRoom));
+    }
+
+    /// The person comes back into view.
+    pub fn return_person(&self) {
+        self.change(|state, now| state.set_view(true, now, RoomEvent::PersonReturns));
+    }
+
+    /// The person asks for something, again and again until an ear that waits for it hears it while they are
+    /// in view.
+    pub fn ask(&self, request: &str) {
+        self.change(|state, _| {
+            state.requests.push_back(request.to_owned());
+            state.changed = true;
+        });
+    }
+
+    /// The clinician presses a command.
+    pub fn command(&self, name: &str) {
+        self.change(|state, now| {
+            state.pressed = Some(name.to_owned());
+            state.happens(now, RoomEvent::ClinicianCommands { command: name.to_owned() });
+        });
+    }
+
+    /// The clinician comes to the call that is open, or to the next one, at once.
+    pub fn clinician_comes(&self) {
+        self.change(|state, _| {
+            state.clinician_comes_now = true;
+            state.changed = true;
+        });
+    }
+
+    /// From now on the person replies to a topic's questions so.
+    pub fn will_reply(&self, topic: &str, replies: Vec<Reply>) {
+        self.change(|state, _| state.patient.replies.insert(topic.to_owned(), replies));
+    }
+
+    /// From now on the device fails; what it is doing fails at once.
+    pub fn fail(&self, device: Device) {
+        self.behave(device, Behaviour::Fails, RoomEvent::DeviceFails { device });
+    }
+
+    /// From now on the device claims success and does nothing. A sensor senses nothing.
+    pub fn lie(&self, device: Device) {
+        self.behave(device, Behaviour::Lies, RoomEvent::DeviceLies { device });
+    }
+
+    /// The device works again.
+    pub fn recover(&self, device: Device) {
+        self.behave(device, Behaviour::Works, RoomEvent::DeviceRecovers { device });
+    }
+
+    fn behave(&self, device: Device, behaviour: Behaviour, event: RoomEvent) {
+        self.change(|state, now| {
+            state.behaviour.insert(device, behaviour);
+            state.happens(now, event);
+        });
+    }
+
+    /// Runs `edit` on the state; then, without the lock, wakes who waits and tells who watches.
+    pub(super) fn change<R>(&self, edit: impl FnOnce(&mut State, Instant) -> R) -> R {
+        let (result, wakers, grown) = {
+            let mut state = lock(&self.inner.state);
+            let before = state.moments.len();
+            let result = edit(&mut state, Instant::now());
+            let wakers = if std::mem::take(&mut state.changed) {
+                std::mem::take(&mut state.wakers)
+            } else {
+                Default::default()
+            };
+            (result, wakers, state.moments.len() > before)
+        };
+        if grown {
+            self.tell();
+        }
+        for waker in wakers.into_values() {
+            waker.wake();
+        }
+        result
+    }
+
+    fn tell(&self) {
+        let mut watching = lock(&self.inner.observers);
+        let (observers, told) = &mut *watching;
+        let news = lock(&self.inner.state).moments[*told..].to_vec();
+        *told += news.len();
+        for moment in &news {
+            for observer in &mut *observers {
+                observer(moment);
+            }
+        }
+    }
+}
+
+/// A panic elsewhere does not make the room's state worse than it is.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,0 +1,223 @@
+//! The state of the room, and the changes that keep it consistent.
+
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::task::Waker;
+use std::time::Duration;
+
+use tokio::time::Instant;
+
+use super::event::{Moment, RoomEvent};
+use super::script::{ClinicianScript, PatientScript, Reply};
+use crate::{Device, DeviceError, Page, PageId, Question};
+
+/// How a device behaves.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(super) enum Behaviour {
+    #[default]
+    Works,
+    Fails,
+    Lies,
+}
+
+/// A question that the person may answer now: at least one device waits for the answer.
+#[derive(Debug)]
+pub(super) struct Window {
+    pub(super) topic: String,
+    pub(super) name: String,
+    pub(super) opened: Instant,
+    pub(super) reply: Reply,
+    /// The reply was given; there is no second one.
+    pub(super) answered: bool,
+    /// Whether the person was asked this before, as in a question put again after an interruption.
+    asked_before: bool,
+    /// What the person had perceived when the last window opened.
+    perceived_before: u64,
+    devices: usize,
+}
+
+#[derive(Debug)]
+pub(super) struct State {
+    pub(super) patient: PatientScript,
+    pub(super) clinician: ClinicianScript,
+    pub(super) started: Instant,
+    pub(super) in_view: bool,
+    /// When `in_view` last changed.
+    pub(super) view_changed: Instant,
+    pub(super) behaviour: BTreeMap<Device, Behaviour>,
+    /// Whether a sentence is being said.
+    pub(super) speaking: bool,
+    pub(super) displayed: Option<Page>,
+    /// Pages that the screen has shown and not yet reported.
+    pub(super) unreported: VecDeque<PageId>,
+    /// How many sentences and pages have reached the person.
+    perceived: u64,
+    perceived_at_last_window: u64,
+    pub(super) window: Option<Window>,
+    /// The names of the questions put on each topic, in the order in which they came up.
+    questions: BTreeMap<String, Vec<String>>,
+    asked: BTreeSet<(String, String)>,
+    /// What the person is asking for and no ear has caught yet.
+    pub(super) requests: VecDeque<String>,
+    /// The last command that was pressed and not yet taken.
+    pub(super) pressed: Option<String>,
+    /// Calls that shall be attended to at once.
+    pub(super) clinician_comes_now: bool,
+    pub(super) moments: Vec<Moment>,
+    /// Something changed that a waiting operation may be waiting for.
+    pub(super) changed: bool,
+    pub(super) wakers: BTreeMap<u64, Waker>,
+    next_waker: u64,
+}
+
+impl State {
+    pub(super) fn new(patient: PatientScript, clinician: ClinicianScript, now: Instant) -> Self {
+        Self {
+            in_view: patient.in_view,
+            patient,
+            clinician,
+            started: now,
+            view_changed: now,
+            behaviour: BTreeMap::new(),
+            speaking: false,
+            displayed: None,
+            unreported: VecDeque::new(),
+            perceived: 0,
+            perceived_at_last_window: 0,
+            window: None,
+            questions: BTreeMap::new(),
+            asked: BTreeSet::new(),
+            requests: VecDeque::new(),
+            pressed: None,
+            clinician_comes_now: false,
+            moments: Vec::new(),
+            changed: false,
+            wakers: BTreeMap::new(),
+            next_waker: 0,
+        }
+    }
+
+    pub(super) fn happens(&mut self, now: Instant, event: RoomEvent) {
+        self.moments.push(Moment { at: now - self.started, event });
+        self.changed = true;
+    }
+
+    /// Keeps a waker under the number that its operation holds, or under a new one.
+    pub(super) fn keep_waker(&mut self, held: Option<u64>, waker: Waker) -> u64 {
+        let id = held.unwrap_or(self.next_waker);
+        self.next_waker = self.next_waker.max(id + 1);
+        self.wakers.insert(id, waker);
+        id
+    }
+
+    fn behaviour(&self, device: Device) -> Behaviour {
+        self.behaviour.get(&device).copied().unwrap_or_default()
+    }
+
+    /// The error of a device that fails.
+    pub(super) fn check(&self, device: Device) -> Result<(), DeviceError> {
+        match self.behaviour(device) {
+            Behaviour::Fails => Err(DeviceError::Disconnected { device }),
+            Behaviour::Works | Behaviour::Lies => Ok(()),
+        }
+    }
+
+    pub(super) fn works(&self, device: Device) -> bool {
+        self.behaviour(device) == Behaviour::Works
+    }
+
+    /// A sentence was said to its end, or a page came up.
+    pub(super) fn perceive(&mut self) {
+        if self.in_view {
+            self.perceived += 1;
+            self.changed = true;
+        }
+    }
+
+    pub(super) fn set_view(&mut self, in_view: bool, now: Instant, event: RoomEvent) {
+        if self.in_view != in_view {
+            self.in_view = in_view;
+            self.view_changed = now;
+            // What stands on the screen is seen by whoever comes back to it.
+            if in_view && self.displayed.is_some() {
+                self.perceive();
+            }
+        }
+        self.happens(now, event);
+    }
+
+    /// A device begins to wait for an answer.
+    pub(super) fn open(&mut self, question: &Question, now: Instant) {
+        if let Some(window) = &mut self.window
+            && window.topic == question.topic
+            && window.name == question.name
+        {
+            window.devices += 1;
+            return;
+        }
+        let names = self.questions.entry(question.topic.clone()).or_default();
+        let attempt = match names.iter().position(|name| *name == question.name && !name.is_empty()) {
+            Some(attempt) => attempt,
+            None => {
+                names.push(question.name.clone());
+                names.len() - 1
+            }
+        };
+        let scripted = self.patient.replies.get(&question.topic).and_then(|replies| replies.get(attempt));
+        let key = (question.topic.clone(), question.name.clone());
+        self.window = Some(Window {
+            topic: question.topic.clone(),
+            name: question.name.clone(),
+            opened: now,
+            reply: scripted.unwrap_or(&self.patient.otherwise).clone(),
+            answered: false,
+            asked_before: self.asked.contains(&key),
+            perceived_before: self.perceived_at_last_window,
+            devices: 1,
+        });
+    }
+
+    /// A device no longer waits for an answer.
+    pub(super) fn close(&mut self, question: &Question) {
+        let Some(window) = &mut self.window else { return };
+        if window.topic != question.topic || window.name != question.name {
+            return;
+        }
+        window.devices -= 1;
+        if window.devices == 0 {
+            if window.asked_before || self.perceived > window.perceived_before {
+                self.asked.insert((window.topic.clone(), window.name.clone()));
+            }
+            self.perceived_at_last_window = self.perceived;
+            self.window = None;
+        }
+    }
+
+    /// When the person replies to the open question, and how; `None` while they do not.
+    pub(super) fn reply(&self, question: &Question) -> Option<(Instant, Reply)> {
+        let window = self.window.as_ref()?;
+        let theirs = window.topic == question.topic && window.name == question.name;
+        let asked = window.asked_before || self.perceived > window.perceived_before;
+        if !theirs || window.answered || !self.in_view || !asked {
+            return None;
+        }
+        let from = window.opened.max(self.view_changed);
+        Some((from + seconds(window.reply.delay()?), window.reply.clone()))
+    }
+
+    pub(super) fn answered(&mut self) {
+        if let Some(window) = &mut self.window {
+            window.answered = true;
+        }
+    }
+
+    /// Whether the screen offers this option for a touch.
+    pub(super) fn offers(&self, option: &str) -> bool {
+        self.works(Device::Buttons)
+            && self.displayed.as_ref().is_some_and(|page| page.options.iter().any(|o| o.id == option))
+    }
+}
+
+/// A scripted number of seconds; what is no duration counts as none.
+pub(super) fn seconds(seconds: f64) -> Duration {
+    Duration::try_from_secs_f64(seconds).unwrap_or_default()
+}
