@@ -1,1 +1,89 @@
 //! The Deep State Representation: one typed, versioned graph that agents share.
+//!
+//! What the robot perceives and what it does are written with the same tokens, in one graph, and nobody sends
+//! commands: agents watch patterns and write what they do. This crate is that graph. It checks every transaction
+//! against a [`Dictionary`] and the invariants of both quivers, hands out immutable [`Snapshot`]s, tells
+//! subscribers which matches of their [`Pattern`]s appeared and disappeared, leases exclusive resources, and
+//! lets the [`Reflex`]es of broken activities write in the very commit that broke them.
+//!
+//! It reads no clock, no file and no socket: times are arguments, and the same transactions in the same order
+//! give the same bytes.
+//!
+//! ```
+//! use dsr::{AgentId, DictionaryBuilder, Graph, Nature, PatternBuilder, Time};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let mut builder = DictionaryBuilder::new();
+//! let robot = builder.node_type("robot", None, Nature::Geometric)?;
+//! let activity = builder.node_type("activity", None, Nature::Symbolic)?;
+//! let is = builder.label("is", robot, activity)?;
+//! let dictionary = builder.build();
+//!
+//! let graph = Graph::new(dictionary.clone());
+//! graph.edit(AgentId::DSR, Time(0), |tx| {
+//!     tx.add_node("clarc", robot).add_node("speaking", activity);
+//! })?;
+//!
+//! let mut pattern = PatternBuilder::new(&dictionary);
+//! let who = pattern.variable("who", robot);
+//! pattern.edge(who, is, "speaking");
+//! let mut speakers = graph.subscribe(pattern.build()?);
+//! assert!(speakers.try_recv().is_none());
+//!
+//! graph.edit(AgentId::DSR, Time(1), |tx| {
+//!     tx.add_edge("clarc", is, "speaking");
+//! })?;
+//! let change = speakers.try_recv().expect("somebody speaks now");
+//! assert_eq!(change.snapshot.name(change.appeared[0][0]), Some("clarc"));
+//! assert_eq!(change.snapshot.sentences(), ["clarc is speaking"]);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! Map, from the ground up: `id`, `value` → `dictionary` → `pages`, `names`, `state` (what a snapshot is) →
+//! `transaction` (edits, leases, the tree of transforms), `delta`, `replay`, `export` → `chain`, `pattern`,
+//! `reflex` → `snapshot`, `sentence`, `quiver` → `subscription`, `graph`.
+
+mod chain;
+mod delta;
+mod dictionary;
+mod export;
+mod graph;
+mod id;
+mod mentions;
+mod names;
+mod pages;
+mod pattern;
+mod quiver;
+mod reflex;
+mod replay;
+mod sentence;
+mod snapshot;
+mod state;
+mod subscription;
+mod transaction;
+mod value;
+
+pub use chain::ChainError;
+pub use delta::{Change, Delta};
+pub use dictionary::{
+    Dictionary, DictionaryBuilder, DictionaryError, End, HolderType, Nature, Permission, Signature, Token,
+};
+pub use export::{
+    Export, ExportedAttribute, ExportedEdge, ExportedNode, ExportedTransform, ExportedValue, RestoreError,
+};
+pub use graph::{Commit, Graph};
+pub use id::{
+    AgentId, AttributeId, EdgeKey, Holder, LabelId, NodeId, ReflexId, ResourceId, Time, TypeId, Version,
+};
+pub use mentions::Mentions;
+pub use nalgebra::Isometry3;
+pub use pattern::{
+    Binding, Comparison, HolderTerm, Operand, Pattern, PatternBuilder, PatternError, Term, Variable,
+};
+pub use reflex::{Bound, Keep, Reflex};
+pub use replay::ReplayError;
+pub use snapshot::{AttributeView, EdgeView, NodeView, Snapshot};
+pub use subscription::{Committed, Deltas, Event, MatchChange, Matches};
+pub use transaction::{Edit, HolderRef, Lease, Preemption, Priority, Transaction, TransactionError};
+pub use value::{Kind, NewValue, NodeRef, Value};

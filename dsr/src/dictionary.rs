@@ -1,0 +1,257 @@
+//! The dictionary: every token that may stand in the graph, and who may write it.
+//!
+//! Problem: agents that invent terms of their own cannot understand each other. The paper's authors name the
+//! missing common dictionary as the first thing they could not do. Idea: types in a single-parent hierarchy,
+//! labels with the signatures they allow, attributes with their holder and kind, writers with the tokens they
+//! own, exclusive resources. Invariant: a built dictionary never changes, and every id in it is valid.
+//! Cost: `is_a` is two comparisons (an interval per type, numbered depth first); a permission is one hash look-up.
+//!
+//! Built into every dictionary: types `object`, `agent`, `resource`; label `holds` from agent to resource with
+//! its attributes `priority`, `yields` and `claim`; the agent `dsr`.
+
+mod builder;
+mod permission;
+
+use std::sync::Arc;
+
+use rustc_hash::FxHashMap;
+
+pub use self::builder::{DictionaryBuilder, DictionaryError};
+pub use self::permission::{End, Permission, Token};
+use crate::id::{AgentId, AttributeId, LabelId, NodeId, ResourceId, TypeId};
+use crate::value::Kind;
+
+/// Whether nodes of a type may take part in the geometric quiver.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Nature {
+    /// Symbolic only, unless an ancestor is geometric.
+    Symbolic,
+    /// May have a pose; so may every subtype.
+    Geometric,
+}
+
+/// The types of the two ends that a label may connect.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Signature {
+    /// Type of the start, or a supertype of it.
+    pub from: TypeId,
+    /// Type of the end, or a supertype of it.
+    pub to: TypeId,
+}
+
+/// What carries an attribute, by type.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum HolderType {
+    /// Nodes of this type and its subtypes.
+    Node(TypeId),
+    /// Edges with this label whose ends fit the signature.
+    Edge {
+        /// The label.
+        label: LabelId,
+        /// The ends.
+        signature: Signature,
+    },
+}
+
+#[derive(Debug)]
+struct NodeType {
+    name: Arc<str>,
+    parent: Option<TypeId>,
+    nature: Nature,
+    /// Depth-first number of this type; its subtypes are numbered `enter .. enter + size`.
+    enter: u32,
+    size: u32,
+}
+
+#[derive(Debug)]
+struct Label {
+    name: Arc<str>,
+    signatures: Vec<Signature>,
+}
+
+#[derive(Debug)]
+struct Attribute {
+    name: Arc<str>,
+    holder: HolderType,
+    kind: Kind,
+}
+
+/// Every token of the graph. Made by a [`DictionaryBuilder`], shared behind an `Arc`, never changed.
+#[derive(Debug)]
+pub struct Dictionary {
+    types: Vec<NodeType>,
+    labels: Vec<Label>,
+    attributes: Vec<Attribute>,
+    agents: Vec<Arc<str>>,
+    resources: Vec<Arc<str>>,
+    type_names: FxHashMap<Arc<str>, TypeId>,
+    label_names: FxHashMap<Arc<str>, LabelId>,
+    attribute_names: FxHashMap<Arc<str>, AttributeId>,
+    agent_names: FxHashMap<Arc<str>, AgentId>,
+    resource_names: FxHashMap<Arc<str>, ResourceId>,
+    permissions: FxHashMap<(AgentId, Token), Vec<(End, End)>>,
+}
+
+impl Dictionary {
+    /// The type of that name.
+    pub fn node_type(&self, name: &str) -> Option<TypeId> {
+        self.type_names.get(name).copied()
+    }
+
+    /// The label of that name.
+    pub fn label(&self, name: &str) -> Option<LabelId> {
+        self.label_names.get(name).copied()
+    }
+
+    /// The attribute of that name.
+    pub fn attribute(&self, name: &str) -> Option<AttributeId> {
+        self.attribute_names.get(name).copied()
+    }
+
+    /// The agent of that name.
+    pub fn agent(&self, name: &str) -> Option<AgentId> {
+        self.agent_names.get(name).copied()
+    }
+
+    /// The resource of that name.
+    pub fn resource(&self, name: &str) -> Option<ResourceId> {
+        self.resource_names.get(name).copied()
+    }
+
+    /// The name of a type; `None` if the id is of another dictionary.
+    pub fn type_name(&self, id: TypeId) -> Option<&Arc<str>> {
+        self.types.get(id.index()).map(|entry| &entry.name)
+    }
+
+    /// The name of a label.
+    pub fn label_name(&self, id: LabelId) -> Option<&Arc<str>> {
+        self.labels.get(id.index()).map(|entry| &entry.name)
+    }
+
+    /// The name of an attribute.
+    pub fn attribute_name(&self, id: AttributeId) -> Option<&Arc<str>> {
+        self.attributes.get(id.index()).map(|entry| &entry.name)
+    }
+
+    /// The name of an agent.
+    pub fn agent_name(&self, id: AgentId) -> Option<&Arc<str>> {
+        self.agents.get(id.index())
+    }
+
+    /// The name of a resource.
+    pub fn resource_name(&self, id: ResourceId) -> Option<&Arc<str>> {
+        self.resources.get(id.index())
+    }
+
+    /// All types, parents before children.
+    pub fn types(&self) -> impl Iterator<Item = TypeId> + '_ {
+        (0..self.types.len()).map(TypeId::at)
+    }
+
+    /// All labels.
+    pub fn labels(&self) -> impl Iterator<Item = LabelId> + '_ {
+        (0..self.labels.len()).map(LabelId::at)
+    }
+
+    /// All attributes.
+    pub fn attributes(&self) -> impl Iterator<Item = AttributeId> + '_ {
+        (0..self.attributes.len()).map(AttributeId::at)
+    }
+
+    /// All agents.
+    pub fn agents(&self) -> impl Iterator<Item = AgentId> + '_ {
+        (0..self.agents.len()).map(AgentId::at)
+    }
+
+    /// All resources.
+    pub fn resources(&self) -> impl Iterator<Item = ResourceId> + '_ {
+        (0..self.resources.len()).map(ResourceId::at)
+    }
+
+    /// The parent of a type; `None` for `object` and for foreign ids.
+    pub fn parent(&self, id: TypeId) -> Option<TypeId> {
+        self.types.get(id.index())?.parent
+    }
+
+    /// Whether every `sub` is a `sup`. False for foreign ids.
+    pub fn is_a(&self, sub: TypeId, sup: TypeId) -> bool {
+        match (self.types.get(sub.index()), self.types.get(sup.index())) {
+            (Some(sub), Some(sup)) => sub.enter.wrapping_sub(sup.enter) < sup.size,
+            _ => false,
+        }
+    }
+
+    /// Whether some node could be of both types: in a tree of types, one must be a subtype of the other.
+    pub fn overlap(&self, a: TypeId, b: TypeId) -> bool {
+        self.is_a(a, b) || self.is_a(b, a)
+    }
+
+    /// Whether nodes of this type may take part in the geometric quiver.
+    pub fn nature(&self, id: TypeId) -> Option<Nature> {
+        self.types.get(id.index()).map(|entry| entry.nature)
+    }
+
+    /// The signatures of a label; empty for foreign ids.
+    pub fn signatures(&self, id: LabelId) -> &[Signature] {
+        self.labels.get(id.index()).map_or(&[], |entry| &entry.signatures)
+    }
+
+    /// Whether the label may go from a node of type `from` to a node of type `to`.
+    pub fn allows(&self, label: LabelId, from: TypeId, to: TypeId) -> bool {
+        self.signatures(label).iter().any(|s| self.is_a(from, s.from) && self.is_a(to, s.to))
+    }
+
+    /// What carries the attribute.
+    pub fn holder(&self, id: AttributeId) -> Option<HolderType> {
+        self.attributes.get(id.index()).map(|entry| entry.holder)
+    }
+
+    /// What the attribute may hold.
+    pub fn kind(&self, id: AttributeId) -> Option<Kind> {
+        self.attributes.get(id.index()).map(|entry| entry.kind)
+    }
+
+    /// The node that stands for an agent in every graph of this dictionary.
+    pub fn agent_node(&self, id: AgentId) -> Option<NodeId> {
+        (id.index() < self.agents.len()).then_some(NodeId(id.0))
+    }
+
+    /// The agent for which a node stands.
+    pub fn agent_of(&self, node: NodeId) -> Option<AgentId> {
+        (node.index() < self.agents.len()).then_some(AgentId(node.0))
+    }
+
+    /// The node that stands for a resource in every graph of this dictionary.
+    pub fn resource_node(&self, id: ResourceId) -> Option<NodeId> {
+        (id.index() < self.resources.len()).then(|| NodeId::at(self.agents.len() + id.index()))
+    }
+
+    /// The resource for which a node stands.
+    pub fn resource_of(&self, node: NodeId) -> Option<ResourceId> {
+        let index = node.index().checked_sub(self.agents.len())?;
+        (index < self.resources.len()).then(|| ResourceId::at(index))
+    }
+
+    /// Whether `writer` may write `token` between nodes of these names and types. For an attribute or the
+    /// existence of a node, `from` is the node itself and `to` is `None`.
+    pub fn may_write(
+        &self,
+        writer: AgentId,
+        token: Token,
+        from: (&str, TypeId),
+        to: Option<(&str, TypeId)>,
+    ) -> bool {
+        if writer == AgentId::DSR {
+            return true;
+        }
+        self.permissions.get(&(writer, token)).is_some_and(|ends| {
+            ends.iter().any(|(first, second)| {
+                first.admits(self, from)
+                    && match to {
+                        Some(to) => second.admits(self, to),
+                        None => *second == End::Any,
+                    }
+            })
+        })
+    }
+}

@@ -1,0 +1,367 @@
+//! Building a dictionary: names in, ids out, and no id that could be wrong later.
+//!
+//! A type is declared after its parent, so the hierarchy cannot have a cycle. Declaring a label again adds a
+//! signature. Agents and resources become nodes of every graph, so they share one space of names.
+
+use std::sync::Arc;
+
+use rustc_hash::FxHashMap;
+
+use super::{Attribute, Dictionary, HolderType, Label, Nature, NodeType, Permission, Signature, Token};
+use crate::id::{AgentId, AttributeId, LabelId, ResourceId, TypeId};
+use crate::value::Kind;
+
+/// Why a declaration is refused.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum DictionaryError {
+    /// A name is empty.
+    #[error("a name is empty")]
+    EmptyName,
+    /// The type is declared already.
+    #[error("type '{name}' is declared twice")]
+    DuplicateType {
+        /// The type.
+        name: Arc<str>,
+    },
+    /// The attribute is declared already.
+    #[error("attribute '{name}' is declared twice")]
+    DuplicateAttribute {
+        /// The attribute.
+        name: Arc<str>,
+    },
+    /// An agent or a resource has that name.
+    #[error("'{name}' already names an agent or a resource")]
+    DuplicateNode {
+        /// The name.
+        name: Arc<str>,
+    },
+    /// The id is not of this builder.
+    #[error("no type {id} here")]
+    UnknownType {
+        /// The id.
+        id: TypeId,
+    },
+    /// The id is not of this builder.
+    #[error("no label {id} here")]
+    UnknownLabel {
+        /// The id.
+        id: LabelId,
+    },
+    /// The id is not of this builder.
+    #[error("no attribute {id} here")]
+    UnknownAttribute {
+        /// The id.
+        id: AttributeId,
+    },
+    /// The id is not of this builder.
+    #[error("no agent {id} here")]
+    UnknownAgent {
+        /// The id.
+        id: AgentId,
+    },
+    /// The label `holds` and its attributes are written by claims only.
+    #[error("'{name}' is reserved for leases")]
+    Reserved {
+        /// The token.
+        name: Arc<str>,
+    },
+    /// An attribute sits on edges that the label cannot have.
+    #[error("attribute '{attribute}': label '{label}' does not go from '{from}' to '{to}'")]
+    NoSuchSignature {
+        /// The attribute.
+        attribute: Arc<str>,
+        /// The label.
+        label: Arc<str>,
+        /// The type of the start.
+        from: Arc<str>,
+        /// The type of the end.
+        to: Arc<str>,
+    },
+}
+
+/// Declares tokens one by one.
+#[derive(Debug)]
+pub struct DictionaryBuilder {
+    types: Vec<NodeType>,
+    labels: Vec<Label>,
+    attributes: Vec<Attribute>,
+    agents: Vec<Arc<str>>,
+    resources: Vec<Arc<str>>,
+    type_names: FxHashMap<Arc<str>, TypeId>,
+    label_names: FxHashMap<Arc<str>, LabelId>,
+    attribute_names: FxHashMap<Arc<str>, AttributeId>,
+    agent_names: FxHashMap<Arc<str>, AgentId>,
+    resource_names: FxHashMap<Arc<str>, ResourceId>,
+    permissions: Vec<(AgentId, Permission)>,
+}
+
+impl Default for DictionaryBuilder {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl DictionaryBuilder {
+    /// A dictionary with what is built into every one.
+    pub fn new() -> Self {
+        let mut new = Self {
+            types: Vec::new(),
+            labels: Vec::new(),
+            attributes: Vec::new(),
+            agents: Vec::new(),
+            resources: Vec::new(),
+            type_names: FxHashMap::default(),
+            label_names: FxHashMap::default(),
+            attribute_names: FxHashMap::default(),
+            agent_names: FxHashMap::default(),
+            resource_names: FxHashMap::default(),
+            permissions: Vec::new(),
+        };
+        for (name, parent) in
+            [("object", None), ("agent", Some(TypeId::OBJECT)), ("resource", Some(TypeId::OBJECT))]
+        {
+            new.add_type(name.into(), parent, Nature::Symbolic);
+        }
+        let holds = Signature { from: TypeId::AGENT, to: TypeId::RESOURCE };
+        new.labels.push(Label { name: "holds".into(), signatures: vec![holds] });
+        new.label_names.insert("holds".into(), LabelId::HOLDS);
+        let holder = HolderType::Edge { label: LabelId::HOLDS, signature: holds };
+        for (name, kind) in [("priority", Kind::Number), ("yields", Kind::Bool), ("claim", Kind::Number)] {
+            new.add_attribute(name.into(), holder, kind);
+        }
+        new.agents.push("dsr".into());
+        new.agent_names.insert("dsr".into(), AgentId::DSR);
+        new
+    }
+
+    /// Declares a type below `parent` (`None`: below `object`). A subtype of a geometric type is geometric.
+    pub fn node_type(
+        &mut self,
+        name: &str,
+        parent: Option<TypeId>,
+        nature: Nature,
+    ) -> Result<TypeId, DictionaryError> {
+        let name = named(name)?;
+        if self.type_names.contains_key(&name) {
+            return Err(DictionaryError::DuplicateType { name });
+        }
+        let parent = parent.unwrap_or(TypeId::OBJECT);
+        self.known_type(parent)?;
+        let nature =
+            if self.types[parent.index()].nature == Nature::Geometric { Nature::Geometric } else { nature };
+        Ok(self.add_type(name, Some(parent), nature))
+    }
+
+    /// Declares a label, or one more signature of it.
+    pub fn label(&mut self, name: &str, from: TypeId, to: TypeId) -> Result<LabelId, DictionaryError> {
+        let name = named(name)?;
+        self.known_type(from)?;
+        self.known_type(to)?;
+        let id = match self.label_names.get(&name) {
+            Some(&LabelId::HOLDS) => return Err(DictionaryError::Reserved { name }),
+            Some(&id) => id,
+            None => {
+                let id = LabelId::at(self.labels.len());
+                self.labels.push(Label { name: name.clone(), signatures: Vec::new() });
+                self.label_names.insert(name, id);
+                id
+            }
+        };
+        let signature = Signature { from, to };
+        let signatures = &mut self.labels[id.index()].signatures;
+        if !signatures.contains(&signature) {
+            signatures.push(signature);
+        }
+        Ok(id)
+    }
+
+    /// Declares an attribute of the nodes of a type.
+    pub fn attribute_on_node(
+        &mut self,
+        name: &str,
+        holder: TypeId,
+        kind: Kind,
+    ) -> Result<AttributeId, DictionaryError> {
+        self.known_type(holder)?;
+        self.attribute(name, HolderType::Node(holder), kind)
+    }
+
+    /// Declares an attribute of the edges with `label` from a `from` to a `to`, which the label must allow.
+    pub fn attribute_on_edge(
+        &mut self,
+        name: &str,
+        label: LabelId,
+        (from, to): (TypeId, TypeId),
+        kind: Kind,
+    ) -> Result<AttributeId, DictionaryError> {
+        let name = named(name)?;
+        self.known_type(from)?;
+        self.known_type(to)?;
+        let entry = self.labels.get(label.index()).ok_or(DictionaryError::UnknownLabel { id: label })?;
+        if label == LabelId::HOLDS {
+            return Err(DictionaryError::Reserved { name });
+        }
+        let fits = |s: &Signature| self.descends(from, s.from) && self.descends(to, s.to);
+        if !entry.signatures.iter().any(fits) {
+            return Err(DictionaryError::NoSuchSignature {
+                attribute: name,
+                label: entry.name.clone(),
+                from: self.types[from.index()].name.clone(),
+                to: self.types[to.index()].name.clone(),
+            });
+        }
+        self.attribute(&name, HolderType::Edge { label, signature: Signature { from, to } }, kind)
+    }
+
+    /// Declares a writer. It becomes a node of type `agent` in every graph.
+    pub fn agent(&mut self, name: &str) -> Result<AgentId, DictionaryError> {
+        let name = self.free_node(name)?;
+        let id = AgentId::at(self.agents.len());
+        self.agents.push(name.clone());
+        self.agent_names.insert(name, id);
+        Ok(id)
+    }
+
+    /// Declares an exclusive resource. It becomes a node of type `resource` in every graph.
+    pub fn resource(&mut self, name: &str) -> Result<ResourceId, DictionaryError> {
+        let name = self.free_node(name)?;
+        let id = ResourceId::at(self.resources.len());
+        self.resources.push(name.clone());
+        self.resource_names.insert(name, id);
+        Ok(id)
+    }
+
+    /// Lets an agent write a token. Without any permission an agent may only claim and release.
+    pub fn permit(&mut self, agent: AgentId, permission: Permission) -> Result<(), DictionaryError> {
+        if agent.index() >= self.agents.len() {
+            return Err(DictionaryError::UnknownAgent { id: agent });
+        }
+        match permission.token {
+            Token::Label(LabelId::HOLDS) => return Err(DictionaryError::Reserved { name: "holds".into() }),
+            Token::Label(id) if id.index() >= self.labels.len() => {
+                return Err(DictionaryError::UnknownLabel { id });
+            }
+            Token::Attribute(id) => match self.attributes.get(id.index()) {
+                None => return Err(DictionaryError::UnknownAttribute { id }),
+                Some(entry) if id.index() <= AttributeId::CLAIM.index() => {
+                    return Err(DictionaryError::Reserved { name: entry.name.clone() });
+                }
+                Some(_) => {}
+            },
+            Token::Node(id) => self.known_type(id)?,
+            Token::Label(_) | Token::Transform => {}
+        }
+        self.permissions.push((agent, permission));
+        Ok(())
+    }
+
+    /// Closes the dictionary.
+    pub fn build(mut self) -> Arc<Dictionary> {
+        self.number_types();
+        let mut permissions: FxHashMap<_, Vec<_>> = FxHashMap::default();
+        for (agent, Permission { token, from, to }) in &self.permissions {
+            let tokens = match *token {
+                // Whoever may make nodes of a type may make nodes of its subtypes: spelled out here, so that a
+                // check is one look-up.
+                Token::Node(id) => (0..self.types.len())
+                    .map(TypeId::at)
+                    .filter(|&sub| self.descends(sub, id))
+                    .map(Token::Node)
+                    .collect(),
+                other => vec![other],
+            };
+            for token in tokens {
+                permissions.entry((*agent, token)).or_default().push((from.clone(), to.clone()));
+            }
+        }
+        Arc::new(Dictionary {
+            types: self.types,
+            labels: self.labels,
+            attributes: self.attributes,
+            agents: self.agents,
+            resources: self.resources,
+            type_names: self.type_names,
+            label_names: self.label_names,
+            attribute_names: self.attribute_names,
+            agent_names: self.agent_names,
+            resource_names: self.resource_names,
+            permissions,
+        })
+    }
+
+    fn add_type(&mut self, name: Arc<str>, parent: Option<TypeId>, nature: Nature) -> TypeId {
+        let id = TypeId::at(self.types.len());
+        self.type_names.insert(name.clone(), id);
+        self.types.push(NodeType { name, parent, nature, enter: 0, size: 1 });
+        id
+    }
+
+    fn attribute(
+        &mut self,
+        name: &str,
+        holder: HolderType,
+        kind: Kind,
+    ) -> Result<AttributeId, DictionaryError> {
+        let name = named(name)?;
+        if self.attribute_names.contains_key(&name) {
+            return Err(DictionaryError::DuplicateAttribute { name });
+        }
+        if let Kind::Node(target) = kind {
+            self.known_type(target)?;
+        }
+        Ok(self.add_attribute(name, holder, kind))
+    }
+
+    fn add_attribute(&mut self, name: Arc<str>, holder: HolderType, kind: Kind) -> AttributeId {
+        let id = AttributeId::at(self.attributes.len());
+        self.attribute_names.insert(name.clone(), id);
+        self.attributes.push(Attribute { name, holder, kind });
+        id
+    }
+
+    fn known_type(&self, id: TypeId) -> Result<(), DictionaryError> {
+        if id.index() < self.types.len() { Ok(()) } else { Err(DictionaryError::UnknownType { id }) }
+    }
+
+    fn free_node(&self, name: &str) -> Result<Arc<str>, DictionaryError> {
+        let name = named(name)?;
+        if self.agent_names.contains_key(&name) || self.resource_names.contains_key(&name) {
+            return Err(DictionaryError::DuplicateNode { name });
+        }
+        Ok(name)
+    }
+
+    fn descends(&self, sub: TypeId, sup: TypeId) -> bool {
+        let mut at = Some(sub);
+        while let Some(id) = at {
+            if id == sup {
+                return true;
+            }
+            at = self.types[id.index()].parent;
+        }
+        false
+    }
+
+    /// Numbers the types depth first: parents precede children in the table, so one pass up sums the sizes and
+    /// one pass down hands each child the next free interval of its parent.
+    fn number_types(&mut self) {
+        for index in (1..self.types.len()).rev() {
+            if let Some(parent) = self.types[index].parent {
+                self.types[parent.index()].size += self.types[index].size;
+            }
+        }
+        let mut free = vec![1; self.types.len()];
+        for index in 1..self.types.len() {
+            if let Some(parent) = self.types[index].parent {
+                let enter = free[parent.index()];
+                free[parent.index()] += self.types[index].size;
+                self.types[index].enter = enter;
+                free[index] = enter + 1;
+            }
+        }
+    }
+}
+
+fn named(name: &str) -> Result<Arc<str>, DictionaryError> {
+    if name.is_empty() { Err(DictionaryError::EmptyName) } else { Ok(name.into()) }
+}

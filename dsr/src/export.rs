@@ -1,0 +1,326 @@
+//! A state as plain data: for files, for people, and for comparing states byte by byte.
+//!
+//! Everything is by name, sorted, and complete: two states of one dictionary are the same exactly when their
+//! exports are. Reflexes are not in it; they belong to activities that run, and die with the process.
+
+use std::sync::Arc;
+
+use nalgebra::{Isometry3, Quaternion, Translation3, Unit};
+use serde::{Deserialize, Serialize};
+
+use crate::dictionary::{Dictionary, Nature};
+use crate::id::{AttributeId, EdgeKey, Holder, LabelId, NodeId, Time, Version};
+use crate::snapshot::{AttributeView, Snapshot};
+use crate::state::{Scratch, State};
+use crate::transaction::TransactionError;
+use crate::value::{Kind, Value};
+
+/// A state as plain data.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Export {
+    /// The version.
+    pub version: Version,
+    /// The time of its commit.
+    pub time: Time,
+    /// The id that the next new node will get.
+    pub next: NodeId,
+    /// The nodes, by id.
+    pub nodes: Vec<ExportedNode>,
+    /// The symbolic edges, by ids of start, label and end.
+    pub edges: Vec<ExportedEdge>,
+    /// The geometric edges, by id of the child.
+    pub transforms: Vec<ExportedTransform>,
+}
+
+/// A node as plain data.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ExportedNode {
+    /// Its id.
+    pub id: NodeId,
+    /// Its name.
+    pub name: Arc<str>,
+    /// Its type.
+    #[serde(rename = "type")]
+    pub node_type: Arc<str>,
+    /// The version that added it.
+    pub since: Version,
+    /// Its attributes.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub attributes: Vec<ExportedAttribute>,
+}
+
+/// An edge as plain data.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ExportedEdge {
+    /// Where it starts.
+    pub from: Arc<str>,
+    /// What it says.
+    pub label: Arc<str>,
+    /// Where it ends.
+    pub to: Arc<str>,
+    /// The version that added it.
+    pub since: Version,
+    /// Its attributes.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub attributes: Vec<ExportedAttribute>,
+}
+
+/// An attribute as plain data.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ExportedAttribute {
+    /// Which.
+    pub name: Arc<str>,
+    /// Its value.
+    pub value: ExportedValue,
+    /// The version that wrote it.
+    pub since: Version,
+}
+
+/// A value as plain data: a node by its name.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum ExportedValue {
+    Number(f64),
+    Text(Arc<str>),
+    Bool(bool),
+    Node(Arc<str>),
+}
+
+/// A geometric edge as plain data: the pose of the child in the frame of the parent.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ExportedTransform {
+    /// What the child hangs below.
+    pub parent: Arc<str>,
+    /// What hangs.
+    pub child: Arc<str>,
+    /// x, y, z in metres.
+    pub translation: [f64; 3],
+    /// The unit quaternion i, j, k, w.
+    pub rotation: [f64; 4],
+    /// The version that wrote it.
+    pub since: Version,
+}
+
+impl Snapshot {
+    /// The state as plain data.
+    pub fn export(&self) -> Export {
+        let name = |id| self.state().name(id);
+        let attributes = |views: Vec<AttributeView<'_>>| {
+            views.into_iter().map(|view| self.export_attribute(view)).collect::<Vec<_>>()
+        };
+        let dictionary = self.dictionary();
+        let nodes = self.nodes().map(|node| ExportedNode {
+            id: node.id,
+            name: node.name().into(),
+            node_type: dictionary.type_name(node.node_type()).cloned().unwrap_or_default(),
+            since: node.since(),
+            attributes: attributes(node.attributes().collect()),
+        });
+        let edges = self.edges().map(|edge| ExportedEdge {
+            from: name(edge.key.from),
+            label: dictionary.label_name(edge.key.label).cloned().unwrap_or_default(),
+            to: name(edge.key.to),
+            since: edge.since(),
+            attributes: attributes(edge.attributes().collect()),
+        });
+        let transforms = self.nodes().filter_map(|node| {
+            let (parent, pose, since) = node.parent()?;
+            let (t, q) = (&pose.translation.vector, &pose.rotation.coords);
+            Some(ExportedTransform {
+                parent: name(parent),
+                child: node.name().into(),
+                translation: [t.x, t.y, t.z],
+                rotation: [q.x, q.y, q.z, q.w],
+                since,
+            })
+        });
+        Export {
+            version: self.version(),
+            time: self.time(),
+            next: self.state().next,
+            nodes: nodes.collect(),
+            edges: edges.collect(),
+            transforms: transforms.collect(),
+        }
+    }
+
+    fn export_attribute(&self, view: AttributeView<'_>) -> ExportedAttribute {
+        ExportedAttribute {
+            name: self.dictionary().attribute_name(view.attribute).cloned().unwrap_or_default(),
+            value: match view.value {
+                Value::Number(number) => ExportedValue::Number(*number),
+                Value::Text(text) => ExportedValue::Text(text.clone()),
+                Value::Bool(truth) => ExportedValue::Bool(*truth),
+                Value::Node(node) => ExportedValue::Node(self.state().name(*node)),
+            },
+            since: view.since,
+        }
+    }
+}
+
+/// Why plain data is no state of this dictionary.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the fields are the names that the variant is about")]
+pub enum RestoreError {
+    /// The dictionary does not have the token.
+    #[error("the dictionary has no '{name}'")]
+    UnknownToken { name: Arc<str> },
+    /// Something hangs on a node that is not there.
+    #[error("no node '{name}'")]
+    UnknownNode { name: Arc<str> },
+    /// Two nodes share an id or a name, or an id is not below `next`.
+    #[error("node '{name}' has a name or an id that is not its own")]
+    NodeClash { name: Arc<str> },
+    /// The nodes of agents and resources are not those of the dictionary.
+    #[error("'{name}' does not stand for the agent or the resource of that name")]
+    NotOfDictionary { name: Arc<str> },
+    /// An edge that the dictionary does not allow.
+    #[error("'{label}' does not go from '{from}' to '{to}'")]
+    WrongEdge { from: Arc<str>, label: Arc<str>, to: Arc<str> },
+    /// A value of the wrong kind, or an attribute of the wrong holder.
+    #[error("attribute '{attribute}' does not fit")]
+    WrongAttribute { attribute: Arc<str> },
+    /// A transform that is no rigid one, or between nodes that are not geometric, or to a second parent.
+    #[error("no rigid transform from '{parent}' to '{child}'")]
+    WrongTransform { parent: Arc<str>, child: Arc<str> },
+    /// The transforms are no rooted tree.
+    #[error(transparent)]
+    NoTree(#[from] TransactionError),
+}
+
+/// Rebuilds a state, checking that it is one.
+pub(crate) fn restore(dictionary: Arc<Dictionary>, export: &Export) -> Result<State, RestoreError> {
+    let mut state = State::empty(Arc::clone(&dictionary));
+    for node in &export.nodes {
+        let id = node.id;
+        let clash = id >= export.next || state.node(id).is_some() || state.names.get(&node.name).is_some();
+        if clash || node.name.is_empty() {
+            return Err(RestoreError::NodeClash { name: node.name.clone() });
+        }
+        let node_type = dictionary
+            .node_type(&node.node_type)
+            .ok_or_else(|| RestoreError::UnknownToken { name: node.node_type.clone() })?;
+        state.insert_node(id, node.name.clone(), node_type, node.since);
+    }
+    check_built_in(&dictionary, &state)?;
+    for edge in &export.edges {
+        let key = edge_key(&state, edge)?;
+        state.insert_edge(key, edge.since);
+        for attribute in &edge.attributes {
+            restore_attribute(&mut state, Holder::Edge(key), attribute)?;
+        }
+    }
+    for node in &export.nodes {
+        for attribute in &node.attributes {
+            restore_attribute(&mut state, Holder::Node(node.id), attribute)?;
+        }
+    }
+    for transform in &export.transforms {
+        restore_transform(&mut state, transform)?;
+    }
+    let before = State::empty(dictionary);
+    crate::transaction::apply::judge(&before, &mut state)?;
+    (state.version, state.time, state.next) = (export.version, export.time, export.next);
+    state.scratch = Scratch::default();
+    Ok(state)
+}
+
+fn find(state: &State, name: &Arc<str>) -> Result<NodeId, RestoreError> {
+    state.names.get(name).ok_or_else(|| RestoreError::UnknownNode { name: name.clone() })
+}
+
+fn check_built_in(dictionary: &Dictionary, state: &State) -> Result<(), RestoreError> {
+    let agents = dictionary.agents().map(|id| (dictionary.agent_name(id), dictionary.agent_node(id)));
+    let resources =
+        dictionary.resources().map(|id| (dictionary.resource_name(id), dictionary.resource_node(id)));
+    for (name, id) in agents.chain(resources) {
+        if let Some(name) = name
+            && state.names.get(name) != id
+        {
+            return Err(RestoreError::NotOfDictionary { name: name.clone() });
+        }
+    }
+    Ok(())
+}
+
+fn edge_key(state: &State, edge: &ExportedEdge) -> Result<EdgeKey, RestoreError> {
+    let dictionary = &state.dictionary;
+    let label = dictionary
+        .label(&edge.label)
+        .ok_or_else(|| RestoreError::UnknownToken { name: edge.label.clone() })?;
+    let (from, to) = (find(state, &edge.from)?, find(state, &edge.to)?);
+    let types = |id| state.node(id).map(|node| node.node_type);
+    let fits = matches!((types(from), types(to)), (Some(a), Some(b)) if dictionary.allows(label, a, b));
+    let taken =
+        label == LabelId::HOLDS && dictionary.resource_of(to).and_then(|id| state.lease(id)).is_some();
+    if from == to || !fits || taken || state.edge(EdgeKey { from, label, to }).is_some() {
+        let (from, label, to) = (edge.from.clone(), edge.label.clone(), edge.to.clone());
+        return Err(RestoreError::WrongEdge { from, label, to });
+    }
+    Ok(EdgeKey { from, label, to })
+}
+
+fn restore_attribute(
+    state: &mut State,
+    holder: Holder,
+    exported: &ExportedAttribute,
+) -> Result<(), RestoreError> {
+    let dictionary = Arc::clone(&state.dictionary);
+    let wrong = || RestoreError::WrongAttribute { attribute: exported.name.clone() };
+    let attribute: AttributeId = dictionary
+        .attribute(&exported.name)
+        .ok_or_else(|| RestoreError::UnknownToken { name: exported.name.clone() })?;
+    let types = |id| state.node(id).map(|node| node.node_type);
+    let fits = match (holder, dictionary.holder(attribute)) {
+        (Holder::Node(id), Some(crate::HolderType::Node(on))) => {
+            types(id).is_some_and(|id| dictionary.is_a(id, on))
+        }
+        (Holder::Edge(key), Some(crate::HolderType::Edge { label, signature })) => {
+            let ends = (types(key.from), types(key.to));
+            label == key.label
+                && matches!(ends, (Some(from), Some(to))
+                    if dictionary.is_a(from, signature.from) && dictionary.is_a(to, signature.to))
+        }
+        _ => false,
+    };
+    let value = match (dictionary.kind(attribute), &exported.value) {
+        (Some(Kind::Number), ExportedValue::Number(number)) if number.is_finite() => Value::Number(*number),
+        (Some(Kind::Text), ExportedValue::Text(text)) => Value::Text(text.clone()),
+        (Some(Kind::Bool), ExportedValue::Bool(truth)) => Value::Bool(*truth),
+        (Some(Kind::Node(target)), ExportedValue::Node(name)) => {
+            let id = find(state, name)?;
+            if !types(id).is_some_and(|id| dictionary.is_a(id, target)) {
+                return Err(wrong());
+            }
+            Value::Node(id)
+        }
+        _ => return Err(wrong()),
+    };
+    if !fits || state.cell(holder, attribute).is_some() {
+        return Err(wrong());
+    }
+    state.insert_attribute(holder, attribute, value, exported.since);
+    Ok(())
+}
+
+fn restore_transform(state: &mut State, exported: &ExportedTransform) -> Result<(), RestoreError> {
+    let (parent, child) = (find(state, &exported.parent)?, find(state, &exported.child)?);
+    let wrong =
+        || RestoreError::WrongTransform { parent: exported.parent.clone(), child: exported.child.clone() };
+    let geometric = |id: NodeId| {
+        state.node(id).is_some_and(|node| state.dictionary.nature(node.node_type) == Some(Nature::Geometric))
+    };
+    let [x, y, z] = exported.translation;
+    let [i, j, k, w] = exported.rotation;
+    let rotation = Quaternion::new(w, i, j, k);
+    let rigid = exported.translation.iter().all(|c| c.is_finite()) && (rotation.norm() - 1.0).abs() < 1e-6;
+    let has_parent = state.node(child).is_some_and(|node| node.joint.is_some());
+    if !rigid || !geometric(parent) || !geometric(child) || has_parent || parent == child {
+        return Err(wrong());
+    }
+    // Not normalised again: the bits must come back as they were.
+    let pose = Isometry3::from_parts(Translation3::new(x, y, z), Unit::new_unchecked(rotation));
+    state.insert_transform(parent, child, pose, exported.since);
+    Ok(())
+}

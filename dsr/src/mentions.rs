@@ -1,0 +1,119 @@
+//! What a pattern depends on and what a delta touches, as sets of tokens that can be intersected quickly.
+//!
+//! Invariant: if a delta's mentions and a pattern's do not intersect, the delta cannot change the pattern's
+//! matches. The converse may fail: an intersection only says that it is worth looking.
+
+use crate::delta::{Change, Delta};
+use crate::id::{AttributeId, LabelId, TypeId};
+
+/// A set of small numbers.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+struct Bits(Vec<u64>);
+
+impl Bits {
+    fn insert(&mut self, index: usize) {
+        if self.0.len() <= index / 64 {
+            self.0.resize(index / 64 + 1, 0);
+        }
+        self.0[index / 64] |= 1 << (index % 64);
+    }
+
+    fn contains(&self, index: usize) -> bool {
+        self.0.get(index / 64).is_some_and(|word| word >> (index % 64) & 1 == 1)
+    }
+
+    fn intersects(&self, other: &Self) -> bool {
+        self.0.iter().zip(&other.0).any(|(a, b)| a & b != 0)
+    }
+
+    fn iter(&self) -> impl Iterator<Item = usize> {
+        (0..self.0.len() * 64).filter(|&index| self.contains(index))
+    }
+}
+
+/// Labels, attributes, types of nodes that come or go, and whether transforms matter.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Mentions {
+    labels: Bits,
+    attributes: Bits,
+    types: Bits,
+    transforms: bool,
+}
+
+impl Mentions {
+    /// What a delta touches.
+    pub fn of(delta: &Delta) -> Self {
+        let mut mentions = Self::default();
+        for change in &delta.changes {
+            match change {
+                Change::NodeAdded { node_type, .. } | Change::NodeRemoved { node_type, .. } => {
+                    mentions.add_type(*node_type);
+                }
+                Change::EdgeAdded { edge } | Change::EdgeRemoved { edge } => mentions.add_label(edge.label),
+                Change::AttributeAdded { attribute, .. }
+                | Change::AttributeChanged { attribute, .. }
+                | Change::AttributeRemoved { attribute, .. } => mentions.add_attribute(*attribute),
+                Change::TransformAdded { .. }
+                | Change::TransformChanged { .. }
+                | Change::TransformRemoved { .. } => mentions.add_transforms(),
+            }
+        }
+        mentions
+    }
+
+    /// Whether the two have a token in common.
+    pub fn intersects(&self, other: &Self) -> bool {
+        self.labels.intersects(&other.labels)
+            || self.attributes.intersects(&other.attributes)
+            || self.types.intersects(&other.types)
+            || (self.transforms && other.transforms)
+    }
+
+    /// The labels.
+    pub fn labels(&self) -> impl Iterator<Item = LabelId> + '_ {
+        self.labels.iter().map(LabelId::at)
+    }
+
+    /// The attributes.
+    pub fn attributes(&self) -> impl Iterator<Item = AttributeId> + '_ {
+        self.attributes.iter().map(AttributeId::at)
+    }
+
+    /// The types of nodes whose coming and going matters; for a pattern, with all subtypes.
+    pub fn types(&self) -> impl Iterator<Item = TypeId> + '_ {
+        self.types.iter().map(TypeId::at)
+    }
+
+    /// Whether transforms matter.
+    pub fn transforms(&self) -> bool {
+        self.transforms
+    }
+
+    /// Adds everything that `other` mentions.
+    pub fn extend(&mut self, other: &Self) {
+        for (mine, theirs) in [
+            (&mut self.labels, &other.labels),
+            (&mut self.attributes, &other.attributes),
+            (&mut self.types, &other.types),
+        ] {
+            theirs.iter().for_each(|index| mine.insert(index));
+        }
+        self.transforms |= other.transforms;
+    }
+
+    pub(crate) fn add_label(&mut self, label: LabelId) {
+        self.labels.insert(label.index());
+    }
+
+    pub(crate) fn add_attribute(&mut self, attribute: AttributeId) {
+        self.attributes.insert(attribute.index());
+    }
+
+    pub(crate) fn add_type(&mut self, node_type: TypeId) {
+        self.types.insert(node_type.index());
+    }
+
+    pub(crate) fn add_transforms(&mut self) {
+        self.transforms = true;
+    }
+}

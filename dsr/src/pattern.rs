@@ -1,0 +1,255 @@
+//! Patterns: a small subgraph with variables, and the ways to find it in a snapshot.
+//!
+//! Problem: agents should see the part of the graph that concerns them, not all of it, and the mapping from
+//! subgraphs to actions should be text, not code in each agent. Idea: a conjunction of edges, attribute guards,
+//! inequalities, distances and negated conjunctions over typed variables, checked against the dictionary when it
+//! is built, compiled once with a join order. A disjunction is a `Vec<Pattern>`.
+//!
+//! Semantics: a match gives each top-level variable a node of its type such that all parts hold. Variables need
+//! not be distinct unless the pattern says so. A guard on an attribute that is absent does not hold, whatever the
+//! comparison. A negated part holds if its own conjunction has no match; its local variables end with it.
+//! Matches come in the order of node ids, variable by variable, whatever the join order.
+
+mod builder;
+mod check;
+mod matcher;
+mod plan;
+
+use std::ops::Deref;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+pub use self::builder::PatternBuilder;
+pub use self::check::PatternError;
+use self::plan::Step;
+use crate::id::{AttributeId, LabelId, NodeId, TypeId};
+use crate::mentions::Mentions;
+use crate::value::Value;
+
+/// A variable of a pattern.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Variable {
+    scope: Scope,
+    index: u16,
+}
+
+impl Variable {
+    /// The position of the variable in a [`Binding`]; `None` for a local of a negated part.
+    pub fn position(self) -> Option<usize> {
+        (self.scope == Scope::Top).then_some(usize::from(self.index))
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+enum Scope {
+    Top,
+    Local,
+}
+
+/// What may stand where a node is meant.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub enum Term {
+    /// A variable.
+    Variable(Variable),
+    /// A node, by id.
+    Node(NodeId),
+    /// A node, by name, looked up in each snapshot.
+    Named(Arc<str>),
+}
+
+impl From<Variable> for Term {
+    fn from(variable: Variable) -> Self {
+        Self::Variable(variable)
+    }
+}
+
+impl From<NodeId> for Term {
+    fn from(node: NodeId) -> Self {
+        Self::Node(node)
+    }
+}
+
+impl From<&str> for Term {
+    fn from(name: &str) -> Self {
+        Self::Named(name.into())
+    }
+}
+
+/// What carries an attribute in a pattern.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[expect(missing_docs, reason = "the fields are the terms of the variant")]
+pub enum HolderTerm {
+    /// A node.
+    Node(Term),
+    /// An edge, which thereby must exist.
+    Edge { from: Term, label: LabelId, to: Term },
+}
+
+impl HolderTerm {
+    /// A node.
+    pub fn node(node: impl Into<Term>) -> Self {
+        Self::Node(node.into())
+    }
+
+    /// An edge.
+    pub fn edge(from: impl Into<Term>, label: LabelId, to: impl Into<Term>) -> Self {
+        Self::Edge { from: from.into(), label, to: to.into() }
+    }
+}
+
+impl<T: Into<Term>> From<T> for HolderTerm {
+    fn from(node: T) -> Self {
+        Self::Node(node.into())
+    }
+}
+
+/// How two values are compared. Order is for numbers only.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum Comparison {
+    Equal,
+    NotEqual,
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
+}
+
+/// The right-hand side of an attribute guard.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Operand {
+    /// A constant.
+    Value(Value),
+    /// A node; with [`Comparison::Equal`], a variable that is not bound yet is bound to the attribute's value.
+    Term(Term),
+    /// Another attribute.
+    Attribute(HolderTerm, AttributeId),
+}
+
+impl From<Value> for Operand {
+    fn from(value: Value) -> Self {
+        Self::Value(value)
+    }
+}
+
+impl From<f64> for Operand {
+    fn from(number: f64) -> Self {
+        Self::Value(Value::Number(number))
+    }
+}
+
+impl From<bool> for Operand {
+    fn from(truth: bool) -> Self {
+        Self::Value(Value::Bool(truth))
+    }
+}
+
+impl From<Variable> for Operand {
+    fn from(variable: Variable) -> Self {
+        Self::Term(Term::Variable(variable))
+    }
+}
+
+impl From<Term> for Operand {
+    fn from(term: Term) -> Self {
+        Self::Term(term)
+    }
+}
+
+/// A part of a conjunction. Terms are slots once compiled.
+#[derive(Debug, Clone)]
+enum Atom<T> {
+    Edge { from: T, label: LabelId, to: T },
+    Present { holder: Carrier<T>, attribute: AttributeId },
+    Guard { holder: Carrier<T>, attribute: AttributeId, comparison: Comparison, operand: Right<T> },
+    Distinct(T, T),
+    Distance { from: T, to: T, comparison: Comparison, metres: f64 },
+    Without(Conjunction<T>),
+}
+
+#[derive(Debug, Clone)]
+enum Carrier<T> {
+    Node(T),
+    Edge { from: T, label: LabelId, to: T },
+}
+
+#[derive(Debug, Clone)]
+enum Right<T> {
+    Value(Value),
+    Term(T),
+    Attribute(Carrier<T>, AttributeId),
+}
+
+/// Parts that must all hold, with the variables that begin here.
+#[derive(Debug, Clone)]
+struct Conjunction<T> {
+    variables: Vec<T>,
+    atoms: Vec<Atom<T>>,
+}
+
+/// Where the node of a variable or of a constant is kept while matching.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Slot(u8);
+
+/// The most variables and constants that one pattern may have.
+const SLOTS: usize = 64;
+
+#[derive(Debug, Clone)]
+enum Constant {
+    Node(NodeId),
+    Named(Arc<str>),
+}
+
+/// A compiled pattern.
+#[derive(Debug, Clone)]
+pub struct Pattern {
+    /// Names and types of the top-level variables, which have the first slots.
+    variables: Vec<(Arc<str>, TypeId)>,
+    /// Types of the local variables, which have the next slots.
+    locals: Vec<TypeId>,
+    /// The constants, which have the last slots.
+    constants: Vec<Constant>,
+    body: Conjunction<Slot>,
+    /// The join order when no variable is fixed.
+    plan: Vec<Step>,
+    mentions: Mentions,
+}
+
+impl Pattern {
+    /// The names and types of the variables, in the order of a [`Binding`].
+    pub fn variables(&self) -> impl Iterator<Item = (&str, TypeId)> + '_ {
+        self.variables.iter().map(|(name, node_type)| (&**name, *node_type))
+    }
+
+    /// The variable of that name.
+    pub fn variable(&self, name: &str) -> Option<Variable> {
+        let at = self.variables.iter().position(|(variable, _)| **variable == *name)?;
+        Some(Variable { scope: Scope::Top, index: u16::try_from(at).ok()? })
+    }
+
+    /// The tokens on which the matches depend: a delta that touches none of them changes no match.
+    pub fn mentions(&self) -> &Mentions {
+        &self.mentions
+    }
+}
+
+/// One match: a node for each variable, in the order in which they were declared.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Binding(Vec<NodeId>);
+
+impl Binding {
+    /// The node of a variable; `None` for a local of a negated part.
+    pub fn get(&self, variable: Variable) -> Option<NodeId> {
+        self.0.get(variable.position()?).copied()
+    }
+}
+
+impl Deref for Binding {
+    type Target = [NodeId];
+
+    fn deref(&self) -> &[NodeId] {
+        &self.0
+    }
+}

@@ -1,0 +1,123 @@
+//! Writing a pattern down: variables first, parts in any order, mistakes reported when it is built.
+
+use std::sync::Arc;
+
+use super::{
+    Atom, Carrier, Comparison, Conjunction, HolderTerm, Operand, Pattern, PatternError, Right, Scope, Term,
+    Variable, check,
+};
+use crate::dictionary::Dictionary;
+use crate::id::{AttributeId, LabelId, TypeId};
+
+/// Collects the parts of a pattern.
+#[derive(Debug)]
+pub struct PatternBuilder<'d> {
+    dictionary: &'d Dictionary,
+    variables: Vec<(Arc<str>, TypeId)>,
+    locals: Vec<TypeId>,
+    /// The conjunction being written, innermost last; the first is the pattern itself.
+    open: Vec<Conjunction<Term>>,
+}
+
+impl<'d> PatternBuilder<'d> {
+    /// The pattern that always has one match, for dictionary `dictionary`.
+    pub fn new(dictionary: &'d Dictionary) -> Self {
+        Self {
+            dictionary,
+            variables: Vec::new(),
+            locals: Vec::new(),
+            open: vec![Conjunction { variables: Vec::new(), atoms: Vec::new() }],
+        }
+    }
+
+    /// Declares a variable for nodes of a type: of the pattern, or local to the negated part being written.
+    pub fn variable(&mut self, name: &str, node_type: TypeId) -> Variable {
+        let (scope, index) = if self.open.len() == 1 {
+            self.variables.push((name.into(), node_type));
+            (Scope::Top, self.variables.len() - 1)
+        } else {
+            self.locals.push(node_type);
+            (Scope::Local, self.locals.len() - 1)
+        };
+        // Beyond u16 the pattern has too many variables anyway, which `build` reports.
+        let variable = Variable { scope, index: u16::try_from(index).unwrap_or(u16::MAX) };
+        self.top().variables.push(Term::Variable(variable));
+        variable
+    }
+
+    /// The edge must be there.
+    pub fn edge(&mut self, from: impl Into<Term>, label: LabelId, to: impl Into<Term>) -> &mut Self {
+        self.add(Atom::Edge { from: from.into(), label, to: to.into() })
+    }
+
+    /// The attribute must have a value.
+    pub fn present(&mut self, holder: impl Into<HolderTerm>, attribute: AttributeId) -> &mut Self {
+        self.add(Atom::Present { holder: carrier(holder.into()), attribute })
+    }
+
+    /// The attribute must have a value that compares so. Equal to a node variable that nothing else binds, it
+    /// binds the variable.
+    pub fn guard(
+        &mut self,
+        holder: impl Into<HolderTerm>,
+        attribute: AttributeId,
+        comparison: Comparison,
+        operand: impl Into<Operand>,
+    ) -> &mut Self {
+        let operand = match operand.into() {
+            Operand::Value(value) => Right::Value(value),
+            Operand::Term(term) => Right::Term(term),
+            Operand::Attribute(holder, attribute) => Right::Attribute(carrier(holder), attribute),
+        };
+        self.add(Atom::Guard { holder: carrier(holder.into()), attribute, comparison, operand })
+    }
+
+    /// The two must be different nodes.
+    pub fn distinct(&mut self, a: impl Into<Term>, b: impl Into<Term>) -> &mut Self {
+        self.add(Atom::Distinct(a.into(), b.into()))
+    }
+
+    /// The distance between the origins of the two frames must compare so. Does not hold between nodes that no
+    /// kinematic chain connects.
+    pub fn distance(
+        &mut self,
+        from: impl Into<Term>,
+        to: impl Into<Term>,
+        comparison: Comparison,
+        metres: f64,
+    ) -> &mut Self {
+        self.add(Atom::Distance { from: from.into(), to: to.into(), comparison, metres })
+    }
+
+    /// What `write` writes, as a conjunction with its own local variables, must have no match. Nests.
+    pub fn without<R>(&mut self, write: impl FnOnce(&mut Self) -> R) -> R {
+        self.open.push(Conjunction { variables: Vec::new(), atoms: Vec::new() });
+        let result = write(self);
+        let part = self.open.pop().expect("pushed above, and every inner `without` pops its own");
+        self.add(Atom::Without(part));
+        result
+    }
+
+    /// Checks the pattern against the dictionary and compiles it.
+    pub fn build(self) -> Result<Pattern, PatternError> {
+        let Self { dictionary, variables, locals, mut open } = self;
+        let body = open.pop().expect("the pattern's own conjunction is never popped before");
+        check::compile(dictionary, variables, locals, &body)
+    }
+
+    fn top(&mut self) -> &mut Conjunction<Term> {
+        self.open.last_mut().expect("the pattern's own conjunction is always open")
+    }
+
+    fn add(&mut self, atom: Atom<Term>) -> &mut Self {
+        self.top().atoms.push(atom);
+        self
+    }
+}
+
+fn carrier(holder: HolderTerm) -> Carrier<Term> {
+    match holder {
+        HolderTerm::Node(node) => Carrier::Node(node),
+        HolderTerm::Edge { from, label, to } => Carrier::Edge { from, label, to },
+    }
+}

@@ -1,0 +1,307 @@
+//! From what was written to what can be matched: terms become slots, and what the dictionary could never allow
+//! is refused now rather than never matched.
+
+use std::sync::Arc;
+
+use super::plan::{Mask, Planner};
+use super::{
+    Atom, Carrier, Comparison, Conjunction, Constant, Pattern, Right, SLOTS, Scope, Slot, Term, Variable,
+};
+use crate::dictionary::{Dictionary, HolderType, Nature};
+use crate::id::{AttributeId, LabelId, NodeId, TypeId};
+use crate::mentions::Mentions;
+use crate::value::{Kind, Value};
+
+type Name = Arc<str>;
+
+/// Why a pattern cannot be compiled.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the fields are the names that the variant is about")]
+pub enum PatternError {
+    /// More variables and constants than a pattern may have.
+    #[error("a pattern may have {SLOTS} variables and constants, not {count}")]
+    TooLarge { count: usize },
+    /// The type is of another dictionary.
+    #[error("no type {id}")]
+    UnknownType { id: TypeId },
+    /// The label is of another dictionary.
+    #[error("no label {id}")]
+    UnknownLabel { id: LabelId },
+    /// The attribute is of another dictionary.
+    #[error("no attribute {id}")]
+    UnknownAttribute { id: AttributeId },
+    /// A local variable outside the negated part that declares it, or a variable of another pattern.
+    #[error("a variable is used outside its part")]
+    OutOfScope { variable: Variable },
+    /// No signature of the label fits these types.
+    #[error("'{label}' never goes from a '{from}' to a '{to}'")]
+    WrongSignature { label: Name, from: Name, to: Name },
+    /// The attribute is never on that holder.
+    #[error("attribute '{attribute}' is never there")]
+    WrongHolder { attribute: Name },
+    /// The two sides can never be compared so.
+    #[error("attribute '{attribute}' is a {kind}, it cannot be compared so")]
+    WrongKind { attribute: Name, kind: Kind },
+    /// A distance to something without a place.
+    #[error("a '{node_type}' is never geometric")]
+    NotGeometric { node_type: Name },
+}
+
+pub(super) fn compile(
+    dictionary: &Dictionary,
+    variables: Vec<(Name, TypeId)>,
+    locals: Vec<TypeId>,
+    body: &Conjunction<Term>,
+) -> Result<Pattern, PatternError> {
+    let count = variables.len() + locals.len();
+    if count > SLOTS {
+        return Err(PatternError::TooLarge { count });
+    }
+    let types: Vec<_> = variables.iter().map(|(_, id)| *id).chain(locals.iter().copied()).collect();
+    let mut mentions = Mentions::default();
+    for &id in &types {
+        dictionary.type_name(id).ok_or(PatternError::UnknownType { id })?;
+        dictionary.types().filter(|&sub| dictionary.is_a(sub, id)).for_each(|sub| mentions.add_type(sub));
+    }
+    let mut checker = Checker {
+        dictionary,
+        types,
+        tops: variables.len(),
+        constants: Vec::new(),
+        visible: Mask::default(),
+        mentions,
+    };
+    let body = checker.conjunction(body)?;
+    let Checker { types, constants, mut mentions, .. } = checker;
+    let count = types.len() + constants.len();
+    if count > SLOTS {
+        return Err(PatternError::TooLarge { count });
+    }
+    if !constants.is_empty() {
+        // A constant's node may come or go, and its type is not known here.
+        dictionary.types().for_each(|id| mentions.add_type(id));
+    }
+    let mut bound = Mask::default();
+    (types.len()..count).for_each(|slot| bound.insert(slot_at(slot)));
+    let plan = Planner { tops: variables.len() }.plan(&body, bound);
+    Ok(Pattern { variables, locals, constants, body, plan, mentions })
+}
+
+fn slot_at(index: usize) -> Slot {
+    Slot(u8::try_from(index).unwrap_or(u8::MAX))
+}
+
+struct Checker<'d> {
+    dictionary: &'d Dictionary,
+    /// The types of the variables, by slot.
+    types: Vec<TypeId>,
+    tops: usize,
+    constants: Vec<Constant>,
+    /// The variables that may be used here.
+    visible: Mask,
+    mentions: Mentions,
+}
+
+impl Checker<'_> {
+    fn conjunction(&mut self, part: &Conjunction<Term>) -> Result<Conjunction<Slot>, PatternError> {
+        let outside = self.visible;
+        let mut variables = Vec::new();
+        for term in &part.variables {
+            if let Term::Variable(variable) = term {
+                let slot = self.slot_of(*variable);
+                self.visible.insert(slot);
+                variables.push(slot);
+            }
+        }
+        let atoms = part.atoms.iter().map(|atom| self.atom(atom)).collect::<Result<_, _>>()?;
+        self.visible = outside;
+        Ok(Conjunction { variables, atoms })
+    }
+
+    fn atom(&mut self, atom: &Atom<Term>) -> Result<Atom<Slot>, PatternError> {
+        Ok(match atom {
+            Atom::Edge { from, label, to } => {
+                let (from, to) = self.edge(from, *label, to)?;
+                Atom::Edge { from, label: *label, to }
+            }
+            Atom::Present { holder, attribute } => {
+                Atom::Present { holder: self.carrier(holder, *attribute)?, attribute: *attribute }
+            }
+            Atom::Guard { holder, attribute, comparison, operand } => {
+                let holder = self.carrier(holder, *attribute)?;
+                let operand = self.operand(*attribute, *comparison, operand)?;
+                Atom::Guard { holder, attribute: *attribute, comparison: *comparison, operand }
+            }
+            Atom::Distinct(a, b) => Atom::Distinct(self.term(a)?, self.term(b)?),
+            Atom::Distance { from, to, comparison, metres } => {
+                let (from, to) = (self.term(from)?, self.term(to)?);
+                for slot in [from, to] {
+                    if let Some(id) = self.type_of(slot)
+                        && !self.maybe_geometric(id)
+                    {
+                        return Err(PatternError::NotGeometric { node_type: self.type_name(id) });
+                    }
+                }
+                self.mentions.add_transforms();
+                Atom::Distance { from, to, comparison: *comparison, metres: *metres }
+            }
+            Atom::Without(part) => Atom::Without(self.conjunction(part)?),
+        })
+    }
+
+    fn edge(&mut self, from: &Term, label: LabelId, to: &Term) -> Result<(Slot, Slot), PatternError> {
+        let name = self.dictionary.label_name(label).ok_or(PatternError::UnknownLabel { id: label })?.clone();
+        let (from, to) = (self.term(from)?, self.term(to)?);
+        let (start, end) = (self.type_of(from), self.type_of(to));
+        let fits = |id: Option<TypeId>, end| id.is_none_or(|id| self.dictionary.overlap(id, end));
+        if !self.dictionary.signatures(label).iter().any(|s| fits(start, s.from) && fits(end, s.to)) {
+            let name_of = |id: Option<TypeId>| id.map_or_else(|| "constant".into(), |id| self.type_name(id));
+            return Err(PatternError::WrongSignature { label: name, from: name_of(start), to: name_of(end) });
+        }
+        self.mentions.add_label(label);
+        Ok((from, to))
+    }
+
+    fn carrier(
+        &mut self,
+        holder: &Carrier<Term>,
+        attribute: AttributeId,
+    ) -> Result<Carrier<Slot>, PatternError> {
+        let unknown = PatternError::UnknownAttribute { id: attribute };
+        let (Some(name), Some(declared)) =
+            (self.dictionary.attribute_name(attribute).cloned(), self.dictionary.holder(attribute))
+        else {
+            return Err(unknown);
+        };
+        self.mentions.add_attribute(attribute);
+        let wrong = PatternError::WrongHolder { attribute: name };
+        let overlap = |slot: Option<TypeId>, with| slot.is_none_or(|id| self.dictionary.overlap(id, with));
+        match holder {
+            Carrier::Node(node) => {
+                let slot = self.slot(node)?;
+                let fits = matches!(declared, HolderType::Node(on) if overlap(self.type_of(slot), on));
+                if !fits {
+                    return Err(wrong);
+                }
+                Ok(Carrier::Node(self.term(node)?))
+            }
+            Carrier::Edge { from, label, to } => {
+                let (from, to) = self.edge(from, *label, to)?;
+                let overlap =
+                    |slot, with| self.type_of(slot).is_none_or(|id| self.dictionary.overlap(id, with));
+                let fits = matches!(declared, HolderType::Edge { label: on, signature }
+                    if on == *label && overlap(from, signature.from) && overlap(to, signature.to));
+                if !fits {
+                    return Err(wrong);
+                }
+                Ok(Carrier::Edge { from, label: *label, to })
+            }
+        }
+    }
+
+    fn operand(
+        &mut self,
+        attribute: AttributeId,
+        comparison: Comparison,
+        operand: &Right<Term>,
+    ) -> Result<Right<Slot>, PatternError> {
+        let dictionary = self.dictionary;
+        let unknown = PatternError::UnknownAttribute { id: attribute };
+        let (Some(name), Some(kind)) = (dictionary.attribute_name(attribute), dictionary.kind(attribute))
+        else {
+            return Err(unknown);
+        };
+        let ordered = !matches!(comparison, Comparison::Equal | Comparison::NotEqual);
+        let wrong = || PatternError::WrongKind { attribute: name.clone(), kind };
+        if ordered && kind != Kind::Number {
+            return Err(wrong());
+        }
+        match operand {
+            Right::Value(value) => match (kind, value) {
+                (Kind::Number, Value::Number(_))
+                | (Kind::Text, Value::Text(_))
+                | (Kind::Bool, Value::Bool(_))
+                | (Kind::Node(_), Value::Node(_)) => Ok(Right::Value(value.clone())),
+                _ => Err(wrong()),
+            },
+            Right::Term(term) => {
+                let slot = self.term(term)?;
+                match (kind, self.type_of(slot)) {
+                    (Kind::Node(_), None) => Ok(Right::Term(slot)),
+                    (Kind::Node(target), Some(id)) if dictionary.overlap(target, id) => Ok(Right::Term(slot)),
+                    _ => Err(wrong()),
+                }
+            }
+            Right::Attribute(holder, other) => {
+                let holder = self.carrier(holder, *other)?;
+                match (kind, dictionary.kind(*other)) {
+                    (Kind::Node(_), Some(Kind::Node(_))) => {}
+                    (kind, Some(other)) if kind == other => {}
+                    _ => return Err(wrong()),
+                }
+                Ok(Right::Attribute(holder, *other))
+            }
+        }
+    }
+
+    /// The slot of a term that may be used here.
+    fn term(&mut self, term: &Term) -> Result<Slot, PatternError> {
+        self.slot(term)
+    }
+
+    fn slot(&mut self, term: &Term) -> Result<Slot, PatternError> {
+        let constant = match term {
+            Term::Variable(variable) => {
+                let slot = self.slot_of(*variable);
+                if self.visible.contains(slot) {
+                    return Ok(slot);
+                }
+                return Err(PatternError::OutOfScope { variable: *variable });
+            }
+            Term::Node(id) => Constant::Node(*id),
+            Term::Named(name) => Constant::Named(name.clone()),
+        };
+        let same = |other: &Constant| match (&constant, other) {
+            (Constant::Node(a), Constant::Node(b)) => a == b,
+            (Constant::Named(a), Constant::Named(b)) => a == b,
+            _ => false,
+        };
+        let at = self.constants.iter().position(same).unwrap_or_else(|| {
+            self.constants.push(constant.clone());
+            self.constants.len() - 1
+        });
+        let index = self.types.len() + at;
+        if index >= SLOTS { Err(PatternError::TooLarge { count: index + 1 }) } else { Ok(slot_at(index)) }
+    }
+
+    fn slot_of(&self, variable: Variable) -> Slot {
+        match variable.scope {
+            Scope::Top => slot_at(usize::from(variable.index)),
+            Scope::Local => slot_at(self.tops + usize::from(variable.index)),
+        }
+    }
+
+    /// The type of a variable; constants have none.
+    fn type_of(&self, slot: Slot) -> Option<TypeId> {
+        self.types.get(usize::from(slot.0)).copied()
+    }
+
+    fn maybe_geometric(&self, id: TypeId) -> bool {
+        let geometric = |id| self.dictionary.nature(id) == Some(Nature::Geometric);
+        self.dictionary.types().any(|sub| self.dictionary.is_a(sub, id) && geometric(sub))
+    }
+
+    fn type_name(&self, id: TypeId) -> Name {
+        self.dictionary.type_name(id).cloned().unwrap_or_else(|| id.to_string().into())
+    }
+}
+
+impl Pattern {
+    /// What stands for constants in a state; [`NodeId::NOWHERE`] for a name that no node has.
+    pub(super) fn constants_in(&self, state: &crate::state::State) -> impl Iterator<Item = NodeId> {
+        self.constants.iter().map(move |constant| match constant {
+            Constant::Node(id) => *id,
+            Constant::Named(name) => state.names.get(name).unwrap_or(NodeId::NOWHERE),
+        })
+    }
+}

@@ -1,0 +1,148 @@
+//! The join order: what to look at next, decided once per pattern and set of fixed variables.
+//!
+//! Idea: greedy, from bound to unbound. A part whose variables are all bound filters at once; else a part with
+//! one bound end walks along an edge or a reference; else the variable that most parts wait for is drawn from the
+//! nodes of its type. Invariant: when a step runs, every slot it reads is bound.
+
+use super::{Atom, Carrier, Comparison, Conjunction, Right, Slot};
+use crate::id::{AttributeId, LabelId};
+
+/// A set of slots.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(super) struct Mask(u64);
+
+impl Mask {
+    pub(super) fn insert(&mut self, slot: Slot) {
+        self.0 |= 1 << (slot.0 % 64);
+    }
+
+    pub(super) fn contains(self, slot: Slot) -> bool {
+        slot.0 < 64 && self.0 >> slot.0 & 1 == 1
+    }
+
+    fn includes(self, other: Self) -> bool {
+        other.0 & !self.0 == 0
+    }
+
+    fn union(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    fn minus(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
+}
+
+/// One step of a join.
+#[derive(Debug, Clone)]
+pub(super) enum Step {
+    /// Filter: the part, all of whose slots are bound. Never a negated one.
+    Check(Atom<Slot>),
+    /// Bind `to` to the ends of the edges that leave `from`.
+    Forward { from: Slot, label: LabelId, to: Slot },
+    /// Bind `from` to the starts of the edges that reach `to`.
+    Backward { from: Slot, label: LabelId, to: Slot },
+    /// Bind `to` to the node that the attribute names.
+    Follow { holder: Carrier<Slot>, attribute: AttributeId, to: Slot },
+    /// Bind the variable to every node of its type.
+    Scan(Slot),
+    /// Filter: the steps must have no match.
+    Without(Vec<Step>),
+}
+
+pub(super) struct Planner {
+    pub(super) tops: usize,
+}
+
+impl Planner {
+    /// A join order for `part`, when the slots in `bound` are bound.
+    pub(super) fn plan(&self, part: &Conjunction<Slot>, mut bound: Mask) -> Vec<Step> {
+        let mut waiting: Vec<&Atom<Slot>> = part.atoms.iter().collect();
+        let mut steps = Vec::new();
+        loop {
+            let mut at = 0;
+            while at < waiting.len() {
+                if bound.includes(free(waiting[at])) {
+                    steps.push(match waiting.remove(at) {
+                        Atom::Without(part) => Step::Without(self.plan(part, bound)),
+                        atom => Step::Check(atom.clone()),
+                    });
+                } else {
+                    at += 1;
+                }
+            }
+            if let Some((at, step, slot)) =
+                waiting.iter().enumerate().find_map(|(at, atom)| walk(atom, bound).map(|(s, t)| (at, s, t)))
+            {
+                waiting.remove(at);
+                steps.push(step);
+                bound.insert(slot);
+                continue;
+            }
+            let unbound = part.variables.iter().copied().filter(|&slot| !bound.contains(slot));
+            let wanted = |slot: &Slot| waiting.iter().filter(|atom| free(atom).contains(*slot)).count();
+            // The first of the most wanted, so that the order of declaration breaks ties.
+            let Some(slot) = unbound.rev().max_by_key(wanted) else { break };
+            steps.push(Step::Scan(slot));
+            bound.insert(slot);
+        }
+        debug_assert!(waiting.is_empty(), "all variables of the {} outer ones are bound", self.tops);
+        steps
+    }
+}
+
+/// The step and the slot by which a part binds its one unbound slot, if it can.
+fn walk(atom: &Atom<Slot>, bound: Mask) -> Option<(Step, Slot)> {
+    match *atom {
+        Atom::Edge { from, label, to } => match (bound.contains(from), bound.contains(to)) {
+            (true, false) => Some((Step::Forward { from, label, to }, to)),
+            (false, true) => Some((Step::Backward { from, label, to }, from)),
+            _ => None,
+        },
+        Atom::Guard { ref holder, attribute, comparison: Comparison::Equal, operand: Right::Term(to) }
+            if !bound.contains(to) && bound.includes(carried(holder)) =>
+        {
+            Some((Step::Follow { holder: holder.clone(), attribute, to }, to))
+        }
+        _ => None,
+    }
+}
+
+/// The slots that a part reads, without the local variables of negated parts.
+fn free(atom: &Atom<Slot>) -> Mask {
+    let pair = |a: Slot, b: Slot| {
+        let mut mask = Mask::default();
+        mask.insert(a);
+        mask.insert(b);
+        mask
+    };
+    match atom {
+        Atom::Edge { from, to, .. } | Atom::Distinct(from, to) | Atom::Distance { from, to, .. } => {
+            pair(*from, *to)
+        }
+        Atom::Present { holder, .. } => carried(holder),
+        Atom::Guard { holder, operand, .. } => carried(holder).union(match operand {
+            Right::Value(_) => Mask::default(),
+            Right::Term(slot) => pair(*slot, *slot),
+            Right::Attribute(holder, _) => carried(holder),
+        }),
+        Atom::Without(part) => {
+            let all = part.atoms.iter().map(free).fold(Mask::default(), Mask::union);
+            let mut own = Mask::default();
+            part.variables.iter().for_each(|&slot| own.insert(slot));
+            all.minus(own)
+        }
+    }
+}
+
+fn carried(holder: &Carrier<Slot>) -> Mask {
+    let mut mask = Mask::default();
+    match *holder {
+        Carrier::Node(node) => mask.insert(node),
+        Carrier::Edge { from, to, .. } => {
+            mask.insert(from);
+            mask.insert(to);
+        }
+    }
+    mask
+}

@@ -1,0 +1,121 @@
+//! Replay: from a state and the deltas after it to the state now, without asking anybody for permission again.
+//!
+//! Invariant: replaying what a graph published gives its export, byte for byte. A delta that cannot have come
+//! after the state it is applied to is an error that names the version, never a panic.
+
+use crate::delta::{Change, Delta};
+use crate::id::{EdgeKey, Holder, NodeId, Version};
+use crate::state::{Scratch, State, same_transform};
+use crate::value::Value;
+
+/// Why deltas do not continue a state.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ReplayError {
+    /// The initial state is not one of this dictionary.
+    #[error(transparent)]
+    Restore(#[from] crate::export::RestoreError),
+    /// A version is missing or comes twice.
+    #[error("version {} cannot follow version {}", found.0, at.0)]
+    Gap {
+        /// The version of the state.
+        at: Version,
+        /// The version of the delta.
+        found: Version,
+    },
+    /// A change does not fit the state.
+    #[error("version {}: change {change} does not fit", version.0)]
+    Misfit {
+        /// The version of the delta.
+        version: Version,
+        /// The position of the change in it.
+        change: usize,
+    },
+}
+
+/// Applies one delta.
+pub(crate) fn apply(state: &mut State, delta: &Delta) -> Result<(), ReplayError> {
+    let (at, found) = (state.version, delta.version);
+    if Some(found.0) != at.0.checked_add(1) {
+        return Err(ReplayError::Gap { at, found });
+    }
+    let before = state.clone();
+    for (index, change) in delta.changes.iter().enumerate() {
+        redo(state, change, found).ok_or(ReplayError::Misfit { version: found, change: index })?;
+    }
+    crate::transaction::apply::judge(&before, state)
+        .map_err(|_| ReplayError::Misfit { version: found, change: delta.changes.len() })?;
+    (state.version, state.time) = (found, delta.time);
+    state.scratch = Scratch::default();
+    Ok(())
+}
+
+/// Applies one change, or `None` if the state is not the one before it.
+fn redo(state: &mut State, change: &Change, since: Version) -> Option<()> {
+    let fits = |found: bool| found.then_some(());
+    match change {
+        Change::AttributeRemoved { holder, attribute, old } => {
+            fits(state.cell(*holder, *attribute)?.value.same(old))?;
+            state.remove_attribute(*holder, *attribute);
+        }
+        Change::EdgeRemoved { edge } => {
+            state.edge(*edge)?;
+            state.remove_edge(*edge);
+        }
+        Change::TransformRemoved { parent, child, .. } => {
+            fits(state.node(*child)?.joint.as_ref()?.parent == *parent)?;
+            state.remove_transform(*child);
+        }
+        Change::NodeRemoved { node, name, .. } => {
+            fits(*state.node(*node)?.name == **name)?;
+            state.remove_node(*node);
+        }
+        Change::NodeAdded { node, name, node_type } => {
+            state.dictionary.type_name(*node_type)?;
+            fits(*node >= state.next && *node < NodeId::NOWHERE && state.names.get(name).is_none())?;
+            state.insert_node(*node, name.clone(), *node_type, since);
+        }
+        Change::TransformAdded { parent, child, new } => {
+            fits(state.node(*parent).is_some() && state.node(*child)?.joint.is_none() && parent != child)?;
+            state.insert_transform(*parent, *child, *new, since);
+        }
+        Change::TransformChanged { parent, child, old, new } => {
+            let joint = state.node(*child)?.joint.as_ref()?;
+            fits(joint.parent == *parent && same_transform(&joint.transform, old))?;
+            state.insert_transform(*parent, *child, *new, since);
+        }
+        Change::EdgeAdded { edge } => {
+            let EdgeKey { from, label, to } = *edge;
+            let (start, end) = (state.node(from)?.node_type, state.node(to)?.node_type);
+            fits(from != to && state.dictionary.allows(label, start, end) && state.edge(*edge).is_none())?;
+            state.insert_edge(*edge, since);
+        }
+        Change::AttributeAdded { holder, attribute, new } => {
+            fits(state.cell(*holder, *attribute).is_none())?;
+            write(state, *holder, *attribute, new, since)?;
+        }
+        Change::AttributeChanged { holder, attribute, old, new } => {
+            fits(state.cell(*holder, *attribute)?.value.same(old))?;
+            write(state, *holder, *attribute, new, since)?;
+        }
+    }
+    Some(())
+}
+
+fn write(
+    state: &mut State,
+    holder: Holder,
+    attribute: crate::id::AttributeId,
+    value: &Value,
+    since: Version,
+) -> Option<()> {
+    state.dictionary.kind(attribute)?;
+    match holder {
+        Holder::Node(node) => state.node(node).map(|_| ())?,
+        Holder::Edge(key) => state.edge(key).map(|_| ())?,
+    }
+    if let Value::Node(target) = value {
+        state.node(*target)?;
+    }
+    state.insert_attribute(holder, attribute, value.clone(), since);
+    Some(())
+}

@@ -1,0 +1,214 @@
+//! Snapshots: one state of the graph, for as long as anybody wants to look at it.
+//!
+//! Taking one costs a reference count, reading one takes no lock, holding one keeps only what has changed since.
+
+use std::sync::Arc;
+
+use nalgebra::Isometry3;
+
+use crate::chain::ChainError;
+use crate::dictionary::Dictionary;
+use crate::id::{AttributeId, EdgeKey, Holder, LabelId, NodeId, ResourceId, Time, TypeId, Version};
+use crate::state::{Cell, Edge, Node, State};
+use crate::transaction::Lease;
+use crate::value::Value;
+
+/// An immutable state of the graph.
+#[derive(Debug, Clone)]
+pub struct Snapshot {
+    state: Arc<State>,
+}
+
+/// An attribute as a snapshot shows it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AttributeView<'a> {
+    /// Which attribute.
+    pub attribute: AttributeId,
+    /// Its value.
+    pub value: &'a Value,
+    /// The version that wrote it.
+    pub since: Version,
+}
+
+/// An edge as a snapshot shows it.
+#[derive(Debug, Clone, Copy)]
+pub struct EdgeView<'a> {
+    /// Which edge.
+    pub key: EdgeKey,
+    edge: &'a Edge,
+}
+
+impl<'a> EdgeView<'a> {
+    /// The version that added it.
+    pub fn since(&self) -> Version {
+        self.edge.since
+    }
+
+    /// Its attributes, by id.
+    pub fn attributes(&self) -> impl Iterator<Item = AttributeView<'a>> + use<'a> {
+        self.edge.attributes.iter().map(Cell::view)
+    }
+}
+
+/// A node as a snapshot shows it.
+#[derive(Debug, Clone, Copy)]
+pub struct NodeView<'a> {
+    /// Which node.
+    pub id: NodeId,
+    node: &'a Node,
+}
+
+impl<'a> NodeView<'a> {
+    /// Its name.
+    pub fn name(&self) -> &'a str {
+        &self.node.name
+    }
+
+    /// Its type.
+    pub fn node_type(&self) -> TypeId {
+        self.node.node_type
+    }
+
+    /// The version that added it.
+    pub fn since(&self) -> Version {
+        self.node.since
+    }
+
+    /// Its attributes, by id.
+    pub fn attributes(&self) -> impl Iterator<Item = AttributeView<'a>> + use<'a> {
+        self.node.attributes.iter().map(Cell::view)
+    }
+
+    /// The edges that leave it, by label and end.
+    pub fn edges(&self) -> impl Iterator<Item = EdgeView<'a>> + use<'a> {
+        let from = self.id;
+        self.node
+            .outgoing
+            .iter()
+            .map(move |edge| EdgeView { key: EdgeKey { from, label: edge.label, to: edge.to }, edge })
+    }
+
+    /// The edges that reach it, by label and start.
+    pub fn incoming(&self) -> impl Iterator<Item = EdgeKey> + use<'a> {
+        let to = self.id;
+        self.node.incoming.iter().map(move |&(label, from)| EdgeKey { from, label, to })
+    }
+
+    /// What it hangs below in the geometric quiver, its pose there, and the version that gave it.
+    pub fn parent(&self) -> Option<(NodeId, &'a Isometry3<f64>, Version)> {
+        self.node.joint.as_ref().map(|joint| (joint.parent, &joint.transform, joint.since))
+    }
+
+    /// What hangs below it in the geometric quiver, by id.
+    pub fn children(&self) -> &'a [NodeId] {
+        &self.node.children
+    }
+}
+
+impl Cell {
+    fn view(&self) -> AttributeView<'_> {
+        AttributeView { attribute: self.attribute, value: &self.value, since: self.since }
+    }
+}
+
+impl Snapshot {
+    pub(crate) fn new(state: Arc<State>) -> Self {
+        Self { state }
+    }
+
+    pub(crate) fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// The version.
+    pub fn version(&self) -> Version {
+        self.state.version
+    }
+
+    /// The time of the commit that made it.
+    pub fn time(&self) -> Time {
+        self.state.time
+    }
+
+    /// The dictionary of the graph.
+    pub fn dictionary(&self) -> &Arc<Dictionary> {
+        &self.state.dictionary
+    }
+
+    /// The node of that name.
+    pub fn node(&self, name: &str) -> Option<NodeId> {
+        self.state.names.get(name)
+    }
+
+    /// A node.
+    pub fn get(&self, id: NodeId) -> Option<NodeView<'_>> {
+        self.state.node(id).map(|node| NodeView { id, node })
+    }
+
+    /// The name of a node.
+    pub fn name(&self, id: NodeId) -> Option<&str> {
+        self.state.node(id).map(|node| &*node.name)
+    }
+
+    /// All nodes, by id.
+    pub fn nodes(&self) -> impl Iterator<Item = NodeView<'_>> {
+        self.state.nodes.iter().map(|(index, node)| NodeView { id: NodeId::at(index), node })
+    }
+
+    /// The nodes of a type and its subtypes, by type and id.
+    pub fn nodes_of(&self, node_type: TypeId) -> impl Iterator<Item = NodeId> + '_ {
+        let dictionary = &self.state.dictionary;
+        let subtypes = dictionary.types().filter(move |&sub| dictionary.is_a(sub, node_type));
+        subtypes.flat_map(|sub| self.state.nodes_exactly(sub)).copied()
+    }
+
+    /// All symbolic edges, by start, label and end.
+    pub fn edges(&self) -> impl Iterator<Item = EdgeView<'_>> {
+        self.nodes().flat_map(|node| node.edges())
+    }
+
+    /// An edge.
+    pub fn edge(&self, from: NodeId, label: LabelId, to: NodeId) -> Option<EdgeView<'_>> {
+        let key = EdgeKey { from, label, to };
+        self.state.edge(key).map(|edge| EdgeView { key, edge })
+    }
+
+    /// Whether the edge is there.
+    pub fn has_edge(&self, from: NodeId, label: LabelId, to: NodeId) -> bool {
+        self.edge(from, label, to).is_some()
+    }
+
+    /// The value of an attribute.
+    pub fn attribute(&self, holder: impl Into<Holder>, attribute: AttributeId) -> Option<&Value> {
+        self.state.cell(holder.into(), attribute).map(|cell| &cell.value)
+    }
+
+    /// An attribute with the version that wrote it.
+    pub fn attribute_view(
+        &self,
+        holder: impl Into<Holder>,
+        attribute: AttributeId,
+    ) -> Option<AttributeView<'_>> {
+        self.state.cell(holder.into(), attribute).map(Cell::view)
+    }
+
+    /// The pose of frame `to` in frame `from`: maps coordinates of `to` into `from`. See the README.
+    pub fn transform(&self, from: NodeId, to: NodeId) -> Result<Isometry3<f64>, ChainError> {
+        self.state.transform(from, to)
+    }
+
+    /// The distance between the origins of two frames.
+    pub fn distance(&self, from: NodeId, to: NodeId) -> Result<f64, ChainError> {
+        self.state.distance(from, to)
+    }
+
+    /// The root of the geometric quiver, if any transform is there.
+    pub fn root(&self) -> Option<NodeId> {
+        self.state.root
+    }
+
+    /// Who holds a resource.
+    pub fn lease(&self, resource: ResourceId) -> Option<Lease> {
+        self.state.lease(resource)
+    }
+}

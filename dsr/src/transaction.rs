@@ -1,0 +1,217 @@
+//! Transactions: a list of edits by one writer that is applied as a whole or not at all.
+//!
+//! A transaction is plain data, made without the graph and checked at commit. Edits are applied in order; what
+//! concerns the graph as a whole (one rooted tree of transforms, reflexes) is judged at the end, so a node can
+//! change its parent by a removal and a setting in one transaction.
+
+pub(crate) mod apply;
+mod error;
+mod lease;
+mod tree;
+
+use std::sync::Arc;
+
+use nalgebra::Isometry3;
+use serde::{Deserialize, Serialize};
+
+pub use self::error::TransactionError;
+pub use self::lease::{Lease, Preemption, Priority};
+use crate::id::{AgentId, AttributeId, LabelId, ReflexId, ResourceId, TypeId, Version};
+use crate::reflex::Reflex;
+use crate::value::{NewValue, NodeRef};
+
+/// Names the holder of an attribute in an edit.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[expect(missing_docs, reason = "the fields are the terms of the variant")]
+pub enum HolderRef {
+    /// A node.
+    Node(NodeRef),
+    /// An edge, which must exist when its attribute is set.
+    Edge { from: NodeRef, label: LabelId, to: NodeRef },
+}
+
+impl HolderRef {
+    /// A node.
+    pub fn node(node: impl Into<NodeRef>) -> Self {
+        Self::Node(node.into())
+    }
+
+    /// An edge.
+    pub fn edge(from: impl Into<NodeRef>, label: LabelId, to: impl Into<NodeRef>) -> Self {
+        Self::Edge { from: from.into(), label, to: to.into() }
+    }
+}
+
+impl<N: Into<NodeRef>> From<N> for HolderRef {
+    fn from(node: N) -> Self {
+        Self::Node(node.into())
+    }
+}
+
+impl From<crate::id::Holder> for HolderRef {
+    fn from(holder: crate::id::Holder) -> Self {
+        match holder {
+            crate::id::Holder::Node(node) => Self::node(node),
+            crate::id::Holder::Edge(key) => Self::edge(key.from, key.label, key.to),
+        }
+    }
+}
+
+/// One edit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[expect(missing_docs, reason = "the fields are the terms of the variant")]
+pub enum Edit {
+    /// Adds a node; names are unique.
+    AddNode { name: Arc<str>, node_type: TypeId },
+    /// Removes a node with its edges, attributes, transforms and the attributes that refer to it.
+    RemoveNode { node: NodeRef },
+    /// Adds an edge; no change if it is there.
+    AddEdge { from: NodeRef, label: LabelId, to: NodeRef },
+    /// Removes an edge with its attributes; no change if it is not there.
+    RemoveEdge { from: NodeRef, label: LabelId, to: NodeRef },
+    /// Gives an attribute a value; no change if it has it.
+    SetAttribute { holder: HolderRef, attribute: AttributeId, value: NewValue },
+    /// Takes an attribute away; no change if it, or the edge that would hold it, is not there.
+    ClearAttribute { holder: HolderRef, attribute: AttributeId },
+    /// Gives the pose of `child` in the frame of `parent`.
+    SetTransform { parent: NodeRef, child: NodeRef, transform: Isometry3<f64> },
+    /// Takes `child` off `parent`; no change if it does not hang there.
+    RemoveTransform { parent: NodeRef, child: NodeRef },
+    /// Takes a lease for the writer, from a holder of lower priority if that one yields.
+    Claim { resource: ResourceId, priority: Priority, preemption: Preemption },
+    /// Gives the writer's lease back; no change if the writer does not hold it.
+    Release { resource: ResourceId },
+    /// Drops all leases of an agent and breaks all its reflexes. For the agent itself and for [`AgentId::DSR`].
+    Expire { agent: AgentId },
+}
+
+/// A list of edits by one writer.
+#[derive(Debug, Clone)]
+pub struct Transaction {
+    pub(crate) writer: AgentId,
+    pub(crate) expected: Option<Version>,
+    pub(crate) edits: Vec<Edit>,
+    pub(crate) guards: Vec<Reflex>,
+    pub(crate) dismissed: Vec<ReflexId>,
+}
+
+impl Transaction {
+    /// Nothing yet, by this writer.
+    pub fn new(writer: AgentId) -> Self {
+        Self { writer, expected: None, edits: Vec::new(), guards: Vec::new(), dismissed: Vec::new() }
+    }
+
+    /// Who writes.
+    pub fn writer(&self) -> AgentId {
+        self.writer
+    }
+
+    /// The edits so far.
+    pub fn edits(&self) -> &[Edit] {
+        &self.edits
+    }
+
+    /// Refuses the commit if the graph is no longer at this version.
+    pub fn expect_version(&mut self, version: Version) -> &mut Self {
+        self.expected = Some(version);
+        self
+    }
+
+    /// Appends an edit.
+    pub fn push(&mut self, edit: Edit) -> &mut Self {
+        self.edits.push(edit);
+        self
+    }
+
+    /// Appends edits.
+    pub fn extend(&mut self, edits: impl IntoIterator<Item = Edit>) -> &mut Self {
+        self.edits.extend(edits);
+        self
+    }
+
+    /// Adds a node.
+    pub fn add_node(&mut self, name: impl Into<Arc<str>>, node_type: TypeId) -> &mut Self {
+        self.push(Edit::AddNode { name: name.into(), node_type })
+    }
+
+    /// Removes a node with all that touches it.
+    pub fn remove_node(&mut self, node: impl Into<NodeRef>) -> &mut Self {
+        self.push(Edit::RemoveNode { node: node.into() })
+    }
+
+    /// Adds an edge.
+    pub fn add_edge(
+        &mut self,
+        from: impl Into<NodeRef>,
+        label: LabelId,
+        to: impl Into<NodeRef>,
+    ) -> &mut Self {
+        self.push(Edit::AddEdge { from: from.into(), label, to: to.into() })
+    }
+
+    /// Removes an edge with its attributes.
+    pub fn remove_edge(
+        &mut self,
+        from: impl Into<NodeRef>,
+        label: LabelId,
+        to: impl Into<NodeRef>,
+    ) -> &mut Self {
+        self.push(Edit::RemoveEdge { from: from.into(), label, to: to.into() })
+    }
+
+    /// Sets an attribute of a node or of an edge.
+    pub fn set_attribute(
+        &mut self,
+        holder: impl Into<HolderRef>,
+        attribute: AttributeId,
+        value: impl Into<NewValue>,
+    ) -> &mut Self {
+        self.push(Edit::SetAttribute { holder: holder.into(), attribute, value: value.into() })
+    }
+
+    /// Takes an attribute away.
+    pub fn clear_attribute(&mut self, holder: impl Into<HolderRef>, attribute: AttributeId) -> &mut Self {
+        self.push(Edit::ClearAttribute { holder: holder.into(), attribute })
+    }
+
+    /// Gives the pose of `child` in the frame of `parent`.
+    pub fn set_transform(
+        &mut self,
+        parent: impl Into<NodeRef>,
+        child: impl Into<NodeRef>,
+        transform: Isometry3<f64>,
+    ) -> &mut Self {
+        self.push(Edit::SetTransform { parent: parent.into(), child: child.into(), transform })
+    }
+
+    /// Takes `child` off `parent`.
+    pub fn remove_transform(&mut self, parent: impl Into<NodeRef>, child: impl Into<NodeRef>) -> &mut Self {
+        self.push(Edit::RemoveTransform { parent: parent.into(), child: child.into() })
+    }
+
+    /// Takes a lease.
+    pub fn claim(&mut self, resource: ResourceId, priority: Priority, preemption: Preemption) -> &mut Self {
+        self.push(Edit::Claim { resource, priority, preemption })
+    }
+
+    /// Gives a lease back.
+    pub fn release(&mut self, resource: ResourceId) -> &mut Self {
+        self.push(Edit::Release { resource })
+    }
+
+    /// Registers a reflex, which lives from this commit until it fires or is dismissed. Its id is in
+    /// [`Commit::guards`](crate::Commit::guards), in the order of the calls.
+    pub fn guard(&mut self, reflex: Reflex) -> &mut Self {
+        self.guards.push(reflex);
+        self
+    }
+
+    /// Ends a reflex of the writer and gives back the leases it was registered with. If it has fired, the whole
+    /// transaction is refused: what it would have concluded is already undone.
+    pub fn dismiss(&mut self, reflex: ReflexId) -> &mut Self {
+        self.dismissed.push(reflex);
+        self
+    }
+}
