@@ -1,1 +1,46 @@
 //! Grounding, heuristics and forward search.
+//!
+//! [`ground`] turns a typed domain and problem into a [`Task`] once; [`solve`] answers any number of
+//! [`Query`]s on it (from which state, to which goal, without which operators) within a [`Budget`].
+//! Nothing here parses, prints, reads files or clocks.
+//!
+//! ```no_run
+//! use planner::{Budget, GroundOptions, Outcome, Query, SearchConfiguration, ground, solve};
+//!
+//! let domain = pddl::Source::new("d", "(define (domain hall) (:predicates (lit))
+//!     (:action switch :parameters () :precondition (not (lit)) :effect (lit)))");
+//! let problem = pddl::Source::new("p", "(define (problem dark) (:domain hall) (:init) (:goal (lit)))");
+//! let domain = pddl::parse_domain(&domain, &[]).model.expect("a correct domain");
+//! let problem = pddl::parse_problem(&problem, &domain).model.expect("a correct problem");
+//!
+//! let task = ground(&domain, &problem, &GroundOptions::default())?;
+//! let report = solve(&task, &Query::of(&task), &SearchConfiguration::default(), &Budget::default());
+//! let Outcome::Solved(plan) = report.outcome else { panic!("one step is enough") };
+//! assert_eq!(task.operator_name(plan.operators[0]), "(switch)");
+//! # Ok::<(), planner::GroundError>(())
+//! ```
+//!
+//! | module | holds |
+//! |---|---|
+//! | `ground` | from schemas to facts and operators |
+//! | `task` | the grounded task, states, successors, axioms, the delete relaxation |
+//! | `heuristics` | estimators, one file each |
+//! | `search` | search algorithms, configurations, the entry point |
+
+mod ground;
+mod heuristics;
+mod ids;
+mod search;
+mod task;
+
+pub use ground::{Feature, GroundError, GroundOptions, Origin, ground};
+pub use heuristics::{Costs, HeuristicKind, Properties};
+pub use ids::{FactId, OperatorId};
+pub use search::{
+    Budget, Engine, Limit, Outcome, Plan, Query, Report, SearchConfiguration, Statistics, UnsolvableReason,
+    Width, solve,
+};
+pub use task::{
+    AtomStatus, AxiomRule, ConditionalEffect, Fact, Goal, GroundAtom, Impossible, Literals, Operator, State,
+    Task,
+};

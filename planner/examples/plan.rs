@@ -1,0 +1,50 @@
+//! `plan DOMAIN PROBLEM [SEARCH] [-o PLAN]`: grounds and solves, for measuring. The command that users
+//! call is `pelea plan`.
+#![allow(clippy::print_stdout, clippy::print_stderr, missing_docs)]
+
+use planner::{Budget, GroundOptions, Outcome, Query, SearchConfiguration, ground, solve};
+use std::time::{Duration, Instant};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let start = Instant::now();
+    let mut arguments: Vec<String> = std::env::args().skip(1).collect();
+    let output = arguments.iter().position(|a| a == "-o").map(|i| arguments.drain(i..i + 2).nth(1));
+    let [domain, problem, rest @ ..] = arguments.as_slice() else {
+        return Err("DOMAIN PROBLEM [SEARCH]".into());
+    };
+    let configuration = match rest {
+        [name, ..] => SearchConfiguration::named(name).ok_or("no such search")?,
+        [] => SearchConfiguration::portfolio(),
+    };
+    let read =
+        |path: &String| std::fs::read_to_string(path).map(|text| pddl::Source::new(path.clone(), text));
+    let domain = pddl::parse_domain(&read(domain)?, &[]);
+    let domain = domain.model.ok_or_else(|| format!("{:?}", domain.diagnostics))?;
+    let problem = pddl::parse_problem(&read(problem)?, &domain);
+    let problem = problem.model.ok_or_else(|| format!("{:?}", problem.diagnostics))?;
+    eprintln!("parsed     {:9.3} s", start.elapsed().as_secs_f64());
+    let late = move || start.elapsed() > Duration::from_secs(300);
+    let task = ground(&domain, &problem, &GroundOptions { interrupted: &late, ..GroundOptions::default() })?;
+    eprintln!(
+        "grounded   {:9.3} s, {} facts, {} operators, {} axioms, {} goals",
+        start.elapsed().as_secs_f64(),
+        task.facts().len(),
+        task.operators().len(),
+        task.axioms().len(),
+        task.goal().literals.len()
+    );
+    let budget = Budget { interrupted: &late, memory_bytes: Some(5 << 30), ..Budget::default() };
+    let report = solve(&task, &Query::of(&task), &configuration, &budget);
+    let Outcome::Solved(plan) = &report.outcome else {
+        eprintln!("{:9.3} s {report:?}", start.elapsed().as_secs_f64());
+        return Ok(());
+    };
+    let lines: String = plan.operators.iter().map(|&o| task.operator_name(o) + "\n").collect();
+    let text = format!("{lines}; cost = {}\n", plan.cost / u64::from(task.cost_scale()));
+    match output.flatten() {
+        Some(path) => std::fs::write(path, text)?,
+        None => print!("{text}"),
+    }
+    eprintln!("solved     {:9.3} s {:?}", start.elapsed().as_secs_f64(), report.statistics);
+    Ok(())
+}

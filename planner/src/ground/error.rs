@@ -1,0 +1,100 @@
+//! What grounding asks for and how it refuses.
+
+use pddl::Span;
+use pddl::model::{Name, PredicateId};
+
+/// How to ground.
+#[derive(Clone, Copy)]
+pub struct GroundOptions<'a> {
+    /// Predicates whose facts outside events may make true or false: every type-correct instance
+    /// becomes a fact that is never taken as constant and never pruned, so that any perceived state
+    /// can be planned from without grounding again.
+    pub exogenous: &'a [PredicateId],
+    /// Most ground atoms.
+    pub atoms: usize,
+    /// Most ground operators.
+    pub operators: usize,
+    /// Asked now and then; `true` ends the work.
+    pub interrupted: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl Default for GroundOptions<'_> {
+    fn default() -> Self {
+        Self { exogenous: &[], atoms: 4_000_000, operators: 4_000_000, interrupted: &|| false }
+    }
+}
+
+/// A language feature that forward search does not handle yet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Feature {
+    /// Numbers in conditions, or numeric effects that conditions, costs or the metric read.
+    NumericFluents,
+    /// Functions to objects.
+    ObjectFluents,
+    /// Durative actions.
+    DurativeActions,
+    /// A metric that is not a sum of increasing costs to be minimised.
+    Metric,
+    /// An action whose cost is negative or undefined.
+    NegativeCost,
+    /// A cost that depends on a condition or a quantifier.
+    ConditionalCost,
+    /// Axioms that depend on their own negation.
+    UnstratifiedAxioms,
+    /// An initial task network.
+    TaskNetwork,
+    /// What the model itself does not hold; the span tells.
+    OutsideTheModel,
+}
+
+impl std::fmt::Display for Feature {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::NumericFluents => "numeric fluents",
+            Self::ObjectFluents => "object fluents",
+            Self::DurativeActions => "durative actions",
+            Self::Metric => "this metric",
+            Self::NegativeCost => "negative or undefined action costs",
+            Self::ConditionalCost => "conditional action costs",
+            Self::UnstratifiedAxioms => "axioms that depend on their own negation",
+            Self::TaskNetwork => "initial task networks",
+            Self::OutsideTheModel => "this language feature",
+        })
+    }
+}
+
+/// Whose text a span is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// The domain's.
+    Domain,
+    /// The problem's.
+    Problem,
+}
+
+/// Why there is no grounded task.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum GroundError {
+    /// Too many atoms or operators; the schema is the one at work, or with the most instances.
+    #[error("grounding exceeds its limit in `{schema}`")]
+    Limit {
+        /// The action, axiom or predicate that blew up.
+        schema: Name,
+    },
+    /// The caller's interruption came first.
+    #[error("grounding was interrupted in `{schema}`")]
+    Interrupted {
+        /// The action or axiom at work, or with the most instances.
+        schema: Name,
+    },
+    /// The task needs what the planner does not do.
+    #[error("the planner does not support {feature}")]
+    Unsupported {
+        /// What.
+        feature: Feature,
+        /// Whose text.
+        origin: Origin,
+        /// Where.
+        span: Span,
+    },
+}

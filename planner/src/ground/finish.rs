@@ -1,0 +1,202 @@
+//! Numbers the facts that remain and assembles the task.
+
+use super::atoms::AtomTable;
+use super::cost::{CostModel, scale};
+use super::error::{Feature, GroundError, GroundOptions, Origin};
+use super::formula::Formula;
+use super::instantiate::Lit;
+use super::prune::{Pruned, prune};
+use super::raw::{RawEffects, RawOperator, RawTask, marked};
+use crate::ids::{FactId, id32};
+use crate::task::{
+    AtomStatus, AxiomProgram, AxiomRule, ConditionalEffect, Fact, Goal, GroundAtom, Impossible, Literals,
+    Names, Operator, Relaxation, State, SuccessorTree, Task,
+};
+use pddl::model::{Domain, IndexVec, Problem};
+
+const NONE: u32 = u32::MAX;
+
+/// Builds the task of what `raw` and the analysis leave.
+#[expect(clippy::too_many_arguments, reason = "the last stage takes what all others made")]
+pub(crate) fn finish(
+    domain: &Domain,
+    problem: &Problem,
+    costs: &CostModel<'_>,
+    table: AtomTable,
+    raw: RawTask,
+    statics: u32,
+    initial: &[u32],
+    options: &GroundOptions<'_>,
+) -> Result<Task, GroundError> {
+    let known = id32(table.len());
+    let holds = marked(raw.atoms, (0..statics).chain(initial.iter().copied()));
+    let is_derived = |a: u32| a >= known || domain.predicates[table.predicate(a)].derived;
+    let derived = marked(raw.atoms, (statics..raw.atoms).filter(|&a| is_derived(a)));
+    let is_exogenous = |a: u32| a < known && options.exogenous.contains(&table.predicate(a));
+    let exogenous = marked(raw.atoms, (statics..raw.atoms).filter(|&a| is_exogenous(a)));
+    let pruned = prune(&raw, &holds, &derived, &exogenous);
+
+    let mut facts: IndexVec<crate::ids::FactId, Fact> = IndexVec::new();
+    let mut numbers = vec![NONE; raw.atoms as usize];
+    let mut status = Vec::with_capacity(known as usize);
+    for a in 0..raw.atoms {
+        let i = a as usize;
+        let kept = pruned.needed[i] && !pruned.always[i] && !pruned.never[i];
+        if kept {
+            let atom = (a < known)
+                .then(|| GroundAtom { predicate: table.predicate(a), arguments: table.objects(a) });
+            numbers[i] = facts.push(Fact { atom, derived: derived[i] }).0;
+        }
+        if a < known {
+            status.push(match kept {
+                true => AtomStatus::Fact(FactId(numbers[i])),
+                false if a < statics || pruned.always[i] => AtomStatus::AlwaysTrue,
+                false if pruned.never[i] => AtomStatus::NeverTrue,
+                false => AtomStatus::Irrelevant,
+            });
+        }
+    }
+    let goal = goal(&raw, &pruned, &numbers, &table);
+    let view = View { pruned: &pruned, numbers: &numbers };
+    let mut rules: Vec<AxiomRule> = Vec::new();
+    for (head, body) in raw.rules.iter().filter(|(h, _)| numbers[*h as usize] != NONE) {
+        if let Some(body) = view.literals(body) {
+            rules.push(AxiomRule { head: FactId(numbers[*head as usize]), body });
+        }
+    }
+    let cost_scale = if costs.is_unit() { 1 } else { scale(raw.operators.iter().map(|o| o.cost)) };
+    let operators: IndexVec<_, _> =
+        raw.operators.iter().filter_map(|o| view.operator(o, cost_scale)).collect();
+    drop(raw.operators);
+
+    let axioms = AxiomProgram::new(&facts, rules).map_err(|cycle| {
+        let predicate = facts[cycle.0].atom.as_ref().map(|a| a.predicate);
+        let axiom = domain.axioms.iter().find(|x| predicate.is_none_or(|p| p == x.predicate));
+        GroundError::Unsupported {
+            feature: Feature::UnstratifiedAxioms,
+            origin: Origin::Domain,
+            span: axiom.map_or(problem.goal_span, |x| x.span),
+        }
+    })?;
+    let mut state = State::empty(facts.len());
+    for &a in initial {
+        if numbers[a as usize] != NONE {
+            state.insert(FactId(numbers[a as usize]));
+        }
+    }
+    axioms.close(state.words_mut());
+    Ok(Task {
+        successors: SuccessorTree::new(facts.len(), &operators),
+        relaxation: Relaxation::new(&facts, &operators, &axioms, &goal),
+        facts,
+        operators,
+        axioms,
+        initial: state,
+        goal,
+        atoms: table,
+        status,
+        names: Names::of(domain, problem),
+        cost_scale,
+    })
+}
+
+struct View<'a> {
+    pruned: &'a Pruned,
+    numbers: &'a [u32],
+}
+
+impl View<'_> {
+    /// The facts of a conjunction; `None` if it never holds.
+    fn literals(&self, literals: &[Lit]) -> Option<Literals> {
+        let open = self.pruned.open(literals)?;
+        let facts = |negated: u32| {
+            let chosen = open.iter().filter(move |&&l| l & 1 == negated);
+            let mut facts: Vec<FactId> = chosen.map(|&l| FactId(self.numbers[(l >> 1) as usize])).collect();
+            facts.sort_unstable();
+            facts.into_boxed_slice()
+        };
+        Some(Literals { positive: facts(0), negative: facts(1) })
+    }
+
+    fn facts(&self, atoms: &[u32]) -> Box<[FactId]> {
+        let mut facts: Vec<FactId> =
+            atoms.iter().map(|&a| self.numbers[a as usize]).filter(|&n| n != NONE).map(FactId).collect();
+        facts.sort_unstable();
+        facts.into_boxed_slice()
+    }
+
+    fn effects(&self, effects: &RawEffects) -> (Box<[FactId]>, Box<[FactId]>) {
+        (self.facts(&effects.adds), self.facts(&effects.deletes))
+    }
+
+    /// The operator, unless it can never be applied or changes nothing that is needed.
+    fn operator(&self, raw: &RawOperator, cost_scale: u32) -> Option<Operator> {
+        let precondition = self.literals(&raw.precondition)?;
+        let (adds, deletes) = self.effects(&raw.effects);
+        let mut conditional = Vec::new();
+        for (condition, effects) in &raw.conditional {
+            let Some(condition) = self.literals(condition) else { continue };
+            let (adds, deletes) = self.effects(effects);
+            if !adds.is_empty() || !deletes.is_empty() {
+                conditional.push(ConditionalEffect { condition, adds, deletes });
+            }
+        }
+        if adds.is_empty() && deletes.is_empty() && conditional.is_empty() {
+            return None;
+        }
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "not negative; saturates"
+        )]
+        let cost = (raw.cost * f64::from(cost_scale)).round() as u32;
+        Some(Operator {
+            action: raw.action,
+            arguments: raw.arguments.clone(),
+            precondition,
+            adds,
+            deletes,
+            conditional: conditional.into(),
+            cost,
+        })
+    }
+}
+
+fn goal(raw: &RawTask, pruned: &Pruned, numbers: &[u32], table: &AtomTable) -> Goal {
+    let mut atoms = Vec::new();
+    let mut negated = Vec::new();
+    let mut formula = false;
+    let mut blame = |atom: Option<GroundAtom>, positive: bool| match atom {
+        Some(atom) if positive => atoms.push(atom),
+        Some(atom) => negated.push(atom),
+        None => formula = true,
+    };
+    for conjunct in &raw.refuted {
+        match conjunct {
+            Formula::Literal(l) => {
+                let objects = l.arguments.iter().map(|t| match t {
+                    pddl::model::Term::Object(o) => Some(*o),
+                    pddl::model::Term::Variable(_) => None,
+                });
+                let atom = objects.collect::<Option<_>>();
+                blame(atom.map(|arguments| GroundAtom { predicate: l.predicate, arguments }), l.positive);
+            }
+            _ => blame(None, true),
+        }
+    }
+    for &l in raw.goal.iter().filter(|&&l| pruned.constant(l) == Some(false)) {
+        let a = l >> 1;
+        let atom = ((a as usize) < table.len())
+            .then(|| GroundAtom { predicate: table.predicate(a), arguments: table.objects(a) });
+        blame(atom, l & 1 == 0);
+    }
+    let impossible = if !atoms.is_empty() {
+        Some(Impossible::Atoms(atoms))
+    } else if !negated.is_empty() {
+        Some(Impossible::NegatedAtoms(negated))
+    } else {
+        formula.then_some(Impossible::Formula)
+    };
+    let literals = View { pruned, numbers }.literals(&raw.goal).unwrap_or_default();
+    Goal { literals, impossible }
+}

@@ -1,0 +1,166 @@
+//! Conditions in negation normal form.
+//!
+//! Idea: negations pushed to the literals, implications gone, conjunctions and disjunctions flat,
+//! existential variables of the top level hoisted to be joined like parameters. What stays nested
+//! (universal parts, disjunctions) is expanded once a binding is known, where static facts decide
+//! most of it; what is left becomes copies of the operator or an auxiliary axiom, so no exponential
+//! normal form is ever built. Invariant: the formula is equivalent to the condition, negated or not.
+//!
+//! Source: Helmert, "Concise finite-domain representations", AIJ 2009, §4.
+
+use super::error::{Feature, GroundError, Origin};
+use pddl::model::{Condition, ConditionKind, PredicateId, Term, VariableId};
+
+/// An atom or its negation over terms.
+#[derive(Clone, Debug)]
+pub(crate) struct Literal {
+    pub(crate) positive: bool,
+    pub(crate) predicate: PredicateId,
+    pub(crate) arguments: Box<[Term]>,
+}
+
+/// A condition without negations above literals.
+#[derive(Clone, Debug)]
+pub(crate) enum Formula {
+    And(Vec<Formula>),
+    Or(Vec<Formula>),
+    Exists(Vec<VariableId>, Box<Formula>),
+    Forall(Vec<VariableId>, Box<Formula>),
+    Literal(Literal),
+    Same { positive: bool, left: Term, right: Term },
+}
+
+impl Formula {
+    pub(crate) fn always() -> Self {
+        Self::And(Vec::new())
+    }
+
+    /// The normal form of `condition`, or of its negation.
+    pub(crate) fn of(condition: &Condition, positive: bool, origin: Origin) -> Result<Self, GroundError> {
+        let unsupported = |feature| Err(GroundError::Unsupported { feature, origin, span: condition.span });
+        let all = |parts: &[Condition], positive| {
+            parts.iter().map(|p| Self::of(p, positive, origin)).collect::<Result<Vec<_>, _>>()
+        };
+        Ok(match (&condition.kind, positive) {
+            (ConditionKind::And(parts), true) => Self::and(all(parts, true)?),
+            (ConditionKind::And(parts), false) => Self::or(all(parts, false)?),
+            (ConditionKind::Or(parts), true) => Self::or(all(parts, true)?),
+            (ConditionKind::Or(parts), false) => Self::and(all(parts, false)?),
+            (ConditionKind::Not(inner), _) => Self::of(inner, !positive, origin)?,
+            (ConditionKind::Imply(left, right), true) => {
+                Self::or(vec![Self::of(left, false, origin)?, Self::of(right, true, origin)?])
+            }
+            (ConditionKind::Imply(left, right), false) => {
+                Self::and(vec![Self::of(left, true, origin)?, Self::of(right, false, origin)?])
+            }
+            (ConditionKind::Exists(vs, inner), true) | (ConditionKind::Forall(vs, inner), false) => {
+                Self::Exists(vs.clone(), Box::new(Self::of(inner, positive, origin)?))
+            }
+            (ConditionKind::Exists(vs, inner), false) | (ConditionKind::Forall(vs, inner), true) => {
+                Self::Forall(vs.clone(), Box::new(Self::of(inner, positive, origin)?))
+            }
+            (ConditionKind::Atom(atom), _) => Self::Literal(Literal {
+                positive,
+                predicate: atom.predicate,
+                arguments: atom.arguments.clone().into(),
+            }),
+            (&ConditionKind::Same(left, right), _) => Self::Same { positive, left, right },
+            (ConditionKind::Compare(..), _) => return unsupported(Feature::NumericFluents),
+            (ConditionKind::FluentIs(..), _) => return unsupported(Feature::ObjectFluents),
+        })
+    }
+
+    pub(crate) fn and(parts: Vec<Self>) -> Self {
+        let mut flat = Vec::with_capacity(parts.len());
+        for part in parts {
+            match part {
+                Self::And(inner) => flat.extend(inner),
+                Self::Or(inner) if inner.is_empty() => return Self::Or(inner),
+                other => flat.push(other),
+            }
+        }
+        // Cheap tests first: a false literal spares the expansion of a quantifier.
+        flat.sort_by_key(Self::rank);
+        if flat.len() == 1 { flat.remove(0) } else { Self::And(flat) }
+    }
+
+    fn or(parts: Vec<Self>) -> Self {
+        let mut flat = Vec::with_capacity(parts.len());
+        for part in parts {
+            match part {
+                Self::Or(inner) => flat.extend(inner),
+                Self::And(inner) if inner.is_empty() => return Self::And(inner),
+                other => flat.push(other),
+            }
+        }
+        flat.sort_by_key(Self::rank);
+        if flat.len() == 1 { flat.remove(0) } else { Self::Or(flat) }
+    }
+
+    fn rank(&self) -> u8 {
+        match self {
+            Self::Same { .. } => 0,
+            Self::Literal(_) => 1,
+            Self::And(_) => 2,
+            Self::Or(_) => 3,
+            Self::Exists(..) => 4,
+            Self::Forall(..) => 5,
+        }
+    }
+
+    /// Takes existential quantifiers off the top: their variables, and the rest.
+    pub(crate) fn hoisted(self, variables: &mut Vec<VariableId>) -> Self {
+        match self {
+            Self::Exists(vs, inner) => {
+                variables.extend(vs);
+                inner.hoisted(variables)
+            }
+            Self::And(parts) => Self::and(parts.into_iter().map(|p| p.hoisted(variables)).collect()),
+            other => other,
+        }
+    }
+
+    /// Disjuncts whose union is the formula: disjunctions at the top are multiplied out as long as
+    /// there are at most `limit`; beyond that they stay nested.
+    pub(crate) fn disjuncts(self, limit: usize) -> Vec<Self> {
+        match self {
+            Self::Or(parts) => parts.into_iter().flat_map(|p| p.disjuncts(limit)).collect(),
+            Self::Exists(vs, inner) => {
+                inner.disjuncts(limit).into_iter().map(|f| Self::Exists(vs.clone(), Box::new(f))).collect()
+            }
+            Self::And(parts) => {
+                let mut rows: Vec<Vec<Self>> = vec![Vec::new()];
+                for part in parts {
+                    let options = match &part {
+                        Self::Or(_) | Self::And(_) | Self::Exists(..) => part.clone().disjuncts(limit),
+                        _ => Vec::new(),
+                    };
+                    if options.len() < 2 || options.len() * rows.len() > limit {
+                        rows.iter_mut().for_each(|row| row.push(part.clone()));
+                        continue;
+                    }
+                    rows = rows
+                        .iter()
+                        .flat_map(|row| {
+                            options.iter().map(|o| {
+                                let mut longer = row.clone();
+                                longer.push(o.clone());
+                                longer
+                            })
+                        })
+                        .collect();
+                }
+                rows.into_iter().map(Self::and).collect()
+            }
+            other => vec![other],
+        }
+    }
+
+    /// The conjuncts of the top level.
+    pub(crate) fn conjuncts(&self) -> &[Self] {
+        match self {
+            Self::And(parts) => parts,
+            other => std::slice::from_ref(other),
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! Conditions and effects under a binding.
+//!
+//! Idea: once reachability has numbered every reachable atom, a formula under a binding folds:
+//! static and unreachable atoms become constants, quantifiers run over their objects. Disjunctions
+//! that survive become alternatives (a copy of the operator each) while these are few, and an
+//! auxiliary derived atom otherwise; equal disjunctions share their atom.
+
+use super::atoms::AtomTable;
+use super::cost::resolve;
+use super::formula::{Formula, Literal};
+use super::universe::Range;
+use crate::ids::id32;
+use pddl::model::VariableId;
+use rustc_hash::FxHashMap;
+use std::sync::Arc;
+
+/// A ground literal: `atom << 1 | negated`.
+pub(crate) type Lit = u32;
+
+/// A folded formula.
+#[derive(Clone, Debug)]
+pub(crate) enum Ground {
+    True,
+    False,
+    Literal(Lit),
+    And(Vec<Ground>),
+    Or(Vec<Ground>),
+}
+
+/// Folds formulas and keeps the auxiliary atoms that they need.
+pub(crate) struct Instantiator<'a> {
+    pub(crate) table: &'a AtomTable,
+    pub(crate) is_static: &'a [bool],
+    auxiliary: FxHashMap<Vec<Vec<Lit>>, u32>,
+    /// Rules of the auxiliary atoms: head, body.
+    pub(crate) rules: Vec<(u32, Vec<Lit>)>,
+    next: u32,
+}
+
+impl<'a> Instantiator<'a> {
+    pub(crate) fn new(table: &'a AtomTable, is_static: &'a [bool]) -> Self {
+        let next = id32(table.len());
+        Self { table, is_static, auxiliary: FxHashMap::default(), rules: Vec::new(), next }
+    }
+
+    /// Atoms of the table, then auxiliary ones.
+    pub(crate) fn atoms(&self) -> u32 {
+        self.next
+    }
+
+    pub(crate) fn fold(&self, formula: &Formula, slots: &[Arc<Range>], binding: &mut [u32]) -> Ground {
+        match formula {
+            Formula::And(parts) => fold_and(parts.iter(), |f, b| self.fold(f, slots, b), binding),
+            Formula::Or(parts) => fold_or(parts.iter(), |f, b| self.fold(f, slots, b), binding),
+            Formula::Exists(vs, inner) => self.quantified(vs, inner, slots, binding, false),
+            Formula::Forall(vs, inner) => self.quantified(vs, inner, slots, binding, true),
+            Formula::Literal(literal) => self.literal(literal, binding),
+            Formula::Same { positive, left, right } => {
+                if (resolve(*left, binding) == resolve(*right, binding)) == *positive {
+                    Ground::True
+                } else {
+                    Ground::False
+                }
+            }
+        }
+    }
+
+    fn literal(&self, literal: &Literal, binding: &[u32]) -> Ground {
+        let row = literal.arguments.iter().map(|&t| resolve(t, binding));
+        let negated = u32::from(!literal.positive);
+        match self.table.find(literal.predicate, row) {
+            None if literal.positive => Ground::False,
+            None => Ground::True,
+            Some(_) if self.is_static[literal.predicate.0 as usize] => {
+                if literal.positive {
+                    Ground::True
+                } else {
+                    Ground::False
+                }
+            }
+            Some(atom) => Ground::Literal(atom << 1 | negated),
+        }
+    }
+
+    fn quantified(
+        &self,
+        variables: &[VariableId],
+        inner: &Formula,
+        slots: &[Arc<Range>],
+        binding: &mut [u32],
+        universal: bool,
+    ) -> Ground {
+        let Some((first, rest)) = variables.split_first() else {
+            return self.fold(inner, slots, binding);
+        };
+        let slot = first.0 as usize;
+        let each = |&object: &u32, b: &mut [u32]| {
+            b[slot] = object;
+            self.quantified(rest, inner, slots, b, universal)
+        };
+        if universal {
+            fold_and(slots[slot].objects.iter(), each, binding)
+        } else {
+            fold_or(slots[slot].objects.iter(), each, binding)
+        }
+    }
+
+    /// Conjunctions whose union is the formula, at most `limit`; larger disjunctions become
+    /// auxiliary atoms. None at all means that it cannot hold.
+    pub(crate) fn alternatives(&mut self, ground: Ground, limit: usize) -> Vec<Vec<Lit>> {
+        let parts = match ground {
+            Ground::True => return vec![Vec::new()],
+            Ground::False => return Vec::new(),
+            Ground::And(parts) => parts,
+            other => vec![other],
+        };
+        let mut rows: Vec<Vec<Lit>> = vec![Vec::new()];
+        for part in parts {
+            match part {
+                Ground::Or(options) if options.len() * rows.len() <= limit => {
+                    let options: Vec<Vec<Lit>> =
+                        options.into_iter().filter_map(|o| self.conjunction(o)).collect();
+                    rows = rows
+                        .iter()
+                        .flat_map(|row| options.iter().map(|o| row.iter().chain(o).copied().collect()))
+                        .collect();
+                }
+                other => match self.conjunction(other) {
+                    None => return Vec::new(),
+                    Some(more) => rows.iter_mut().for_each(|row| row.extend(&more)),
+                },
+            }
+        }
+        rows.into_iter().filter_map(consistent).collect()
+    }
+
+    /// Literals equivalent to the formula; `None` if they contradict each other.
+    pub(crate) fn conjunction(&mut self, ground: Ground) -> Option<Vec<Lit>> {
+        let mut literals = Vec::new();
+        self.collect(ground, &mut literals).then_some(())?;
+        consistent(literals)
+    }
+
+    fn collect(&mut self, ground: Ground, out: &mut Vec<Lit>) -> bool {
+        match ground {
+            Ground::True => true,
+            Ground::False => false,
+            Ground::Literal(l) => {
+                out.push(l);
+                true
+            }
+            Ground::And(parts) => parts.into_iter().all(|p| self.collect(p, out)),
+            Ground::Or(options) => {
+                let mut rows: Vec<Vec<Lit>> =
+                    options.into_iter().filter_map(|o| self.conjunction(o)).collect();
+                rows.sort_unstable();
+                rows.dedup();
+                if rows.is_empty() {
+                    return false;
+                }
+                out.push(self.auxiliary(rows) << 1);
+                true
+            }
+        }
+    }
+
+    fn auxiliary(&mut self, rows: Vec<Vec<Lit>>) -> u32 {
+        if let Some(&atom) = self.auxiliary.get(&rows) {
+            return atom;
+        }
+        let atom = self.next;
+        self.next += 1;
+        self.rules.extend(rows.iter().map(|row| (atom, row.clone())));
+        self.auxiliary.insert(rows, atom);
+        atom
+    }
+}
+
+fn fold_and<T>(
+    parts: impl Iterator<Item = T>,
+    fold: impl Fn(T, &mut [u32]) -> Ground,
+    binding: &mut [u32],
+) -> Ground {
+    let mut kept = Vec::new();
+    for part in parts {
+        match fold(part, binding) {
+            Ground::True => {}
+            Ground::False => return Ground::False,
+            Ground::And(inner) => kept.extend(inner),
+            other => kept.push(other),
+        }
+    }
+    match kept.len() {
+        0 => Ground::True,
+        1 => kept.remove(0),
+        _ => Ground::And(kept),
+    }
+}
+
+fn fold_or<T>(
+    parts: impl Iterator<Item = T>,
+    fold: impl Fn(T, &mut [u32]) -> Ground,
+    binding: &mut [u32],
+) -> Ground {
+    let mut kept = Vec::new();
+    for part in parts {
+        match fold(part, binding) {
+            Ground::False => {}
+            Ground::True => return Ground::True,
+            Ground::Or(inner) => kept.extend(inner),
+            other => kept.push(other),
+        }
+    }
+    match kept.len() {
+        0 => Ground::False,
+        1 => kept.remove(0),
+        _ => Ground::Or(kept),
+    }
+}
+
+/// Sorted without duplicates; `None` if it holds a literal and its negation.
+pub(crate) fn consistent(mut literals: Vec<Lit>) -> Option<Vec<Lit>> {
+    literals.sort_unstable();
+    literals.dedup();
+    (!literals.windows(2).any(|w| w[0] ^ 1 == w[1])).then_some(literals)
+}

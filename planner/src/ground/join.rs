@@ -1,0 +1,283 @@
+//! Relaxed reachability as a semi-naive Datalog evaluation over ordered joins.
+//!
+//! Problem: the instances of a schema are a join of the atoms of its condition, and enumerating
+//! bindings by type explodes. Idea: each rule (an action, a conditional effect, an axiom) gets one
+//! join plan per changing atom of its body. A newly reached atom triggers its plans; the other atoms
+//! are looked up in hash indices on exactly the positions that are bound by then, most selective
+//! first, static ones with measured selectivity. Invariant: when atom `n` triggers, indices hold the
+//! atoms up to `n`, and body positions before the trigger skip `n` itself, so that each instance is
+//! found exactly once. Cost: proportional to the partial joins met.
+//!
+//! Source: Helmert, "Concise finite-domain representations", AIJ 2009, §6 (grounding as Datalog);
+//! Ullman, "Principles of database and knowledge-base systems", 1989, ch. 3 (semi-naive evaluation).
+
+use super::atoms::{AtomTable, Packing};
+use super::cost::resolve;
+use super::error::{GroundError, GroundOptions};
+use super::formula::Formula;
+use super::plan::{Filter, JoinPlan, Step, plan};
+use super::rule::Rule;
+use super::schema::Schema;
+use pddl::model::{PredicateId, Term};
+use rustc_hash::FxHashMap;
+
+/// The bindings found for one schema: parameters, then hoisted variables, `width` a row.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Bindings {
+    pub(crate) width: usize,
+    pub(crate) rows: usize,
+    pub(crate) values: Vec<u32>,
+}
+
+/// One hash index of a predicate.
+#[derive(Default)]
+struct Index {
+    positions: Box<[usize]>,
+    buckets: FxHashMap<u64, Vec<u32>>,
+}
+
+/// All indices that some plan uses.
+#[derive(Default)]
+pub(crate) struct Indices {
+    packing: Packing,
+    all: Vec<Index>,
+    of_predicate: Vec<Vec<usize>>,
+}
+
+impl Indices {
+    fn new(predicates: usize, objects: usize) -> Self {
+        Self { packing: Packing::new(objects), all: Vec::new(), of_predicate: vec![Vec::new(); predicates] }
+    }
+
+    /// The index of `predicate` on these positions.
+    pub(crate) fn on(&mut self, predicate: PredicateId, positions: &[usize]) -> usize {
+        let own = &mut self.of_predicate[predicate.0 as usize];
+        if let Some(&i) = own.iter().find(|&&i| *self.all[i].positions == *positions) {
+            return i;
+        }
+        own.push(self.all.len());
+        self.all.push(Index { positions: positions.into(), buckets: FxHashMap::default() });
+        self.all.len() - 1
+    }
+
+    fn insert(&mut self, table: &AtomTable, atom: u32) {
+        let row = table.row(atom);
+        for &i in &self.of_predicate[table.predicate(atom).0 as usize] {
+            let index = &mut self.all[i];
+            let key = self.packing.key(index.positions.iter().map(|&p| row[p]));
+            index.buckets.entry(key).or_default().push(atom);
+        }
+    }
+
+    fn bucket(&self, index: usize, key: &[Term], binding: &[u32]) -> &[u32] {
+        self.packing
+            .find(key.iter().map(|&t| resolve(t, binding)))
+            .and_then(|key| self.all[index].buckets.get(&key))
+            .map_or(&[], Vec::as_slice)
+    }
+}
+
+/// What reachability found.
+pub(crate) struct Reached {
+    pub(crate) table: AtomTable,
+    /// By schema.
+    pub(crate) bindings: Vec<Bindings>,
+}
+
+/// Runs all rules to a fixpoint. The first `statics` atoms of `table` never change.
+pub(crate) fn reach(
+    schemas: &[Schema],
+    rules: &[Rule],
+    table: AtomTable,
+    statics: u32,
+    is_static: &[bool],
+    objects: usize,
+    options: &GroundOptions<'_>,
+) -> Result<Reached, GroundError> {
+    let mut indices = Indices::new(is_static.len(), objects);
+    let mut triggered: Vec<Vec<(usize, JoinPlan)>> = vec![Vec::new(); is_static.len()];
+    let mut at_once = Vec::new();
+    let mut statistics = super::plan::Statistics::new(&table, statics);
+    for (r, rule) in rules.iter().enumerate() {
+        let changing: Vec<usize> =
+            (0..rule.body.len()).filter(|&i| !is_static[rule.body[i].predicate.0 as usize]).collect();
+        if changing.is_empty() {
+            at_once.push((r, plan(rule, None, is_static, &mut statistics, &mut indices)));
+        }
+        for i in changing {
+            let p = rule.body[i].predicate.0 as usize;
+            triggered[p].push((r, plan(rule, Some(i), is_static, &mut statistics, &mut indices)));
+        }
+    }
+    let bindings = schemas
+        .iter()
+        .map(|s| Bindings { width: s.parameters + s.hoisted.len(), ..Bindings::default() })
+        .collect();
+    let mut out = Out { schemas, table, bindings, found: 0, steps: 0, options };
+    for atom in 0..statics {
+        indices.insert(&out.table, atom);
+    }
+    let mut binding = Vec::new();
+    for (r, plan) in &at_once {
+        Join { rule: &rules[*r], plan, indices: &indices, current: statics, out: &mut out }
+            .start(&mut binding)?;
+    }
+    let mut current = statics;
+    while (current as usize) < out.table.len() {
+        indices.insert(&out.table, current);
+        let predicate = out.table.predicate(current).0 as usize;
+        for (r, plan) in &triggered[predicate] {
+            Join { rule: &rules[*r], plan, indices: &indices, current, out: &mut out }.start(&mut binding)?;
+        }
+        current += 1;
+        if out.table.len() > options.atoms {
+            let schema = out.schemas[0].name.clone();
+            return Err(GroundError::Limit { schema: out.largest().unwrap_or(schema) });
+        }
+    }
+    Ok(Reached { table: out.table, bindings: out.bindings })
+}
+
+struct Out<'a> {
+    schemas: &'a [Schema],
+    table: AtomTable,
+    bindings: Vec<Bindings>,
+    found: usize,
+    steps: u32,
+    options: &'a GroundOptions<'a>,
+}
+
+impl Out<'_> {
+    fn largest(&self) -> Option<pddl::model::Name> {
+        let (i, _) = self.bindings.iter().enumerate().max_by_key(|(_, b)| b.rows)?;
+        Some(self.schemas[i].name.clone())
+    }
+}
+
+struct Join<'a, 'b> {
+    rule: &'a Rule,
+    plan: &'a JoinPlan,
+    indices: &'a Indices,
+    current: u32,
+    out: &'a mut Out<'b>,
+}
+
+impl Join<'_, '_> {
+    fn start(&mut self, binding: &mut Vec<u32>) -> Result<(), GroundError> {
+        binding.clear();
+        binding.resize(self.rule.slots.len(), u32::MAX);
+        if let Some(trigger) = self.plan.trigger {
+            for (position, &term) in self.rule.body[trigger].arguments.iter().enumerate() {
+                let object = self.out.table.row(self.current)[position];
+                match term {
+                    Term::Object(o) if o.0 != object => return Ok(()),
+                    Term::Object(_) => {}
+                    Term::Variable(v) => {
+                        let slot = &mut binding[v.0 as usize];
+                        if *slot == u32::MAX {
+                            *slot = object;
+                            if !self.rule.slots[v.0 as usize].contains(object) {
+                                return Ok(());
+                            }
+                        } else if *slot != object {
+                            return Ok(());
+                        }
+                    }
+                }
+            }
+        }
+        self.step(0, binding)
+    }
+
+    fn step(&mut self, at: usize, binding: &mut Vec<u32>) -> Result<(), GroundError> {
+        self.out.steps = self.out.steps.wrapping_add(1);
+        if self.out.steps.is_multiple_of(4096) && (self.out.options.interrupted)() {
+            let own = self.out.schemas[self.rule.schema].name.clone();
+            return Err(GroundError::Interrupted { schema: own });
+        }
+        let (rule, plan, indices) = (self.rule, self.plan, self.indices);
+        let Some(step) = plan.steps.get(at) else {
+            return self.emit(binding);
+        };
+        match step {
+            Step::Check(filter) => {
+                let holds = match filter {
+                    Filter::Same { positive, left, right } => {
+                        (resolve(*left, binding) == resolve(*right, binding)) == *positive
+                    }
+                    Filter::Absent { predicate, arguments } => self
+                        .out
+                        .table
+                        .find(*predicate, arguments.iter().map(|&t| resolve(t, binding)))
+                        .is_none(),
+                };
+                if holds { self.step(at + 1, binding) } else { Ok(()) }
+            }
+            Step::Probe { atom } => {
+                let pattern = &rule.body[*atom];
+                let row = pattern.arguments.iter().map(|&t| resolve(t, binding));
+                match self.out.table.find(pattern.predicate, row) {
+                    Some(a) if a < self.current || (a == self.current && !self.skips(*atom)) => {
+                        self.step(at + 1, binding)
+                    }
+                    _ => Ok(()),
+                }
+            }
+            Step::Enumerate { slot } => {
+                for &object in &rule.slots[*slot].objects {
+                    binding[*slot] = object;
+                    self.step(at + 1, binding)?;
+                }
+                Ok(())
+            }
+            Step::Scan { atom, index, key, assign, repeat } => {
+                'rows: for &candidate in indices.bucket(*index, key, binding) {
+                    if candidate == self.current && self.skips(*atom) {
+                        continue;
+                    }
+                    let row = self.out.table.row(candidate);
+                    for &(position, slot) in assign {
+                        if !rule.slots[slot].contains(row[position]) {
+                            continue 'rows;
+                        }
+                        binding[slot] = row[position];
+                    }
+                    for &(position, slot) in repeat {
+                        if binding[slot] != row[position] {
+                            continue 'rows;
+                        }
+                    }
+                    self.step(at + 1, binding)?;
+                }
+                Ok(())
+            }
+        }
+    }
+
+    /// Whether this body position must not match the trigger's own atom.
+    fn skips(&self, atom: usize) -> bool {
+        self.plan.trigger.is_some_and(|t| atom < t)
+    }
+
+    fn emit(&mut self, binding: &[u32]) -> Result<(), GroundError> {
+        for (predicate, arguments) in &self.rule.heads {
+            self.out.table.insert(*predicate, arguments.iter().map(|&t| resolve(t, binding)));
+        }
+        if self.rule.collected {
+            let rows = &mut self.out.bindings[self.rule.schema];
+            rows.values.extend(self.rule.variables.iter().map(|v| binding[v.0 as usize]));
+            rows.rows += 1;
+            self.out.found += 1;
+            if self.out.found > self.out.options.operators {
+                let own = self.out.schemas[self.rule.schema].name.clone();
+                return Err(GroundError::Limit { schema: self.out.largest().unwrap_or(own) });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The conjuncts of a formula that are positive literals, and whether it can hold at all.
+pub(crate) fn is_refuted(formula: &Formula) -> bool {
+    formula.conjuncts().iter().any(|c| matches!(c, Formula::Or(parts) if parts.is_empty()))
+}

@@ -1,0 +1,138 @@
+//! From a domain and a problem to a grounded task.
+//!
+//! Stages, each a module: conditions to negation normal form (`formula`, `schema`), the metric to
+//! operator costs (`cost`), relaxed reachability by ordered joins (`rule`, `plan`, `join`), instances
+//! with quantifiers expanded and disjunctions split (`instantiate`, `raw`), constants and irrelevant
+//! atoms dropped (`prune`), and the final task (`finish`). Invariant: every plan of the problem is a
+//! sequence of the task's operators, and every plan of the task is a plan of the problem.
+//!
+//! Source: Helmert, "Concise finite-domain representations for PDDL planning tasks", AIJ 2009.
+
+mod atoms;
+mod cost;
+mod error;
+mod finish;
+mod formula;
+mod instantiate;
+mod join;
+mod plan;
+mod prune;
+mod raw;
+mod rule;
+mod schema;
+mod universe;
+
+pub(crate) use atoms::AtomTable;
+pub use error::{Feature, GroundError, GroundOptions, Origin};
+
+use crate::task::Task;
+use cost::CostModel;
+use formula::Formula;
+use pddl::Diagnostic;
+use pddl::model::{Domain, Effect, EffectKind, Idx, PredicateId, Problem};
+use universe::Universe;
+
+/// Grounds `problem` of `domain`.
+///
+/// # Errors
+/// A feature that the planner does not support, a limit of `options`, or its interruption.
+pub fn ground(domain: &Domain, problem: &Problem, options: &GroundOptions<'_>) -> Result<Task, GroundError> {
+    refuse(domain, problem)?;
+    let costs = CostModel::new(domain, problem)?;
+    let mut universe = Universe::new(domain, problem);
+    let schemas = schema::schemas(domain, &mut universe, &costs)?;
+    let is_static = static_predicates(domain, options.exogenous);
+
+    let mut table = AtomTable::new(domain.predicates.len(), problem.objects.len());
+    let insert = |table: &mut AtomTable, fact: &pddl::model::Fact| {
+        table.insert(fact.predicate, fact.arguments.iter().map(|o| o.0))
+    };
+    for fact in problem.init.iter().filter(|f| is_static[f.predicate.index()]) {
+        insert(&mut table, fact);
+    }
+    let statics = ids_of(&table);
+    let initial: Vec<u32> = problem
+        .init
+        .iter()
+        .filter(|f| !is_static[f.predicate.index()])
+        .map(|f| insert(&mut table, f))
+        .collect();
+    for &predicate in options.exogenous {
+        add_all_instances(domain, predicate, &mut universe, &mut table, options)?;
+    }
+
+    let rules = rule::rules(&schemas, &is_static);
+    let reached = join::reach(&schemas, &rules, table, statics, &is_static, problem.objects.len(), options)?;
+    let goal = Formula::of(&problem.goal, true, Origin::Problem)?;
+    let slots = universe.slots(&problem.goal_variables);
+    let raw = raw::instantiate(&schemas, &reached, &is_static, &costs, (&goal, &slots), options)?;
+    finish::finish(domain, problem, &costs, reached.table, raw, statics, &initial, options)
+}
+
+fn ids_of(table: &AtomTable) -> u32 {
+    crate::ids::id32(table.len())
+}
+
+/// Refuses what forward search cannot take, by name and place.
+fn refuse(domain: &Domain, problem: &Problem) -> Result<(), GroundError> {
+    let refuse = |feature, origin, span| Err(GroundError::Unsupported { feature, origin, span });
+    let first = |list: &[Diagnostic]| list.first().map(|d| d.span);
+    if let Some(span) = first(&domain.unsupported) {
+        return refuse(Feature::OutsideTheModel, Origin::Domain, span);
+    }
+    if let Some(span) = first(&problem.unsupported) {
+        return refuse(Feature::OutsideTheModel, Origin::Problem, span);
+    }
+    if let Some(action) = domain.durative_actions.iter().next() {
+        return refuse(Feature::DurativeActions, Origin::Domain, action.span);
+    }
+    if problem.htn.is_some() {
+        return refuse(Feature::TaskNetwork, Origin::Problem, problem.goal_span);
+    }
+    Ok(())
+}
+
+/// By predicate: whether nothing changes it.
+fn static_predicates(domain: &Domain, exogenous: &[PredicateId]) -> Vec<bool> {
+    fn visit(effect: &Effect, is_static: &mut [bool]) {
+        match &effect.kind {
+            EffectKind::And(parts) => parts.iter().for_each(|p| visit(p, is_static)),
+            EffectKind::Add(atom) | EffectKind::Delete(atom) => is_static[atom.predicate.index()] = false,
+            EffectKind::Forall(_, inner) | EffectKind::When(_, inner) => visit(inner, is_static),
+            EffectKind::Assign(..) => {}
+        }
+    }
+    let mut is_static = vec![true; domain.predicates.len()];
+    domain.actions.iter().for_each(|a| visit(&a.effect, &mut is_static));
+    domain.axioms.iter().for_each(|a| is_static[a.predicate.index()] = false);
+    exogenous.iter().for_each(|p| is_static[p.index()] = false);
+    is_static
+}
+
+fn add_all_instances(
+    domain: &Domain,
+    predicate: PredicateId,
+    universe: &mut Universe<'_>,
+    table: &mut AtomTable,
+    options: &GroundOptions<'_>,
+) -> Result<(), GroundError> {
+    let declared = &domain.predicates[predicate];
+    let ranges = universe.slots(&declared.variables);
+    let ranges: Vec<&[u32]> =
+        ranges[..declared.variables.parameters].iter().map(|r| r.objects.as_slice()).collect();
+    if ranges.iter().any(|r| r.is_empty()) {
+        return Ok(());
+    }
+    let mut odometer = vec![0_usize; ranges.len()];
+    loop {
+        table.insert(predicate, odometer.iter().zip(&ranges).map(|(&i, r)| r[i]));
+        if table.len() > options.atoms {
+            return Err(GroundError::Limit { schema: declared.name.clone() });
+        }
+        let Some(digit) = (0..ranges.len()).rev().find(|&d| odometer[d] + 1 < ranges[d].len()) else {
+            return Ok(());
+        };
+        odometer[digit] += 1;
+        odometer[digit + 1..].fill(0);
+    }
+}

@@ -1,0 +1,228 @@
+//! Every instance of every schema, before pruning.
+//!
+//! Idea: each binding that reachability found becomes an operator (or a rule) over atoms of the
+//! table; conditional and universal effects are expanded, and literals that the precondition already
+//! decides are dropped from effects' conditions.
+
+use super::cost::{CostModel, CostTerm, resolve};
+use super::error::{Feature, GroundError, GroundOptions, Origin};
+use super::formula::Formula;
+use super::instantiate::{Ground, Instantiator, Lit, consistent};
+use super::join::{Bindings, Reached};
+use super::schema::{Product, Schema, SchemaEffect};
+use crate::ids::id32;
+use pddl::model::{ActionId, ObjectId, VariableId};
+use rustc_hash::FxHashSet;
+use std::collections::BTreeMap;
+
+/// Copies of an operator, one for each way to satisfy its precondition, before an axiom is used.
+const COPIES: usize = 4;
+
+/// Atoms that become true and false.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct RawEffects {
+    pub(crate) adds: Vec<u32>,
+    pub(crate) deletes: Vec<u32>,
+}
+
+/// An operator over atoms of the table.
+#[derive(Clone, Debug)]
+pub(crate) struct RawOperator {
+    pub(crate) action: ActionId,
+    pub(crate) arguments: Box<[ObjectId]>,
+    pub(crate) precondition: Vec<Lit>,
+    pub(crate) effects: RawEffects,
+    pub(crate) conditional: Vec<(Vec<Lit>, RawEffects)>,
+    pub(crate) cost: f64,
+}
+
+/// The task before pruning.
+pub(crate) struct RawTask {
+    pub(crate) operators: Vec<RawOperator>,
+    pub(crate) rules: Vec<(u32, Vec<Lit>)>,
+    pub(crate) goal: Vec<Lit>,
+    /// Whether some part of the goal folded to false.
+    pub(crate) refuted: Vec<Formula>,
+    /// Atoms of the table, then auxiliary ones.
+    pub(crate) atoms: u32,
+}
+
+/// Instantiates everything.
+pub(crate) fn instantiate(
+    schemas: &[Schema],
+    reached: &Reached,
+    is_static: &[bool],
+    costs: &CostModel<'_>,
+    goal: (&Formula, &[std::sync::Arc<super::universe::Range>]),
+    options: &GroundOptions<'_>,
+) -> Result<RawTask, GroundError> {
+    let mut work = Instantiator::new(&reached.table, is_static);
+    let mut operators = Vec::new();
+    let mut rules = Vec::new();
+    for (schema, bindings) in schemas.iter().zip(&reached.bindings) {
+        let mut binding = vec![0; schema.slots.len()];
+        let mut seen = FxHashSet::default();
+        for row in 0..bindings.rows {
+            if row.is_multiple_of(1024) && (options.interrupted)() {
+                return Err(GroundError::Interrupted { schema: schema.name.clone() });
+            }
+            bind(schema, bindings, row, &mut binding);
+            let condition = work.fold(&schema.condition, &schema.slots, &mut binding);
+            match &schema.product {
+                Product::Axiom { predicate, arguments } => {
+                    let head = arguments.iter().map(|&t| resolve(t, &binding));
+                    let Some(head) = work.table.find(*predicate, head) else { continue };
+                    if let Some(body) = work.conjunction(condition) {
+                        rules.push((head, body));
+                    }
+                }
+                Product::Action { id, effects, costs: terms } => {
+                    let alternatives = work.alternatives(condition, COPIES);
+                    if alternatives.is_empty() {
+                        continue;
+                    }
+                    let arguments = &binding[..schema.parameters];
+                    let arguments: Box<[ObjectId]> = arguments.iter().map(|&o| ObjectId(o)).collect();
+                    let cost = cost(costs, terms, &binding)?;
+                    let all = expand(&mut work, schema, effects, &mut binding);
+                    for precondition in alternatives {
+                        // Hoisted variables may leave no trace: one operator of equals is enough.
+                        if !schema.hoisted.is_empty()
+                            && !seen.insert((arguments.clone(), precondition.clone()))
+                        {
+                            continue;
+                        }
+                        operators.push(operator(*id, &arguments, precondition, &all, cost));
+                    }
+                }
+            }
+        }
+        if operators.len() > options.operators {
+            return Err(GroundError::Limit { schema: schema.name.clone() });
+        }
+    }
+    let mut literals = Vec::new();
+    let mut refuted = Vec::new();
+    let mut binding = vec![0; goal.1.len()];
+    for conjunct in goal.0.conjuncts() {
+        let ground = work.fold(conjunct, goal.1, &mut binding);
+        match work.conjunction(ground) {
+            Some(more) => literals.extend(more),
+            None => refuted.push(conjunct.clone()),
+        }
+    }
+    match consistent(literals) {
+        Some(sorted) => literals = sorted,
+        None => {
+            literals = Vec::new();
+            refuted.push(goal.0.clone());
+        }
+    }
+    rules.append(&mut work.rules);
+    Ok(RawTask { operators, rules, goal: literals, refuted, atoms: work.atoms() })
+}
+
+fn bind(schema: &Schema, bindings: &Bindings, row: usize, binding: &mut [u32]) {
+    let values = &bindings.values[row * bindings.width..(row + 1) * bindings.width];
+    let hoisted = schema.hoisted.iter().map(|v| v.0 as usize);
+    for (slot, &value) in (0..schema.parameters).chain(hoisted).zip(values) {
+        binding[slot] = value;
+    }
+}
+
+fn cost(costs: &CostModel<'_>, terms: &[CostTerm], binding: &[u32]) -> Result<f64, GroundError> {
+    costs.cost(terms, binding).map_err(|span| GroundError::Unsupported {
+        feature: Feature::NegativeCost,
+        origin: Origin::Domain,
+        span,
+    })
+}
+
+/// All ground effects: condition, whether it adds, atom.
+fn expand(
+    work: &mut Instantiator<'_>,
+    schema: &Schema,
+    effects: &[SchemaEffect],
+    binding: &mut [u32],
+) -> Vec<(Vec<Lit>, bool, u32)> {
+    let mut found = Vec::new();
+    for effect in effects {
+        each_binding(&effect.quantified, schema, binding, &mut |binding| {
+            let row = effect.arguments.iter().map(|&t| resolve(t, binding));
+            let Some(atom) = work.table.find(effect.predicate, row) else { return };
+            let ground = work.fold(&effect.condition, &schema.slots, binding);
+            // The union of conditional effects is a disjunction: no axiom needed at the top.
+            let options = match ground {
+                Ground::False => return,
+                Ground::Or(options) => options,
+                other => vec![other],
+            };
+            for option in options {
+                if let Some(condition) = work.conjunction(option) {
+                    found.push((condition, effect.positive, atom));
+                }
+            }
+        });
+    }
+    found
+}
+
+fn each_binding(vs: &[VariableId], schema: &Schema, binding: &mut [u32], f: &mut dyn FnMut(&mut [u32])) {
+    match vs.split_first() {
+        None => f(binding),
+        Some((first, rest)) => {
+            for &object in &schema.slots[first.0 as usize].objects {
+                binding[first.0 as usize] = object;
+                each_binding(rest, schema, binding, f);
+            }
+        }
+    }
+}
+
+fn operator(
+    action: ActionId,
+    arguments: &[ObjectId],
+    precondition: Vec<Lit>,
+    effects: &[(Vec<Lit>, bool, u32)],
+    cost: f64,
+) -> RawOperator {
+    let mut always = RawEffects::default();
+    let mut by_condition: BTreeMap<Vec<Lit>, RawEffects> = BTreeMap::new();
+    for (condition, positive, atom) in effects {
+        if condition.iter().any(|l| precondition.binary_search(&(l ^ 1)).is_ok()) {
+            continue;
+        }
+        let open: Vec<Lit> =
+            condition.iter().copied().filter(|l| precondition.binary_search(l).is_err()).collect();
+        let into = if open.is_empty() { &mut always } else { by_condition.entry(open).or_default() };
+        (if *positive { &mut into.adds } else { &mut into.deletes }).push(*atom);
+    }
+    RawOperator {
+        action,
+        arguments: arguments.into(),
+        precondition,
+        effects: tidy(always),
+        conditional: by_condition.into_iter().map(|(c, e)| (c, tidy(e))).collect(),
+        cost,
+    }
+}
+
+/// Sorted, without duplicates; an add wins over a delete of the same atom.
+fn tidy(mut effects: RawEffects) -> RawEffects {
+    effects.adds.sort_unstable();
+    effects.adds.dedup();
+    effects.deletes.sort_unstable();
+    effects.deletes.dedup();
+    effects.deletes.retain(|d| effects.adds.binary_search(d).is_err());
+    effects
+}
+
+/// The ids of all atoms that hold initially or may be set from outside.
+pub(crate) fn marked(atoms: u32, which: impl Iterator<Item = u32>) -> Vec<bool> {
+    let mut marks = vec![false; atoms as usize];
+    for atom in which {
+        marks[atom as usize] = true;
+    }
+    debug_assert!(id32(marks.len()) == atoms);
+    marks
+}

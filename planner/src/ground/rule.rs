@@ -1,0 +1,96 @@
+//! Rules of reachability: what must be joined, and what follows.
+
+use super::formula::{Formula, Literal};
+use super::join::is_refuted;
+use super::plan::Filter;
+use super::schema::{Product, Schema};
+use super::universe::Range;
+use pddl::model::{Idx, PredicateId, Term, VariableId};
+use std::sync::Arc;
+
+/// A positive atom of a body.
+#[derive(Clone, Debug)]
+pub(crate) struct BodyAtom {
+    pub(crate) predicate: PredicateId,
+    pub(crate) arguments: Box<[Term]>,
+}
+
+/// `heads` follow where `body` is reachable and the filters hold.
+#[derive(Clone, Debug)]
+pub(crate) struct Rule {
+    pub(crate) schema: usize,
+    pub(crate) slots: Vec<Arc<Range>>,
+    /// What must be bound.
+    pub(crate) variables: Vec<VariableId>,
+    pub(crate) body: Vec<BodyAtom>,
+    pub(crate) filters: Vec<Filter>,
+    pub(crate) heads: Vec<(PredicateId, Box<[Term]>)>,
+    /// Whether its bindings are the schema's instances.
+    pub(crate) collected: bool,
+}
+
+impl Rule {
+    fn new(schema: usize, of: &Schema, is_static: &[bool]) -> Self {
+        let mut variables: Vec<VariableId> = (0..of.parameters).map(VariableId::from_index).collect();
+        variables.extend(&of.hoisted);
+        let mut rule = Self {
+            schema,
+            slots: of.slots.clone(),
+            variables,
+            body: Vec::new(),
+            filters: Vec::new(),
+            heads: Vec::new(),
+            collected: false,
+        };
+        rule.require(&of.condition, is_static);
+        rule
+    }
+
+    /// Adds the conjuncts that a join can use; the rest is an over-approximation's to ignore.
+    fn require(&mut self, formula: &Formula, is_static: &[bool]) {
+        for conjunct in formula.conjuncts() {
+            match conjunct {
+                Formula::Literal(Literal { positive: true, predicate, arguments }) => {
+                    self.body.push(BodyAtom { predicate: *predicate, arguments: arguments.clone() });
+                }
+                Formula::Literal(Literal { positive: false, predicate, arguments })
+                    if is_static[predicate.index()] =>
+                {
+                    self.filters.push(Filter::Absent { predicate: *predicate, arguments: arguments.clone() });
+                }
+                &Formula::Same { positive, left, right } => {
+                    self.filters.push(Filter::Same { positive, left, right });
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+/// The rules of all schemas.
+pub(crate) fn rules(schemas: &[Schema], is_static: &[bool]) -> Vec<Rule> {
+    let mut found = Vec::new();
+    for (i, schema) in schemas.iter().enumerate().filter(|(_, s)| !is_refuted(&s.condition)) {
+        let mut main = Rule::new(i, schema, is_static);
+        main.collected = true;
+        match &schema.product {
+            Product::Axiom { predicate, arguments } => main.heads.push((*predicate, arguments.clone())),
+            Product::Action { effects, .. } => {
+                for effect in effects.iter().filter(|e| e.positive) {
+                    let head = (effect.predicate, effect.arguments.clone());
+                    if effect.is_simple() {
+                        main.heads.push(head);
+                    } else if !is_refuted(&effect.condition) {
+                        let mut rule = Rule::new(i, schema, is_static);
+                        rule.require(&effect.condition, is_static);
+                        rule.variables.extend(&effect.quantified);
+                        rule.heads.push(head);
+                        found.push(rule);
+                    }
+                }
+            }
+        }
+        found.push(main);
+    }
+    found
+}

@@ -1,0 +1,149 @@
+//! LM-cut: a sum of disjunctive landmarks of the delete relaxation.
+//!
+//! Idea: while hmax of the goal is positive, the operators that cross into the zone from which the
+//! goal costs nothing form a landmark; count its cheapest cost, take it off all of them, repeat.
+//! Costs are per operator, so the nodes of conditional effects share theirs and the sum stays
+//! admissible; axioms cost nothing. Admissible, not consistent, safe. Cost: one exploration per cut.
+//!
+//! Source: Helmert & Domshlak, "Landmarks, critical paths and abstractions: what's the difference
+//! anyway?", ICAPS 2009.
+
+use super::explorer::UNREACHED;
+use super::{Combine, Costs, Estimate, Explorer, Heuristic};
+use crate::ids::{OperatorId, StateId, id32};
+use crate::search::Barred;
+use crate::task::{AXIOM, Goal, Relaxation, Rows, Task};
+
+pub(crate) struct LmCut<'t> {
+    graph: &'t Relaxation,
+    explorer: Explorer<'t>,
+    goal: Vec<u32>,
+    achieved_by: Rows,
+    costs: Vec<u32>,
+    remaining: Vec<u32>,
+    /// The dearest precondition of each node.
+    dearest: Vec<u32>,
+    /// Nodes by their dearest precondition, rebuilt for each cut.
+    waiting: Vec<Vec<u32>>,
+}
+
+impl<'t> LmCut<'t> {
+    pub(crate) fn new(task: &'t Task, goal: &Goal, barred: &Barred, costs: Costs) -> Self {
+        let graph = &task.relaxation;
+        let price = |cost| if costs == Costs::Unit { 1 } else { cost };
+        Self {
+            explorer: Explorer::new(task, Vec::new(), barred, costs, Combine::Max),
+            goal: graph.literals(&goal.literals),
+            achieved_by: graph.effects.transposed(graph.propositions()),
+            costs: task.operators.iter().map(|o| price(o.cost)).collect(),
+            remaining: Vec::new(),
+            dearest: vec![UNREACHED; graph.nodes()],
+            waiting: vec![Vec::new(); graph.propositions()],
+            graph,
+        }
+    }
+
+    fn price(&self, node: u32) -> u32 {
+        match self.graph.operator[node as usize] {
+            AXIOM => 0,
+            operator => self.remaining[operator as usize],
+        }
+    }
+
+    /// Propositions from which the goal costs nothing, as marks.
+    fn zone(&self, goal: u32) -> Vec<bool> {
+        let mut zone = vec![false; self.graph.propositions()];
+        let mut stack = vec![goal];
+        zone[goal as usize] = true;
+        while let Some(p) = stack.pop() {
+            for &node in self.achieved_by.row(p) {
+                let before = self.dearest[node as usize];
+                if before != UNREACHED && self.price(node) == 0 && !zone[before as usize] {
+                    zone[before as usize] = true;
+                    stack.push(before);
+                }
+            }
+        }
+        zone
+    }
+
+    /// The nodes that lead from outside into the zone.
+    fn cut(&mut self, words: &[u64], zone: &[bool]) -> Vec<u32> {
+        let mut seen = vec![false; self.graph.propositions()];
+        let mut stack = Vec::new();
+        let reach = |p: u32, seen: &mut [bool], stack: &mut Vec<u32>| {
+            if !zone[p as usize] && !std::mem::replace(&mut seen[p as usize], true) {
+                stack.push(p);
+            }
+        };
+        self.graph.for_each_true(words, |p| reach(p, &mut seen, &mut stack));
+        let mut crossing = Vec::new();
+        let mut pass = |node: u32, seen: &mut [bool], stack: &mut Vec<u32>| {
+            let effects = self.graph.effects.row(node);
+            if effects.iter().any(|&p| zone[p as usize]) {
+                crossing.push(node);
+            }
+            effects.iter().for_each(|&p| reach(p, seen, stack));
+        };
+        for &node in &self.graph.free {
+            if self.explorer.is_fired(node) {
+                pass(node, &mut seen, &mut stack);
+            }
+        }
+        while let Some(p) = stack.pop() {
+            for &node in &self.waiting[p as usize] {
+                pass(node, &mut seen, &mut stack);
+            }
+        }
+        crossing
+    }
+
+    fn find_dearest(&mut self) {
+        self.waiting.iter_mut().for_each(Vec::clear);
+        for node in 0..id32(self.graph.nodes()) {
+            let row = self.graph.preconditions.row(node);
+            let fired = self.explorer.is_fired(node);
+            let dearest = row.iter().copied().max_by_key(|&p| self.explorer.cost(p)).filter(|_| fired);
+            self.dearest[node as usize] = dearest.unwrap_or(UNREACHED);
+            if let Some(p) = dearest {
+                self.waiting[p as usize].push(node);
+            }
+        }
+    }
+}
+
+impl Heuristic for LmCut<'_> {
+    fn estimate(&mut self, _: StateId, words: &[u64], _: &mut Vec<OperatorId>) -> Estimate {
+        self.remaining.clone_from(&self.costs);
+        let mut total = 0_u32;
+        loop {
+            for node in 0..id32(self.graph.nodes()) {
+                self.explorer.set_cost(node, self.price(node));
+            }
+            self.explorer.explore(words);
+            let Some(&goal) = self.goal.iter().max_by_key(|&&p| self.explorer.cost(p)) else {
+                return Estimate(0);
+            };
+            match self.explorer.cost(goal) {
+                UNREACHED => return Estimate::DEAD_END,
+                0 => return Estimate(total),
+                _ => {}
+            }
+            self.find_dearest();
+            let zone = self.zone(goal);
+            let crossing = self.cut(words, &zone);
+            let Some(least) = crossing.iter().map(|&n| self.price(n)).min().filter(|&l| l > 0) else {
+                // Every path into the zone costs something, so this does not happen.
+                debug_assert!(false, "a cut of positive cost exists while hmax is positive");
+                return Estimate(total);
+            };
+            let mut operators: Vec<u32> = crossing.iter().map(|&n| self.graph.operator[n as usize]).collect();
+            operators.sort_unstable();
+            operators.dedup();
+            for o in operators {
+                self.remaining[o as usize] -= least;
+            }
+            total = total.saturating_add(least).min(u32::MAX - 1);
+        }
+    }
+}

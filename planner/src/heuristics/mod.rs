@@ -1,0 +1,115 @@
+//! Heuristics, one file each.
+//!
+//! A heuristic estimates how far a state is from the goal of one query. It declares what a search
+//! may rely on ([`Properties`]); a test walks the registry of configurations and holds it to that.
+
+mod blind;
+mod explorer;
+mod ff;
+pub(crate) mod goal_count;
+mod lm_cut;
+mod max;
+
+pub(crate) use explorer::{Combine, Explorer};
+pub(crate) use ff::Ff;
+
+use crate::ids::{OperatorId, StateId};
+use crate::search::Barred;
+use crate::task::{Goal, State, Task};
+use blind::Blind;
+use goal_count::GoalCount;
+use lm_cut::LmCut;
+use max::Max;
+
+/// What a search may rely on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Properties {
+    /// Never above the true cost.
+    pub admissible: bool,
+    /// Falls by no more than the operator's cost along any step.
+    pub consistent: bool,
+    /// Infinite only where the goal cannot be reached.
+    pub safe: bool,
+}
+
+/// Which costs of operators a heuristic counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Costs {
+    /// Each operator counts 1: estimates the length of the plan.
+    Unit,
+    /// Operators count what they cost.
+    Real,
+}
+
+/// The estimators that configurations name. All support conditional effects, axioms and negation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HeuristicKind {
+    /// 0 everywhere.
+    Blind,
+    /// Unsatisfied goals.
+    GoalCount,
+    /// Cost of the dearest proposition of the goal in the delete relaxation.
+    Max,
+    /// Cost of a relaxed plan.
+    Ff,
+    /// Landmark cuts.
+    LmCut,
+}
+
+impl HeuristicKind {
+    /// Every kind.
+    pub const ALL: &'static [Self] = &[Self::Blind, Self::GoalCount, Self::Max, Self::Ff, Self::LmCut];
+
+    /// What holds of it with real costs.
+    pub fn properties(self) -> Properties {
+        let (admissible, consistent) = match self {
+            Self::Blind | Self::Max => (true, true),
+            Self::LmCut => (true, false),
+            Self::GoalCount | Self::Ff => (false, false),
+        };
+        Properties { admissible, consistent, safe: true }
+    }
+
+    /// An estimator for one query.
+    pub(crate) fn build<'t>(
+        self,
+        task: &'t Task,
+        _state: &State,
+        goal: &'t Goal,
+        barred: &Barred,
+        costs: Costs,
+    ) -> Box<dyn Heuristic + 't> {
+        match self {
+            Self::Blind => Box::new(Blind),
+            Self::GoalCount => Box::new(GoalCount::new(goal)),
+            Self::Max => Box::new(Max::new(task, goal, barred, costs)),
+            Self::Ff => Box::new(Ff::new(task, goal, barred, costs)),
+            Self::LmCut => Box::new(LmCut::new(task, goal, barred, costs)),
+        }
+    }
+}
+
+/// An estimate; [`Estimate::DEAD_END`] says that the goal cannot be reached.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Estimate(pub(crate) u32);
+
+impl Estimate {
+    pub(crate) const DEAD_END: Self = Self(u32::MAX);
+}
+
+/// An estimator bound to a task, a goal and the operators that may be used.
+pub(crate) trait Heuristic {
+    /// Estimates a state. Appends operators that look promising in it to `preferred`.
+    fn estimate(&mut self, id: StateId, words: &[u64], preferred: &mut Vec<OperatorId>) -> Estimate;
+
+    /// Told of the first state, before any estimate.
+    fn start(&mut self, _id: StateId, _words: &[u64]) {}
+
+    /// Told of each step of the search to a new or known state, before its estimate.
+    fn step(&mut self, _from: StateId, _operator: OperatorId, _to: StateId, _words: &[u64]) {}
+
+    /// Bytes held, where they grow with the search.
+    fn memory(&self) -> usize {
+        0
+    }
+}

@@ -1,0 +1,36 @@
+//! The ids of a grounded task, each a type of its own.
+
+use pddl::model::Idx;
+
+macro_rules! ids {
+    ($($(#[$doc:meta])* $name:ident;)*) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize)]
+        pub struct $name(pub u32);
+
+        impl Idx for $name {
+            fn from_index(index: usize) -> Self {
+                Self(id32(index))
+            }
+            fn index(self) -> usize {
+                self.0 as usize
+            }
+        }
+    )*};
+}
+
+ids! {
+    /// A ground atom that changes: a bit of a state.
+    FactId;
+    /// A ground operator.
+    OperatorId;
+}
+
+/// A state that a search has met; its registry knows the bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct StateId(pub(crate) u32);
+
+/// A position as a 32-bit id. Limits on facts, operators and states keep every count far below.
+pub(crate) fn id32(index: usize) -> u32 {
+    u32::try_from(index).expect("limits keep every count below 2^32")
+}

@@ -1,0 +1,75 @@
+//! What comes of a search.
+
+use super::Limit;
+use crate::ids::OperatorId;
+use crate::task::{Impossible, Task};
+
+/// A sequence of operators that reaches the goal.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Plan {
+    /// The steps.
+    pub operators: Vec<OperatorId>,
+    /// The sum of their costs in units of `1 / Task::cost_scale`.
+    pub cost: u64,
+}
+
+impl Plan {
+    pub(crate) fn of(task: &Task, operators: Vec<OperatorId>) -> Self {
+        let cost = operators.iter().map(|&o| u64::from(task.operators()[o].cost)).sum();
+        Self { operators, cost }
+    }
+}
+
+/// Why there is no plan.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum UnsolvableReason {
+    /// Parts of the goal that can never hold, not even if nothing were ever deleted.
+    Impossible(Impossible),
+    /// Every reachable state was visited.
+    SpaceExhausted,
+}
+
+/// The answer.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// A plan.
+    Solved(Plan),
+    /// Proof that there is none.
+    Unsolvable(UnsolvableReason),
+    /// No answer within the budget.
+    LimitReached(Limit),
+}
+
+/// What a search did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Statistics {
+    /// States whose successors were generated.
+    pub expanded: u64,
+    /// States that were estimated.
+    pub evaluated: u64,
+    /// Successors generated.
+    pub generated: u64,
+}
+
+impl std::ops::AddAssign for Statistics {
+    fn add_assign(&mut self, other: Self) {
+        self.expanded += other.expanded;
+        self.evaluated += other.evaluated;
+        self.generated += other.generated;
+    }
+}
+
+/// The answer and what it took.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Report {
+    /// The answer.
+    pub outcome: Outcome,
+    /// What it took.
+    pub statistics: Statistics,
+}
+
+impl Report {
+    pub(crate) fn unsolvable(reason: UnsolvableReason) -> Self {
+        Self { outcome: Outcome::Unsolvable(reason), statistics: Statistics::default() }
+    }
+}

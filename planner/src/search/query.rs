@@ -1,0 +1,51 @@
+//! What is asked: from where, to what, without which operators.
+
+use crate::ids::OperatorId;
+use crate::task::{Goal, State, Task};
+
+/// A planning question on a grounded task.
+#[derive(Clone, Copy, Debug)]
+pub struct Query<'a> {
+    /// Where the plan starts.
+    pub state: &'a State,
+    /// What it must reach.
+    pub goal: &'a Goal,
+    /// Operators that it must not use (those that have just failed, say).
+    pub excluded: &'a [OperatorId],
+}
+
+impl<'a> Query<'a> {
+    /// The problem's own question.
+    pub fn of(task: &'a Task) -> Self {
+        Self { state: task.initial_state(), goal: task.goal(), excluded: &[] }
+    }
+
+    pub(crate) fn barred(&self, task: &Task) -> Barred {
+        if self.excluded.is_empty() {
+            return Barred { words: Vec::new() };
+        }
+        let mut words = vec![0_u64; task.operators.len().div_ceil(64)];
+        for operator in self.excluded {
+            words[operator.0 as usize / 64] |= 1 << (operator.0 % 64);
+        }
+        Barred { words }
+    }
+}
+
+/// The excluded operators as a bit set; no words if there are none.
+pub(crate) struct Barred {
+    words: Vec<u64>,
+}
+
+impl Barred {
+    pub(crate) fn contains_number(&self, operator: u32) -> bool {
+        !self.words.is_empty() && self.words[operator as usize / 64] >> (operator % 64) & 1 == 1
+    }
+
+    /// Takes the excluded operators out of a list.
+    pub(crate) fn filter(&self, operators: &mut Vec<OperatorId>) {
+        if !self.words.is_empty() {
+            operators.retain(|o| !self.contains_number(o.0));
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! The grounded task: facts, operators, axioms, an initial state and a goal.
+//!
+//! Problem: a search must not look at schemas or names. Idea: what can change became numbered facts,
+//! what an action can do became operators over sets of facts, and everything that serves any query
+//! on the task (successor tree, relaxation, axiom program) is built once here, so that a replan
+//! starts with a state and a goal and nothing else. Invariant: a [`State`] made by a task is closed
+//! under its axioms.
+
+mod axioms;
+mod names;
+mod operator;
+mod relaxation;
+mod state;
+mod successors;
+
+pub(crate) use axioms::AxiomProgram;
+pub use axioms::AxiomRule;
+pub(crate) use names::Names;
+pub use operator::{ConditionalEffect, Goal, Impossible, Literals, Operator};
+pub(crate) use relaxation::{AXIOM, Relaxation, Rows};
+pub use state::State;
+pub(crate) use state::{contains, for_each_set, set, unset};
+pub(crate) use successors::SuccessorTree;
+
+use crate::ground::AtomTable;
+use crate::ids::{FactId, OperatorId};
+use pddl::model::{IndexVec, ObjectId, PredicateId};
+
+/// A ground atom.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct GroundAtom {
+    /// Its predicate.
+    pub predicate: PredicateId,
+    /// Its arguments.
+    pub arguments: Box<[ObjectId]>,
+}
+
+/// A bit of a state.
+#[derive(Clone, Debug)]
+pub struct Fact {
+    /// What it says; `None` for a fact that grounding made up for a disjunction.
+    pub atom: Option<GroundAtom>,
+    /// Whether axioms decide it.
+    pub derived: bool,
+}
+
+/// What grounding found out about a ground atom.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AtomStatus {
+    /// It changes, and states hold it.
+    Fact(FactId),
+    /// It holds in every reachable state.
+    AlwaysTrue,
+    /// It holds in no reachable state.
+    NeverTrue,
+    /// It may change, but neither the goal nor any useful action asks for it.
+    Irrelevant,
+}
+
+/// A grounded task.
+#[derive(Clone, Debug)]
+pub struct Task {
+    pub(crate) facts: IndexVec<FactId, Fact>,
+    pub(crate) operators: IndexVec<OperatorId, Operator>,
+    pub(crate) axioms: AxiomProgram,
+    pub(crate) initial: State,
+    pub(crate) goal: Goal,
+    pub(crate) atoms: AtomTable,
+    pub(crate) status: Vec<AtomStatus>,
+    pub(crate) names: Names,
+    pub(crate) cost_scale: u32,
+    pub(crate) successors: SuccessorTree,
+    pub(crate) relaxation: Relaxation,
+}
+
+impl Task {
+    /// All facts; derived ones included.
+    pub fn facts(&self) -> &IndexVec<FactId, Fact> {
+        &self.facts
+    }
+
+    /// All operators.
+    pub fn operators(&self) -> &IndexVec<OperatorId, Operator> {
+        &self.operators
+    }
+
+    /// All rules of axioms.
+    pub fn axioms(&self) -> &[AxiomRule] {
+        self.axioms.rules()
+    }
+
+    /// The initial state.
+    pub fn initial_state(&self) -> &State {
+        &self.initial
+    }
+
+    /// The problem's goal.
+    pub fn goal(&self) -> &Goal {
+        &self.goal
+    }
+
+    /// Operators' costs are in units of `1 / cost_scale`.
+    pub fn cost_scale(&self) -> u32 {
+        self.cost_scale
+    }
+
+    /// What became of a ground atom.
+    pub fn status(&self, predicate: PredicateId, arguments: &[ObjectId]) -> AtomStatus {
+        self.atoms
+            .find(predicate, arguments.iter().map(|o| o.0))
+            .map_or(AtomStatus::NeverTrue, |atom| self.status[atom as usize])
+    }
+
+    /// The fact of a ground atom, if it is one.
+    pub fn fact(&self, predicate: PredicateId, arguments: &[ObjectId]) -> Option<FactId> {
+        match self.status(predicate, arguments) {
+            AtomStatus::Fact(fact) => Some(fact),
+            _ => None,
+        }
+    }
+
+    /// The state in which of the basic facts exactly these hold; derived ones follow by the axioms
+    /// (those listed are ignored).
+    pub fn state(&self, facts: impl IntoIterator<Item = FactId>) -> State {
+        let mut state = State::empty(self.facts.len());
+        for fact in facts {
+            if !self.facts[fact].derived {
+                state.insert(fact);
+            }
+        }
+        self.axioms.close(state.words_mut());
+        state
+    }
+
+    /// Whether the operator's precondition holds.
+    pub fn is_applicable(&self, state: &State, operator: OperatorId) -> bool {
+        self.operators[operator].precondition.hold_in(state.words())
+    }
+
+    /// The state after an applicable operator.
+    pub fn successor(&self, state: &State, operator: OperatorId) -> State {
+        let mut next = state.clone();
+        self.apply(operator, state.words(), next.words_mut());
+        next
+    }
+
+    /// All operators that are applicable, in a fixed order.
+    pub fn applicable(&self, state: &State) -> Vec<OperatorId> {
+        let mut found = Vec::new();
+        self.successors.applicable(state.words(), &mut found);
+        found
+    }
+
+    /// Whether the goal holds.
+    pub fn satisfies(&self, state: &State, goal: &Goal) -> bool {
+        goal.holds_in(state.words())
+    }
+
+    /// Turns `next`, a copy of `state`, into the successor.
+    pub(crate) fn apply(&self, operator: OperatorId, state: &[u64], next: &mut [u64]) {
+        self.operators[operator].apply(state, next);
+        self.axioms.close(next);
+    }
+
+    /// Bytes that the task holds for each copy of a state.
+    pub(crate) fn words_per_state(&self) -> usize {
+        self.initial.words().len()
+    }
+}

@@ -1,0 +1,179 @@
+//! The delete relaxation as flat arrays.
+//!
+//! Problem: heuristics walk the same bipartite graph of propositions and operators millions of
+//! times. Idea: a proposition for each fact and for the negation of each fact that some condition
+//! negates; a node for each operator, each of its conditional effects and each axiom rule; adjacency
+//! in compressed rows. Deleting a fact achieves its negation. The negation of a derived fact counts
+//! as true (optimistic, hence safe). Invariant: a plan of the task is a plan of the relaxation.
+//!
+//! Source: Hoffmann & Nebel, "The FF planning system", JAIR 2001, §3; negations as in Helmert 2006.
+
+use super::{AxiomProgram, Fact, Goal, Literals, Operator, contains, for_each_set};
+use crate::ids::{FactId, OperatorId, id32};
+use pddl::model::{Idx, IndexVec};
+
+/// Rows of `u32` behind each other.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Rows {
+    starts: Vec<u32>,
+    items: Vec<u32>,
+}
+
+impl Rows {
+    fn push(&mut self, row: impl IntoIterator<Item = u32>) {
+        if self.starts.is_empty() {
+            self.starts.push(0);
+        }
+        self.items.extend(row);
+        self.starts.push(id32(self.items.len()));
+    }
+
+    pub(crate) fn row(&self, i: u32) -> &[u32] {
+        &self.items[self.starts[i as usize] as usize..self.starts[i as usize + 1] as usize]
+    }
+
+    fn len(&self) -> usize {
+        self.starts.len().saturating_sub(1)
+    }
+
+    /// For each of `n` items, the rows that hold it.
+    pub(crate) fn transposed(&self, n: usize) -> Self {
+        let mut starts = vec![0_u32; n + 1];
+        for &item in &self.items {
+            starts[item as usize + 1] += 1;
+        }
+        for i in 0..n {
+            starts[i + 1] += starts[i];
+        }
+        let mut fill = starts.clone();
+        let mut items = vec![0; self.items.len()];
+        for row in 0..self.len() {
+            for &item in self.row(id32(row)) {
+                items[fill[item as usize] as usize] = id32(row);
+                fill[item as usize] += 1;
+            }
+        }
+        Self { starts, items }
+    }
+}
+
+/// No operator: an axiom's node.
+pub(crate) const AXIOM: u32 = u32::MAX;
+
+/// The graph.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Relaxation {
+    facts: usize,
+    /// Facts with a proposition for their negation, in order of these propositions.
+    negated: Vec<FactId>,
+    /// The proposition for the negation of a fact, or 0 (no negation is proposition 0).
+    negation: Vec<u32>,
+    /// Negations of derived facts.
+    optimistic: Vec<u32>,
+    /// The operator of each node, or [`AXIOM`].
+    pub(crate) operator: Vec<u32>,
+    /// The cost of each node.
+    pub(crate) cost: Vec<u32>,
+    /// What each node needs.
+    pub(crate) preconditions: Rows,
+    /// What each node achieves.
+    pub(crate) effects: Rows,
+    /// The nodes that need a proposition.
+    pub(crate) needed_by: Rows,
+    /// The nodes that need nothing.
+    pub(crate) free: Vec<u32>,
+}
+
+impl Relaxation {
+    pub(crate) fn new(
+        facts: &IndexVec<FactId, Fact>,
+        operators: &IndexVec<OperatorId, Operator>,
+        axioms: &AxiomProgram,
+        goal: &Goal,
+    ) -> Self {
+        let mut graph = Self { facts: facts.len(), negation: vec![0; facts.len()], ..Self::default() };
+        let conditions = operators
+            .iter()
+            .flat_map(|o| std::iter::once(&o.precondition).chain(o.conditional.iter().map(|e| &e.condition)));
+        for literals in conditions.chain(axioms.rules().iter().map(|r| &r.body)).chain([&goal.literals]) {
+            for &f in &literals.negative {
+                if graph.negation[f.index()] == 0 {
+                    let proposition = id32(graph.facts + graph.negated.len());
+                    graph.negation[f.index()] = proposition;
+                    graph.negated.push(f);
+                    if facts[f].derived {
+                        graph.optimistic.push(proposition);
+                    }
+                }
+            }
+        }
+        for (id, op) in operators.enumerate() {
+            graph.node(id.0, op.cost, &[&op.precondition], &op.adds, &op.deletes);
+            for e in &op.conditional {
+                graph.node(id.0, op.cost, &[&op.precondition, &e.condition], &e.adds, &e.deletes);
+            }
+        }
+        for rule in axioms.rules() {
+            graph.node(AXIOM, 0, &[&rule.body], &[rule.head], &[]);
+        }
+        graph.needed_by = graph.preconditions.transposed(graph.propositions());
+        graph
+    }
+
+    fn node(&mut self, op: u32, cost: u32, needs: &[&Literals], adds: &[FactId], deletes: &[FactId]) {
+        let mut pre: Vec<u32> = needs.iter().flat_map(|l| self.literals(l)).collect();
+        pre.sort_unstable();
+        pre.dedup();
+        let negation = &self.negation;
+        let negated = deletes.iter().map(|f| negation[f.index()]).filter(|&p| p != 0);
+        let effects: Vec<u32> = adds.iter().map(|f| f.0).chain(negated).collect();
+        if effects.is_empty() {
+            return;
+        }
+        if pre.is_empty() {
+            self.free.push(id32(self.operator.len()));
+        }
+        self.operator.push(op);
+        self.cost.push(cost);
+        self.preconditions.push(pre);
+        self.effects.push(effects);
+    }
+
+    /// The propositions of a conjunction. A negated fact without a proposition (a goal that came
+    /// after grounding) is left out: optimistic.
+    pub(crate) fn literals(&self, literals: &Literals) -> Vec<u32> {
+        let negative = literals.negative.iter().map(|f| self.negation[f.index()]).filter(|&p| p != 0);
+        literals.positive.iter().map(|f| f.0).chain(negative).collect()
+    }
+
+    /// How many propositions.
+    pub(crate) fn propositions(&self) -> usize {
+        self.facts + self.negated.len()
+    }
+
+    /// How many nodes.
+    pub(crate) fn nodes(&self) -> usize {
+        self.operator.len()
+    }
+
+    /// The fact of a proposition and whether it must hold.
+    pub(crate) fn literal(&self, proposition: u32) -> (FactId, bool) {
+        match (proposition as usize).checked_sub(self.facts) {
+            None => (FactId(proposition), true),
+            Some(i) => (self.negated[i], false),
+        }
+    }
+
+    /// Calls `f` with every proposition that is true in the state.
+    pub(crate) fn for_each_true(&self, words: &[u64], mut f: impl FnMut(u32)) {
+        for_each_set(words, &mut f);
+        for (i, &fact) in self.negated.iter().enumerate() {
+            if !contains(words, fact) {
+                f(id32(self.facts + i));
+            }
+        }
+        for &proposition in &self.optimistic {
+            f(proposition);
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! States as bit sets over facts.
+//!
+//! Idea: one bit a fact, 64 to a word, so that a literal of either sign is one test and copying a
+//! state is a `memcpy`. The free functions work on borrowed words, because a search keeps its states
+//! in one arena.
+
+use crate::ids::{FactId, id32};
+
+/// A state of its own storage.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct State {
+    words: Box<[u64]>,
+}
+
+impl State {
+    pub(crate) fn empty(facts: usize) -> Self {
+        Self { words: vec![0; facts.div_ceil(64)].into_boxed_slice() }
+    }
+
+    /// Whether the fact holds.
+    pub fn contains(&self, fact: FactId) -> bool {
+        contains(&self.words, fact)
+    }
+
+    /// The facts that hold, in order of their ids.
+    pub fn facts(&self) -> Vec<FactId> {
+        let mut facts = Vec::new();
+        for_each_set(&self.words, |f| facts.push(FactId(f)));
+        facts
+    }
+
+    pub(crate) fn insert(&mut self, fact: FactId) {
+        set(&mut self.words, fact);
+    }
+
+    pub(crate) fn words(&self) -> &[u64] {
+        &self.words
+    }
+
+    pub(crate) fn words_mut(&mut self) -> &mut [u64] {
+        &mut self.words
+    }
+}
+
+pub(crate) fn contains(words: &[u64], fact: FactId) -> bool {
+    words[fact.0 as usize / 64] >> (fact.0 % 64) & 1 == 1
+}
+
+pub(crate) fn set(words: &mut [u64], fact: FactId) {
+    words[fact.0 as usize / 64] |= 1 << (fact.0 % 64);
+}
+
+pub(crate) fn unset(words: &mut [u64], fact: FactId) {
+    words[fact.0 as usize / 64] &= !(1 << (fact.0 % 64));
+}
+
+/// Calls `f` with each set bit, in ascending order.
+pub(crate) fn for_each_set(words: &[u64], mut f: impl FnMut(u32)) {
+    for (i, &word) in words.iter().enumerate() {
+        let mut rest = word;
+        while rest != 0 {
+            f(id32(i) * 64 + rest.trailing_zeros());
+            rest &= rest - 1;
+        }
+    }
+}
