@@ -4,7 +4,7 @@
 //! [`model::Domain`] or [`model::Problem`] with resolved names, and whatever is wrong on the way
 //! becomes a [`Diagnostic`] with a place. Nothing here reads files or prints.
 //!
-//! ```no_run
+//! ```
 //! use pddl::{Source, parse_domain};
 //!
 //! let source = Source::new("hall.pddl", "(define (domain hall) (:predicates (lit)))");
@@ -14,12 +14,14 @@
 //! ```
 
 mod diagnostic;
+mod lower;
 pub mod model;
 mod parse;
 mod plan;
 mod source;
+pub mod syntax;
 
-pub use diagnostic::{Diagnostic, Severity};
+pub use diagnostic::{Diagnostic, DiagnosticKind, FileKind, Label, Severity, SymbolKind, UnsupportedFeature};
 pub use parse::{Parsed, parse_domain, parse_plan, parse_problem};
 pub use plan::{Plan, PlanStep};
 pub use source::{LineColumn, Source, Span};

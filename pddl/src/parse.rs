@@ -1,7 +1,9 @@
 //! From text to model: the entry points.
 
+use crate::lower::{self, Sink};
 use crate::model::{Domain, Problem};
-use crate::{Diagnostic, Plan, Source};
+use crate::syntax;
+use crate::{Diagnostic, Plan, Severity, Source};
 
 /// What came of reading a source.
 #[derive(Clone, Debug)]
@@ -12,21 +14,28 @@ pub struct Parsed<M> {
     pub diagnostics: Vec<Diagnostic>,
 }
 
+impl<M> Parsed<M> {
+    /// The errors only.
+    pub fn errors(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.diagnostics.iter().filter(|d| d.severity == Severity::Error)
+    }
+}
+
 /// Reads a domain (or vocabulary, rules, perception, methods). `imports` are the domains that an
 /// `(:import …)` may name.
 pub fn parse_domain(source: &Source, imports: &[&Domain]) -> Parsed<Domain> {
-    let _ = (source, imports);
-    Parsed { model: None, diagnostics: Vec::new() }
+    let (tree, diagnostics) = syntax::parse(source);
+    lower::domain(Sink::new(diagnostics), &tree, imports)
 }
 
 /// Reads a problem of `domain`.
 pub fn parse_problem(source: &Source, domain: &Domain) -> Parsed<Problem> {
-    let _ = (source, domain);
-    Parsed { model: None, diagnostics: Vec::new() }
+    let (tree, diagnostics) = syntax::parse(source);
+    lower::problem(Sink::new(diagnostics), &tree, domain)
 }
 
-/// Reads a classical plan for `problem`.
+/// Reads a classical plan for `problem`. Temporal and hierarchical plans are read but have no model.
 pub fn parse_plan(source: &Source, domain: &Domain, problem: &Problem) -> Parsed<Plan> {
-    let _ = (source, domain, problem);
-    Parsed { model: None, diagnostics: Vec::new() }
+    let (tree, diagnostics) = syntax::parse(source);
+    lower::plan(Sink::new(diagnostics), &tree, domain, problem)
 }

@@ -60,10 +60,19 @@ impl Source {
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
         let text = text.into();
         assert!(text.len() <= Self::MAX_BYTES, "a source is shorter than 4 GiB");
-        let line_starts = std::iter::once(0)
-            .chain(text.bytes().enumerate().filter(|&(_, b)| b == b'\n').map(|(i, _)| i as u32 + 1))
-            .collect();
+        let ends = (1u32..).zip(text.bytes()).filter(|&(_, b)| b == b'\n').map(|(next, _)| next);
+        let line_starts = std::iter::once(0).chain(ends).collect();
         Self { name: name.into(), text, line_starts }
+    }
+
+    /// Reads bytes as UTF-8 or, where they are not, as Latin-1, which old competition files are in.
+    ///
+    /// # Panics
+    /// Like [`Source::new`].
+    pub fn from_bytes(name: impl Into<String>, bytes: Vec<u8>) -> Self {
+        let text =
+            String::from_utf8(bytes).unwrap_or_else(|e| e.into_bytes().into_iter().map(char::from).collect());
+        Self::new(name, text)
     }
 
     /// What to call it.
@@ -81,12 +90,22 @@ impl Source {
         self.text.get(span.range()).unwrap_or("")
     }
 
+    /// The text of a line (from 1) without its line end; empty if there is no such line.
+    pub fn line(&self, line: u32) -> &str {
+        let Some(&start) = (line as usize).checked_sub(1).and_then(|i| self.line_starts.get(i)) else {
+            return "";
+        };
+        let end = self.line_starts.get(line as usize).map_or(self.text.len(), |&e| e as usize);
+        self.text.get(start as usize..end).unwrap_or("").trim_end_matches(['\n', '\r'])
+    }
+
     /// Where a byte offset stands.
     pub fn line_column(&self, offset: u32) -> LineColumn {
         let line = self.line_starts.partition_point(|&s| s <= offset).max(1) - 1;
         let start = self.line_starts[line] as usize;
         let end = (offset as usize).min(self.text.len());
         let column = self.text.get(start..end).map_or(0, |t| t.chars().count());
-        LineColumn { line: line as u32 + 1, column: column as u32 + 1 }
+        let from_one = |n: usize| u32::try_from(n + 1).unwrap_or(u32::MAX);
+        LineColumn { line: from_one(line), column: from_one(column) }
     }
 }

@@ -1,0 +1,433 @@
+//! Every kind of diagnostic with its fields, its code, its sentence and its help.
+
+use crate::model::Name;
+
+use super::Severity;
+
+/// What an author may have meant a name to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SymbolKind {
+    /// A type.
+    Type,
+    /// A predicate.
+    Predicate,
+    /// A function.
+    Function,
+    /// A constant or an object.
+    Object,
+    /// A variable.
+    Variable,
+    /// An action, durative or not.
+    Action,
+    /// A compound task.
+    Task,
+    /// A compound task or an action.
+    TaskOrAction,
+    /// A method.
+    Method,
+    /// A subtask's id.
+    Subtask,
+    /// A predicate, function or type, as a token of the graph.
+    Token,
+    /// A domain to import.
+    Domain,
+    /// A requirement flag.
+    Requirement,
+}
+
+impl std::fmt::Display for SymbolKind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Type => "type",
+            Self::Predicate => "predicate",
+            Self::Function => "function",
+            Self::Object => "object",
+            Self::Variable => "variable",
+            Self::Action => "action",
+            Self::Task => "task",
+            Self::TaskOrAction => "task or action",
+            Self::Method => "method",
+            Self::Subtask => "subtask",
+            Self::Token => "token",
+            Self::Domain => "domain",
+            Self::Requirement => "requirement",
+        })
+    }
+}
+
+/// What a source is read as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileKind {
+    /// `(define (domain …) …)`
+    Domain,
+    /// `(define (problem …) …)`
+    Problem,
+}
+
+impl std::fmt::Display for FileKind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Domain => "domain",
+            Self::Problem => "problem",
+        })
+    }
+}
+
+/// A language feature that is read but not modelled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum UnsupportedFeature {
+    /// `(preference …)`, `(is-violated …)`
+    Preferences,
+    /// `(:constraints …)`
+    TrajectoryConstraints,
+    /// `(at 5 (p))` in `:init`
+    TimedInitialLiterals,
+    /// `#t`
+    ContinuousEffects,
+    /// `:process`
+    Processes,
+    /// `:event`
+    Events,
+    /// `(p (f ?x))`
+    FunctionTerms,
+    /// `(= (f ?x) (g ?y))` of object fluents
+    FluentComparison,
+    /// `(when (at start p) (at end q))`
+    ConditionsAcrossTimes,
+    /// `(at end (= ?duration …))`
+    DurationAtEnd,
+    /// `:constraints` of a problem's task network, or `(sort …)` in a method's
+    NetworkConstraints,
+    /// `:vars` of actions (PDDL 1.2)
+    ActionVariables,
+    /// `0.0: (a) [2.0]`
+    TemporalPlans,
+    /// `==> … <==`
+    HierarchicalPlans,
+}
+
+impl std::fmt::Display for UnsupportedFeature {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Preferences => "preferences",
+            Self::TrajectoryConstraints => "trajectory constraints",
+            Self::TimedInitialLiterals => "timed initial literals and fluents",
+            Self::ContinuousEffects => "continuous effects (`#t`)",
+            Self::Processes => "processes",
+            Self::Events => "events",
+            Self::FunctionTerms => "functions as arguments",
+            Self::FluentComparison => "comparison of two object fluents",
+            Self::ConditionsAcrossTimes => "conditional effects across times",
+            Self::DurationAtEnd => "duration constraints at the end",
+            Self::NetworkConstraints => "constraints of task networks",
+            Self::ActionVariables => "variables of actions that are no parameters (`:vars`)",
+            Self::TemporalPlans => "temporal plans",
+            Self::HierarchicalPlans => "hierarchical plans",
+        })
+    }
+}
+
+/// What is wrong.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum DiagnosticKind {
+    /// A `(` without its `)`.
+    #[error("this parenthesis is never closed")]
+    UnclosedParenthesis,
+    /// A `)` without its `(`.
+    #[error("this parenthesis closes nothing")]
+    UnmatchedParenthesis,
+    /// Lists in lists in lists.
+    #[error("lists are nested more than {limit} deep")]
+    NestingTooDeep {
+        /// The deepest that is read.
+        limit: usize,
+    },
+    /// No `(define (domain …))` in the file.
+    #[error("this is not a {expected}")]
+    NotADefinition {
+        /// What was to be read.
+        expected: FileKind,
+    },
+    /// Something else should stand here.
+    #[error("expected {expected}, found {found}")]
+    Unexpected {
+        /// What stands here, shortened.
+        found: String,
+        /// What should.
+        expected: &'static str,
+    },
+    /// Something required is not there.
+    #[error("{owner} has no {what}")]
+    Missing {
+        /// What lacks it.
+        owner: String,
+        /// What is missing.
+        what: &'static str,
+    },
+    /// `(:akshun …)`
+    #[error("unknown section `{name}`")]
+    UnknownSection {
+        /// As written.
+        name: String,
+        /// A section that is spelled alike.
+        suggestion: Option<String>,
+    },
+    /// `:prekondition`
+    #[error("unknown key `{name}` in {owner}")]
+    UnknownKey {
+        /// As written.
+        name: String,
+        /// What it is a key of.
+        owner: &'static str,
+        /// A key that is spelled alike.
+        suggestion: Option<String>,
+    },
+    /// A section or key that stands twice.
+    #[error("`{name}` stands here a second time")]
+    Repeated {
+        /// Which.
+        name: String,
+    },
+    /// Text behind the definition.
+    #[error("this stands behind the end of the definition and is not read")]
+    TrailingText,
+
+    /// A name that nothing declares.
+    #[error("unknown {symbol} `{name}`")]
+    Unknown {
+        /// What it should be.
+        symbol: SymbolKind,
+        /// As written.
+        name: String,
+        /// A declared name that is spelled alike.
+        suggestion: Option<String>,
+    },
+    /// A name declared twice.
+    #[error("{symbol} `{name}` is declared twice")]
+    Duplicate {
+        /// What it is.
+        symbol: SymbolKind,
+        /// Which.
+        name: Name,
+    },
+    /// The same declaration twice.
+    #[error("{symbol} `{name}` is declared twice, in the same way")]
+    Redundant {
+        /// What it is.
+        symbol: SymbolKind,
+        /// Which.
+        name: Name,
+    },
+    /// An object of several types, one after the other.
+    #[error("object `{name}` is declared twice, with different types: it is of both")]
+    SeveralTypes {
+        /// Which.
+        name: Name,
+    },
+    /// A declaration that differs from an imported one.
+    #[error("{symbol} `{name}` is declared differently in `{import}`")]
+    ImportConflict {
+        /// What it is.
+        symbol: SymbolKind,
+        /// Which.
+        name: Name,
+        /// The imported domain.
+        import: Name,
+    },
+    /// The problem names another domain.
+    #[error("this problem is for domain `{found}`, but it is read with domain `{expected}`")]
+    OtherDomain {
+        /// Named by the problem.
+        found: Name,
+        /// Given.
+        expected: Name,
+    },
+
+    /// Too many or too few arguments.
+    #[error("{symbol} `{name}` takes {expected} argument{}, {found} given", if *expected == 1 { "" } else { "s" })]
+    WrongArity {
+        /// What is applied.
+        symbol: SymbolKind,
+        /// Which.
+        name: Name,
+        /// How many it takes.
+        expected: usize,
+        /// How many stand here.
+        found: usize,
+        /// Its declaration.
+        signature: String,
+    },
+    /// An argument of a wrong type.
+    #[error(
+        "argument {position} of `{name}` must be of type {expected}, but `{argument}` is of type {found}"
+    )]
+    WrongType {
+        /// What is applied.
+        name: Name,
+        /// Which argument, from 1.
+        position: usize,
+        /// As written.
+        argument: String,
+        /// The declared type.
+        expected: String,
+        /// The argument's type.
+        found: String,
+    },
+    /// A value of a wrong type for a fluent, or a comparison of what can never be equal.
+    #[error(
+        "`{left}` is of type {left_type} and `{right}` of type {right_type}: they have nothing in common"
+    )]
+    NothingInCommon {
+        /// One side as written.
+        left: String,
+        /// Its type.
+        left_type: String,
+        /// The other side as written.
+        right: String,
+        /// Its type.
+        right_type: String,
+    },
+    /// Types that are their own supertypes.
+    #[error("cyclic types: {}", path(cycle))]
+    CyclicTypes {
+        /// From a type up to itself.
+        cycle: Vec<Name>,
+    },
+    /// An object fluent where a number belongs, or the other way round.
+    #[error("function `{name}` yields {found}, but {expected} is needed here")]
+    WrongValue {
+        /// Which function.
+        name: Name,
+        /// What it yields.
+        found: &'static str,
+        /// What is needed.
+        expected: &'static str,
+    },
+    /// An effect on a derived predicate.
+    #[error("`{name}` is derived by an axiom and cannot be an effect")]
+    DerivedEffect {
+        /// Which predicate.
+        name: Name,
+    },
+
+    /// Subtasks that wait for each other.
+    #[error("cyclic ordering: {}", path(cycle))]
+    CyclicOrdering {
+        /// From a subtask to itself.
+        cycle: Vec<Name>,
+    },
+
+    /// `(at strat …)`
+    #[error("`at {name}` is not a time: outcomes other than `start` and `end` need `:agent-rules`")]
+    UnknownTime {
+        /// What stands behind `at`.
+        name: String,
+    },
+    /// `(at abort …)` in a condition.
+    #[error("`at {name}` is an outcome: only effects have outcomes")]
+    OutcomeInCondition {
+        /// Which.
+        name: String,
+    },
+    /// A key or section of ours without its requirement.
+    #[error("`{name}` needs the requirement `{requirement}`")]
+    NeedsRequirement {
+        /// What needs it.
+        name: String,
+        /// Which.
+        requirement: &'static str,
+    },
+
+    /// A part of the language that no model holds.
+    #[error("{feature} are read but not supported")]
+    Unsupported {
+        /// Which.
+        feature: UnsupportedFeature,
+    },
+}
+
+fn path(names: &[Name]) -> String {
+    let parts: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
+    parts.join(" → ")
+}
+
+impl DiagnosticKind {
+    /// Stable code.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::UnclosedParenthesis => "E0101",
+            Self::UnmatchedParenthesis => "E0102",
+            Self::NestingTooDeep { .. } => "E0103",
+            Self::NotADefinition { .. } => "E0104",
+            Self::Unexpected { .. } => "E0105",
+            Self::Missing { .. } => "E0106",
+            Self::UnknownSection { .. } => "E0107",
+            Self::UnknownKey { .. } => "E0108",
+            Self::Repeated { .. } => "E0109",
+            Self::TrailingText => "W0110",
+            Self::Unknown { symbol, .. } => match symbol {
+                SymbolKind::Type => "E0201",
+                SymbolKind::Predicate => "E0202",
+                SymbolKind::Function => "E0203",
+                SymbolKind::Object => "E0204",
+                SymbolKind::Variable => "E0205",
+                SymbolKind::Action => "E0206",
+                SymbolKind::Task => "E0207",
+                SymbolKind::TaskOrAction => "E0208",
+                SymbolKind::Method => "E0209",
+                SymbolKind::Subtask => "E0210",
+                SymbolKind::Token => "E0211",
+                SymbolKind::Domain => "E0212",
+                SymbolKind::Requirement => "W0213",
+            },
+            Self::Duplicate { .. } => "E0220",
+            Self::ImportConflict { .. } => "E0221",
+            Self::Redundant { .. } => "W0222",
+            Self::OtherDomain { .. } => "W0223",
+            Self::SeveralTypes { .. } => "W0224",
+            Self::WrongArity { .. } => "E0301",
+            Self::WrongType { .. } => "E0302",
+            Self::NothingInCommon { .. } => "E0303",
+            Self::CyclicTypes { .. } => "E0304",
+            Self::WrongValue { .. } => "E0305",
+            Self::DerivedEffect { .. } => "E0306",
+            Self::CyclicOrdering { .. } => "E0401",
+            Self::UnknownTime { .. } => "E0501",
+            Self::OutcomeInCondition { .. } => "E0502",
+            Self::NeedsRequirement { .. } => "E0503",
+            Self::Unsupported { .. } => "U0601",
+        }
+    }
+
+    /// How bad it is: the code's first letter.
+    pub fn severity(&self) -> Severity {
+        match self.code().as_bytes()[0] {
+            b'W' => Severity::Warning,
+            b'U' => Severity::Unsupported,
+            _ => Severity::Error,
+        }
+    }
+
+    /// What would be right.
+    pub fn help(&self) -> Option<String> {
+        match self {
+            Self::Unknown { suggestion: Some(name), .. }
+            | Self::UnknownSection { suggestion: Some(name), .. }
+            | Self::UnknownKey { suggestion: Some(name), .. } => Some(format!("did you mean `{name}`?")),
+            Self::NotADefinition { expected } => {
+                Some(format!("a file of this kind is `(define ({expected} NAME) …)`"))
+            }
+            Self::Unknown { symbol: SymbolKind::Variable, .. } => {
+                Some("declare it in `:parameters`, or bind it with `forall` or `exists`".into())
+            }
+            Self::WrongArity { signature, .. } => Some(format!("declared as `{signature}`")),
+            Self::UnknownTime { .. } => {
+                Some("write `(at start …)`, `(over all …)` or `(at end …)` around it".into())
+            }
+            Self::NeedsRequirement { requirement, .. } => {
+                Some(format!("add `{requirement}` to `(:requirements …)`"))
+            }
+            _ => None,
+        }
+    }
+}

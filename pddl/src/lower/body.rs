@@ -1,0 +1,191 @@
+//! What conditions, effects and expressions have in common: terms, arguments, quantifiers.
+//!
+//! The files beside this one add the forms. All recurse at most as deep as the tree has nodes
+//! ([`crate::syntax::MAX_DEPTH`]); each form has a function of its own, so that a level costs little
+//! stack. An error leaves a placeholder in the model, which is then not handed out.
+
+use super::schema::Schema;
+use super::sink::Sink;
+use super::world::World;
+use crate::diagnostic::{DiagnosticKind, SymbolKind, UnsupportedFeature};
+use crate::model::{Name, ObjectId, Term, TypeSet, Variable, VariableId};
+use crate::syntax::{Node, NodeKind};
+
+/// One schema that is being read.
+pub(crate) struct Body<'a> {
+    pub(crate) world: &'a World,
+    pub(crate) sink: &'a mut Sink,
+    pub(crate) schema: Schema,
+}
+
+/// A declared symbol that is applied to arguments.
+pub(super) struct Applied<'a> {
+    pub(super) symbol: SymbolKind,
+    pub(super) name: &'a Name,
+    pub(super) parameters: &'a [Variable],
+}
+
+impl<'a> Body<'a> {
+    pub(crate) fn new(world: &'a World, sink: &'a mut Sink) -> Self {
+        Self { world, sink, schema: Schema::default() }
+    }
+
+    /// A variable in sight or an object; reports what is neither.
+    pub(super) fn term(&mut self, node: Node<'_>) -> Option<Term> {
+        match node.kind() {
+            NodeKind::Variable => self.variable(node).map(Term::Variable),
+            NodeKind::Name | NodeKind::Number => self.object(node).map(Term::Object),
+            NodeKind::List if node.head().is_some_and(|h| self.world.function(h.text()).is_some()) => {
+                self.sink.unsupported(node.span(), UnsupportedFeature::FunctionTerms);
+                None
+            }
+            NodeKind::List | NodeKind::Keyword => {
+                self.sink.unexpected(node, "a variable or an object");
+                None
+            }
+        }
+    }
+
+    pub(super) fn variable(&mut self, node: Node<'_>) -> Option<VariableId> {
+        let name = &node.text()[1..];
+        let found = self.schema.find(name);
+        if found.is_none() {
+            let near = self.sink.suggest(name, self.schema.names()).map(|n| format!("?{n}"));
+            let kind = DiagnosticKind::Unknown {
+                symbol: SymbolKind::Variable,
+                name: node.text().to_owned(),
+                suggestion: near,
+            };
+            self.sink.report(node.span(), kind);
+        }
+        found
+    }
+
+    pub(super) fn object(&mut self, node: Node<'_>) -> Option<ObjectId> {
+        let found = self.world.object(node.text());
+        if found.is_none() {
+            self.world.unknown(self.sink, node, SymbolKind::Object);
+        }
+        found
+    }
+
+    /// The arguments of an applied symbol, their number and types checked; `None` if any is wrong.
+    pub(super) fn arguments<'t>(
+        &mut self,
+        whole: Node<'t>,
+        nodes: impl Iterator<Item = Node<'t>>,
+        of: &Applied<'_>,
+    ) -> Option<Vec<Term>> {
+        let mut terms = Vec::with_capacity(of.parameters.len());
+        let mut sound = true;
+        let mut count = 0;
+        for node in nodes {
+            let term = self.term(node);
+            sound &= term.is_some();
+            if let (Some(term), Some(parameter)) = (term, of.parameters.get(count)) {
+                sound &= self.argument_fits(node, term, of.name, count, &parameter.types);
+            }
+            terms.extend(term);
+            count += 1;
+        }
+        if count != of.parameters.len() {
+            let kind = DiagnosticKind::WrongArity {
+                symbol: of.symbol,
+                name: of.name.clone(),
+                expected: of.parameters.len(),
+                found: count,
+                signature: self.world.signature(of.name, of.parameters),
+            };
+            self.sink.report(whole.span(), kind);
+            return None;
+        }
+        sound.then_some(terms)
+    }
+
+    /// Whether the term can stand for a parameter of those types; reports it if not. A variable of a
+    /// supertype can: the parameter's type narrows what it may be bound to.
+    pub(super) fn argument_fits(
+        &mut self,
+        node: Node<'_>,
+        term: Term,
+        of: &Name,
+        index: usize,
+        types: &TypeSet,
+    ) -> bool {
+        let fits = match term {
+            Term::Object(object) => self.world.fits(object, types),
+            Term::Variable(variable) => self.world.meet(&self.schema.variables[variable].types, types),
+        };
+        if !fits {
+            let kind = DiagnosticKind::WrongType {
+                name: of.clone(),
+                position: index + 1,
+                argument: node.text().to_owned(),
+                expected: self.world.type_text(types),
+                found: self.world.type_text(&self.term_types(term)),
+            };
+            self.sink.report(node.span(), kind);
+        }
+        fits
+    }
+
+    pub(super) fn term_types(&self, term: Term) -> TypeSet {
+        match term {
+            Term::Object(object) => self.world.objects[object].types.clone(),
+            Term::Variable(variable) => self.schema.variables[variable].types.clone(),
+        }
+    }
+
+    /// Reports two terms, or a fluent and a term, that can never be equal.
+    pub(super) fn check_common(&mut self, left: (Node<'_>, &TypeSet), right: (Node<'_>, &TypeSet)) {
+        if !self.world.meet(left.1, right.1) {
+            let kind = DiagnosticKind::NothingInCommon {
+                left: left.0.text().to_owned(),
+                left_type: self.world.type_text(left.1),
+                right: right.0.text().to_owned(),
+                right_type: self.world.type_text(right.1),
+            };
+            self.sink.report(left.0.span().to(right.0.span()), kind);
+        }
+    }
+
+    /// `((?x - t …) rest)` of a quantifier: binds the variables and gives them with the rest.
+    pub(super) fn quantifier<'t>(&mut self, node: Node<'t>) -> Option<(Vec<VariableId>, Node<'t>)> {
+        let parts: Vec<Node<'t>> = node.children().skip(1).collect();
+        match parts.as_slice() {
+            [variables, rest] if variables.is_list() => {
+                let (world, before) = (self.world, self.schema.variables.slots.len());
+                let bound = self.schema.bind(world, self.sink, variables.children());
+                debug_assert_eq!(bound.len(), self.schema.variables.slots.len() - before);
+                Some((bound, *rest))
+            }
+            [variables, rest, more, ..] if variables.is_list() => {
+                self.sink.unexpected(*more, "the end of the quantifier");
+                let bound = self.schema.bind(self.world, self.sink, variables.children());
+                Some((bound, *rest))
+            }
+            [variables, ..] if !variables.is_list() => {
+                self.sink.unexpected(*variables, "a list of variables such as `(?x - type)`");
+                None
+            }
+            _ => {
+                self.sink.missing(node, "the quantifier", "body");
+                None
+            }
+        }
+    }
+
+    /// The parts of `node` behind its head if there are exactly `N`; reports it if not.
+    pub(super) fn parts<'t, const N: usize>(
+        &mut self,
+        node: Node<'t>,
+        expected: &'static str,
+    ) -> Option<[Node<'t>; N]> {
+        let parts: Vec<Node<'t>> = node.children().skip(1).collect();
+        let found = parts.try_into().ok();
+        if found.is_none() {
+            self.sink.unexpected(node, expected);
+        }
+        found
+    }
+}

@@ -1,0 +1,236 @@
+//! Conditions: preconditions, goals, bodies of axioms, guards.
+//!
+//! `and`, `or`, `not`, `imply`, `forall`, `exists` and the comparisons are reserved; every other word
+//! of PDDL may be a predicate's name. `=` compares terms, numbers or a fluent with its value, by what
+//! its sides are.
+
+use super::body::{Applied, Body};
+use crate::diagnostic::{DiagnosticKind, SymbolKind, UnsupportedFeature};
+use crate::model::{
+    Atom, Comparison, Condition, ConditionKind, FunctionValue, ObjectId, PredicateId, Term, TypeSet,
+};
+use crate::syntax::{Node, NodeKind};
+
+const TRAJECTORY: &[&str] = &[
+    "always",
+    "sometime",
+    "within",
+    "at-most-once",
+    "sometime-after",
+    "sometime-before",
+    "always-within",
+    "hold-during",
+    "hold-after",
+];
+
+impl Body<'_> {
+    /// Reads a condition; `()` always holds.
+    pub(crate) fn condition(&mut self, node: Node<'_>) -> Condition {
+        let kind = self.condition_kind(node).unwrap_or_else(always);
+        Condition { kind, span: node.span() }
+    }
+
+    fn condition_kind(&mut self, node: Node<'_>) -> Option<ConditionKind> {
+        let Some(head) = node.head() else {
+            if !node.is_list() {
+                self.sink.unexpected(node, "a condition such as `(p ?x)`");
+            }
+            return None;
+        };
+        match () {
+            () if head.is("and") => Some(ConditionKind::And(self.junction(node))),
+            () if head.is("or") => Some(ConditionKind::Or(self.junction(node))),
+            () if head.is("not") => self.negation(node),
+            () if head.is("imply") => self.implication(node),
+            () if head.is("forall") => self.quantified(node, ConditionKind::Forall),
+            () if head.is("exists") => self.quantified(node, ConditionKind::Exists),
+            () if head.is("=") => self.equality(node),
+            () if head.is("<") => self.comparison(node, Comparison::Less),
+            () if head.is("<=") => self.comparison(node, Comparison::LessEqual),
+            () if head.is(">=") => self.comparison(node, Comparison::GreaterEqual),
+            () if head.is(">") => self.comparison(node, Comparison::Greater),
+            () => self.literal(node, head),
+        }
+    }
+
+    fn junction(&mut self, node: Node<'_>) -> Vec<Condition> {
+        let mut parts = Vec::new();
+        for part in node.children().skip(1) {
+            parts.push(self.condition(part));
+        }
+        parts
+    }
+
+    fn negation(&mut self, node: Node<'_>) -> Option<ConditionKind> {
+        let [inner] = self.parts(node, "`(not CONDITION)`")?;
+        Some(ConditionKind::Not(Box::new(self.condition(inner))))
+    }
+
+    fn implication(&mut self, node: Node<'_>) -> Option<ConditionKind> {
+        let [if_, then] = self.parts(node, "`(imply CONDITION CONDITION)`")?;
+        let if_ = Box::new(self.condition(if_));
+        Some(ConditionKind::Imply(if_, Box::new(self.condition(then))))
+    }
+
+    fn quantified(
+        &mut self,
+        node: Node<'_>,
+        make: fn(Vec<crate::model::VariableId>, Box<Condition>) -> ConditionKind,
+    ) -> Option<ConditionKind> {
+        let (bound, inner) = self.quantifier(node)?;
+        let inner = self.condition(inner);
+        self.schema.unbind(bound.len());
+        Some(make(bound, Box::new(inner)))
+    }
+
+    /// A predicate, or a form that only some heads make.
+    fn literal(&mut self, node: Node<'_>, head: Node<'_>) -> Option<ConditionKind> {
+        if !head.is_name() {
+            self.sink
+                .unexpected(head, "a predicate or one of `and`, `or`, `not`, `imply`, `forall`, `exists`");
+            return None;
+        }
+        if let Some(predicate) = self.world.predicate(head.text()) {
+            return self.atom(node, predicate).map(ConditionKind::Atom);
+        }
+        if head.is("preference") {
+            self.preference(node);
+        } else if TRAJECTORY.iter().any(|w| head.is(w)) {
+            self.sink.unsupported(node.span(), UnsupportedFeature::TrajectoryConstraints);
+        } else {
+            self.world.unknown(self.sink, head, SymbolKind::Predicate);
+        }
+        None
+    }
+
+    /// What a preference holds is checked although it is not kept.
+    pub(super) fn preference(&mut self, node: Node<'_>) {
+        self.sink.unsupported(node.span(), UnsupportedFeature::Preferences);
+        if let Some(inner) = node.children().skip(1).last().filter(|n| n.is_list()) {
+            self.condition(inner);
+        }
+    }
+
+    /// `(p t …)` with a predicate that is known.
+    pub(super) fn atom(&mut self, node: Node<'_>, id: PredicateId) -> Option<Atom> {
+        let predicate = &self.world.predicates[id];
+        let of = Applied {
+            symbol: SymbolKind::Predicate,
+            name: &predicate.name,
+            parameters: predicate.variables.parameters(),
+        };
+        let arguments = self.arguments(node, node.children().skip(1), &of)?;
+        Some(Atom { predicate: id, arguments, span: node.span() })
+    }
+
+    fn equality(&mut self, node: Node<'_>) -> Option<ConditionKind> {
+        let [left, right] = self.parts(node, "`(= LEFT RIGHT)`")?;
+        let (l, r) = (self.fluent_value(left), self.fluent_value(right));
+        match (l, r) {
+            (Some(FunctionValue::Object(_)), Some(FunctionValue::Object(_))) => {
+                self.sink.unsupported(node.span(), UnsupportedFeature::FluentComparison);
+                None
+            }
+            (Some(FunctionValue::Object(types)), _) => self.fluent_is(left, &types, right),
+            (_, Some(FunctionValue::Object(types))) => self.fluent_is(right, &types, left),
+            _ if self.is_numeric(left) || self.is_numeric(right) => self.comparison(node, Comparison::Equal),
+            _ => self.same(left, right),
+        }
+    }
+
+    fn fluent_is(&mut self, fluent: Node<'_>, types: &TypeSet, value: Node<'_>) -> Option<ConditionKind> {
+        let application = self.application(fluent);
+        let term = self.term(value)?;
+        let value_types = self.term_types(term);
+        self.check_common((fluent, types), (value, &value_types));
+        Some(ConditionKind::FluentIs(application?, term))
+    }
+
+    fn same(&mut self, left: Node<'_>, right: Node<'_>) -> Option<ConditionKind> {
+        let (l, r) = (self.term(left), self.term(right));
+        Some(ConditionKind::Same(l?, r?))
+    }
+
+    fn comparison(&mut self, node: Node<'_>, comparison: Comparison) -> Option<ConditionKind> {
+        let [left, right] = self.parts(node, "two numbers to compare")?;
+        let left = self.expression(left);
+        let right = self.expression(right);
+        Some(ConditionKind::Compare(comparison, Box::new(left?), Box::new(right?)))
+    }
+
+    /// What the function yields that `node` applies, if it is one. A bare name is an object first.
+    pub(super) fn fluent_value(&self, node: Node<'_>) -> Option<FunctionValue> {
+        let head = if node.is_list() { node.head()? } else { node };
+        if !node.is_list() && self.world.object(node.text()).is_some() {
+            return None;
+        }
+        self.world.function(head.text()).map(|f| self.world.functions[f].value.clone())
+    }
+
+    fn is_numeric(&self, node: Node<'_>) -> bool {
+        match node.kind() {
+            NodeKind::List => true,
+            NodeKind::Number => self.world.object(node.text()).is_none(),
+            NodeKind::Variable => self.schema.durative && node.is("?duration"),
+            NodeKind::Name => self.fluent_value(node) == Some(FunctionValue::Number),
+            NodeKind::Keyword => false,
+        }
+    }
+
+    /// Reads `(p a …)` of objects without a schema; for initial states, where speed counts.
+    pub(super) fn ground_arguments<'t>(
+        &mut self,
+        whole: Node<'t>,
+        nodes: impl Iterator<Item = Node<'t>>,
+        of: &Applied<'_>,
+    ) -> Option<Vec<ObjectId>> {
+        let mut objects = Vec::with_capacity(of.parameters.len());
+        let mut sound = true;
+        let mut count = 0;
+        for node in nodes {
+            let object = match self.ground_term(node) {
+                Some(object) => {
+                    if let Some(parameter) = of.parameters.get(count) {
+                        sound &=
+                            self.argument_fits(node, Term::Object(object), of.name, count, &parameter.types);
+                    }
+                    object
+                }
+                None => {
+                    sound = false;
+                    ObjectId(0)
+                }
+            };
+            objects.push(object);
+            count += 1;
+        }
+        if count != of.parameters.len() {
+            let kind = DiagnosticKind::WrongArity {
+                symbol: of.symbol,
+                name: of.name.clone(),
+                expected: of.parameters.len(),
+                found: count,
+                signature: self.world.signature(of.name, of.parameters),
+            };
+            self.sink.report(whole.span(), kind);
+            return None;
+        }
+        sound.then_some(objects)
+    }
+
+    fn ground_term(&mut self, node: Node<'_>) -> Option<ObjectId> {
+        if node.is_name() {
+            return self.object(node);
+        }
+        if node.is_headed("") || !node.is_list() || self.fluent_value(node).is_none() {
+            self.sink.unexpected(node, "an object");
+        } else {
+            self.sink.unsupported(node.span(), UnsupportedFeature::FunctionTerms);
+        }
+        None
+    }
+}
+
+fn always() -> ConditionKind {
+    ConditionKind::And(Vec::new())
+}

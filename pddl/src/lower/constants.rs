@@ -1,0 +1,85 @@
+//! `(:constants …)` and `(:objects …)`.
+//!
+//! A name declared twice is a warning: problems repeat their domain's constants, and there are
+//! competition files in which an object has several types one after the other (it is then of all of
+//! them, as VAL has it). An imported constant may be repeated as it is, and only so.
+
+use super::sink::Sink;
+use super::typed_list::typed_list;
+use super::world::World;
+use crate::diagnostic::{DiagnosticKind, Label, SymbolKind};
+use crate::model::{Domain, IndexVec, Name, Object, ObjectId, TypeSet};
+use crate::syntax::Node;
+
+/// How many of the first objects come from elsewhere: their spans are of other sources.
+#[derive(Clone, Copy)]
+pub(crate) struct Foreign<'a> {
+    pub(crate) count: usize,
+    /// Whether a repetition of a foreign object is fine and not worth a word.
+    pub(crate) repeatable: bool,
+    /// Where the foreign ones come from.
+    pub(crate) imports: &'a [&'a Domain],
+}
+
+pub(crate) fn objects<'t>(
+    world: &mut World,
+    sink: &mut Sink,
+    sections: impl Iterator<Item = Node<'t>>,
+    foreign: Foreign<'_>,
+) {
+    for section in sections {
+        // Runs of items share their type's node: it is resolved once a run.
+        let mut last: Option<(Option<crate::Span>, TypeSet)> = None;
+        for (item, types) in typed_list(sink, section.children().skip(1)) {
+            let at = types.map(Node::span);
+            let types = match last.take() {
+                Some((place, set)) if place == at => set,
+                _ => world.type_set(sink, types),
+            };
+            last = Some((at, types.clone()));
+            if item.is_name() {
+                declare(world, sink, item, types, foreign);
+            } else {
+                sink.unexpected(item, "the name of an object");
+            }
+        }
+    }
+}
+
+fn declare(world: &mut World, sink: &mut Sink, item: Node<'_>, types: TypeSet, foreign: Foreign<'_>) {
+    let name = Name::new(item.text());
+    let symbol = SymbolKind::Object;
+    let Some(first) = world.object(&name) else {
+        world.add_object(Object { name, types, span: item.span() });
+        return;
+    };
+    let is_foreign = (first.0 as usize) < foreign.count;
+    let same = same_types(&world.objects[first].types, &types);
+    let import = foreign.imports.iter().find(|d| d.constant(&name).is_some()).map(|d| d.name.clone());
+    let kind = match (same, import) {
+        (true, _) if is_foreign && foreign.repeatable => return,
+        (true, _) => DiagnosticKind::Redundant { symbol, name },
+        (false, Some(import)) if is_foreign => DiagnosticKind::ImportConflict { symbol, name, import },
+        (false, _) => {
+            let more = types.0.into_iter().filter(|t| !world.objects[first].types.0.contains(t));
+            let more: Vec<_> = more.collect();
+            world.objects[first].types.0.extend(more);
+            DiagnosticKind::SeveralTypes { name }
+        }
+    };
+    if is_foreign {
+        sink.report(item.span(), kind);
+    } else {
+        sink.report_with(item.span(), kind, world.objects[first].span, Label::First);
+    }
+}
+
+/// Whether both unions name the same types.
+pub(super) fn same_types(a: &TypeSet, b: &TypeSet) -> bool {
+    a.0.iter().all(|t| b.0.contains(t)) && b.0.iter().all(|t| a.0.contains(t))
+}
+
+/// The constants, in the order of their ids.
+pub(crate) fn take(world: &mut World) -> IndexVec<ObjectId, Object> {
+    std::mem::take(&mut world.objects)
+}

@@ -1,0 +1,150 @@
+//! `(define (domain …) …)`: the sections in the order in which they depend on each other.
+//!
+//! Sections may stand in any order in the source. Declarations are read first, then what uses them:
+//! types, constants, predicates, functions; which predicates are derived; actions, durative actions,
+//! axioms; tasks, then methods, which may name all of them.
+
+use super::action::action;
+use super::axiom::{axiom, derived_predicate};
+use super::constants::{Foreign, objects};
+use super::durative::durative_action;
+use super::functions::functions;
+use super::header::{Header, header};
+use super::htn::{method, task};
+use super::permissions::permission;
+use super::predicates::predicates;
+use super::requirements::requirements;
+use super::sink::Sink;
+use super::types::types;
+use super::world::World;
+use super::{imports, sink};
+use crate::diagnostic::{DiagnosticKind, FileKind, Label, SymbolKind, UnsupportedFeature};
+use crate::model::{Domain, IndexVec, Name, SubtaskHead};
+use crate::syntax::Tree;
+use crate::{Parsed, Span};
+
+const SECTIONS: &[&str] = &[
+    ":requirements",
+    ":import",
+    ":types",
+    ":constants",
+    ":predicates",
+    ":functions",
+    ":action",
+    ":durative-action",
+    ":derived",
+    ":task",
+    ":method",
+    ":writes",
+    ":constraints",
+    ":process",
+    ":event",
+];
+
+pub(crate) fn domain(mut sink: Sink, tree: &Tree<'_>, given: &[&Domain]) -> Parsed<Domain> {
+    let domain = header(&mut sink, tree, FileKind::Domain, SECTIONS).map(|h| read(&mut sink, &h, given));
+    let finished = sink.finish();
+    let model = domain.filter(|_| finished.sound).map(|mut domain| {
+        domain.unsupported = finished.unsupported;
+        domain
+    });
+    Parsed { model, diagnostics: finished.diagnostics }
+}
+
+fn read(sink: &mut Sink, header: &Header<'_>, given: &[&Domain]) -> Domain {
+    let requirements = requirements(sink, header);
+    let imported = imports::imports(sink, header, given);
+    let origins: Vec<&Domain> = imported.iter().map(|(d, _)| *d).collect();
+    let mut world = World::new(requirements, types(sink, header, &origins));
+    imports::declare(&mut world, sink, &imported);
+    let foreign = Foreign { count: world.objects.len(), repeatable: true, imports: &origins };
+    objects(&mut world, sink, header.all(":constants"), foreign);
+    let count = world.predicates.len();
+    predicates(&mut world, sink, header.all(":predicates"), count, &origins);
+    let count = world.functions.len();
+    functions(&mut world, sink, header.all(":functions"), count, &origins);
+    for section in header.all(":derived") {
+        if let Some(id) = derived_predicate(&world, section) {
+            world.predicates[id].derived = true;
+        }
+    }
+    unsupported(sink, header);
+
+    let mut actions = IndexVec::new();
+    let mut durative_actions = IndexVec::new();
+    let mut tasks = IndexVec::new();
+    for section in header.all(":action") {
+        if let Some(action) = action(&world, sink, section) {
+            let (name, parameters) = (action.name.clone(), action.variables.parameters().to_vec());
+            unique(&world, sink, SymbolKind::Action, &name, action.name_span);
+            let head = SubtaskHead::Action(actions.push(action));
+            world.add_signature(&name, head, &parameters);
+        }
+    }
+    for section in header.all(":durative-action") {
+        if let Some(action) = durative_action(&world, sink, section) {
+            let (name, parameters) = (action.name.clone(), action.variables.parameters().to_vec());
+            unique(&world, sink, SymbolKind::Action, &name, action.name_span);
+            let head = SubtaskHead::DurativeAction(durative_actions.push(action));
+            world.add_signature(&name, head, &parameters);
+        }
+    }
+    let axioms = header.all(":derived").filter_map(|s| axiom(&world, sink, s)).collect();
+    for section in header.all(":task") {
+        if let Some(task) = task(&world, sink, section) {
+            let (name, parameters) = (task.name.clone(), task.variables.parameters().to_vec());
+            unique(&world, sink, SymbolKind::Task, &name, sink::first_word(section));
+            let head = SubtaskHead::Task(tasks.push(task));
+            world.add_signature(&name, head, &parameters);
+        }
+    }
+    let mut methods: IndexVec<_, crate::model::Method> = IndexVec::new();
+    let mut names = rustc_hash::FxHashMap::default();
+    for section in header.all(":method") {
+        if let Some(method) = method(&world, sink, section) {
+            let span = sink::first_word(section);
+            if let Some(first) = names.insert(method.name.clone(), span) {
+                let kind =
+                    DiagnosticKind::Duplicate { symbol: SymbolKind::Method, name: method.name.clone() };
+                sink.report_with(span, kind, first, Label::First);
+            }
+            methods.push(method);
+        }
+    }
+    let permissions = header.all(":writes").filter_map(|s| permission(&world, sink, s)).collect();
+    Domain {
+        name: header.name.clone(),
+        requirements: world.requirements,
+        imports: origins.iter().map(|d| d.name.clone()).collect(),
+        types: world.types,
+        constants: world.objects,
+        predicates: world.predicates,
+        functions: world.functions,
+        actions,
+        durative_actions,
+        axioms,
+        tasks,
+        methods,
+        permissions,
+        unsupported: Vec::new(),
+    }
+}
+
+/// Tasks and actions share their names: a subtask must say which one it is.
+fn unique(world: &World, sink: &mut Sink, symbol: SymbolKind, name: &Name, span: Span) {
+    if world.task_or_action(name).is_some() {
+        sink.report(span, DiagnosticKind::Duplicate { symbol, name: name.clone() });
+    }
+}
+
+fn unsupported(sink: &mut Sink, header: &Header<'_>) {
+    for (keyword, feature) in [
+        (":constraints", UnsupportedFeature::TrajectoryConstraints),
+        (":process", UnsupportedFeature::Processes),
+        (":event", UnsupportedFeature::Events),
+    ] {
+        for section in header.all(keyword) {
+            sink.unsupported(sink::first_word(section), feature);
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! `(:durative-action …)`: temporal actions, agents' rules, intentions.
+//!
+//! The keys `:skill`, `:results`, `:claims`, `:priority` make it a rule; they need `:agent-rules`.
+//! Results are read right after the parameters, wherever they stand, for effects may name them.
+
+use super::action::named;
+use super::body::Body;
+use super::keys::Keys;
+use super::sink::Sink;
+use super::world::World;
+use crate::diagnostic::{DiagnosticKind, UnsupportedFeature};
+use crate::model::{
+    Comparison, DurationConstraint, DurativeAction, Name, Requirement, Rule, SkillCall, Term, VariableId,
+};
+use crate::syntax::Node;
+
+const RULE_KEYS: [&str; 4] = [":skill", ":results", ":claims", ":priority"];
+
+const KEYS: &[&str] =
+    &[":parameters", ":duration", ":condition", ":effect", ":skill", ":results", ":claims", ":priority"];
+
+pub(crate) fn durative_action(world: &World, sink: &mut Sink, section: Node<'_>) -> Option<DurativeAction> {
+    let (name, name_span, rest) = named(sink, section, "the durative action")?;
+    let keys = Keys::read(sink, rest, "a durative action", KEYS);
+    let mut body = Body::new(world, sink);
+    body.parameters(&keys);
+    body.schema.durative = true;
+    let results = body.results(&keys);
+    let mut duration = Vec::new();
+    if let Some(node) = keys.get(":duration") {
+        body.duration(node, &mut duration);
+    }
+    let mut conditions = Vec::new();
+    if let Some(node) = keys.get(":condition") {
+        body.timed_conditions(node, None, &mut conditions);
+    }
+    let mut effects = Vec::new();
+    if let Some(node) = keys.get(":effect") {
+        body.timed_effects(node, None, &mut effects);
+    }
+    let rule = body.rule(&keys, results);
+    let (variables, span) = (body.schema.variables, section.span());
+    Some(DurativeAction { name, variables, duration, conditions, effects, rule, span, name_span })
+}
+
+impl Body<'_> {
+    fn results(&mut self, keys: &Keys<'_>) -> Vec<VariableId> {
+        match keys.get(":results") {
+            Some(node) if node.is_list() => self.schema.bind(self.world, self.sink, node.children()),
+            Some(node) => {
+                self.sink.unexpected(node, "a list of variables such as `(?x - type)`");
+                Vec::new()
+            }
+            None => Vec::new(),
+        }
+    }
+
+    fn duration(&mut self, node: Node<'_>, into: &mut Vec<DurationConstraint>) {
+        const EXPECTED: &str = "`(= ?duration NUMBER)`, or `<=` or `>=`";
+        let Some(head) = node.head() else {
+            if !node.is_list() {
+                self.sink.unexpected(node, EXPECTED);
+            }
+            return;
+        };
+        let comparison = match () {
+            () if head.is("and") => {
+                for part in node.children().skip(1) {
+                    self.duration(part, into);
+                }
+                return;
+            }
+            () if head.is("at") => {
+                let Some([when, what]) = self.parts(node, "`(at start CONSTRAINT)`") else { return };
+                if when.is("end") {
+                    self.sink.unsupported(node.span(), UnsupportedFeature::DurationAtEnd);
+                } else if when.is("start") {
+                    self.duration(what, into);
+                } else {
+                    self.sink.unexpected(when, "`start` or `end`");
+                }
+                return;
+            }
+            () if head.is("=") => Comparison::Equal,
+            () if head.is("<=") => Comparison::LessEqual,
+            () if head.is(">=") => Comparison::GreaterEqual,
+            () => return self.sink.unexpected(node, EXPECTED),
+        };
+        let Some([left, right]) = self.parts(node, EXPECTED) else { return };
+        if !left.is("?duration") {
+            self.sink.unexpected(left, "`?duration`");
+        }
+        if let Some(bound) = self.expression(right) {
+            into.push(DurationConstraint { comparison, bound, span: node.span() });
+        }
+    }
+
+    /// What makes the action a rule, if anything does.
+    fn rule(&mut self, keys: &Keys<'_>, results: Vec<VariableId>) -> Option<Rule> {
+        let present: Vec<Node<'_>> = RULE_KEYS.iter().filter_map(|k| keys.key(k)).collect();
+        if present.is_empty() {
+            return None;
+        }
+        if !self.world.has(Requirement::AgentRules) {
+            for key in &present {
+                let kind = DiagnosticKind::NeedsRequirement {
+                    name: key.text().to_owned(),
+                    requirement: Requirement::AgentRules.as_str(),
+                };
+                self.sink.report(key.span(), kind);
+            }
+        }
+        let skill = keys.get(":skill").and_then(|node| self.skill(node));
+        let claims = keys.get(":claims").map(|node| self.claims(node)).unwrap_or_default();
+        let priority = keys.get(":priority").map_or(0, |node| self.priority(node));
+        Some(Rule { skill, results, claims, priority })
+    }
+
+    fn skill(&mut self, node: Node<'_>) -> Option<SkillCall> {
+        let Some(name) = node.head().filter(|h| h.is_name()) else {
+            self.sink.unexpected(node, "a skill and what it is given, such as `(say ?text)`");
+            return None;
+        };
+        let arguments = self.terms(node.children().skip(1));
+        Some(SkillCall { name: Name::new(name.text()), arguments, span: node.span() })
+    }
+
+    fn claims(&mut self, node: Node<'_>) -> Vec<Term> {
+        if !node.is_list() {
+            self.sink.unexpected(node, "a list of resources such as `(speaker)`");
+        }
+        self.terms(node.children())
+    }
+
+    fn terms<'t>(&mut self, nodes: impl Iterator<Item = Node<'t>>) -> Vec<Term> {
+        let mut terms = Vec::new();
+        for node in nodes {
+            terms.extend(self.term(node));
+        }
+        terms
+    }
+
+    fn priority(&mut self, node: Node<'_>) -> i32 {
+        let number = if node.is_list() { None } else { node.text().parse().ok() };
+        number.unwrap_or_else(|| {
+            self.sink.unexpected(node, "a whole number");
+            0
+        })
+    }
+}

@@ -1,0 +1,138 @@
+//! Effects: add, delete, assign, `forall`, `when`.
+
+use super::body::Body;
+use crate::diagnostic::{DiagnosticKind, SymbolKind};
+use crate::model::{Application, AssignOperator, AssignedValue, Effect, EffectKind, FunctionValue, TypeSet};
+use crate::syntax::Node;
+
+/// The operator of that name.
+pub(super) fn assign_operator(head: Node<'_>) -> Option<AssignOperator> {
+    Some(match () {
+        () if head.is("assign") => AssignOperator::Assign,
+        () if head.is("increase") => AssignOperator::Increase,
+        () if head.is("decrease") => AssignOperator::Decrease,
+        () if head.is("scale-up") => AssignOperator::ScaleUp,
+        () if head.is("scale-down") => AssignOperator::ScaleDown,
+        () => return None,
+    })
+}
+
+impl Body<'_> {
+    /// Reads an effect; `()` does nothing.
+    pub(crate) fn effect(&mut self, node: Node<'_>) -> Effect {
+        let kind = self.effect_kind(node).unwrap_or_else(|| EffectKind::And(Vec::new()));
+        Effect { kind, span: node.span() }
+    }
+
+    fn effect_kind(&mut self, node: Node<'_>) -> Option<EffectKind> {
+        let Some(head) = node.head() else {
+            if !node.is_list() {
+                self.sink.unexpected(node, "an effect such as `(p ?x)`");
+            }
+            return None;
+        };
+        match () {
+            () if head.is("and") => Some(self.all_effects(node)),
+            () if head.is("not") => self.delete(node),
+            () if head.is("forall") => self.for_all(node),
+            () if head.is("when") => self.conditional(node),
+            () => self.add_or_assign(node, head),
+        }
+    }
+
+    fn all_effects(&mut self, node: Node<'_>) -> EffectKind {
+        let mut parts = Vec::new();
+        for part in node.children().skip(1) {
+            parts.push(self.effect(part));
+        }
+        EffectKind::And(parts)
+    }
+
+    fn delete(&mut self, node: Node<'_>) -> Option<EffectKind> {
+        let [inner] = self.parts(node, "`(not (PREDICATE …))`")?;
+        let Some(head) = inner.head() else {
+            self.sink.unexpected(inner, "a predicate such as `(p ?x)`");
+            return None;
+        };
+        self.changed_atom(inner, head).map(EffectKind::Delete)
+    }
+
+    fn for_all(&mut self, node: Node<'_>) -> Option<EffectKind> {
+        let (bound, inner) = self.quantifier(node)?;
+        let inner = self.effect(inner);
+        self.schema.unbind(bound.len());
+        Some(EffectKind::Forall(bound, Box::new(inner)))
+    }
+
+    fn conditional(&mut self, node: Node<'_>) -> Option<EffectKind> {
+        let [condition, effect] = self.parts(node, "`(when CONDITION EFFECT)`")?;
+        let condition = self.condition(condition);
+        Some(EffectKind::When(condition, Box::new(self.effect(effect))))
+    }
+
+    fn add_or_assign(&mut self, node: Node<'_>, head: Node<'_>) -> Option<EffectKind> {
+        let operator = assign_operator(head).filter(|_| self.world.predicate(head.text()).is_none());
+        match operator {
+            Some(operator) => self.assignment(node, operator),
+            None => self.changed_atom(node, head).map(EffectKind::Add),
+        }
+    }
+
+    fn changed_atom(&mut self, node: Node<'_>, head: Node<'_>) -> Option<crate::model::Atom> {
+        if !head.is_name() {
+            self.sink.unexpected(head, "a predicate or one of `and`, `not`, `forall`, `when`, `assign`");
+            return None;
+        }
+        let Some(id) = self.world.predicate(head.text()) else {
+            self.world.unknown(self.sink, head, SymbolKind::Predicate);
+            return None;
+        };
+        let predicate = &self.world.predicates[id];
+        if predicate.derived {
+            self.sink.report(node.span(), DiagnosticKind::DerivedEffect { name: predicate.name.clone() });
+        }
+        self.atom(node, id)
+    }
+
+    /// `(operator (f t …) value)`
+    pub(super) fn assignment(&mut self, node: Node<'_>, operator: AssignOperator) -> Option<EffectKind> {
+        let [target, value] = self.parts(node, "`(OPERATOR (FUNCTION …) VALUE)`")?;
+        let application = self.application(target);
+        let Some(application) = application else {
+            // What is assigned may still have errors of its own, unless it is a term of unknown kind.
+            if value.is_list() {
+                self.expression(value);
+            }
+            return None;
+        };
+        let undefined = value.is("undefined") && self.world.object("undefined").is_none();
+        let assigned = match &self.world.functions[application.function].value {
+            _ if undefined && operator == AssignOperator::Assign => Some(AssignedValue::Undefined),
+            FunctionValue::Number => self.expression(value).map(AssignedValue::Number),
+            FunctionValue::Object(types) => {
+                self.assigned_object(&application, target, types, operator, value)
+            }
+        };
+        Some(EffectKind::Assign(operator, application, assigned?))
+    }
+
+    fn assigned_object(
+        &mut self,
+        application: &Application,
+        target: Node<'_>,
+        types: &TypeSet,
+        operator: AssignOperator,
+        value: Node<'_>,
+    ) -> Option<AssignedValue> {
+        if operator != AssignOperator::Assign {
+            let name = self.world.functions[application.function].name.clone();
+            let kind = DiagnosticKind::WrongValue { name, found: "an object", expected: "a number" };
+            self.sink.report(target.span(), kind);
+            return None;
+        }
+        let term = self.term(value)?;
+        let value_types = self.term_types(term);
+        self.check_common((target, types), (value, &value_types));
+        Some(AssignedValue::Object(term))
+    }
+}

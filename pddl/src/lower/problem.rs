@@ -1,0 +1,108 @@
+//! `(define (problem …) …)`, with the declarations of its domain.
+
+use super::body::Body;
+use super::constants::{Foreign, objects};
+use super::header::{Header, header};
+use super::htn::initial_network;
+use super::init::Init;
+use super::requirements::requirements;
+use super::sink::{Sink, first_word};
+use super::world::World;
+use crate::Parsed;
+use crate::diagnostic::{DiagnosticKind, FileKind, UnsupportedFeature};
+use crate::model::{Condition, Domain, Name, Problem, Variables};
+use crate::syntax::{Node, Tree};
+
+const SECTIONS: &[&str] = &[
+    ":domain",
+    ":requirements",
+    ":objects",
+    ":init",
+    ":goal",
+    ":metric",
+    ":htn",
+    ":constraints",
+    // Says how long a plan may be; PDDL 1.2 only, and no planner reads it.
+    ":length",
+];
+
+pub(crate) fn problem(mut sink: Sink, tree: &Tree<'_>, domain: &Domain) -> Parsed<Problem> {
+    let problem = header(&mut sink, tree, FileKind::Problem, SECTIONS).map(|h| read(&mut sink, &h, domain));
+    let finished = sink.finish();
+    let model = problem.filter(|_| finished.sound).map(|mut problem| {
+        problem.unsupported = finished.unsupported;
+        problem
+    });
+    Parsed { model, diagnostics: finished.diagnostics }
+}
+
+fn read(sink: &mut Sink, header: &Header<'_>, domain: &Domain) -> Problem {
+    check_domain(sink, header, domain);
+    let requirements = requirements(sink, header);
+    let mut world = World::of(domain);
+    let foreign = Foreign { count: world.objects.len(), repeatable: false, imports: &[] };
+    objects(&mut world, sink, header.all(":objects"), foreign);
+
+    let mut body = Body::new(&world, sink);
+    let mut init = Init::default();
+    if let Some(section) = header.one(body.sink, ":init") {
+        body.init(section.children().skip(1), &mut init);
+    }
+    let metric = header.one(body.sink, ":metric").and_then(|section| body.metric(section));
+    for section in header.all(":constraints") {
+        body.sink.unsupported(first_word(section), UnsupportedFeature::TrajectoryConstraints);
+    }
+    let network = header.one(sink, ":htn");
+    let htn = network.map(|section| initial_network(&world, sink, section));
+    let (goal, goal_variables, goal_span) = goal(&world, sink, header, network);
+    Problem {
+        name: header.name.clone(),
+        requirements,
+        init: init.facts,
+        fluents: init.fluents,
+        goal_variables,
+        goal,
+        metric,
+        htn,
+        unsupported: Vec::new(),
+        goal_span,
+        objects: super::constants::take(&mut world),
+    }
+}
+
+fn check_domain(sink: &mut Sink, header: &Header<'_>, domain: &Domain) {
+    let Some(section) = header.one(sink, ":domain") else {
+        return sink.missing(header.define, "the problem", "`(:domain NAME)`");
+    };
+    match section.children().nth(1) {
+        Some(name) if name.is(&domain.name) => {}
+        Some(name) if name.is_name() => {
+            let (found, expected) = (Name::new(name.text()), domain.name.clone());
+            sink.report(name.span(), DiagnosticKind::OtherDomain { found, expected });
+        }
+        Some(other) => sink.unexpected(other, "the name of a domain"),
+        None => sink.missing(section, "`:domain`", "name"),
+    }
+}
+
+fn goal(
+    world: &World,
+    sink: &mut Sink,
+    header: &Header<'_>,
+    network: Option<Node<'_>>,
+) -> (Condition, Variables, crate::Span) {
+    let section = header.one(sink, ":goal");
+    let Some(section) = section else {
+        if network.is_none() {
+            sink.missing(header.define, "the problem", "`(:goal …)`");
+        }
+        let span = first_word(network.unwrap_or(header.define));
+        return (Condition::always(span), Variables::default(), span);
+    };
+    let mut body = Body::new(world, sink);
+    let goal = match body.parts(section, "`(:goal CONDITION)`") {
+        Some([node]) => body.condition(node),
+        None => Condition::always(section.span()),
+    };
+    (goal, body.schema.variables, section.span())
+}

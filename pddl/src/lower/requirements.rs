@@ -1,0 +1,38 @@
+//! `(:requirements :strips …)`. An unknown flag is a warning, an undeclared one nothing.
+
+use super::header::Header;
+use super::sink::Sink;
+use crate::diagnostic::{DiagnosticKind, SymbolKind};
+use crate::model::{Requirement, Requirements};
+
+/// Flags of other tools that say nothing which we do not know.
+const SYNONYMS: &[(&str, Requirement)] = &[
+    (":htn", Requirement::Hierarchy),
+    (":hierachy", Requirement::Hierarchy),
+    (":htn-method-prec", Requirement::MethodPreconditions),
+    (":equality-preconditions", Requirement::Equality),
+    (":domain-axioms", Requirement::DerivedPredicates),
+];
+
+pub(crate) fn requirements(sink: &mut Sink, header: &Header<'_>) -> Requirements {
+    let mut flags = Requirements::default();
+    for section in header.all(":requirements") {
+        for node in section.children().skip(1) {
+            let known = Requirement::ALL.iter().copied().find(|r| node.is(r.as_str()));
+            let synonym = || SYNONYMS.iter().find(|(text, _)| node.is(text)).map(|(_, r)| *r);
+            match known.or_else(synonym) {
+                Some(flag) => {
+                    flags.0.insert(flag);
+                }
+                None if node.is_list() => sink.unexpected(node, "a flag such as `:typing`"),
+                None => {
+                    let name = node.text().to_owned();
+                    let suggestion = sink.suggest(&name, Requirement::ALL.iter().map(|r| r.as_str()));
+                    let symbol = SymbolKind::Requirement;
+                    sink.report(node.span(), DiagnosticKind::Unknown { symbol, name, suggestion });
+                }
+            }
+        }
+    }
+    flags
+}

@@ -1,0 +1,73 @@
+//! The variables of the schema that is being read: slots, and which of them are in sight.
+
+use super::sink::Sink;
+use super::typed_list::typed_list;
+use super::world::{World, fold};
+use crate::diagnostic::{DiagnosticKind, Label, SymbolKind};
+use crate::model::{Name, Variable, VariableId, Variables};
+use crate::syntax::{Node, NodeKind};
+
+/// Variables with their scopes.
+#[derive(Default)]
+pub(crate) struct Schema {
+    pub(crate) variables: Variables,
+    /// In sight, outermost first; the last of a name hides the others.
+    visible: Vec<VariableId>,
+    /// Whether `?duration` has a meaning.
+    pub(crate) durative: bool,
+}
+
+impl Schema {
+    /// The slot in sight of that name (without the question mark).
+    pub(crate) fn find(&self, name: &str) -> Option<VariableId> {
+        let name = fold(name);
+        self.visible.iter().rev().copied().find(|&v| *self.variables[v].name == *name)
+    }
+
+    /// Names in sight.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.visible.iter().map(|&v| self.variables[v].name.as_str())
+    }
+
+    /// Reads parameters: they stay in sight.
+    pub(crate) fn parameters<'t>(
+        &mut self,
+        world: &World,
+        sink: &mut Sink,
+        nodes: impl Iterator<Item = Node<'t>>,
+    ) {
+        self.bind(world, sink, nodes);
+        self.variables.parameters = self.variables.slots.len();
+    }
+
+    /// Reads a typed list of variables into new slots and puts them in sight.
+    pub(crate) fn bind<'t>(
+        &mut self,
+        world: &World,
+        sink: &mut Sink,
+        nodes: impl Iterator<Item = Node<'t>>,
+    ) -> Vec<VariableId> {
+        let mut bound: Vec<VariableId> = Vec::new();
+        for (item, types) in typed_list(sink, nodes) {
+            if item.kind() != NodeKind::Variable || item.text().len() < 2 {
+                sink.unexpected(item, "a variable such as `?x`");
+                continue;
+            }
+            let name = Name::new(&item.text()[1..]);
+            if let Some(&first) = bound.iter().find(|&&v| self.variables[v].name == name) {
+                let kind = DiagnosticKind::Duplicate { symbol: SymbolKind::Variable, name };
+                sink.report_with(item.span(), kind, self.variables[first].span, Label::First);
+                continue;
+            }
+            let types = world.type_set(sink, types);
+            bound.push(self.variables.slots.push(Variable { name, types, span: item.span() }));
+        }
+        self.visible.extend(&bound);
+        bound
+    }
+
+    /// Takes the last `count` variables out of sight.
+    pub(crate) fn unbind(&mut self, count: usize) {
+        self.visible.truncate(self.visible.len().saturating_sub(count));
+    }
+}

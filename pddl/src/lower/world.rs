@@ -1,0 +1,199 @@
+//! What a file declares so far, by name: everything that bodies (conditions, effects …) refer to.
+//!
+//! Names are looked up as they stand in the text: a lookup allocates only if there are capitals.
+//! Invariant: each map's ids are positions in the vector beside it.
+
+use std::borrow::Cow;
+
+use rustc_hash::FxHashMap;
+
+use super::sink::Sink;
+use crate::diagnostic::{DiagnosticKind, SymbolKind};
+use crate::model::{
+    Domain, Function, FunctionId, IndexVec, Name, Object, ObjectId, Predicate, PredicateId, Requirement,
+    Requirements, SubtaskHead, TypeId, TypeSet, TypeTable, Variable,
+};
+use crate::syntax::Node;
+
+/// What a subtask can name, with its parameters.
+pub(crate) struct Signature {
+    pub(crate) name: Name,
+    pub(crate) head: SubtaskHead,
+    pub(crate) parameters: Vec<Variable>,
+}
+
+/// All declarations.
+pub(crate) struct World {
+    pub(crate) requirements: Requirements,
+    pub(crate) types: TypeTable,
+    pub(crate) type_ids: FxHashMap<Name, TypeId>,
+    pub(crate) objects: IndexVec<ObjectId, Object>,
+    pub(crate) object_ids: FxHashMap<Name, ObjectId>,
+    pub(crate) predicates: IndexVec<PredicateId, Predicate>,
+    pub(crate) predicate_ids: FxHashMap<Name, PredicateId>,
+    pub(crate) functions: IndexVec<FunctionId, Function>,
+    pub(crate) function_ids: FxHashMap<Name, FunctionId>,
+    pub(crate) signatures: Vec<Signature>,
+    pub(crate) signature_ids: FxHashMap<Name, usize>,
+}
+
+/// The text in lower case, borrowed if it is already.
+pub(crate) fn fold(text: &str) -> Cow<'_, str> {
+    if text.bytes().any(|b| b.is_ascii_uppercase()) {
+        Cow::Owned(text.to_ascii_lowercase())
+    } else {
+        Cow::Borrowed(text)
+    }
+}
+
+impl World {
+    pub(crate) fn new(requirements: Requirements, types: TypeTable) -> Self {
+        let type_ids = types.enumerate().map(|(id, t)| (t.name.clone(), id)).collect();
+        Self {
+            requirements,
+            types,
+            type_ids,
+            objects: IndexVec::new(),
+            object_ids: FxHashMap::default(),
+            predicates: IndexVec::new(),
+            predicate_ids: FxHashMap::default(),
+            functions: IndexVec::new(),
+            function_ids: FxHashMap::default(),
+            signatures: Vec::new(),
+            signature_ids: FxHashMap::default(),
+        }
+    }
+
+    /// The declarations of a domain that was read before.
+    pub(crate) fn of(domain: &Domain) -> Self {
+        let mut world = Self::new(domain.requirements.clone(), domain.types.clone());
+        for object in &domain.constants {
+            world.add_object(object.clone());
+        }
+        for predicate in &domain.predicates {
+            world.add_predicate(predicate.clone());
+        }
+        for function in &domain.functions {
+            world.add_function(function.clone());
+        }
+        for (id, action) in domain.actions.enumerate() {
+            world.add_signature(&action.name, SubtaskHead::Action(id), action.variables.parameters());
+        }
+        for (id, action) in domain.durative_actions.enumerate() {
+            world.add_signature(&action.name, SubtaskHead::DurativeAction(id), action.variables.parameters());
+        }
+        for (id, task) in domain.tasks.enumerate() {
+            world.add_signature(&task.name, SubtaskHead::Task(id), task.variables.parameters());
+        }
+        world
+    }
+
+    pub(crate) fn has(&self, requirement: Requirement) -> bool {
+        self.requirements.contains(requirement)
+    }
+
+    pub(crate) fn add_object(&mut self, object: Object) {
+        let name = object.name.clone();
+        let id = self.objects.push(object);
+        self.object_ids.insert(name, id);
+    }
+
+    pub(crate) fn add_predicate(&mut self, predicate: Predicate) {
+        let name = predicate.name.clone();
+        let id = self.predicates.push(predicate);
+        self.predicate_ids.insert(name, id);
+    }
+
+    pub(crate) fn add_function(&mut self, function: Function) {
+        let name = function.name.clone();
+        let id = self.functions.push(function);
+        self.function_ids.insert(name, id);
+    }
+
+    pub(crate) fn add_signature(&mut self, name: &Name, head: SubtaskHead, parameters: &[Variable]) {
+        let signature = Signature { name: name.clone(), head, parameters: parameters.to_vec() };
+        self.signature_ids.entry(name.clone()).or_insert(self.signatures.len());
+        self.signatures.push(signature);
+    }
+
+    pub(crate) fn type_id(&self, name: &str) -> Option<TypeId> {
+        self.type_ids.get(&*fold(name)).copied()
+    }
+
+    pub(crate) fn object(&self, name: &str) -> Option<ObjectId> {
+        self.object_ids.get(&*fold(name)).copied()
+    }
+
+    pub(crate) fn predicate(&self, name: &str) -> Option<PredicateId> {
+        self.predicate_ids.get(&*fold(name)).copied()
+    }
+
+    pub(crate) fn function(&self, name: &str) -> Option<FunctionId> {
+        self.function_ids.get(&*fold(name)).copied()
+    }
+
+    pub(crate) fn task_or_action(&self, name: &str) -> Option<&Signature> {
+        self.signature_ids.get(&*fold(name)).map(|&i| &self.signatures[i])
+    }
+
+    /// Whether something can be an instance of both.
+    pub(crate) fn meet(&self, a: &TypeSet, b: &TypeSet) -> bool {
+        let related = |&x: &TypeId, &y: &TypeId| self.types.is_subtype(x, y) || self.types.is_subtype(y, x);
+        a.0.iter().any(|x| b.0.iter().any(|y| related(x, y)))
+            || self.types.enumerate().any(|(t, _)| self.types.is_in(t, a) && self.types.is_in(t, b))
+    }
+
+    /// Whether the object can be one of `types`: its own type, or one of the `either`s, is in.
+    pub(crate) fn fits(&self, object: ObjectId, types: &TypeSet) -> bool {
+        self.objects[object].types.0.iter().any(|&t| self.types.is_in(t, types))
+    }
+
+    /// `truck`, or `(either truck plane)`.
+    pub(crate) fn type_text(&self, types: &TypeSet) -> String {
+        match types.0.as_slice() {
+            [one] => format!("`{}`", self.types[*one].name),
+            many => {
+                let names: Vec<&str> = many.iter().map(|&t| self.types[t].name.as_str()).collect();
+                format!("`(either {})`", names.join(" "))
+            }
+        }
+    }
+
+    /// `(at ?x - truck ?y - place)`
+    pub(crate) fn signature(&self, name: &str, parameters: &[Variable]) -> String {
+        let mut text = format!("({name}");
+        for p in parameters {
+            let types = self.type_text(&p.types);
+            text += &format!(" ?{} - {}", p.name, types.trim_matches('`'));
+        }
+        text + ")"
+    }
+
+    /// Reports a name that nothing declares.
+    pub(crate) fn unknown(&self, sink: &mut Sink, node: Node<'_>, symbol: SymbolKind) {
+        let name = node.text();
+        let types = || self.types.enumerate().map(|(_, t)| t.name.as_str());
+        let predicates = || self.predicates.iter().map(|p| p.name.as_str());
+        let functions = || self.functions.iter().map(|f| f.name.as_str());
+        let heads = || self.signatures.iter();
+        let suggestion = match symbol {
+            SymbolKind::Type => sink.suggest(name, types()),
+            SymbolKind::Predicate => sink.suggest(name, predicates()),
+            SymbolKind::Function => sink.suggest(name, functions()),
+            SymbolKind::Object => sink.suggest(name, self.objects.iter().map(|o| o.name.as_str())),
+            SymbolKind::Token => sink.suggest(name, predicates().chain(functions()).chain(types())),
+            SymbolKind::TaskOrAction => sink.suggest(name, heads().map(|s| s.name.as_str())),
+            SymbolKind::Task => {
+                let tasks = heads().filter(|s| matches!(s.head, SubtaskHead::Task(_)));
+                sink.suggest(name, tasks.map(|s| s.name.as_str()))
+            }
+            SymbolKind::Action => {
+                let actions = heads().filter(|s| !matches!(s.head, SubtaskHead::Task(_)));
+                sink.suggest(name, actions.map(|s| s.name.as_str()))
+            }
+            _ => None,
+        };
+        let name = name.to_owned();
+        sink.report(node.span(), DiagnosticKind::Unknown { symbol, name, suggestion });
+    }
+}

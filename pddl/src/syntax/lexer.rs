@@ -1,0 +1,119 @@
+//! Text to tokens, with nom.
+//!
+//! The lexer works on bytes: every byte that ends a word is ASCII, so a token never splits a UTF-8
+//! character, and bytes above 127 are letters of a word or of a comment. It knows no error: what is
+//! no PDDL name is still a word, and the lowering says what it expected there.
+//!
+//! Kind to how people write: `-type` is a hyphen and a name, `<?x` an operator and a variable,
+//! `?x?y` two variables. Cost: one pass, no backtracking over more than one word.
+
+use nom::branch::alt;
+use nom::bytes::complete::{tag, take_while, take_while1};
+use nom::combinator::{map, peek, value};
+use nom::sequence::{pair, terminated};
+use nom::{IResult, Parser};
+
+use super::token::{TokenKind, Tokens};
+
+const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
+
+/// All tokens of `text`.
+pub(super) fn lex(text: &str) -> Tokens {
+    let bytes = text.as_bytes();
+    let mut tokens = Tokens::for_text(bytes.len());
+    let mut rest = bytes;
+    while !rest.is_empty() {
+        let (after, kind) = match token(rest) {
+            Ok(next) => next,
+            // No byte is refused by every alternative; should one ever be, it is a word.
+            Err(_) => (&rest[1..], TokenKind::Name),
+        };
+        rest = after;
+        let end = u32::try_from(bytes.len() - rest.len()).expect("a source is shorter than 4 GiB");
+        tokens.push(kind, end);
+    }
+    tokens
+}
+
+fn token(input: &[u8]) -> IResult<&[u8], TokenKind> {
+    alt((
+        value(TokenKind::Whitespace, take_while1(is_blank)),
+        value(TokenKind::Open, tag(&b"("[..])),
+        value(TokenKind::Close, tag(&b")"[..])),
+        value(TokenKind::Variable, pair(tag(&b"?"[..]), take_while(is_word))),
+        value(TokenKind::Keyword, pair(tag(&b":"[..]), take_while(is_word))),
+        value(TokenKind::Comment, pair(tag(&b";"[..]), take_while(|b| b != b'\n' && b != b'\r'))),
+        value(TokenKind::Whitespace, tag(BYTE_ORDER_MARK)),
+        value(TokenKind::Name, take_while1(|b| matches!(b, b'<' | b'=' | b'>'))),
+        value(
+            TokenKind::Name,
+            terminated(tag(&b"-"[..]), peek(take_while1(|b: u8| b.is_ascii_alphabetic()))),
+        ),
+        map(take_while1(is_word), |word| if is_number(word) { TokenKind::Number } else { TokenKind::Name }),
+    ))
+    .parse(input)
+}
+
+fn is_blank(byte: u8) -> bool {
+    matches!(byte, b' ' | b'\t' | b'\n' | b'\r' | 0x0B | 0x0C)
+}
+
+fn is_word(byte: u8) -> bool {
+    !is_blank(byte) && !matches!(byte, b'(' | b')' | b';' | b'?')
+}
+
+/// Whether the whole word is a finite decimal number. `1-2`, `3d` and `0x1` are names.
+fn is_number(word: &[u8]) -> bool {
+    let unsigned = word.strip_prefix(b"-").or_else(|| word.strip_prefix(b"+")).unwrap_or(word);
+    let starts = match unsigned {
+        [b'.', digit, ..] => digit.is_ascii_digit(),
+        [digit, ..] => digit.is_ascii_digit(),
+        [] => false,
+    };
+    starts
+        && unsigned.iter().all(|b| b.is_ascii_digit() || matches!(b, b'.' | b'e' | b'E' | b'-' | b'+'))
+        && std::str::from_utf8(word).ok().and_then(|w| w.parse::<f64>().ok()).is_some_and(f64::is_finite)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{TokenKind, lex};
+
+    fn kinds(text: &str) -> Vec<(TokenKind, &str)> {
+        lex(text)
+            .iter()
+            .filter(|(k, _)| *k != TokenKind::Whitespace)
+            .map(|(k, s)| (k, &text[s.range()]))
+            .collect()
+    }
+
+    #[test]
+    fn words_by_their_kind() {
+        use TokenKind::{Comment, Keyword, Name, Number, Variable};
+        assert_eq!(
+            kinds("at ?x :init 5 -1.5 .5 1e-3 3d 1-2 -t <?y ?a?b 1e999 ;ü\r\n- <= x"),
+            [
+                (Name, "at"),
+                (Variable, "?x"),
+                (Keyword, ":init"),
+                (Number, "5"),
+                (Number, "-1.5"),
+                (Number, ".5"),
+                (Number, "1e-3"),
+                (Name, "3d"),
+                (Name, "1-2"),
+                (Name, "-"),
+                (Name, "t"),
+                (Name, "<"),
+                (Variable, "?y"),
+                (Variable, "?a"),
+                (Variable, "?b"),
+                (Name, "1e999"),
+                (Comment, ";ü"),
+                (Name, "-"),
+                (Name, "<="),
+                (Name, "x"),
+            ]
+        );
+    }
+}

@@ -1,0 +1,15 @@
+//! Lossless syntax: every byte of the text is in the tree, and there is always a tree.
+//!
+//! Problem: a formatter and an editor need comments and broken files, the model needs neither.
+//! Idea: tokens tile the text ([`Tokens`]); over them lie lists and atoms ([`Tree`], [`Node`]) in
+//! one flat preorder array. [`parse`] never fails: it gives the tree and what is wrong with it.
+//! Cost: linear in the text; about 5 bytes a token and 16 a node.
+
+mod build;
+mod lexer;
+mod token;
+mod tree;
+
+pub use build::{MAX_DEPTH, parse};
+pub use token::{TokenKind, Tokens};
+pub use tree::{Children, Node, NodeKind, Tree};
