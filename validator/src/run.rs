@@ -170,11 +170,11 @@ impl<'a> Validator<'a> {
 
 fn unsupported(domain: &Domain, problem: &Problem) -> Option<Unsupported> {
     if let Some(diagnostic) = domain.unsupported.first() {
-        let feature = Feature::InDomain(diagnostic.message.clone());
+        let feature = Feature::InDomain(diagnostic.message());
         return Some(Unsupported { feature, span: diagnostic.span });
     }
     if let Some(diagnostic) = problem.unsupported.first() {
-        let feature = Feature::InProblem(diagnostic.message.clone());
+        let feature = Feature::InProblem(diagnostic.message());
         return Some(Unsupported { feature, span: diagnostic.span });
     }
     problem.htn.as_ref().map(|(_, network)| {
