@@ -5,6 +5,7 @@
 
 mod arrows;
 mod cargo;
+mod record;
 mod sources;
 
 use std::process::ExitCode;
@@ -15,6 +16,7 @@ const HELP: &str = "cargo xtask COMMAND
   lint   rustfmt --check, clippy and rustdoc, without a warning
   tidy   the arrows of ARCHITECTURE.md equal those of cargo, and every source keeps the house rules
   ci     test, lint, tidy
+  record draws docs/figure-8.svg, the README's picture, from a run
 ";
 
 fn main() -> ExitCode {
@@ -23,6 +25,7 @@ fn main() -> ExitCode {
         "test" => test(),
         "lint" => lint(),
         "tidy" => tidy(),
+        "record" => record::record(),
         "ci" => test().and_then(|()| lint()).and_then(|()| tidy()),
         _ => {
             eprint!("{HELP}");
