@@ -6,6 +6,10 @@
   (:requirements :typing :equality :negative-preconditions :disjunctive-preconditions
                  :quantified-preconditions :derived-predicates)
   (:import clarc barthel)
+  (:constants    ; nodes of graph.pddl
+    opening - phase
+    greeting explanation introduction moving-on farewell - remark
+    first-question second-question - question)
   (:predicates
     (unusable ?d - device)
     (told ?u - utterance ?i - part)

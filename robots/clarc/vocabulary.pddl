@@ -54,6 +54,10 @@
     (was_delivered_to ?d - document ?c - clinician))
   (:functions
     (rt ?parent ?child - frame) - pose
+    (rt_x ?parent ?child - frame) - number      ; how a world file gives an RT edge: metres, radians
+    (rt_y ?parent ?child - frame) - number
+    (rt_z ?parent ?child - frame) - number
+    (rt_yaw ?parent ?child - frame) - number
     (distance ?a ?b - frame) - number
     (label ?t - test ?p - part) - utterance     ; the sentence to say now
     (view ?t - test ?p - part) - utterance      ; the page to show now
