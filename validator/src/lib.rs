@@ -4,7 +4,7 @@
 //! shared with it but `pddl`'s typed model: no grounding, no compiled operators. Conditions and effects
 //! are read from the model as they stand, over one state that is changed in place.
 //!
-//! ```no_run
+//! ```
 //! use pddl::{Source, parse_domain, parse_plan, parse_problem};
 //!
 //! let domain = Source::new("d.pddl", "(define (domain d) (:predicates (lit))

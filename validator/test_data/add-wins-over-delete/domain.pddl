@@ -1,0 +1,5 @@
+(define (domain wins)
+  (:requirements :strips :negative-preconditions :conditional-effects)
+  (:predicates (p) (q) (r))
+  (:action both :parameters () :precondition () :effect (and (p) (not (p))))
+  (:action back :parameters () :precondition () :effect (and (not (p)) (when (q) (p)))))

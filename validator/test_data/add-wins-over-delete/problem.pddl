@@ -1,0 +1,1 @@
+(define (problem p) (:domain wins) (:init (p)) (:goal (p)))

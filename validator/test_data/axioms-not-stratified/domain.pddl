@@ -1,0 +1,6 @@
+(define (domain liar)
+  (:requirements :derived-predicates :negative-preconditions)
+  (:predicates (says-truth) (lies) (done))
+  (:derived (says-truth) (not (lies)))
+  (:derived (lies) (not (says-truth)))
+  (:action ask :parameters () :precondition (lies) :effect (done)))

@@ -1,0 +1,6 @@
+(define (domain candle)
+  (:requirements :strips)
+  (:predicates (match) (lit ?c) (seen ?c))
+  (:action light :parameters (?c) :precondition (match) :effect (and (lit ?c) (not (match))))
+  (:action look :parameters (?c) :precondition (lit ?c) :effect (seen ?c))
+  (:action blow :parameters (?c) :precondition (lit ?c) :effect (not (lit ?c))))

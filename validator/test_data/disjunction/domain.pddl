@@ -1,0 +1,6 @@
+(define (domain tea)
+  (:requirements :adl)
+  (:predicates (hot ?c) (iced ?c) (served ?c))
+  (:action heat :parameters (?c) :effect (and (hot ?c) (not (iced ?c))))
+  (:action wait :parameters (?c) :effect (not (hot ?c)))
+  (:action serve :parameters (?c) :precondition (or (hot ?c) (iced ?c)) :effect (served ?c)))

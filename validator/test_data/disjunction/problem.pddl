@@ -1,0 +1,1 @@
+(define (problem p) (:domain tea) (:objects cup) (:init) (:goal (served cup)))

@@ -1,0 +1,1 @@
+(define (problem p) (:domain nobody) (:objects ana - nurse) (:init) (:goal (done)))

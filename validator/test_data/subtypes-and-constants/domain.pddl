@@ -1,0 +1,7 @@
+(define (domain zoo)
+  (:requirements :strips :typing)
+  (:types cat dog - animal animal cage)
+  (:constants rex - dog)
+  (:predicates (in ?a - (either cat dog) ?c - cage) (fed ?a - animal))
+  (:action feed :parameters (?a - animal ?c - cage) :precondition (in ?a ?c) :effect (fed ?a))
+  (:action walk :parameters (?d - dog) :precondition (fed rex) :effect (fed ?d)))

@@ -1,0 +1,6 @@
+(define (domain tidy)
+  (:requirements :hierarchy :strips)
+  (:predicates (clean))
+  (:task tidy :parameters ())
+  (:method m :parameters () :task (tidy) :ordered-subtasks (and (sweep)))
+  (:action sweep :parameters () :precondition () :effect (clean)))

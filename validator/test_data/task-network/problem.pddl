@@ -1,0 +1,3 @@
+(define (problem p) (:domain tidy) (:objects)
+  (:htn :parameters () :ordered-subtasks (and (tidy)))
+  (:init))

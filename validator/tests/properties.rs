@@ -1,0 +1,162 @@
+//! What must hold for any plan: no panic, and verdicts that do not depend on names or order.
+
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+use pddl::model::{ActionId, Domain, ObjectId, Problem};
+use pddl::{Plan, PlanStep, Source, Span, parse_domain, parse_plan, parse_problem};
+use proptest::prelude::*;
+use validator::{Failure, Validator, Verdict, explain, validate};
+
+const DOMAIN: &str = "(define (domain rounds) (:requirements :adl :typing :numeric-fluents)
+  (:types room item)
+  (:predicates (at ?r - room) (in ?i - item ?r - room) (has ?i - item) (free) (door ?a ?b - room))
+  (:functions (steps) (trips ?r - room))
+  (:action go :parameters (?from ?to - room)
+    :precondition (and (at ?from) (or (door ?from ?to) (door ?to ?from)) (< (steps) 20))
+    :effect (and (at ?to) (not (at ?from)) (increase (steps) 0.5) (increase (trips ?to) 1)))
+  (:action take :parameters (?i - item ?r - room)
+    :precondition (and (at ?r) (in ?i ?r) (forall (?j - item) (not (has ?j))))
+    :effect (and (has ?i) (not (in ?i ?r))))
+  (:action drop :parameters (?r - room)
+    :precondition (and (at ?r) (exists (?i - item) (has ?i)))
+    :effect (forall (?i - item) (when (has ?i) (and (in ?i ?r) (not (has ?i)))))))";
+
+const PLAN: &str =
+    "(go a b) (take i b) (go b c) (drop c) (go c b) (go b a) (take j a) (go a b) (go b c) (drop c)";
+
+/// The problem with its objects, facts and names in any order and spelling.
+fn problem_text(names: &[String; 5], order: &[usize; 7]) -> String {
+    let [a, b, c, i, j] = names;
+    let facts = [
+        format!("(at {a})"),
+        format!("(door {a} {b})"),
+        format!("(door {b} {c})"),
+        format!("(in {i} {b})"),
+        format!("(in {j} {a})"),
+        "(= (steps) 0)".to_owned(),
+        format!("(= (trips {a}) 0) (= (trips {b}) 0) (= (trips {c}) 0)"),
+    ];
+    let init: Vec<&str> = order.iter().map(|&k| facts[k].as_str()).collect();
+    format!(
+        "(define (problem p) (:domain rounds) (:objects {a} {b} {c} - room {i} {j} - item)
+           (:init {}) (:goal (forall (?i - item) (in ?i {c}))) (:metric minimize (steps)))",
+        init.join(" ")
+    )
+}
+
+fn plan_text(names: &[String; 5]) -> String {
+    PLAN.split_inclusive([' ', ')'])
+        .map(|word| {
+            let name = word.trim_end_matches([' ', ')']);
+            match ["a", "b", "c", "i", "j"].iter().position(|&n| n == name) {
+                Some(k) => word.replace(name, &names[k]),
+                None => word.to_owned(),
+            }
+        })
+        .collect()
+}
+
+fn plain() -> [String; 5] {
+    ["a", "b", "c", "i", "j"].map(str::to_owned)
+}
+
+fn task(problem: &str) -> (Domain, Problem) {
+    let domain = parse_domain(&Source::new("domain", DOMAIN), &[]).model.unwrap();
+    let problem = parse_problem(&Source::new("problem", problem), &domain).model.unwrap();
+    (domain, problem)
+}
+
+fn read(text: &str, domain: &Domain, problem: &Problem) -> Plan {
+    parse_plan(&Source::new("plan", text), domain, problem).model.unwrap()
+}
+
+fn judged(problem: &str, plan: &str) -> Verdict {
+    let (domain, problem) = task(problem);
+    let plan = read(plan, &domain, &problem);
+    validate(&domain, &problem, &plan)
+}
+
+const IN_ORDER: [usize; 7] = [0, 1, 2, 3, 4, 5, 6];
+
+#[test]
+fn the_plan_is_valid() {
+    let verdict = judged(&problem_text(&plain(), &IN_ORDER), PLAN);
+    let Verdict::Valid(valid) = verdict else { panic!("{verdict:?}") };
+    assert_eq!(valid.cost().to_string(), "3");
+}
+
+#[test]
+fn every_step_is_needed() {
+    let (domain, problem) = task(&problem_text(&plain(), &IN_ORDER));
+    let plan = read(PLAN, &domain, &problem);
+    let validator = Validator::new(&domain, &problem).unwrap();
+    for dropped in 0..plan.steps.len() {
+        let mut shorter = plan.clone();
+        shorter.steps.remove(dropped);
+        let verdict = validator.validate(&shorter);
+        // Carrying both at once is forbidden, every other step is a link of the chain.
+        match verdict {
+            Verdict::Invalid(Failure::Precondition { step, .. }) => assert!(step.0 as usize >= dropped),
+            Verdict::Invalid(Failure::Goal { .. }) => {}
+            other => panic!("without step {dropped}: {other:?}"),
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_steps_get_a_verdict(
+        steps in prop::collection::vec((0_u32..5, prop::collection::vec(0_u32..7, 0..4)), 0..30),
+    ) {
+        let (domain, problem) = task(&problem_text(&plain(), &IN_ORDER));
+        let steps = steps.into_iter().map(|(action, arguments)| PlanStep {
+            action: ActionId(action),
+            arguments: arguments.into_iter().map(ObjectId).collect(),
+            span: Span::default(),
+        });
+        let plan = Plan { steps: steps.collect() };
+        let verdict = validate(&domain, &problem, &plan);
+        prop_assert_eq!(verdict.is_valid(), explain(&domain, &problem, &plan, &verdict).is_none());
+    }
+
+    #[test]
+    fn dropped_doubled_and_moved_steps_get_a_verdict(
+        edits in prop::collection::vec((0_usize..3, any::<prop::sample::Index>(), any::<prop::sample::Index>()), 1..8),
+    ) {
+        let (domain, problem) = task(&problem_text(&plain(), &IN_ORDER));
+        let mut plan = read(PLAN, &domain, &problem);
+        for (kind, one, other) in edits {
+            if plan.steps.is_empty() {
+                break;
+            }
+            let (one, other) = (one.index(plan.steps.len()), other.index(plan.steps.len()));
+            match kind {
+                0 => {
+                    plan.steps.remove(one);
+                }
+                1 => {
+                    let step = plan.steps[one].clone();
+                    plan.steps.insert(other, step);
+                }
+                _ => plan.steps.swap(one, other),
+            }
+        }
+        let validator = Validator::new(&domain, &problem).unwrap();
+        let (verdict, trace) = validator.trace(&plan);
+        prop_assert_eq!(&verdict, &validator.validate(&plan));
+        prop_assert!(trace.steps.len() <= plan.steps.len());
+        prop_assert_eq!(verdict.is_valid(), explain(&domain, &problem, &plan, &verdict).is_none());
+    }
+
+    #[test]
+    fn names_and_order_do_not_matter(
+        order in Just(IN_ORDER).prop_shuffle(),
+        names in prop::collection::btree_set("[a-h][a-z0-9-]{3,8}", 5),
+    ) {
+        let names: [String; 5] = names.into_iter().collect::<Vec<_>>().try_into().unwrap();
+        let verdict = judged(&problem_text(&names, &order), &plan_text(&names));
+        prop_assert_eq!(verdict, judged(&problem_text(&plain(), &IN_ORDER), PLAN));
+    }
+}
