@@ -152,10 +152,10 @@ pub(crate) fn resolve(term: Term, binding: &[u32]) -> u32 {
 }
 
 /// The smallest power of ten that makes all costs integers (up to six decimals).
-pub(crate) fn scale(costs: impl Iterator<Item = f64> + Clone) -> u32 {
+pub(crate) fn scale(costs: &[f64]) -> u32 {
     (0..6)
         .map(|k| 10_u32.pow(k))
-        .find(|&s| costs.clone().all(|c| ((c * f64::from(s)) - (c * f64::from(s)).round()).abs() < 1e-6))
+        .find(|&s| costs.iter().all(|c| ((c * f64::from(s)) - (c * f64::from(s)).round()).abs() < 1e-6))
         .unwrap_or(1_000_000)
 }
 

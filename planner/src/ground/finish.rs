@@ -64,7 +64,8 @@ pub(crate) fn finish(
             rules.push(AxiomRule { head: FactId(numbers[*head as usize]), body });
         }
     }
-    let cost_scale = if costs.is_unit() { 1 } else { scale(raw.operators.iter().map(|o| o.cost)) };
+    let cost_scale =
+        if costs.is_unit() { 1 } else { scale(&raw.operators.iter().map(|o| o.cost).collect::<Vec<_>>()) };
     let operators: IndexVec<_, _> =
         raw.operators.iter().filter_map(|o| view.operator(o, cost_scale)).collect();
     drop(raw.operators);

@@ -84,7 +84,13 @@ impl<'t> Ff<'t> {
 }
 
 impl Heuristic for Ff<'_> {
-    fn estimate(&mut self, _: StateId, words: &[u64], preferred: &mut Vec<OperatorId>) -> Estimate {
+    fn estimate(
+        &mut self,
+        _: StateId,
+        words: &[u64],
+        _: &[OperatorId],
+        preferred: &mut Vec<OperatorId>,
+    ) -> Estimate {
         self.relaxed_plan(words, preferred)
     }
 }

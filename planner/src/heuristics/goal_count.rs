@@ -15,7 +15,7 @@ impl<'t> GoalCount<'t> {
 }
 
 impl Heuristic for GoalCount<'_> {
-    fn estimate(&mut self, _: StateId, words: &[u64], _: &mut Vec<OperatorId>) -> Estimate {
+    fn estimate(&mut self, _: StateId, words: &[u64], _: &[OperatorId], _: &mut Vec<OperatorId>) -> Estimate {
         Estimate(open_goals(self.goal, words))
     }
 }

@@ -113,7 +113,7 @@ impl<'t> LmCut<'t> {
 }
 
 impl Heuristic for LmCut<'_> {
-    fn estimate(&mut self, _: StateId, words: &[u64], _: &mut Vec<OperatorId>) -> Estimate {
+    fn estimate(&mut self, _: StateId, words: &[u64], _: &[OperatorId], _: &mut Vec<OperatorId>) -> Estimate {
         self.remaining.clone_from(&self.costs);
         let mut total = 0_u32;
         loop {

@@ -19,7 +19,7 @@ impl<'t> Max<'t> {
 }
 
 impl Heuristic for Max<'_> {
-    fn estimate(&mut self, _: StateId, words: &[u64], _: &mut Vec<OperatorId>) -> Estimate {
+    fn estimate(&mut self, _: StateId, words: &[u64], _: &[OperatorId], _: &mut Vec<OperatorId>) -> Estimate {
         if !self.explorer.explore(words) {
             return Estimate::DEAD_END;
         }

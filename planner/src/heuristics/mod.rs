@@ -7,11 +7,13 @@ mod blind;
 mod explorer;
 mod ff;
 pub(crate) mod goal_count;
+mod landmarks;
 mod lm_cut;
 mod max;
 
 pub(crate) use explorer::{Combine, Explorer};
 pub(crate) use ff::Ff;
+use landmarks::LandmarkCount;
 
 use crate::ids::{OperatorId, StateId};
 use crate::search::Barred;
@@ -52,20 +54,23 @@ pub enum HeuristicKind {
     Max,
     /// Cost of a relaxed plan.
     Ff,
+    /// Landmarks still to be achieved.
+    Landmarks,
     /// Landmark cuts.
     LmCut,
 }
 
 impl HeuristicKind {
     /// Every kind.
-    pub const ALL: &'static [Self] = &[Self::Blind, Self::GoalCount, Self::Max, Self::Ff, Self::LmCut];
+    pub const ALL: &'static [Self] =
+        &[Self::Blind, Self::GoalCount, Self::Max, Self::Ff, Self::Landmarks, Self::LmCut];
 
     /// What holds of it with real costs.
     pub fn properties(self) -> Properties {
         let (admissible, consistent) = match self {
             Self::Blind | Self::Max => (true, true),
             Self::LmCut => (true, false),
-            Self::GoalCount | Self::Ff => (false, false),
+            Self::GoalCount | Self::Ff | Self::Landmarks => (false, false),
         };
         Properties { admissible, consistent, safe: true }
     }
@@ -74,7 +79,7 @@ impl HeuristicKind {
     pub(crate) fn build<'t>(
         self,
         task: &'t Task,
-        _state: &State,
+        state: &State,
         goal: &'t Goal,
         barred: &Barred,
         costs: Costs,
@@ -84,6 +89,7 @@ impl HeuristicKind {
             Self::GoalCount => Box::new(GoalCount::new(goal)),
             Self::Max => Box::new(Max::new(task, goal, barred, costs)),
             Self::Ff => Box::new(Ff::new(task, goal, barred, costs)),
+            Self::Landmarks => Box::new(LandmarkCount::new(task, state, goal, barred)),
             Self::LmCut => Box::new(LmCut::new(task, goal, barred, costs)),
         }
     }
@@ -99,8 +105,15 @@ impl Estimate {
 
 /// An estimator bound to a task, a goal and the operators that may be used.
 pub(crate) trait Heuristic {
-    /// Estimates a state. Appends operators that look promising in it to `preferred`.
-    fn estimate(&mut self, id: StateId, words: &[u64], preferred: &mut Vec<OperatorId>) -> Estimate;
+    /// Estimates a state. Appends to `preferred` those of the `applicable` operators that look
+    /// promising.
+    fn estimate(
+        &mut self,
+        id: StateId,
+        words: &[u64],
+        applicable: &[OperatorId],
+        preferred: &mut Vec<OperatorId>,
+    ) -> Estimate;
 
     /// Told of the first state, before any estimate.
     fn start(&mut self, _id: StateId, _words: &[u64]) {}

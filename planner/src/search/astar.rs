@@ -20,6 +20,9 @@ struct Node {
     h: Option<Estimate>,
 }
 
+/// In the order of expansion: f, h, order of insertion, g, state.
+type Entry = (u64, u32, u64, u64, u32);
+
 /// Runs the search.
 pub(crate) fn search(task: &Task, query: &Query<'_>, kind: HeuristicKind, budget: &Budget<'_>) -> Report {
     let mut statistics = Statistics::default();
@@ -38,8 +41,7 @@ fn run(
     let mut heuristic = kind.build(task, query.state, query.goal, &barred, Costs::Real);
     let mut registry = StateRegistry::new(task.words_per_state());
     let mut nodes: Vec<Node> = Vec::new();
-    // f, h, order of insertion, g, state.
-    let mut open: BinaryHeap<Reverse<(u64, u32, u64, u64, u32)>> = BinaryHeap::new();
+    let mut open: BinaryHeap<Reverse<Entry>> = BinaryHeap::new();
     let mut order = 0;
     let (mut successors, mut ignored) = (Vec::new(), Vec::new());
     let mut next = query.state.words().to_vec();
@@ -48,7 +50,7 @@ fn run(
     let (start, _) = registry.insert(&next, None);
     heuristic.start(start, &next);
     statistics.evaluated += 1;
-    let h = heuristic.estimate(start, &next, &mut ignored);
+    let h = heuristic.estimate(start, &next, &[], &mut ignored);
     nodes.push(Node { g: 0, h: Some(h) });
     if h != Estimate::DEAD_END {
         open.push(Reverse((u64::from(h.0), h.0, order, 0, start.0)));
@@ -91,7 +93,7 @@ fn run(
             let h = *node.h.get_or_insert_with(|| {
                 statistics.evaluated += 1;
                 ignored.clear();
-                heuristic.estimate(child, &next, &mut ignored)
+                heuristic.estimate(child, &next, &[], &mut ignored)
             });
             if h != Estimate::DEAD_END {
                 order += 1;

@@ -41,11 +41,14 @@ pub struct SearchConfiguration {
 }
 
 const LAZY_FF: Engine = Engine::Lazy { heuristics: &[HeuristicKind::Ff], costs: Costs::Unit };
+const LAMA: Engine =
+    Engine::Lazy { heuristics: &[HeuristicKind::Ff, HeuristicKind::Landmarks], costs: Costs::Unit };
 const BFWS: Engine = Engine::Bfws(Width::Any);
 
 impl SearchConfiguration {
     /// Every configuration; the first is the default.
     pub const ALL: &'static [Self] = &[
+        Self::row("lama", "greedy search on relaxed plans and landmarks with preferred operators", LAMA),
         Self::row("lazy-ff", "greedy search on relaxed plans with preferred operators", LAZY_FF),
         Self::row("bfws", "best-first width search on novelty and goal counts", BFWS),
         Self::row(
@@ -55,7 +58,7 @@ impl SearchConfiguration {
         ),
         Self {
             deterministic: false,
-            ..Self::row("dual", "lazy-ff and bfws at once", Engine::Parallel(&[LAZY_FF, BFWS]))
+            ..Self::row("dual", "lama and bfws at once", Engine::Parallel(&[LAMA, BFWS]))
         },
         Self::optimal("astar-lmcut", "A* with landmark cuts: optimal", HeuristicKind::LmCut),
         Self::optimal("astar-max", "A* with hmax: optimal", HeuristicKind::Max),

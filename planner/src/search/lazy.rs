@@ -109,11 +109,14 @@ impl Lazy<'_> {
 
     /// Estimates a state and queues its successors.
     fn visit(&mut self, id: StateId, words: &[u64]) {
+        let mut successors = Vec::new();
+        self.task.successors.applicable(words, &mut successors);
+        self.barred.filter(&mut successors);
         let mut preferred = Vec::new();
         let mut estimates = Vec::with_capacity(self.heuristics.len());
         self.statistics.evaluated += 1;
         for h in &mut self.heuristics {
-            let estimate = h.estimate(id, words, &mut preferred);
+            let estimate = h.estimate(id, words, &successors, &mut preferred);
             // All our heuristics are safe: one dead end is enough.
             if estimate == Estimate::DEAD_END {
                 return;
@@ -131,9 +134,6 @@ impl Lazy<'_> {
             self.lists.iter_mut().for_each(|l| l.preferred_priority -= BOOST);
         }
         self.statistics.expanded += 1;
-        let mut successors = Vec::new();
-        self.task.successors.applicable(words, &mut successors);
-        self.barred.filter(&mut successors);
         self.barred.filter(&mut preferred);
         preferred.sort_unstable();
         preferred.dedup();

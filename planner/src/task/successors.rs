@@ -50,8 +50,8 @@ impl SuccessorTree {
             })
             .collect();
         keyed.sort_unstable();
-        let mut tree = Self::default();
-        tree.unconditional = keyed.partition_point(|(k, _)| k.is_empty());
+        let unconditional = keyed.partition_point(|(k, _)| k.is_empty());
+        let mut tree = Self { unconditional, ..Self::default() };
         tree.operators.extend(keyed[..tree.unconditional].iter().map(|(_, id)| *id));
         tree.build(&keyed[tree.unconditional..], 0);
         tree

@@ -1,0 +1,134 @@
+//! How many landmarks are still to be achieved, with operators that achieve one next as preferred.
+//!
+//! Idea: a landmark is accepted on a path once it holds and all that is ordered before it was
+//! accepted; it is needed again if it does not hold and is a goal, or right before something that is
+//! not accepted. Path-dependent: each state keeps the accepted set of the path that found it. Neither
+//! admissible nor consistent; safe (never infinite).
+//!
+//! Source: Richter & Westphal, "The LAMA planner", JAIR 2010, §4.
+
+use super::graph::LandmarkGraph;
+use super::labels::Labels;
+use crate::heuristics::{Estimate, Heuristic};
+use crate::ids::{OperatorId, StateId, id32};
+use crate::search::Barred;
+use crate::task::{Goal, Relaxation, State, Task, contains};
+
+pub(crate) struct LandmarkCount<'t> {
+    task: &'t Task,
+    graph: &'t Relaxation,
+    landmarks: LandmarkGraph,
+    width: usize,
+    /// Accepted landmarks, `width` words a state.
+    accepted: Vec<u64>,
+}
+
+impl<'t> LandmarkCount<'t> {
+    pub(crate) fn new(task: &'t Task, state: &State, goal: &Goal, barred: &Barred) -> Self {
+        let graph = &task.relaxation;
+        let mut initial = vec![false; graph.propositions()];
+        graph.for_each_true(state.words(), |p| initial[p as usize] = true);
+        let labels = Labels::new(graph, initial, barred);
+        let landmarks = LandmarkGraph::new(task, labels.as_ref(), &graph.literals(&goal.literals));
+        let width = landmarks.landmarks.len().div_ceil(64);
+        Self { task, graph, landmarks, width, accepted: Vec::new() }
+    }
+
+    fn holds(&self, landmark: usize, words: &[u64]) -> bool {
+        self.landmarks.landmarks[landmark].propositions.iter().any(|&p| {
+            let (fact, positive) = self.graph.literal(p);
+            contains(words, fact) == positive
+        })
+    }
+
+    fn accepted(&self, id: StateId) -> &[u64] {
+        &self.accepted[id.0 as usize * self.width..(id.0 as usize + 1) * self.width]
+    }
+
+    fn may_come(&self, landmark: usize, accepted: &[u64]) -> bool {
+        self.landmarks.landmarks[landmark].before.iter().all(|&b| bit(accepted, b as usize))
+    }
+
+    /// Operators that achieve a landmark whose turn it is; single facts count before disjunctions.
+    fn promising(&self, accepted: &[u64], applicable: &[OperatorId], preferred: &mut Vec<OperatorId>) {
+        let mut disjunctive = Vec::new();
+        let before = preferred.len();
+        for &operator in applicable {
+            let op = &self.task.operators[operator];
+            let adds = op.adds.iter().chain(op.conditional.iter().flat_map(|e| e.adds.iter()));
+            let (mut single, mut any) = (false, false);
+            for fact in adds {
+                for &l in self.landmarks.of.get(&fact.0).map_or(&[][..], Vec::as_slice) {
+                    let l = l as usize;
+                    if !bit(accepted, l) && self.may_come(l, accepted) {
+                        any = true;
+                        single |= self.landmarks.landmarks[l].propositions.len() == 1;
+                    }
+                }
+            }
+            if single {
+                preferred.push(operator);
+            } else if any {
+                disjunctive.push(operator);
+            }
+        }
+        if preferred.len() == before {
+            preferred.extend(disjunctive);
+        }
+    }
+}
+
+fn bit(words: &[u64], i: usize) -> bool {
+    words[i / 64] >> (i % 64) & 1 == 1
+}
+
+impl Heuristic for LandmarkCount<'_> {
+    fn start(&mut self, _: StateId, words: &[u64]) {
+        let mut accepted = vec![0; self.width];
+        for l in 0..self.landmarks.landmarks.len() {
+            if self.holds(l, words) && self.landmarks.landmarks[l].before.is_empty() {
+                accepted[l / 64] |= 1 << (l % 64);
+            }
+        }
+        self.accepted = accepted;
+    }
+
+    fn step(&mut self, from: StateId, _: OperatorId, to: StateId, words: &[u64]) {
+        if to.0 as usize * self.width < self.accepted.len() {
+            return;
+        }
+        let mut accepted = self.accepted(from).to_vec();
+        for l in 0..self.landmarks.landmarks.len() {
+            if !bit(&accepted, l) && self.holds(l, words) && self.may_come(l, self.accepted(from)) {
+                accepted[l / 64] |= 1 << (l % 64);
+            }
+        }
+        self.accepted.extend(accepted);
+    }
+
+    fn estimate(
+        &mut self,
+        id: StateId,
+        words: &[u64],
+        applicable: &[OperatorId],
+        preferred: &mut Vec<OperatorId>,
+    ) -> Estimate {
+        let accepted = self.accepted(id);
+        let mut open = 0;
+        for (l, landmark) in self.landmarks.landmarks.iter().enumerate() {
+            let needed = if bit(accepted, l) {
+                (landmark.is_goal || landmark.needed_for.iter().any(|&n| !bit(accepted, n as usize)))
+                    && !self.holds(l, words)
+            } else {
+                true
+            };
+            open += usize::from(needed);
+        }
+        self.promising(accepted, applicable, preferred);
+        Estimate(id32(open))
+    }
+
+    fn memory(&self) -> usize {
+        self.accepted.len() * 8
+    }
+}

@@ -1,0 +1,343 @@
+//! The landmark graph: fact and disjunctive landmarks, and orders between them.
+//!
+//! Orders: *natural*, one is in the other's label; *greedy-necessary*, it is needed by every first
+//! achiever, so it must hold right before; *reasonable*, achieving the later one first would have to
+//! undo it. Reasonable orders are guidance and need not be sound; edges that close a cycle are left
+//! out. Interference is read off the operators: all achievers of one delete the other.
+//!
+//! Source: Hoffmann, Porteous & Sebastia, "Ordered landmarks in planning", JAIR 2004; Richter &
+//! Westphal, "The LAMA planner", JAIR 2010, §4. We find fact landmarks by labels, and have no mutexes.
+
+use super::labels::Labels;
+use crate::ids::{FactId, id32};
+use crate::task::{AXIOM, Relaxation, Rows, Task};
+use pddl::model::PredicateId;
+use rustc_hash::FxHashMap;
+
+/// Most facts of a disjunctive landmark.
+const DISJUNCTS: usize = 4;
+/// Landmarks beyond this many are not ordered reasonably (quadratic work).
+const REASONABLE: usize = 1500;
+
+/// A landmark: one of its propositions must hold at some time.
+#[derive(Clone, Debug)]
+pub(crate) struct Landmark {
+    pub(crate) propositions: Vec<u32>,
+    pub(crate) is_goal: bool,
+    /// Landmarks that must be accepted before.
+    pub(crate) before: Vec<u32>,
+    /// Landmarks for which this one must hold right before.
+    pub(crate) needed_for: Vec<u32>,
+}
+
+pub(crate) struct LandmarkGraph {
+    pub(crate) landmarks: Vec<Landmark>,
+    /// By proposition: the landmarks that hold it.
+    pub(crate) of: FxHashMap<u32, Vec<u32>>,
+}
+
+struct Builder<'a> {
+    task: &'a Task,
+    graph: &'a Relaxation,
+    labels: &'a Labels,
+    achieved_by: Rows,
+    found: LandmarkGraph,
+    facts: FxHashMap<u32, u32>,
+    disjunctive: FxHashMap<Vec<u32>, u32>,
+}
+
+impl LandmarkGraph {
+    /// The graph for a goal; goals alone where labels are missing.
+    pub(crate) fn new(task: &Task, labels: Option<&Labels>, goal: &[u32]) -> Self {
+        let graph = &task.relaxation;
+        let empty = Self { landmarks: Vec::new(), of: FxHashMap::default() };
+        let Some(labels) = labels else {
+            let mut only_goals = empty;
+            for &p in goal {
+                only_goals.push(vec![p], true);
+            }
+            return only_goals;
+        };
+        let mut builder = Builder {
+            task,
+            graph,
+            labels,
+            achieved_by: graph.effects.transposed(graph.propositions()),
+            found: empty,
+            facts: FxHashMap::default(),
+            disjunctive: FxHashMap::default(),
+        };
+        for &p in goal {
+            let id = builder.fact(p);
+            builder.found.landmarks[id as usize].is_goal = true;
+        }
+        for &p in goal {
+            for &l in labels.of(p) {
+                builder.fact(l);
+            }
+        }
+        let mut next = 0;
+        while next < builder.found.landmarks.len() {
+            builder.chain_back(id32(next));
+            next += 1;
+        }
+        builder.natural_orders();
+        if builder.found.landmarks.len() <= REASONABLE {
+            builder.reasonable_orders();
+        }
+        builder.found.without_cycles();
+        builder.found
+    }
+
+    fn push(&mut self, propositions: Vec<u32>, is_goal: bool) -> u32 {
+        let id = id32(self.landmarks.len());
+        for &p in &propositions {
+            self.of.entry(p).or_default().push(id);
+        }
+        self.landmarks.push(Landmark { propositions, is_goal, before: Vec::new(), needed_for: Vec::new() });
+        id
+    }
+
+    /// Drops orders that close a cycle: those met on the current path of a depth-first walk.
+    fn without_cycles(&mut self) {
+        let n = self.landmarks.len();
+        let mut state = vec![0_u8; n];
+        for root in 0..n {
+            if state[root] != 0 {
+                continue;
+            }
+            let mut path = vec![(root, 0_usize)];
+            state[root] = 1;
+            while let Some(&mut (v, ref mut edge)) = path.last_mut() {
+                let Some(&w) = self.landmarks[v].before.get(*edge) else {
+                    state[v] = 2;
+                    path.pop();
+                    continue;
+                };
+                match state[w as usize] {
+                    1 => {
+                        self.landmarks[v].before.remove(*edge);
+                    }
+                    0 => {
+                        *edge += 1;
+                        state[w as usize] = 1;
+                        path.push((w as usize, 0));
+                    }
+                    _ => *edge += 1,
+                }
+            }
+        }
+    }
+}
+
+impl Builder<'_> {
+    fn fact(&mut self, proposition: u32) -> u32 {
+        if let Some(&id) = self.facts.get(&proposition) {
+            return id;
+        }
+        let id = self.found.push(vec![proposition], false);
+        self.facts.insert(proposition, id);
+        id
+    }
+
+    fn order(&mut self, before: u32, after: u32, greedy: bool) {
+        if before == after {
+            return;
+        }
+        let list = &mut self.found.landmarks[after as usize].before;
+        if !list.contains(&before) {
+            list.push(before);
+        }
+        if greedy {
+            let list = &mut self.found.landmarks[before as usize].needed_for;
+            if !list.contains(&after) {
+                list.push(after);
+            }
+        }
+    }
+
+    /// Nodes that may achieve the landmark for the first time.
+    fn first_achievers(&self, propositions: &[u32]) -> Vec<u32> {
+        let mut nodes = Vec::new();
+        let mut union = Vec::new();
+        for &p in propositions {
+            for &node in self.achieved_by.row(p) {
+                if !self.labels.reaches(self.graph, node) {
+                    continue;
+                }
+                self.labels.union(self.graph, node, &mut union);
+                if propositions.iter().all(|q| union.binary_search(q).is_err()) {
+                    nodes.push(node);
+                }
+            }
+        }
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    }
+
+    /// Finds what every first achiever of a landmark needs.
+    fn chain_back(&mut self, id: u32) {
+        let propositions = self.found.landmarks[id as usize].propositions.clone();
+        if propositions.iter().any(|&p| self.labels.is_initial(p)) {
+            return;
+        }
+        let achievers = self.first_achievers(&propositions);
+        let Some((&first, rest)) = achievers.split_first() else { return };
+        let row = |n: u32| self.graph.preconditions.row(n);
+        let shared: Vec<u32> =
+            row(first).iter().copied().filter(|p| rest.iter().all(|&n| row(n).contains(p))).collect();
+        let groups = self.disjunctions(&achievers, &shared);
+        for p in shared {
+            let before = self.fact(p);
+            self.order(before, id, true);
+        }
+        for group in groups {
+            let before = match self.disjunctive.get(&group) {
+                Some(&known) => known,
+                None => {
+                    let new = self.found.push(group.clone(), false);
+                    self.disjunctive.insert(group, new);
+                    new
+                }
+            };
+            self.order(before, id, true);
+        }
+    }
+
+    /// Small sets of facts of one predicate of which every achiever needs one.
+    fn disjunctions(&self, achievers: &[u32], shared: &[u32]) -> Vec<Vec<u32>> {
+        let predicate = |p: u32| -> Option<PredicateId> {
+            let (fact, positive) = self.graph.literal(p);
+            positive.then_some(())?;
+            self.task.facts()[fact].atom.as_ref().map(|a| a.predicate)
+        };
+        let mut candidates: Vec<(PredicateId, Vec<u32>)> = Vec::new();
+        for (i, &node) in achievers.iter().enumerate() {
+            let mut here: Vec<(PredicateId, u32)> = self
+                .graph
+                .preconditions
+                .row(node)
+                .iter()
+                .filter(|p| !shared.contains(p))
+                .filter_map(|&p| predicate(p).map(|q| (q, p)))
+                .collect();
+            here.sort_unstable();
+            if i == 0 {
+                for &(q, _) in &here {
+                    if candidates.last().is_none_or(|(last, _)| *last != q) {
+                        candidates.push((q, Vec::new()));
+                    }
+                }
+            }
+            candidates.retain_mut(|(q, facts)| {
+                let own = here.iter().filter(|(r, _)| r == q).map(|&(_, p)| p);
+                let before = facts.len();
+                let mut any = false;
+                for p in own {
+                    any = true;
+                    if !facts.contains(&p) {
+                        facts.push(p);
+                    }
+                }
+                debug_assert!(facts.len() >= before);
+                any && facts.len() <= DISJUNCTS
+            });
+            if candidates.is_empty() {
+                break;
+            }
+        }
+        candidates
+            .into_iter()
+            .map(|(_, mut facts)| {
+                facts.sort_unstable();
+                facts
+            })
+            .filter(|f| {
+                f.len() > 1 && f.iter().all(|&p| !self.labels.is_initial(p) && !self.facts.contains_key(&p))
+            })
+            .collect()
+    }
+
+    fn natural_orders(&mut self) {
+        let facts: Vec<(u32, u32)> = self.facts.iter().map(|(&p, &id)| (p, id)).collect();
+        let mut facts = facts;
+        facts.sort_unstable();
+        for (p, id) in facts {
+            for &l in self.labels.of(p) {
+                if let Some(&before) = self.facts.get(&l) {
+                    self.order(before, id, false);
+                }
+            }
+        }
+    }
+
+    /// `b` before `a` where `a` would have to be undone for `b`, and both must hold together later.
+    fn reasonable_orders(&mut self) {
+        let n = id32(self.found.landmarks.len());
+        let simple = |l: &Landmark| (l.propositions.len() == 1).then(|| l.propositions[0]);
+        // What all achievers of a landmark delete, as facts.
+        let undone: Vec<Vec<FactId>> = (0..n).map(|a| self.undone_by(a)).collect();
+        let mut orders = Vec::new();
+        for a in 0..n {
+            if simple(&self.found.landmarks[a as usize]).is_none() || undone[a as usize].is_empty() {
+                continue;
+            }
+            for b in self.companions(a) {
+                let mut right_before: Vec<u32> = vec![b];
+                right_before.extend(
+                    (0..n).filter(|&x| self.found.landmarks[x as usize].needed_for.contains(&b) && x != a),
+                );
+                let interferes = right_before.iter().any(|&x| {
+                    let Some(p) = simple(&self.found.landmarks[x as usize]) else { return false };
+                    let (fact, positive) = self.graph.literal(p);
+                    positive && undone[a as usize].contains(&fact)
+                });
+                if interferes {
+                    orders.push((b, a));
+                }
+            }
+        }
+        for (b, a) in orders {
+            self.order(b, a, false);
+        }
+    }
+
+    /// Landmarks that must hold together with `a` or after it: other goals if `a` is one, and what
+    /// comes before a landmark that needs `a` right before.
+    fn companions(&self, a: u32) -> Vec<u32> {
+        let landmarks = &self.found.landmarks;
+        let mut others = Vec::new();
+        if landmarks[a as usize].is_goal {
+            others.extend((0..id32(landmarks.len())).filter(|&b| landmarks[b as usize].is_goal));
+        }
+        for &c in &landmarks[a as usize].needed_for {
+            others.extend(landmarks[c as usize].before.iter().copied());
+        }
+        others.sort_unstable();
+        others.dedup();
+        others.retain(|&b| b != a && !landmarks[b as usize].before.contains(&a));
+        others
+    }
+
+    fn undone_by(&self, a: u32) -> Vec<FactId> {
+        let landmark = &self.found.landmarks[a as usize];
+        let [proposition] = landmark.propositions[..] else { return Vec::new() };
+        let mut common: Option<Vec<FactId>> = None;
+        for &node in self.achieved_by.row(proposition) {
+            let operator = self.graph.operator[node as usize];
+            if operator == AXIOM {
+                return Vec::new();
+            }
+            let deletes = &self.task.operators.as_slice()[operator as usize].deletes;
+            match &mut common {
+                None => common = Some(deletes.to_vec()),
+                Some(kept) => kept.retain(|f| deletes.contains(f)),
+            }
+            if common.as_ref().is_some_and(Vec::is_empty) {
+                break;
+            }
+        }
+        common.unwrap_or_default()
+    }
+}

@@ -1,0 +1,10 @@
+//! Landmarks: what every plan must make true at some time.
+//!
+//! `labels` finds all fact landmarks of the delete relaxation, `graph` adds disjunctive ones and
+//! orders, `count` estimates states by the landmarks that are still to be achieved.
+
+mod count;
+mod graph;
+mod labels;
+
+pub(crate) use count::LandmarkCount;
