@@ -1,0 +1,17 @@
+; Conditional and universal effects, quantified and disjunctive preconditions.
+(define (domain elevator)
+  (:requirements :adl)
+  (:types floor passenger - object vip - passenger)
+  (:predicates (lift-at ?f - floor) (boarded ?p - passenger) (served ?p - passenger)
+               (from ?p - passenger ?f - floor) (to ?p - passenger ?f - floor) (shy ?p - passenger))
+  (:action stop :parameters (?f - floor)
+    :precondition (and (lift-at ?f)
+      (imply (exists (?p - passenger) (and (shy ?p) (boarded ?p)))
+             (not (exists (?q - vip) (and (from ?q ?f) (not (served ?q)))))))
+    :effect (forall (?p - passenger) (and
+      (when (and (boarded ?p) (to ?p ?f)) (and (served ?p) (not (boarded ?p))))
+      (when (and (from ?p ?f) (not (served ?p))) (boarded ?p)))))
+  (:action ride :parameters (?a ?b - floor)
+    :precondition (and (lift-at ?a) (not (= ?a ?b))
+      (forall (?v - vip) (or (not (boarded ?v)) (to ?v ?b) (served ?v))))
+    :effect (and (lift-at ?b) (not (lift-at ?a)))))

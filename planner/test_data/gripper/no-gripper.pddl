@@ -1,0 +1,5 @@
+; expect: impossible (at b1 b)
+(define (problem no-gripper) (:domain gripper)
+  (:objects a b b1)
+  (:init (room a) (room b) (ball b1) (at-robby a) (at b1 a))
+  (:goal (and (at b1 b) (at-robby a))))

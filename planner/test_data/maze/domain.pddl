@@ -1,0 +1,12 @@
+; Keys are used up: greedy choices run into dead ends.
+(define (domain maze)
+  (:requirements :strips :typing)
+  (:types cell key)
+  (:predicates (next ?a ?b - cell) (locked ?a ?b - cell) (at ?c - cell) (lies ?k - key ?c - cell) (has ?k - key))
+  (:action walk :parameters (?a ?b - cell)
+    :precondition (and (at ?a) (next ?a ?b)) :effect (and (at ?b) (not (at ?a))))
+  (:action unlock :parameters (?a ?b - cell ?k - key)
+    :precondition (and (at ?a) (locked ?a ?b) (has ?k))
+    :effect (and (next ?a ?b) (not (locked ?a ?b)) (not (has ?k))))
+  (:action take :parameters (?k - key ?c - cell)
+    :precondition (and (at ?c) (lies ?k ?c)) :effect (and (has ?k) (not (lies ?k ?c)))))

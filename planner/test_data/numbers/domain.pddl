@@ -1,0 +1,5 @@
+(define (domain numbers)
+  (:requirements :numeric-fluents)
+  (:predicates (done))
+  (:functions (fuel))
+  (:action go :parameters () :precondition (> (fuel) 0) :effect (and (done) (decrease (fuel) 1))))
