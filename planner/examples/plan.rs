@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         task.axioms().len(),
         task.goal().literals.len()
     );
-    let budget = Budget { interrupted: &late, memory_bytes: Some(5 << 30), ..Budget::default() };
+    let budget = Budget { interrupted: &late, memory_bytes: Some(4 << 30), ..Budget::default() };
     let report = solve(&task, &Query::of(&task), &configuration, &budget);
     let Outcome::Solved(plan) = &report.outcome else {
         eprintln!("{:9.3} s {report:?}", start.elapsed().as_secs_f64());
@@ -41,10 +41,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let lines: String = plan.operators.iter().map(|&o| task.operator_name(o) + "\n").collect();
     let text = format!("{lines}; cost = {}\n", plan.cost / u64::from(task.cost_scale()));
+    let steps = plan.operators.iter().map(|&o| {
+        let o = &task.operators()[o];
+        pddl::PlanStep { action: o.action, arguments: o.arguments.to_vec(), span: pddl::Span::default() }
+    });
+    eprintln!("solved     {:9.3} s {:?}", start.elapsed().as_secs_f64(), report.statistics);
+    let verdict = validator::validate(&domain, &problem, &pddl::Plan { steps: steps.collect() });
+    if !verdict.is_valid() {
+        return Err(format!("INVALID {verdict:?}").into());
+    }
     match output.flatten() {
         Some(path) => std::fs::write(path, text)?,
         None => print!("{text}"),
     }
-    eprintln!("solved     {:9.3} s {:?}", start.elapsed().as_secs_f64(), report.statistics);
+    eprintln!("valid      {:9.3} s", start.elapsed().as_secs_f64());
     Ok(())
 }

@@ -4,7 +4,7 @@
 //! [`Query`]s on it (from which state, to which goal, without which operators) within a [`Budget`].
 //! Nothing here parses, prints, reads files or clocks.
 //!
-//! ```no_run
+//! ```
 //! use planner::{Budget, GroundOptions, Outcome, Query, SearchConfiguration, ground, solve};
 //!
 //! let domain = pddl::Source::new("d", "(define (domain hall) (:predicates (lit))
@@ -30,6 +30,8 @@
 mod ground;
 mod heuristics;
 mod ids;
+#[cfg(test)]
+mod random_tests;
 mod search;
 mod task;
 

@@ -1,0 +1,222 @@
+//! Random small tasks against an exhaustive search that shares no code with ours.
+//!
+//! A task has a few facts without arguments, two derived ones (one over the other's negation),
+//! actions with negative, disjunctive and conditional parts and costs. A brute-force interpreter on
+//! bit masks knows every answer.
+
+use crate::heuristics::{Costs, Estimate, HeuristicKind};
+use crate::ids::StateId;
+use crate::search::{Budget, Limit, Outcome, Query, SearchConfiguration, solve};
+use crate::{GroundOptions, Task, ground};
+use proptest::prelude::*;
+use std::fmt::Write;
+
+const FACTS: usize = 5;
+
+/// A fact (derived ones follow the basic ones) and whether it must hold.
+type Sign = (usize, bool);
+
+#[derive(Clone, Debug)]
+struct RandomAction {
+    needs: Vec<Sign>,
+    one_of: Vec<Sign>,
+    effects: Vec<Sign>,
+    when: Option<(Sign, Sign)>,
+    cost: u32,
+}
+
+#[derive(Clone, Debug)]
+struct RandomTask {
+    axioms: [Vec<Vec<Sign>>; 2],
+    actions: Vec<RandomAction>,
+    initial: u32,
+    goal: Vec<Sign>,
+}
+
+fn sign(facts: usize) -> impl Strategy<Value = Sign> {
+    (0..facts, any::<bool>())
+}
+
+fn random_task() -> impl Strategy<Value = RandomTask> {
+    let all = FACTS + 2;
+    let action = (
+        prop::collection::vec(sign(all), 0..3),
+        prop::collection::vec(sign(all), 0..3),
+        prop::collection::vec(sign(FACTS), 1..4),
+        prop::option::of((sign(all), sign(FACTS))),
+        0..4_u32,
+    )
+        .prop_map(|(needs, one_of, effects, when, cost)| RandomAction {
+            needs,
+            one_of,
+            effects,
+            when,
+            cost,
+        });
+    let body = |facts| prop::collection::vec(prop::collection::vec(sign(facts), 1..3), 0..3);
+    (
+        body(FACTS),
+        body(FACTS + 1),
+        prop::collection::vec(action, 1..6),
+        0..1_u32 << FACTS,
+        prop::collection::vec(sign(all), 1..4),
+    )
+        .prop_map(|(a, b, actions, initial, goal)| RandomTask { axioms: [a, b], actions, initial, goal })
+}
+
+impl RandomTask {
+    fn text(&self) -> (String, String) {
+        let name = |f: usize| if f < FACTS { format!("(p{f})") } else { format!("(d{})", f - FACTS) };
+        let literal = |&(f, holds): &Sign| if holds { name(f) } else { format!("(not {})", name(f)) };
+        let list = |signs: &[Sign]| signs.iter().map(literal).collect::<Vec<_>>().join(" ");
+        let mut domain = String::from(
+            "(define (domain r) (:requirements :adl :derived-predicates :action-costs)\n(:predicates (d0) (d1)",
+        );
+        (0..FACTS).for_each(|f| write!(domain, " {}", name(f)).unwrap());
+        domain.push_str(")\n(:functions (total-cost) - number)\n");
+        for (i, bodies) in self.axioms.iter().enumerate() {
+            let bodies: Vec<String> = bodies.iter().map(|b| format!("(and {})", list(b))).collect();
+            writeln!(domain, "(:derived (d{i}) (or {}))", bodies.join(" ")).unwrap();
+        }
+        for (i, a) in self.actions.iter().enumerate() {
+            let mut needs = list(&a.needs);
+            if !a.one_of.is_empty() {
+                write!(needs, " (or {})", list(&a.one_of)).unwrap();
+            }
+            let when = a.when.map(|(c, e)| format!("(when {} {})", literal(&c), literal(&e)));
+            writeln!(
+                domain,
+                "(:action a{i} :parameters () :precondition (and {needs}) :effect (and {} {} \
+                 (increase (total-cost) {})))",
+                list(&a.effects),
+                when.unwrap_or_default(),
+                a.cost
+            )
+            .unwrap();
+        }
+        domain.push(')');
+        let holds: Vec<String> = (0..FACTS).filter(|f| self.initial >> f & 1 == 1).map(name).collect();
+        let problem = format!(
+            "(define (problem q) (:domain r) (:init {} (= (total-cost) 0)) (:goal (and {})) \
+             (:metric minimize (total-cost)))",
+            holds.join(" "),
+            list(&self.goal)
+        );
+        (domain, problem)
+    }
+
+    /// The state with its derived facts.
+    fn close(&self, basic: u32) -> u32 {
+        let mut state = basic & ((1 << FACTS) - 1);
+        for (i, bodies) in self.axioms.iter().enumerate() {
+            if bodies.iter().any(|b| all(b, state)) {
+                state |= 1 << (FACTS + i);
+            }
+        }
+        state
+    }
+
+    fn apply(&self, state: u32, action: &RandomAction) -> Option<u32> {
+        let one = action.one_of.is_empty() || action.one_of.iter().any(|s| all(&[*s], state));
+        if !(one && all(&action.needs, state)) {
+            return None;
+        }
+        let mut effects = action.effects.clone();
+        effects.extend(action.when.filter(|(c, _)| all(&[*c], state)).map(|(_, e)| e));
+        let mut next = state;
+        effects.iter().filter(|e| !e.1).for_each(|e| next &= !(1 << e.0));
+        effects.iter().filter(|e| e.1).for_each(|e| next |= 1 << e.0);
+        Some(self.close(next))
+    }
+
+    /// The cheapest cost to the goal, by relaxing until nothing changes.
+    fn optimum(&self) -> Option<u64> {
+        let mut cost = vec![u64::MAX; 1 << (FACTS + 2)];
+        cost[self.close(self.initial) as usize] = 0;
+        loop {
+            let before = cost.clone();
+            for state in 0..1_u32 << (FACTS + 2) {
+                for action in self.actions.iter().filter(|_| before[state as usize] < u64::MAX) {
+                    if let Some(next) = self.apply(state, action) {
+                        let through = before[state as usize] + u64::from(action.cost);
+                        cost[next as usize] = cost[next as usize].min(through);
+                    }
+                }
+            }
+            if cost == before {
+                break;
+            }
+        }
+        (0..1_u32 << (FACTS + 2))
+            .filter(|&s| all(&self.goal, s))
+            .map(|s| cost[s as usize])
+            .min()
+            .filter(|&c| c < u64::MAX)
+    }
+}
+
+fn all(signs: &[Sign], state: u32) -> bool {
+    signs.iter().all(|&(f, holds)| (state >> f & 1 == 1) == holds)
+}
+
+fn grounded(random: &RandomTask) -> (Task, pddl::model::Domain, pddl::model::Problem) {
+    let (domain, problem) = random.text();
+    let parsed = pddl::parse_domain(&pddl::Source::new("domain", domain.clone()), &[]);
+    let model = parsed.model.unwrap_or_else(|| panic!("{domain}\n{:?}", parsed.diagnostics));
+    let parsed = pddl::parse_problem(&pddl::Source::new("problem", problem.clone()), &model);
+    let problem = parsed.model.unwrap_or_else(|| panic!("{problem}\n{:?}", parsed.diagnostics));
+    (ground(&model, &problem, &GroundOptions::default()).unwrap(), model, problem)
+}
+
+proptest! {
+    #[test]
+    fn every_search_answers_as_brute_force_does(random in random_task()) {
+        let (task, domain, problem) = grounded(&random);
+        let optimum = random.optimum();
+        for configuration in SearchConfiguration::ALL {
+            let name = configuration.name;
+            match solve(&task, &Query::of(&task), configuration, &Budget::default()).outcome {
+                Outcome::Solved(plan) => {
+                    let steps = plan.operators.iter().map(|&o| &task.operators()[o]).map(|o| pddl::PlanStep {
+                        action: o.action,
+                        arguments: o.arguments.to_vec(),
+                        span: pddl::Span::default(),
+                    });
+                    let steps = pddl::Plan { steps: steps.collect() };
+                    let verdict = validator::validate(&domain, &problem, &steps);
+                    prop_assert!(verdict.is_valid(), "{name}: {verdict:?}");
+                    let best = optimum.expect("brute force finds what the search finds");
+                    prop_assert!(plan.cost >= best && (!configuration.optimal || plan.cost == best), "{name}");
+                }
+                Outcome::Unsolvable(_) => prop_assert_eq!(optimum, None, "{}", name),
+                Outcome::LimitReached(Limit::Incomplete) if name == "bfws-1" => {}
+                Outcome::LimitReached(limit) => prop_assert!(false, "{name}: {limit:?}"),
+            }
+        }
+    }
+
+    #[test]
+    fn estimates_keep_their_promises(random in random_task()) {
+        let (task, ..) = grounded(&random);
+        prop_assume!(task.goal().impossible.is_none());
+        let optimum = random.optimum();
+        let query = Query::of(&task);
+        for &kind in HeuristicKind::ALL {
+            let mut heuristic = kind.build(&task, query.state, query.goal, &query.barred(&task), Costs::Real);
+            let words = query.state.words();
+            heuristic.start(StateId(0), words);
+            let applicable = task.applicable(query.state);
+            let mut preferred = Vec::new();
+            let estimate = heuristic.estimate(StateId(0), words, &applicable, &mut preferred);
+            match optimum {
+                Some(cost) => {
+                    prop_assert!(estimate != Estimate::DEAD_END, "{kind:?} is not safe");
+                    let below = u64::from(estimate.0) <= cost;
+                    prop_assert!(below || !kind.properties().admissible, "{kind:?}: {estimate:?} of {cost}");
+                }
+                None => prop_assert!(kind.properties().safe),
+            }
+            prop_assert!(preferred.iter().all(|o| applicable.contains(o)), "{kind:?} prefers what cannot be done");
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! Walks `test_data` and the registry of searches: every configuration on every task.
+//!
+//! A task is a problem file beside a `domain.pddl`; its first line says what must come out:
+//! `; expect: cost N` (the optimum), `impossible ATOM...`, `exhausted` or `unsupported FEATURE`.
+
+use planner::{
+    Budget, GroundError, GroundOptions, Impossible, Limit, Outcome, Query, SearchConfiguration, Task,
+    UnsolvableReason, ground, solve,
+};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+struct Case {
+    path: PathBuf,
+    domain: pddl::model::Domain,
+    problem: pddl::model::Problem,
+    expected: String,
+}
+
+fn cases() -> Vec<Case> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("test_data");
+    let sorted = |folder: &Path| {
+        let mut paths: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
+        paths.sort();
+        paths
+    };
+    let read = |path: &Path| pddl::Source::new(path.display().to_string(), fs::read_to_string(path).unwrap());
+    let mut cases = Vec::new();
+    for folder in sorted(&root) {
+        let parsed = pddl::parse_domain(&read(&folder.join("domain.pddl")), &[]);
+        let domain = parsed.model.unwrap_or_else(|| panic!("{folder:?}: {:?}", parsed.diagnostics));
+        for path in sorted(&folder).into_iter().filter(|p| p.file_name().unwrap() != "domain.pddl") {
+            let source = read(&path);
+            let first = source.text().lines().next().unwrap();
+            let expected = first.strip_prefix("; expect: ").unwrap_or_else(|| panic!("{path:?}: {first}"));
+            let parsed = pddl::parse_problem(&source, &domain);
+            let problem = parsed.model.unwrap_or_else(|| panic!("{path:?}: {:?}", parsed.diagnostics));
+            cases.push(Case { expected: expected.to_owned(), path, domain: domain.clone(), problem });
+        }
+    }
+    assert!(cases.len() > 10, "the runner found the tasks");
+    cases
+}
+
+fn grounded(case: &Case) -> Result<Task, GroundError> {
+    ground(&case.domain, &case.problem, &GroundOptions::default())
+}
+
+#[test]
+fn every_configuration_agrees_with_every_expectation() {
+    for case in cases() {
+        let task = match grounded(&case) {
+            Ok(task) => task,
+            Err(GroundError::Unsupported { feature, .. }) => {
+                assert_eq!(format!("unsupported {feature}"), case.expected, "{:?}", case.path);
+                continue;
+            }
+            Err(other) => panic!("{:?}: {other}", case.path),
+        };
+        for configuration in SearchConfiguration::ALL {
+            let report = solve(&task, &Query::of(&task), configuration, &Budget::default());
+            check(&case, &task, configuration, &report.outcome);
+        }
+    }
+}
+
+fn check(case: &Case, task: &Task, configuration: &SearchConfiguration, outcome: &Outcome) {
+    let place = format!("{:?} by {}", case.path, configuration.name);
+    let got = match outcome {
+        Outcome::LimitReached(Limit::Incomplete) if configuration.name == "bfws-1" => return,
+        Outcome::LimitReached(limit) => panic!("{place}: {limit:?}"),
+        Outcome::Unsolvable(UnsolvableReason::SpaceExhausted) => "exhausted".to_owned(),
+        Outcome::Unsolvable(UnsolvableReason::Impossible(Impossible::Atoms(atoms))) => {
+            let names: Vec<String> = atoms.iter().map(|a| task.atom_name(a)).collect();
+            format!("impossible {}", names.join(" "))
+        }
+        Outcome::Unsolvable(UnsolvableReason::Impossible(other)) => format!("impossible {other:?}"),
+        Outcome::Solved(plan) => {
+            let steps = plan.operators.iter().map(|&o| {
+                let o = &task.operators()[o];
+                pddl::PlanStep {
+                    action: o.action,
+                    arguments: o.arguments.to_vec(),
+                    span: pddl::Span::default(),
+                }
+            });
+            let steps = pddl::Plan { steps: steps.collect() };
+            let verdict = validator::validate(&case.domain, &case.problem, &steps);
+            assert!(verdict.is_valid(), "{place}: {verdict:?}");
+            let replayed =
+                plan.operators.iter().fold(task.initial_state().clone(), |s, &o| task.successor(&s, o));
+            assert!(task.satisfies(&replayed, task.goal()), "{place}");
+            #[expect(clippy::cast_precision_loss, reason = "small costs")]
+            let cost = plan.cost as f64 / f64::from(task.cost_scale());
+            if !configuration.optimal {
+                let optimum: f64 = case.expected.strip_prefix("cost ").expect(&place).parse().unwrap();
+                assert!(cost >= optimum, "{place}: {cost} is below the optimum");
+                return;
+            }
+            format!("cost {cost}")
+        }
+    };
+    assert_eq!(got, case.expected, "{place}");
+}
+
+fn named(name: &str) -> Case {
+    cases().into_iter().find(|c| c.path.ends_with(name)).unwrap()
+}
+
+#[test]
+fn the_same_call_gives_the_same_plan() {
+    for case in cases() {
+        let Ok(task) = grounded(&case) else { continue };
+        for configuration in SearchConfiguration::ALL.iter().filter(|c| c.deterministic) {
+            let run =
+                || solve(&grounded(&case).unwrap(), &Query::of(&task), configuration, &Budget::default());
+            assert_eq!(run(), run(), "{:?} by {}", case.path, configuration.name);
+        }
+    }
+}
+
+#[test]
+fn excluded_operators_are_not_used() {
+    let case = named("gripper/four-balls.pddl");
+    let task = grounded(&case).unwrap();
+    let left = case.problem.object("left").unwrap();
+    let excluded: Vec<_> =
+        task.operators().enumerate().filter(|(_, o)| o.arguments.contains(&left)).map(|(id, _)| id).collect();
+    for configuration in SearchConfiguration::ALL {
+        let query = Query { excluded: &excluded, ..Query::of(&task) };
+        match solve(&task, &query, configuration, &Budget::default()).outcome {
+            Outcome::Solved(plan) => {
+                assert!(plan.operators.iter().all(|o| !excluded.contains(o)), "{}", configuration.name);
+                assert!(!configuration.optimal || plan.cost == 15);
+            }
+            other => assert_eq!(configuration.name, "bfws-1", "{other:?}"),
+        }
+    }
+}
+
+#[test]
+fn limits_end_a_search_and_grounding() {
+    let case = named("gripper/four-balls.pddl");
+    let task = grounded(&case).unwrap();
+    let configuration = SearchConfiguration::named("astar-blind").unwrap();
+    let outcome = |budget: &Budget<'_>| solve(&task, &Query::of(&task), &configuration, budget).outcome;
+    let few = Budget { expansions: Some(3), ..Budget::default() };
+    assert_eq!(outcome(&few), Outcome::LimitReached(Limit::Expansions));
+    let small = Budget { memory_bytes: Some(1), ..Budget::default() };
+    assert_eq!(outcome(&small), Outcome::LimitReached(Limit::Memory));
+    let stop = Budget { interrupted: &|| true, ..Budget::default() };
+    assert_eq!(outcome(&stop), Outcome::LimitReached(Limit::Interrupted));
+    let options = GroundOptions { operators: 5, ..GroundOptions::default() };
+    match ground(&case.domain, &case.problem, &options) {
+        Err(GroundError::Limit { schema }) => assert!(["move", "pick", "drop"].contains(&schema.as_str())),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn exogenous_facts_can_be_planned_from_in_any_state() {
+    let case = named("maze/two-doors.pddl");
+    let predicate = |name| case.domain.predicate(name).unwrap();
+    let object = |name: &str| case.problem.object(name).unwrap();
+    let exogenous = [predicate("has"), predicate("lies"), predicate("locked")];
+    let options = GroundOptions { exogenous: &exogenous, ..GroundOptions::default() };
+    let task = ground(&case.domain, &case.problem, &options).unwrap();
+    let fact = |name, of: &[&str]| {
+        let objects: Vec<_> = of.iter().map(|o| object(o)).collect();
+        task.fact(predicate(name), &objects).unwrap_or_else(|| panic!("({name} {of:?}) is a fact"))
+    };
+    // Someone handed both keys over and locked a door that was never there before.
+    let mut facts = task.initial_state().facts();
+    facts.extend([fact("has", &["k1"]), fact("has", &["k2"]), fact("locked", &["a", "e"])]);
+    let state = task.state(facts);
+    let query = Query { state: &state, ..Query::of(&task) };
+    match solve(&task, &query, &SearchConfiguration::default(), &Budget::default()).outcome {
+        Outcome::Solved(plan) => assert!(!plan.operators.is_empty()),
+        other => panic!("{other:?}"),
+    }
+}
