@@ -18,10 +18,12 @@ mod lower;
 pub mod model;
 mod parse;
 mod plan;
+mod print;
 mod source;
 pub mod syntax;
 
 pub use diagnostic::{Diagnostic, DiagnosticKind, FileKind, Label, Severity, SymbolKind, UnsupportedFeature};
 pub use parse::{Parsed, parse_domain, parse_plan, parse_problem};
 pub use plan::{Plan, PlanStep};
+pub use print::{print_domain, print_plan, print_problem};
 pub use source::{LineColumn, Source, Span};

@@ -73,6 +73,9 @@ fn every_file_is_read_and_printed() {
             failed.extend(errors(&source, &parsed.diagnostics));
             unsupported += usize::from(parsed.model.as_ref().is_some_and(|d| !d.unsupported.is_empty()));
             read += usize::from(parsed.model.is_some());
+            if let Some(domain) = &parsed.model {
+                support::check_domain_printed(domain, &[]);
+            }
             parsed.model
         });
         let Some(domain) = domain else { continue };
@@ -86,6 +89,9 @@ fn every_file_is_read_and_printed() {
             continue;
         }
         failed.extend(errors(&text, &parsed.diagnostics));
+        if let Some(problem) = &parsed.model {
+            support::check_problem_printed(problem, domain);
+        }
         unsupported += usize::from(parsed.model.as_ref().is_some_and(|p| !p.unsupported.is_empty()));
         read += usize::from(parsed.model.is_some());
     }

@@ -37,7 +37,8 @@ fn excerpt(text: &mut String, source: &Source, span: Span, note: &str) {
     let line = source.line(place.line);
     let column = place.column as usize - 1;
     // A line of a generated file may be megabytes: the window moves to where the span is.
-    let skip = column.saturating_sub(WIDTH / 2);
+    let fits = line.len() <= WIDTH;
+    let skip = if fits { 0 } else { column.saturating_sub(WIDTH / 2) };
     let shown: String =
         line.chars().skip(skip).take(WIDTH).map(|c| if c.is_control() { ' ' } else { c }).collect();
     let width = source.slice(span).lines().next().map_or(1, |part| part.chars().count());

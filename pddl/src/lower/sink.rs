@@ -88,7 +88,9 @@ pub(super) fn found(node: Node<'_>) -> String {
     if text == "()" {
         return "`()`".into();
     }
-    let mut words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    // Lists can be as long as the file: only their beginning is looked at.
+    let start: String = text.chars().take(4 * MAX_FOUND).collect();
+    let mut words = start.split_whitespace().collect::<Vec<_>>().join(" ");
     if words.chars().count() > MAX_FOUND {
         words = words.chars().take(MAX_FOUND - 1).chain(['…']).collect();
     }

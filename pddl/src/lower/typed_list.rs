@@ -30,7 +30,7 @@ pub(crate) fn typed_list<'t>(sink: &mut Sink, nodes: impl Iterator<Item = Node<'
                 }
             }
             Some(next) => sink.unexpected(*next, "a type after the hyphen"),
-            None => sink.unexpected(node, "a type after the hyphen, not the end of the list;"),
+            None => sink.missing(node, "the hyphen", "type"),
         }
         untyped = items.len();
     }

@@ -4,13 +4,13 @@
 //! character, and bytes above 127 are letters of a word or of a comment. It knows no error: what is
 //! no PDDL name is still a word, and the lowering says what it expected there.
 //!
-//! Kind to how people write: `-type` is a hyphen and a name, `<?x` an operator and a variable,
+//! Kind to how people write: `-type` and `-2d` are a hyphen and a name, `<?x` an operator and a variable,
 //! `?x?y` two variables. Cost: one pass, no backtracking over more than one word.
 
 use nom::branch::alt;
 use nom::bytes::complete::{tag, take_while, take_while1};
-use nom::combinator::{map, peek, value};
-use nom::sequence::{pair, terminated};
+use nom::combinator::{map, recognize, value};
+use nom::sequence::pair;
 use nom::{IResult, Parser};
 
 use super::token::{TokenKind, Tokens};
@@ -45,13 +45,16 @@ fn token(input: &[u8]) -> IResult<&[u8], TokenKind> {
         value(TokenKind::Comment, pair(tag(&b";"[..]), take_while(|b| b != b'\n' && b != b'\r'))),
         value(TokenKind::Whitespace, tag(BYTE_ORDER_MARK)),
         value(TokenKind::Name, take_while1(|b| matches!(b, b'<' | b'=' | b'>'))),
-        value(
-            TokenKind::Name,
-            terminated(tag(&b"-"[..]), peek(take_while1(|b: u8| b.is_ascii_alphabetic()))),
-        ),
+        hyphen,
         map(take_while1(is_word), |word| if is_number(word) { TokenKind::Number } else { TokenKind::Name }),
     ))
     .parse(input)
+}
+
+/// A hyphen before what is no number stands alone: no name starts with one.
+fn hyphen(input: &[u8]) -> IResult<&[u8], TokenKind> {
+    let (rest, word) = recognize(pair(tag(&b"-"[..]), take_while(is_word))).parse(input)?;
+    Ok(if is_number(word) { (rest, TokenKind::Number) } else { (&input[1..], TokenKind::Name) })
 }
 
 fn is_blank(byte: u8) -> bool {
@@ -91,7 +94,7 @@ mod tests {
     fn words_by_their_kind() {
         use TokenKind::{Comment, Keyword, Name, Number, Variable};
         assert_eq!(
-            kinds("at ?x :init 5 -1.5 .5 1e-3 3d 1-2 -t <?y ?a?b 1e999 ;ü\r\n- <= x"),
+            kinds("at ?x :init 5 -1.5 .5 1e-3 3d 1-2 -t -2d <?y ?a?b 1e999 ;ü\r\n- <= x"),
             [
                 (Name, "at"),
                 (Variable, "?x"),
@@ -104,6 +107,8 @@ mod tests {
                 (Name, "1-2"),
                 (Name, "-"),
                 (Name, "t"),
+                (Name, "-"),
+                (Name, "2d"),
                 (Name, "<"),
                 (Variable, "?y"),
                 (Variable, "?a"),

@@ -1,0 +1,174 @@
+//! Conditions, effects, expressions.
+
+use std::fmt::Write as _;
+
+use super::Printer;
+use crate::model::{
+    Application, ArithmeticOperator, AssignOperator, AssignedValue, Atom, Comparison, Condition,
+    ConditionKind, Effect, EffectKind, Expression, ExpressionKind, Term, TypeSet, VariableId, Variables,
+};
+
+pub(super) fn comparison(comparison: Comparison) -> &'static str {
+    match comparison {
+        Comparison::Less => "<",
+        Comparison::LessEqual => "<=",
+        Comparison::Equal => "=",
+        Comparison::GreaterEqual => ">=",
+        Comparison::Greater => ">",
+    }
+}
+
+impl Printer<'_> {
+    pub(super) fn term(&mut self, v: &Variables, term: Term) {
+        match term {
+            Term::Variable(id) => {
+                self.push("?");
+                self.push(&v[id].name);
+            }
+            Term::Object(id) => {
+                let objects = self.objects;
+                self.push(&objects[id].name);
+            }
+        }
+    }
+
+    pub(super) fn applied(&mut self, v: &Variables, name: &str, arguments: &[Term]) {
+        self.push("(");
+        self.push(name);
+        for &argument in arguments {
+            self.push(" ");
+            self.term(v, argument);
+        }
+        self.push(")");
+    }
+
+    fn atom(&mut self, v: &Variables, atom: &Atom) {
+        let domain = self.domain;
+        self.applied(v, &domain.predicates[atom.predicate].name, &atom.arguments);
+    }
+
+    fn application(&mut self, v: &Variables, of: &Application) {
+        let domain = self.domain;
+        self.applied(v, &domain.functions[of.function].name, &of.arguments);
+    }
+
+    pub(super) fn types(&mut self, types: &TypeSet) {
+        let table = &self.domain.types;
+        match types.0.as_slice() {
+            [one] => self.push(&table[*one].name),
+            many => self.list("(either", many, |p, &t| p.push(&table[t].name)),
+        }
+    }
+
+    /// `(?x - t …)`
+    pub(super) fn bound(&mut self, v: &Variables, slots: impl IntoIterator<Item = VariableId>) {
+        self.list("(", slots, |p, slot| p.variable(v, slot));
+    }
+
+    /// `?x - t`
+    pub(super) fn variable(&mut self, v: &Variables, slot: VariableId) {
+        let _ = write!(self.out, "?{} - ", v[slot].name);
+        self.types(&v[slot].types);
+    }
+
+    pub(super) fn condition(&mut self, v: &Variables, condition: &Condition) {
+        match &condition.kind {
+            ConditionKind::And(parts) => self.list("(and", parts, |p, c| p.condition(v, c)),
+            ConditionKind::Or(parts) => self.list("(or", parts, |p, c| p.condition(v, c)),
+            ConditionKind::Not(inner) => self.list("(not", [inner], |p, c| p.condition(v, c)),
+            ConditionKind::Imply(a, b) => self.list("(imply", [a, b], |p, c| p.condition(v, c)),
+            ConditionKind::Exists(slots, inner) => self.quantified("(exists ", v, slots, inner),
+            ConditionKind::Forall(slots, inner) => self.quantified("(forall ", v, slots, inner),
+            ConditionKind::Atom(atom) => self.atom(v, atom),
+            ConditionKind::Same(a, b) => self.applied(v, "=", &[*a, *b]),
+            ConditionKind::Compare(c, a, b) => self.compare(v, *c, a, b),
+            ConditionKind::FluentIs(fluent, value) => {
+                self.push("(= ");
+                self.application(v, fluent);
+                self.push(" ");
+                self.term(v, *value);
+                self.push(")");
+            }
+        }
+    }
+
+    fn quantified(&mut self, open: &str, v: &Variables, slots: &[VariableId], inner: &Condition) {
+        self.push(open);
+        self.bound(v, slots.iter().copied());
+        self.push(" ");
+        self.condition(v, inner);
+        self.push(")");
+    }
+
+    fn compare(&mut self, v: &Variables, operator: Comparison, a: &Expression, b: &Expression) {
+        self.push("(");
+        self.list(comparison(operator), [a, b], |p, e| p.expression(v, e));
+    }
+
+    pub(super) fn expression(&mut self, v: &Variables, expression: &Expression) {
+        match &expression.kind {
+            ExpressionKind::Number(number) => {
+                let _ = write!(self.out, "{number}");
+            }
+            ExpressionKind::Fluent(fluent) => self.application(v, fluent),
+            ExpressionKind::Arithmetic(operator, operands) => {
+                let open = match operator {
+                    ArithmeticOperator::Add => "(+",
+                    ArithmeticOperator::Subtract => "(-",
+                    ArithmeticOperator::Multiply => "(*",
+                    ArithmeticOperator::Divide => "(/",
+                };
+                self.list(open, operands, |p, e| p.expression(v, e));
+            }
+            ExpressionKind::Duration => self.push("?duration"),
+            ExpressionKind::TotalTime => self.push("(total-time)"),
+        }
+    }
+
+    pub(super) fn effect(&mut self, v: &Variables, effect: &Effect) {
+        match &effect.kind {
+            EffectKind::And(parts) => self.list("(and", parts, |p, e| p.effect(v, e)),
+            EffectKind::Add(atom) => self.atom(v, atom),
+            EffectKind::Delete(atom) => self.list("(not", [atom], |p, a| p.atom(v, a)),
+            EffectKind::Assign(operator, fluent, value) => self.assignment(v, *operator, fluent, value),
+            EffectKind::Forall(slots, inner) => {
+                self.push("(forall ");
+                self.bound(v, slots.iter().copied());
+                self.push(" ");
+                self.effect(v, inner);
+                self.push(")");
+            }
+            EffectKind::When(condition, inner) => {
+                self.push("(when ");
+                self.condition(v, condition);
+                self.push(" ");
+                self.effect(v, inner);
+                self.push(")");
+            }
+        }
+    }
+
+    fn assignment(
+        &mut self,
+        v: &Variables,
+        operator: AssignOperator,
+        fluent: &Application,
+        value: &AssignedValue,
+    ) {
+        self.push(match operator {
+            AssignOperator::Assign => "(assign ",
+            AssignOperator::Increase => "(increase ",
+            AssignOperator::Decrease => "(decrease ",
+            AssignOperator::ScaleUp => "(scale-up ",
+            AssignOperator::ScaleDown => "(scale-down ",
+        });
+        self.application(v, fluent);
+        self.push(" ");
+        match value {
+            AssignedValue::Number(number) => self.expression(v, number),
+            AssignedValue::Object(term) => self.term(v, *term),
+            AssignedValue::Undefined => self.push("undefined"),
+        }
+        self.push(")");
+    }
+}

@@ -1,0 +1,100 @@
+//! Model to PDDL text.
+//!
+//! Invariant: reading what was printed gives the same model, spans aside, as long as nothing in the
+//! model's source was unsupported (the model does not hold that, so it cannot be printed). Imported
+//! declarations are printed together with the `:import`, which may repeat them: so a printed file
+//! shows all it relies on, and its ids stay what they were.
+//!
+//! This is no formatter: comments and layout are in [`crate::syntax`], not in a model.
+
+mod body;
+mod declarations;
+mod domain;
+mod htn;
+mod problem;
+mod schemas;
+
+use std::fmt::Write as _;
+
+use crate::Plan;
+use crate::model::{Domain, IndexVec, Name, Object, ObjectId, Problem};
+
+/// The text of a domain.
+pub fn print_domain(domain: &Domain) -> String {
+    let mut printer = Printer::new(domain, &domain.constants);
+    printer.domain();
+    printer.out
+}
+
+/// The text of a problem of `domain`.
+pub fn print_problem(problem: &Problem, domain: &Domain) -> String {
+    let mut printer = Printer::new(domain, &problem.objects);
+    printer.problem(problem);
+    printer.out
+}
+
+/// The text of a plan: a step a line.
+pub fn print_plan(plan: &Plan, domain: &Domain, problem: &Problem) -> String {
+    let mut text = String::new();
+    for step in &plan.steps {
+        let _ = write!(text, "({}", domain.actions[step.action].name);
+        for &argument in &step.arguments {
+            let _ = write!(text, " {}", problem.objects[argument].name);
+        }
+        text.push_str(")\n");
+    }
+    text
+}
+
+/// What a name prints.
+struct Printer<'m> {
+    out: String,
+    domain: &'m Domain,
+    objects: &'m IndexVec<ObjectId, Object>,
+}
+
+impl<'m> Printer<'m> {
+    fn new(domain: &'m Domain, objects: &'m IndexVec<ObjectId, Object>) -> Self {
+        Self { out: String::new(), domain, objects }
+    }
+
+    fn push(&mut self, text: &str) {
+        self.out.push_str(text);
+    }
+
+    /// `open`, the parts each after a blank, `)`.
+    fn list<T>(
+        &mut self,
+        open: &str,
+        parts: impl IntoIterator<Item = T>,
+        mut print: impl FnMut(&mut Self, T),
+    ) {
+        self.push(open);
+        for part in parts {
+            if !self.out.ends_with('(') {
+                self.push(" ");
+            }
+            print(self, part);
+        }
+        self.push(")");
+    }
+
+    /// The same with each part on a line of its own.
+    fn lines<T>(
+        &mut self,
+        open: &str,
+        parts: impl IntoIterator<Item = T>,
+        mut print: impl FnMut(&mut Self, T),
+    ) {
+        self.push(open);
+        for part in parts {
+            self.push("\n      ");
+            print(self, part);
+        }
+        self.push(")");
+    }
+
+    fn names<'a>(&mut self, open: &str, names: impl IntoIterator<Item = &'a Name>) {
+        self.list(open, names, |p, name| p.push(name));
+    }
+}

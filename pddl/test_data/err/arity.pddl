@@ -1,0 +1,8 @@
+(define (domain d)
+  (:requirements :typing)
+  (:types place)
+  (:predicates (road ?a ?b - place) (done))
+  (:functions (far ?a ?b - place))
+  (:action a :parameters (?x - place)
+    :precondition (and (road ?x) (done ?x) (< (far ?x) 3))
+    :effect (road ?x ?x ?x)))

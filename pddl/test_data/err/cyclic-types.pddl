@@ -1,0 +1,5 @@
+(define (domain d)
+  (:requirements :typing)
+  (:types a - b b - c c - a
+          d - d
+          e - a f))

@@ -1,0 +1,11 @@
+; nine independent errors
+(define (domain d)
+  (:requirements :typing :strps)
+  (:types a b - a c)
+  (:predicates (p ?x - a) (p ?x ?y) (q ?x - nothing))
+  (:constants k - c 7up)
+  (:akshun x :parameters ())
+  (:action one :prekondition (p ?x) :parameters (?x - a ?x - b))
+  (:action two :parameters (?x - a) :precondition (and (p ?y) (q)) :effect (increase (cost) 5))
+  (:action two :parameters (?x) :effect (not))
+  (:action 5 :effect ok))

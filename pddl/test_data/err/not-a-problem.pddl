@@ -1,0 +1,2 @@
+; with ../ok/adl.pddl
+(defin (problem x))

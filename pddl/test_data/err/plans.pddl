@@ -1,0 +1,11 @@
+; the errors are in the plan beside it; here is one of its own, a warning
+(define (domain d)
+  (:requirements :typing)
+  (:types car place)
+  (:predicates (at ?c - car ?p - place))
+  (:action go :parameters (?c - car ?p - place) :effect (at ?c ?p)))
+(define (problem p)
+  (:domain d2)
+  (:objects c - car a b - place)
+  (:init)
+  (:goal (at c b)))

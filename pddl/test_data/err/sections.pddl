@@ -1,0 +1,11 @@
+(define (domain d)
+  (:predikates (p))
+  (:predicates (p))
+  (:goals (p))
+  hello)
+
+(define (problem x)
+  (:domain e)
+  (:init (p))
+  (:init (p))
+  (:objekts a))

@@ -1,0 +1,5 @@
+(define (domain d)
+  (:predicates (p) (q)))
+  (:action a :parameters () :precondition (p) :effect (r))
+  (:action b :parameters () :effect (q)))
+)

@@ -1,0 +1,5 @@
+(define (domain d)
+  (:requirements :typing)
+  (:types a b -)
+  (:constants - a x - (either) y - ?z (k) - a)
+  (:predicates p () (q ?x - a - b) (r x)))

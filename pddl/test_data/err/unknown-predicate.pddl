@@ -1,0 +1,5 @@
+(define (domain d)
+  (:predicates (looking-at ?x) (lit))
+  (:action a :parameters (?x)
+    :precondition (looking-ta ?x)
+    :effect (and (lit) (completely-else ?x))))

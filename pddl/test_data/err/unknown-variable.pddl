@@ -1,0 +1,5 @@
+(define (domain d)
+  (:predicates (p ?x) (q))
+  (:action a :parameters (?block)
+    :precondition (and (p ?blokc) (exists (?y) (p ?y)) (p ?y))
+    :effect (when (p ?block) (and (p ?elsewhere) (q)))))

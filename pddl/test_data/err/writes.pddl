@@ -1,0 +1,8 @@
+(define (domain d)
+  (:requirements :vocabulary :typing)
+  (:types robot state)
+  (:constants speaking - state r2 - robot)
+  (:predicates (is ?r - robot ?s - state))
+  (:writes speech (is ?r) (is speaking ?x) (iz ?r ?s) said robott (is ?r silent) (is (a) b))
+  (:writes)
+  (:writes (is ?r ?s)))

@@ -1,0 +1,2 @@
+; Latin-1: été
+(define (domain latin) (:predicates (p)))

@@ -1,0 +1,97 @@
+//! Cases as files: `test_data/ok` must be read and printed without a word, `test_data/err` must say
+//! exactly what stands in the `.expected` file beside it (`UPDATE_EXPECT=1` writes it anew).
+//!
+//! A file holds a domain, a problem for it, or both. A comment `; with FILE` names another file of
+//! the folder: a domain to import, or the domain of the problem.
+
+mod support;
+
+use std::path::{Path, PathBuf};
+
+use pddl::model::{Domain, Problem};
+use pddl::{Diagnostic, Severity, Source, parse_domain, parse_plan, parse_problem};
+
+fn test_data(folder: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("test_data").join(folder)
+}
+
+/// What reading one file gave.
+struct Case {
+    source: Source,
+    imports: Vec<Domain>,
+    domain: Option<Domain>,
+    problem: Option<Problem>,
+    diagnostics: Vec<Diagnostic>,
+}
+
+fn read(path: &Path) -> Case {
+    let name = path.file_name().expect("a file has a name").to_string_lossy();
+    let bytes = std::fs::read(path).expect("the case can be read");
+    let source = Source::from_bytes(name, bytes);
+    let with = source.text().lines().filter_map(|l| l.strip_prefix("; with "));
+    let mut imports: Vec<Domain> = with.filter_map(|f| read(&path.with_file_name(f.trim())).domain).collect();
+    let mut case = Case {
+        source: source.clone(),
+        imports: Vec::new(),
+        domain: None,
+        problem: None,
+        diagnostics: Vec::new(),
+    };
+    let is_problem = source.text().contains("(problem");
+    if path.extension().is_some_and(|e| e == "plan") {
+        let beside = read(&path.with_extension("pddl"));
+        let (domain, problem) = (beside.domain.expect("a domain"), beside.problem.expect("a problem"));
+        case.diagnostics = parse_plan(&source, &domain, &problem).diagnostics;
+        return case;
+    }
+    if source.text().contains("(domain") || !is_problem {
+        let parsed = parse_domain(&source, &imports.iter().collect::<Vec<_>>());
+        case.diagnostics.extend(parsed.diagnostics);
+        case.domain = parsed.model;
+    } else {
+        case.domain = imports.pop();
+    }
+    if let (true, Some(domain)) = (is_problem, &case.domain) {
+        let parsed = parse_problem(&source, domain);
+        case.diagnostics.extend(parsed.diagnostics);
+        case.problem = parsed.model;
+    }
+    case.diagnostics.sort_by_key(|d| d.span);
+    case.diagnostics.dedup();
+    case.imports = imports;
+    case
+}
+
+#[test]
+fn good_files_are_read_and_printed() {
+    let files = support::files(&test_data("ok"));
+    assert!(!files.is_empty());
+    for path in files {
+        let case = read(&path);
+        let said: Vec<String> = case
+            .diagnostics
+            .iter()
+            .filter(|d| d.severity != Severity::Unsupported)
+            .map(|d| d.describe(&case.source))
+            .collect();
+        assert!(said.is_empty(), "{}", said.join("\n"));
+        if let Some(domain) = &case.domain {
+            support::check_domain_printed(domain, &case.imports.iter().collect::<Vec<_>>());
+            if let Some(problem) = &case.problem {
+                support::check_problem_printed(problem, domain);
+            }
+        }
+    }
+}
+
+#[test]
+fn bad_files_say_what_is_expected() {
+    let files = support::files(&test_data("err"));
+    assert!(!files.is_empty());
+    for path in files {
+        let case = read(&path);
+        let said: String = case.diagnostics.iter().map(|d| d.describe(&case.source)).collect();
+        assert!(!said.is_empty(), "{} is not bad", path.display());
+        expect_test::expect_file![path.with_extension("expected")].assert_eq(&said);
+    }
+}

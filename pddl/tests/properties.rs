@@ -1,0 +1,157 @@
+//! Whatever the bytes: no panic, a lossless tree, and every model prints to itself.
+
+mod support;
+
+use std::path::Path;
+use std::sync::LazyLock;
+
+use pddl::model::Domain;
+use pddl::syntax;
+use pddl::{Source, parse_domain, parse_plan, parse_problem};
+use proptest::prelude::*;
+
+/// The good and bad cases, as material to mutate.
+static TEXTS: LazyLock<Vec<String>> = LazyLock::new(|| {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("test_data");
+    let read = |p: std::path::PathBuf| Source::from_bytes("", std::fs::read(p).expect("readable"));
+    support::files(&folder).into_iter().map(|p| read(p).text().to_owned()).collect()
+});
+
+static VOCABULARY: LazyLock<Domain> = LazyLock::new(|| {
+    let text = include_str!("../test_data/ok/vocabulary.pddl");
+    parse_domain(&Source::new("vocabulary.pddl", text), &[]).model.expect("a good case")
+});
+
+/// Reads the text as everything it could be.
+fn read(text: &str) {
+    let source = Source::new("text", text);
+    let (tree, _) = syntax::parse(&source);
+    assert_eq!(tree.text(), text);
+    let imports = [&*VOCABULARY];
+    let parsed = parse_domain(&source, &imports);
+    for diagnostic in &parsed.diagnostics {
+        diagnostic.describe(&source);
+    }
+    let Some(domain) = parsed.model else { return };
+    support::check_domain_printed(&domain, &imports);
+    let parsed = parse_problem(&source, &domain);
+    let Some(problem) = parsed.model else { return };
+    support::check_problem_printed(&problem, &domain);
+    parse_plan(&source, &domain, &problem);
+}
+
+#[derive(Clone, Debug)]
+enum Edit {
+    /// Takes a piece out.
+    Cut(usize, usize),
+    /// Puts a word in.
+    Put(usize, &'static str),
+    /// Moves a piece.
+    Copy(usize, usize, usize),
+}
+
+const WORDS: &[&str] = &[
+    "(",
+    ")",
+    "()",
+    "(and",
+    "?x",
+    ":init",
+    "(:action",
+    "5",
+    "-",
+    "- object",
+    "(either",
+    ";",
+    "\u{feff}",
+    "é",
+    "(at start",
+    "(forall (?x)",
+    "=",
+    "(= ?x ?y)",
+    "undefined",
+    ":parameters",
+    "#t",
+    "not",
+    "(not",
+];
+
+fn edits() -> impl Strategy<Value = Vec<Edit>> {
+    let edit = prop_oneof![
+        (any::<usize>(), 0..40usize).prop_map(|(at, n)| Edit::Cut(at, n)),
+        (any::<usize>(), prop::sample::select(WORDS)).prop_map(|(at, w)| Edit::Put(at, w)),
+        (any::<usize>(), 0..60usize, any::<usize>()).prop_map(|(at, n, to)| Edit::Copy(at, n, to)),
+    ];
+    prop::collection::vec(edit, 0..6)
+}
+
+fn apply(text: &str, edits: &[Edit]) -> String {
+    let mut chars: Vec<char> = text.chars().collect();
+    for edit in edits {
+        let place = |at: usize| at % (chars.len() + 1);
+        match *edit {
+            Edit::Cut(at, n) => {
+                let at = place(at);
+                let end = (at + n).min(chars.len());
+                chars.drain(at..end);
+            }
+            Edit::Put(at, word) => {
+                let at = place(at);
+                chars.splice(at..at, format!(" {word} ").chars());
+            }
+            Edit::Copy(at, n, to) => {
+                let (at, to) = (place(at), place(to));
+                let piece: Vec<char> = chars[at..(at + n).min(chars.len())].to_vec();
+                chars.splice(to..to, piece);
+            }
+        }
+    }
+    chars.into_iter().collect()
+}
+
+proptest! {
+    #[test]
+    fn arbitrary_bytes(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
+        read(Source::from_bytes("", bytes).text());
+    }
+
+    #[test]
+    fn arbitrary_words(words in prop::collection::vec(prop::sample::select(WORDS), 0..60)) {
+        read(&words.join(" "));
+        read(&format!("(define (domain d) {})", words.join(" ")));
+    }
+
+    #[test]
+    fn mutated_cases(index in any::<prop::sample::Index>(), edits in edits()) {
+        read(&apply(index.get::<String>(&TEXTS), &edits));
+    }
+}
+
+/// As deep as lists may nest, in each recursive form; a test's stack is what a thread's usually is.
+#[test]
+fn deep_nesting_is_an_error_and_no_overflow() {
+    for form in ["(not ", "(and (p) ", "(forall (?x) ", "(imply (p) ", "(when (p) ", "(> 1 (+ 1 ", "("] {
+        for depth in [500, 990, 1_000, 5_000] {
+            let body = form.repeat(depth) + "(p)" + &")".repeat(depth * form.matches("(").count());
+            let effect = format!("(:action a :parameters () :precondition {body} :effect {body})");
+            let timed = format!("(:durative-action d :condition (at start {body}) :effect (at end {body}))");
+            let text = format!("(define (domain d) (:predicates (p)) {effect} {timed})");
+            let source = Source::new("deep.pddl", text);
+            let parsed = parse_domain(&source, &[]);
+            if depth >= 1_000 {
+                assert!(parsed.diagnostics.iter().any(|d| d.code() == "E0103"), "{form} {depth}");
+            }
+            if let Some(domain) = parsed.model {
+                support::check_domain_printed(&domain, &[]);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_hundred_thousand_open_lists_are_one_error_for_their_depth_and_a_few_for_their_ends() {
+    let source = Source::new("deep.pddl", "(".repeat(100_000));
+    let codes: Vec<_> = parse_domain(&source, &[]).diagnostics.iter().map(|d| d.code()).collect();
+    assert_eq!(codes.iter().filter(|c| **c == "E0103").count(), 1);
+    assert!(codes.len() < 30, "{codes:?}");
+}
