@@ -11,7 +11,7 @@ use nalgebra::Isometry3;
 use serde::{Deserialize, Serialize};
 
 use crate::id::{AgentId, AttributeId, EdgeKey, Holder, NodeId, ReflexId, Time, TypeId, Version};
-use crate::state::{Cell, Node, State, same_transform};
+use crate::state::{Cell, Edge, Node, State, same_transform};
 use crate::value::Value;
 
 /// One difference between two states.
@@ -86,7 +86,7 @@ pub(crate) fn settle(before: &State, after: &mut State) -> Vec<Change> {
         {
             keep_since(old, new);
         }
-        compare(id, old, after.node(id), &mut changes);
+        compare(after, id, old, &mut changes);
     }
     changes.sort_by_key(Change::rank);
     changes
@@ -122,7 +122,8 @@ fn keep_cells(old: &[Cell], new: &mut [Cell]) {
 }
 
 /// Lists the differences at one node.
-fn compare(id: NodeId, old: Option<&Node>, new: Option<&Node>, changes: &mut Vec<Change>) {
+fn compare(after: &State, id: NodeId, old: Option<&Node>, changes: &mut Vec<Change>) {
+    let new = after.node(id);
     match (old, new) {
         (None, Some(node)) => {
             changes.push(Change::NodeAdded { node: id, name: node.name.clone(), node_type: node.node_type });
@@ -136,25 +137,33 @@ fn compare(id: NodeId, old: Option<&Node>, new: Option<&Node>, changes: &mut Vec
         }
         _ => {}
     }
-    let (no_cells, no_edges) = (Vec::new(), Vec::new());
-    let cells = |node: Option<&Node>| node.map_or(no_cells.as_slice(), |n| n.attributes.as_slice()).to_vec();
-    compare_cells(Holder::Node(id), &cells(old), &cells(new), changes);
+    fn cells(node: Option<&Node>) -> &[Cell] {
+        node.map_or(&[], |node| &node.attributes)
+    }
+    fn edges(node: Option<&Node>) -> &[Edge] {
+        node.map_or(&[], |node| &node.outgoing)
+    }
+    compare_cells(after, Holder::Node(id), cells(old), cells(new), changes);
 
-    let old_edges = old.map_or(&no_edges, |node| &node.outgoing);
-    let new_edges = new.map_or(&no_edges, |node| &node.outgoing);
-    for edge in old_edges {
+    for edge in edges(old) {
         let key = EdgeKey { from: id, label: edge.label, to: edge.to };
         let now = new.and_then(|node| node.edge(edge.label, edge.to));
-        compare_cells(Holder::Edge(key), &edge.attributes, now.map_or(&[], |e| &e.attributes), changes);
+        compare_cells(
+            after,
+            Holder::Edge(key),
+            &edge.attributes,
+            now.map_or(&[], |e| &e.attributes),
+            changes,
+        );
         if now.is_none() {
             changes.push(Change::EdgeRemoved { edge: key });
         }
     }
-    for edge in new_edges {
+    for edge in edges(new) {
         if old.and_then(|node| node.edge(edge.label, edge.to)).is_none() {
             let key = EdgeKey { from: id, label: edge.label, to: edge.to };
             changes.push(Change::EdgeAdded { edge: key });
-            compare_cells(Holder::Edge(key), &[], &edge.attributes, changes);
+            compare_cells(after, Holder::Edge(key), &[], &edge.attributes, changes);
         }
     }
     compare_joints(id, old, new, changes);
@@ -183,7 +192,7 @@ fn compare_joints(child: NodeId, old: Option<&Node>, new: Option<&Node>, changes
     }
 }
 
-fn compare_cells(holder: Holder, old: &[Cell], new: &[Cell], changes: &mut Vec<Change>) {
+fn compare_cells(after: &State, holder: Holder, old: &[Cell], new: &[Cell], changes: &mut Vec<Change>) {
     let find = |cells: &[Cell], attribute| {
         cells
             .binary_search_by_key(&attribute, |cell: &Cell| cell.attribute)
@@ -195,7 +204,14 @@ fn compare_cells(holder: Holder, old: &[Cell], new: &[Cell], changes: &mut Vec<C
         match find(new, attribute) {
             None => changes.push(Change::AttributeRemoved { holder, attribute, old }),
             Some(new) if !new.same(&old) => {
-                changes.push(Change::AttributeChanged { holder, attribute, old, new });
+                // The attribute went with the node that it named and came back with another value: said so,
+                // because a change is applied after the nodes have gone.
+                if old.as_node().is_some_and(|target| after.node(target).is_none()) {
+                    changes.push(Change::AttributeRemoved { holder, attribute, old });
+                    changes.push(Change::AttributeAdded { holder, attribute, new });
+                } else {
+                    changes.push(Change::AttributeChanged { holder, attribute, old, new });
+                }
             }
             Some(_) => {}
         }

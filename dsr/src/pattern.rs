@@ -246,6 +246,12 @@ impl Binding {
     }
 }
 
+impl From<Vec<NodeId>> for Binding {
+    fn from(nodes: Vec<NodeId>) -> Self {
+        Self(nodes)
+    }
+}
+
 impl Deref for Binding {
     type Target = [NodeId];
 

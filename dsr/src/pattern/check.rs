@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::plan::{Mask, Planner};
+use super::plan::{Mask, plan};
 use super::{
     Atom, Carrier, Comparison, Conjunction, Constant, Pattern, Right, SLOTS, Scope, Slot, Term, Variable,
 };
@@ -83,7 +83,7 @@ pub(super) fn compile(
     }
     let mut bound = Mask::default();
     (types.len()..count).for_each(|slot| bound.insert(slot_at(slot)));
-    let plan = Planner { tops: variables.len() }.plan(&body, bound);
+    let plan = plan(&body, bound);
     Ok(Pattern { variables, locals, constants, body, plan, mentions })
 }
 
@@ -108,7 +108,7 @@ impl Checker<'_> {
         let mut variables = Vec::new();
         for term in &part.variables {
             if let Term::Variable(variable) = term {
-                let slot = self.slot_of(*variable);
+                let slot = self.slot_of(*variable)?;
                 self.visible.insert(slot);
                 variables.push(slot);
             }
@@ -153,8 +153,8 @@ impl Checker<'_> {
         let name = self.dictionary.label_name(label).ok_or(PatternError::UnknownLabel { id: label })?.clone();
         let (from, to) = (self.term(from)?, self.term(to)?);
         let (start, end) = (self.type_of(from), self.type_of(to));
-        let fits = |id: Option<TypeId>, end| id.is_none_or(|id| self.dictionary.overlap(id, end));
-        if !self.dictionary.signatures(label).iter().any(|s| fits(start, s.from) && fits(end, s.to)) {
+        let signatures = self.dictionary.signatures(label);
+        if !signatures.iter().any(|s| self.may_be(from, s.from) && self.may_be(to, s.to)) {
             let name_of = |id: Option<TypeId>| id.map_or_else(|| "constant".into(), |id| self.type_name(id));
             return Err(PatternError::WrongSignature { label: name, from: name_of(start), to: name_of(end) });
         }
@@ -175,22 +175,18 @@ impl Checker<'_> {
         };
         self.mentions.add_attribute(attribute);
         let wrong = PatternError::WrongHolder { attribute: name };
-        let overlap = |slot: Option<TypeId>, with| slot.is_none_or(|id| self.dictionary.overlap(id, with));
         match holder {
             Carrier::Node(node) => {
-                let slot = self.slot(node)?;
-                let fits = matches!(declared, HolderType::Node(on) if overlap(self.type_of(slot), on));
-                if !fits {
+                let slot = self.term(node)?;
+                if !matches!(declared, HolderType::Node(on) if self.may_be(slot, on)) {
                     return Err(wrong);
                 }
-                Ok(Carrier::Node(self.term(node)?))
+                Ok(Carrier::Node(slot))
             }
             Carrier::Edge { from, label, to } => {
                 let (from, to) = self.edge(from, *label, to)?;
-                let overlap =
-                    |slot, with| self.type_of(slot).is_none_or(|id| self.dictionary.overlap(id, with));
                 let fits = matches!(declared, HolderType::Edge { label: on, signature }
-                    if on == *label && overlap(from, signature.from) && overlap(to, signature.to));
+                    if on == *label && self.may_be(from, signature.from) && self.may_be(to, signature.to));
                 if !fits {
                     return Err(wrong);
                 }
@@ -246,13 +242,9 @@ impl Checker<'_> {
 
     /// The slot of a term that may be used here.
     fn term(&mut self, term: &Term) -> Result<Slot, PatternError> {
-        self.slot(term)
-    }
-
-    fn slot(&mut self, term: &Term) -> Result<Slot, PatternError> {
         let constant = match term {
             Term::Variable(variable) => {
-                let slot = self.slot_of(*variable);
+                let slot = self.slot_of(*variable)?;
                 if self.visible.contains(slot) {
                     return Ok(slot);
                 }
@@ -274,16 +266,24 @@ impl Checker<'_> {
         if index >= SLOTS { Err(PatternError::TooLarge { count: index + 1 }) } else { Ok(slot_at(index)) }
     }
 
-    fn slot_of(&self, variable: Variable) -> Slot {
-        match variable.scope {
-            Scope::Top => slot_at(usize::from(variable.index)),
-            Scope::Local => slot_at(self.tops + usize::from(variable.index)),
-        }
+    /// The slot of a variable, unless it is of another, larger pattern.
+    fn slot_of(&self, variable: Variable) -> Result<Slot, PatternError> {
+        let index = usize::from(variable.index);
+        let (slot, end) = match variable.scope {
+            Scope::Top => (index, self.tops),
+            Scope::Local => (self.tops + index, self.types.len()),
+        };
+        if slot < end { Ok(slot_at(slot)) } else { Err(PatternError::OutOfScope { variable }) }
     }
 
     /// The type of a variable; constants have none.
     fn type_of(&self, slot: Slot) -> Option<TypeId> {
         self.types.get(usize::from(slot.0)).copied()
+    }
+
+    /// Whether what stands in the slot could be of the type; of a constant anything can be said.
+    fn may_be(&self, slot: Slot, node_type: TypeId) -> bool {
+        self.type_of(slot).is_none_or(|id| self.dictionary.overlap(id, node_type))
     }
 
     fn maybe_geometric(&self, id: TypeId) -> bool {

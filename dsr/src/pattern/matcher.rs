@@ -4,7 +4,7 @@
 
 use std::ops::ControlFlow;
 
-use super::plan::{Mask, Planner, Step};
+use super::plan::{Mask, Step, plan};
 use super::{Atom, Binding, Carrier, Comparison, Pattern, Right, SLOTS, Slot, Variable};
 use crate::id::{AttributeId, EdgeKey, Holder, NodeId, TypeId};
 use crate::snapshot::Snapshot;
@@ -64,7 +64,7 @@ impl Pattern {
             any = true;
         }
         if any {
-            let plan = Planner { tops: self.variables.len() }.plan(&self.body, bound);
+            let plan = plan(&self.body, bound);
             run.steps(&plan, &mut slots, emit)
         } else {
             run.steps(&self.plan, &mut slots, emit)

@@ -50,45 +50,39 @@ pub(super) enum Step {
     Without(Vec<Step>),
 }
 
-pub(super) struct Planner {
-    pub(super) tops: usize,
-}
-
-impl Planner {
-    /// A join order for `part`, when the slots in `bound` are bound.
-    pub(super) fn plan(&self, part: &Conjunction<Slot>, mut bound: Mask) -> Vec<Step> {
-        let mut waiting: Vec<&Atom<Slot>> = part.atoms.iter().collect();
-        let mut steps = Vec::new();
-        loop {
-            let mut at = 0;
-            while at < waiting.len() {
-                if bound.includes(free(waiting[at])) {
-                    steps.push(match waiting.remove(at) {
-                        Atom::Without(part) => Step::Without(self.plan(part, bound)),
-                        atom => Step::Check(atom.clone()),
-                    });
-                } else {
-                    at += 1;
-                }
+/// A join order for `part`, when the slots in `bound` are bound.
+pub(super) fn plan(part: &Conjunction<Slot>, mut bound: Mask) -> Vec<Step> {
+    let mut waiting: Vec<&Atom<Slot>> = part.atoms.iter().collect();
+    let mut steps = Vec::new();
+    loop {
+        let mut at = 0;
+        while at < waiting.len() {
+            if bound.includes(free(waiting[at])) {
+                steps.push(match waiting.remove(at) {
+                    Atom::Without(part) => Step::Without(plan(part, bound)),
+                    atom => Step::Check(atom.clone()),
+                });
+            } else {
+                at += 1;
             }
-            if let Some((at, step, slot)) =
-                waiting.iter().enumerate().find_map(|(at, atom)| walk(atom, bound).map(|(s, t)| (at, s, t)))
-            {
-                waiting.remove(at);
-                steps.push(step);
-                bound.insert(slot);
-                continue;
-            }
-            let unbound = part.variables.iter().copied().filter(|&slot| !bound.contains(slot));
-            let wanted = |slot: &Slot| waiting.iter().filter(|atom| free(atom).contains(*slot)).count();
-            // The first of the most wanted, so that the order of declaration breaks ties.
-            let Some(slot) = unbound.rev().max_by_key(wanted) else { break };
-            steps.push(Step::Scan(slot));
-            bound.insert(slot);
         }
-        debug_assert!(waiting.is_empty(), "all variables of the {} outer ones are bound", self.tops);
-        steps
+        if let Some((at, step, slot)) =
+            waiting.iter().enumerate().find_map(|(at, atom)| walk(atom, bound).map(|(s, t)| (at, s, t)))
+        {
+            waiting.remove(at);
+            steps.push(step);
+            bound.insert(slot);
+            continue;
+        }
+        let unbound = part.variables.iter().copied().filter(|&slot| !bound.contains(slot));
+        let wanted = |slot: &Slot| waiting.iter().filter(|atom| free(atom).contains(*slot)).count();
+        // The first of the most wanted, so that the order of declaration breaks ties.
+        let Some(slot) = unbound.rev().max_by_key(wanted) else { break };
+        steps.push(Step::Scan(slot));
+        bound.insert(slot);
     }
+    debug_assert!(waiting.is_empty(), "every slot that a part reads is a variable from here or from outside");
+    steps
 }
 
 /// The step and the slot by which a part binds its one unbound slot, if it can.

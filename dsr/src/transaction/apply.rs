@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::error::TransactionError;
 use super::{Edit, HolderRef, Preemption, Transaction, tree};
-use crate::delta::{self, Delta};
+use crate::delta::{self, Change, Delta};
 use crate::dictionary::{HolderType, Nature, Token};
 use crate::id::{AgentId, AttributeId, EdgeKey, Holder, LabelId, NodeId, ReflexId, Time, TypeId, Version};
 use crate::state::{Node, State};
@@ -58,6 +58,11 @@ pub(crate) fn transact(
         (version, time)
     };
     (state.version, state.time) = (version, time);
+    // An id whose node never saw a version was never given out: nothing in the delta would tell a replay of it.
+    let added =
+        |change: &Change| if let Change::NodeAdded { node, .. } = change { Some(*node) } else { None };
+    let last = changes.iter().filter_map(added).max();
+    state.next = last.map_or(before.next, |last| NodeId(last.0 + 1));
     Ok(Outcome { state, delta: Delta { version, time, writer, changes, reflexes }, guards })
 }
 

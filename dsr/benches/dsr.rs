@@ -1,0 +1,168 @@
+//! What a commit, a look and a wake cost. `cargo bench -p pelea-dsr`; figures in `BENCHMARKS.md`.
+#![allow(missing_docs, reason = "criterion's macros write undocumented functions")]
+#![allow(clippy::unwrap_used, reason = "a bench that fails says where")]
+
+use std::hint::black_box;
+use std::sync::Arc;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use dsr::{
+    AgentId, AttributeId, DictionaryBuilder, Graph, HolderRef, Isometry3, Kind, LabelId, Nature, NodeId,
+    PatternBuilder, Time, Transaction,
+};
+
+struct Ward {
+    graph: Graph,
+    label: LabelId,
+    score: AttributeId,
+    says: AttributeId,
+    nodes: Vec<NodeId>,
+}
+
+/// `count` nodes in a chain of edges, the first fifty also in a chain of transforms.
+fn ward(count: usize) -> Ward {
+    let mut b = DictionaryBuilder::new();
+    let place = b.node_type("place", None, Nature::Geometric).unwrap();
+    let label = b.label("next", place, place).unwrap();
+    let score = b.attribute_on_node("score", place, Kind::Number).unwrap();
+    let says = b.attribute_on_edge("says", label, (place, place), Kind::Text).unwrap();
+    let graph = Graph::new(b.build());
+    graph
+        .edit(AgentId::DSR, Time(0), |tx| {
+            for at in 0..count {
+                tx.add_node(format!("n{at}"), place).set_attribute(format!("n{at}").as_str(), score, 0.0);
+                if at > 0 {
+                    tx.add_edge(format!("n{}", at - 1), label, format!("n{at}"));
+                }
+            }
+            for at in 1..=50 {
+                let step = Isometry3::new([0.1, 0.2, 0.3].into(), [0.1, 0.0, 0.2].into());
+                tx.set_transform(format!("n{}", at - 1), format!("n{at}"), step);
+            }
+        })
+        .unwrap();
+    let nodes = graph.snapshot().nodes_of(place).collect();
+    Ward { graph, label, score, says, nodes }
+}
+
+/// An edge, its attribute and a node's attribute: what a typical agent writes at once.
+fn three_edits(ward: &Ward, round: u64) -> Transaction {
+    let at = usize::try_from(round.wrapping_mul(2_654_435_761) % (ward.nodes.len() as u64 - 1)).unwrap();
+    let (a, b) = (ward.nodes[at], ward.nodes[at + 1]);
+    let mut tx = Transaction::new(AgentId::DSR);
+    let far = ward.nodes[(at + 7) % ward.nodes.len()];
+    if round.is_multiple_of(2) {
+        tx.add_edge(a, ward.label, far)
+    } else {
+        tx.remove_edge(a, ward.label, far)
+    };
+    #[expect(clippy::cast_precision_loss, reason = "any number will do")]
+    tx.set_attribute(a, ward.score, round as f64);
+    let text = if round.is_multiple_of(2) { "yyy" } else { "xxx" };
+    tx.set_attribute(HolderRef::edge(a, ward.label, b), ward.says, text);
+    tx
+}
+
+fn transactions(c: &mut Criterion) {
+    for count in [1_000, 10_000, 100_000] {
+        let ward = ward(count);
+        let mut round = 0_u64;
+        c.bench_function(&format!("transaction/3 edits, {count} nodes"), |bench| {
+            bench.iter(|| {
+                round += 1;
+                ward.graph.commit(&three_edits(&ward, round), Time(round)).unwrap()
+            });
+        });
+    }
+    let ward = ward(10_000);
+    let refused = {
+        let mut tx = three_edits(&ward, 1);
+        tx.add_edge(ward.nodes[0], ward.label, ward.nodes[0]);
+        tx
+    };
+    c.bench_function("transaction/refused at its 4th edit", |bench| {
+        bench.iter(|| ward.graph.commit(&refused, Time(1)).unwrap_err());
+    });
+}
+
+fn looks(c: &mut Criterion) {
+    let ward = ward(10_000);
+    c.bench_function("snapshot", |bench| bench.iter(|| ward.graph.snapshot()));
+    let now = ward.graph.snapshot();
+    for depth in [1, 10, 50] {
+        let (root, leaf) = (ward.nodes[0], ward.nodes[depth]);
+        c.bench_function(&format!("chain/depth {depth}"), |bench| {
+            bench.iter(|| now.transform(black_box(root), black_box(leaf)).unwrap());
+        });
+    }
+    c.bench_function("attribute by id", |bench| {
+        bench.iter(|| now.attribute(black_box(ward.nodes[5_000]), ward.score));
+    });
+    c.bench_function("node by name", |bench| bench.iter(|| now.node(black_box("n5000"))));
+}
+
+fn subscriptions(c: &mut Criterion) {
+    let ward = ward(10_000);
+    let dictionary = ward.graph.dictionary();
+    let mut pattern = PatternBuilder::new(&dictionary);
+    let next = pattern.variable("next", dictionary.node_type("place").unwrap());
+    pattern.edge("n0", ward.label, next).edge(next, ward.label, "n9");
+    let pattern = Arc::new(pattern.build().unwrap());
+    let now = ward.graph.snapshot();
+    c.bench_function("pattern/3 nodes, one named", |bench| bench.iter(|| pattern.holds(&now)));
+
+    // Commit, then the subscriber's match change, on one thread: the cost without any scheduler.
+    let mut matches = ward.graph.subscribe(Arc::clone(&pattern));
+    let mut round = 0_u64;
+    c.bench_function("wake/commit to match change, same thread", |bench| {
+        bench.iter(|| {
+            round += 1;
+            let (a, b) = (ward.nodes[5], ward.nodes[9]);
+            let mut tx = Transaction::new(AgentId::DSR);
+            if round.is_multiple_of(2) {
+                tx.remove_edge(a, ward.label, b)
+            } else {
+                tx.add_edge(a, ward.label, b)
+            };
+            tx.add_edge(ward.nodes[0], ward.label, a);
+            ward.graph.commit(&tx, Time(round)).unwrap();
+            matches.try_recv()
+        });
+    });
+    drop(matches);
+
+    // The same with the subscriber parked on another thread, which answers over a channel.
+    let mut matches = ward.graph.subscribe(pattern);
+    let (told, heard) = std::sync::mpsc::sync_channel(1);
+    let graph = ward.graph.clone();
+    let subscriber = std::thread::spawn(move || {
+        while let Some(change) = matches.recv() {
+            if told.send(change.version).is_err() {
+                return;
+            }
+        }
+    });
+    while heard.try_recv().is_ok() {}
+    let mut add = false;
+    c.bench_function("wake/commit to parked thread and back", |bench| {
+        bench.iter(|| {
+            let now = graph.snapshot();
+            let (a, b) = (ward.nodes[5], ward.nodes[9]);
+            add = !now.has_edge(a, ward.label, b);
+            let mut tx = Transaction::new(AgentId::DSR);
+            if add {
+                tx.add_edge(a, ward.label, b)
+            } else {
+                tx.remove_edge(a, ward.label, b)
+            };
+            let commit = graph.commit(&tx, Time(1)).unwrap();
+            while heard.recv().unwrap() < commit.version {}
+        });
+    });
+    drop(heard);
+    drop((graph, ward));
+    drop(subscriber);
+}
+
+criterion_group!(benches, transactions, looks, subscriptions);
+criterion_main!(benches);

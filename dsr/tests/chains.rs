@@ -1,0 +1,118 @@
+//! Kinematic chains: the convention, and chains through the common ancestor against products from the root.
+#![allow(clippy::unwrap_used, reason = "a test that fails says where")]
+
+mod world;
+
+use std::f64::consts::FRAC_PI_2;
+
+use dsr::{AgentId, ChainError, Graph, Isometry3, NodeId, Time};
+use nalgebra::Point3;
+use petgraph::visit::Dfs;
+use proptest::prelude::*;
+
+fn near(a: &Isometry3<f64>, b: &Isometry3<f64>) -> bool {
+    (a.translation.vector - b.translation.vector).norm() < 1e-9 && a.rotation.angle_to(&b.rotation) < 1e-9
+}
+
+/// `transform(a, b)` is the pose of b in a: it maps coordinates of b into a.
+#[test]
+fn the_convention() {
+    let graph = world::ward();
+    // The robot stands at (1, 0) and looks along y; the camera is 1.5 above it; the person is at (3, 0).
+    world::commit(&graph, "dsr", &format!("transform world clarc 1 0 0 {FRAC_PI_2}")).unwrap();
+    let now = graph.snapshot();
+    let id = |name| now.node(name).unwrap();
+    let in_world = now.transform(id("world"), id("clarc")).unwrap();
+    assert!(near(&in_world, &world::pose([1.0, 0.0, 0.0, FRAC_PI_2])));
+    // One metre ahead of the robot is one metre along y in the world.
+    let ahead = in_world * Point3::new(1.0, 0.0, 0.0);
+    assert!((ahead - Point3::new(1.0, 1.0, 0.0)).norm() < 1e-9);
+    // The person is two metres to the right of the robot, and lower than the camera.
+    let person = now.transform(id("camera"), id("carlos")).unwrap();
+    assert!((person.translation.vector - nalgebra::Vector3::new(0.0, -2.0, -1.5)).norm() < 1e-9);
+    assert!((now.distance(id("clarc"), id("carlos")).unwrap() - 2.0).abs() < 1e-9);
+    assert!(near(&now.transform(id("clarc"), id("clarc")).unwrap(), &Isometry3::identity()));
+    assert_eq!(now.root(), Some(id("world")));
+}
+
+#[test]
+fn no_chain_says_why() {
+    let graph = world::ward();
+    world::commit(&graph, "dsr", "node anna person").unwrap();
+    let now = graph.snapshot();
+    let id = |name| now.node(name).unwrap();
+    let (anna, clarc, world) = (id("anna"), id("clarc"), id("world"));
+    let apart = ChainError::NotConnected { from: "anna".into(), to: "clarc".into() };
+    assert_eq!(now.transform(anna, clarc), Err(apart));
+    assert_eq!(
+        now.transform(world, id("speaking")),
+        Err(ChainError::NotGeometric { node: "speaking".into() })
+    );
+    world::commit(&graph, "dsr", "no-node anna").unwrap();
+    assert_eq!(graph.snapshot().distance(world, anna), Err(ChainError::UnknownNode { node: anna }));
+    assert!(now.transform(anna, anna).is_ok(), "the old snapshot still has her");
+}
+
+/// A child changes its parent in one commit; a leaf may leave the tree; a root may go when its subtree is one.
+#[test]
+fn the_tree_changes_as_a_whole() {
+    let graph = world::ward();
+    let moved = "no-transform world carlos\ntransform clarc carlos 2 0 0 0";
+    let commit = world::commit(&graph, "dsr", moved).unwrap();
+    assert_eq!(commit.delta.changes.len(), 2);
+    world::commit(&graph, "dsr", "no-transform clarc carlos").unwrap();
+    world::commit(&graph, "dsr", "no-node world").unwrap();
+    let now = graph.snapshot();
+    assert_eq!(now.root(), now.node("clarc"));
+    world::commit(&graph, "dsr", "no-transform clarc camera").unwrap();
+    assert_eq!(graph.snapshot().root(), None);
+}
+
+proptest! {
+    // Every pair of nodes of each tree: a few trees are many chains.
+    #![proptest_config(ProptestConfig::with_cases(48))]
+    #[test]
+    fn a_chain_is_the_product_from_the_root(
+        parents in prop::collection::vec((any::<prop::sample::Index>(), prop::array::uniform6(-3.0..3.0)), 1..25),
+    ) {
+        let dictionary = world::dictionary();
+        let place = dictionary.node_type("place").unwrap();
+        let graph = Graph::new(dictionary);
+        graph.edit(AgentId::DSR, Time(0), |tx| {
+            tx.add_node("n0", place);
+            for (at, (parent, [x, y, z, a, b, c])) in parents.iter().enumerate() {
+                tx.add_node(format!("n{}", at + 1), place).set_transform(
+                    format!("n{}", parent.index(at + 1)),
+                    format!("n{}", at + 1),
+                    Isometry3::new([*x, *y, *z].into(), [*a, *b, *c].into()),
+                );
+            }
+        }).unwrap();
+        let now = graph.snapshot();
+        let nodes: Vec<NodeId> = now.nodes_of(place).collect();
+        let from_root = |mut id| {
+            let mut pose = Isometry3::identity();
+            while let Some((parent, step, _)) = now.get(id).unwrap().parent() {
+                pose = step * pose;
+                id = parent;
+            }
+            pose
+        };
+        for &a in &nodes {
+            for &b in &nodes {
+                let chain = now.transform(a, b).unwrap();
+                prop_assert!(near(&chain, &(from_root(a).inverse() * from_root(b))));
+                prop_assert!(near(&chain.inverse(), &now.transform(b, a).unwrap()));
+            }
+        }
+        // petgraph sees the same rooted tree.
+        let quiver = now.geometric_quiver();
+        prop_assert_eq!(quiver.edge_count() + 1, quiver.node_count());
+        let mut walk = Dfs::new(&quiver, now.root().unwrap());
+        let mut reached = 0;
+        while walk.next(&quiver).is_some() {
+            reached += 1;
+        }
+        prop_assert_eq!(reached, nodes.len());
+    }
+}

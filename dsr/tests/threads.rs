@@ -1,0 +1,76 @@
+//! Many threads on one graph: no update is lost, commits are told in order, who sleeps is woken.
+#![allow(clippy::unwrap_used, reason = "a test that fails says where")]
+
+mod world;
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use dsr::{AgentId, Comparison, Event, NodeRef, PatternBuilder, Time};
+
+#[test]
+fn no_increment_is_lost_and_every_commit_is_told_in_order() {
+    let graph = world::ward();
+    let dictionary = graph.dictionary();
+    let score = dictionary.attribute("score").unwrap();
+    let barthel = graph.snapshot().node("barthel").unwrap();
+    let feed = graph.subscribe_deltas();
+    let start = graph.snapshot().version().0;
+    let (threads, rounds) = (4, 50);
+
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                for _ in 0..rounds {
+                    graph
+                        .update(AgentId::DSR, Time(0), |snapshot, tx| {
+                            let old = snapshot.attribute(barthel, score).and_then(dsr::Value::as_number);
+                            tx.set_attribute(NodeRef::from(barthel), score, old.unwrap_or(0.0) + 1.0);
+                        })
+                        .unwrap();
+                }
+            });
+        }
+    });
+    let total = graph.snapshot().attribute(barthel, score).and_then(dsr::Value::as_number);
+    assert_eq!(total, Some(f64::from(threads * rounds)));
+    let versions: Vec<_> =
+        std::iter::from_fn(|| feed.try_recv()).map(|event| event.snapshot().version().0).collect();
+    assert!(versions.into_iter().eq(start + 1..=start + u64::from(threads as u32 * rounds as u32)));
+}
+
+#[test]
+fn a_blocked_subscriber_is_woken_by_a_match_and_by_the_end() {
+    let graph = world::ward();
+    let dictionary = graph.dictionary();
+    let mut pattern = PatternBuilder::new(&dictionary);
+    let test = pattern.variable("test", dictionary.node_type("test").unwrap());
+    pattern.guard(test, dictionary.attribute("score").unwrap(), Comparison::GreaterOrEqual, 100.0);
+    let mut full = graph.subscribe(pattern.build().unwrap());
+    let wakes = Arc::new(AtomicUsize::new(0));
+    let counter = Arc::clone(&wakes);
+    full.on_wake(move || _ = counter.fetch_add(1, Ordering::SeqCst));
+
+    let waiting =
+        std::thread::spawn(move || (full.recv().map(|change| change.version), full.recv().is_none()));
+    world::commit(&graph, "dsr", "edge clarc is speaking").unwrap();
+    let hundred = world::commit(&graph, "dsr", "set barthel score number 100").unwrap();
+    drop(graph);
+    assert_eq!(waiting.join().unwrap(), (Some(hundred.version), true));
+    // Once for what was there to be looked at, once for the score, once for the end; not for the speech.
+    assert_eq!(wakes.load(Ordering::SeqCst), 3);
+}
+
+#[test]
+fn an_overflowing_queue_lags_and_goes_on_from_the_newest_state() {
+    let graph = world::ward();
+    let feed = graph.subscribe_deltas_with(std::num::NonZeroUsize::new(2).unwrap());
+    for score in 0..5 {
+        world::commit(&graph, "dsr", &format!("set barthel score number {score}")).unwrap();
+    }
+    let Some(Event::Lagged { missed, snapshot }) = feed.try_recv() else { panic!("the queue holds two") };
+    assert_eq!((missed, snapshot.version()), (5, graph.snapshot().version()));
+    assert!(feed.try_recv().is_none() && !feed.is_closed());
+    world::commit(&graph, "dsr", "edge clarc is speaking").unwrap();
+    assert!(matches!(feed.try_recv(), Some(Event::Committed(_))));
+}
