@@ -1,1 +1,42 @@
 //! Mission folders, contents and scenarios as typed models, checked as a whole.
+//!
+//! A mission is text: PDDL in layers, sentences per language, scenarios. [`Mission::load`] reads all of
+//! it through [`Files`], so that nothing here touches a disk, and says everything that is wrong, each
+//! with its file, line and column. [`Mission::check`] then looks at what the layers do to each other.
+//! [`Words`] answers what to say; a [`Scenario`](scenario::Scenario) is a simulated patient with
+//! expectations; a [`Report`](report::Report) is the result over a snapshot of the graph. No line of
+//! this crate knows a test.
+//!
+//! ```
+//! use mission::{MemoryFiles, Mission};
+//!
+//! let mut files = MemoryFiles::default();
+//! files.texts.insert("tea/mission.toml".into(), "name = 3".into());
+//! let errors = Mission::load(&files, "tea").expect_err("a name is a string");
+//! let lines = errors.to_string();
+//! assert!(lines.starts_with("tea/mission.toml:1:1: error[E0704]: the key `robot` is missing"), "{lines}");
+//! assert!(lines.contains("tea/mission.toml:1:8: error[E0703]: `name` is an integer"));
+//! ```
+//!
+//! Map, from the ground up: `files` (paths), `finding` (what is wrong, where), `reader` (TOML with
+//! places) → `manifest` (`mission.toml`), `layers` (the PDDL) → `content` (words) → `load` → `mission` →
+//! [`scenario`], [`report`], `check` (between the layers).
+
+mod check;
+mod content;
+mod files;
+mod finding;
+mod layers;
+mod load;
+mod manifest;
+mod mission;
+mod reader;
+pub mod report;
+pub mod scenario;
+
+pub use content::{OptionWords, ReportLabels, Words};
+pub use files::{FileError, Files, MemoryFiles};
+pub use finding::{Finding, MissionErrors, Place, SourceId, Sources};
+pub use layers::{Layer, Layers, Tokens};
+pub use manifest::{Budget, Manifest, Mention, Paths, ReportTokens, WordTypes};
+pub use mission::{Fallback, Mission};

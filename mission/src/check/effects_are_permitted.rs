@@ -1,0 +1,114 @@
+//! C0601: a rule that writes what its agent may not write.
+//!
+//! **What** Each effect of a rule is covered by the `:writes` of the agent that its domain is named
+//! after; so is each effect of an intention by those of some agent.
+//! **Why** The graph refuses the whole commit: the rule's skill runs, and nobody ever sees that it did.
+//! **Example** `(at end (is_with ?p ?r))` in `speech.pddl`.
+
+use pddl::Span;
+use pddl::model::{
+    Domain, DurativeAction, Effect, EffectKind, Name, Permission, Term, TimeSpecifier, TokenSymbol, TypeSet,
+};
+
+use crate::finding::{Finding, Place};
+use crate::layers::Layers;
+use crate::mission::Mission;
+
+/// A token with the nodes that each of its arguments may be.
+struct Written {
+    token: Name,
+    arguments: Vec<Vec<Name>>,
+    span: Span,
+}
+
+pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
+    let vocabulary = &mission.layers.vocabulary.model;
+    for agent in &mission.layers.agents {
+        let own: Vec<&Permission> =
+            vocabulary.permissions.iter().filter(|p| p.agent == agent.model.name).collect();
+        for (_, rule) in agent.model.durative_actions.enumerate() {
+            for written in effects(&mission.layers, &agent.model, rule) {
+                if own.iter().any(|p| permits(vocabulary, p, &written)) {
+                    continue;
+                }
+                let place = Place { source: agent.source, span: written.span };
+                let message = format!(
+                    "`{}` of `{}` writes `{}`, and may not",
+                    rule.name, agent.model.name, written.token
+                );
+                let help = format!("add it to (:writes {} …) in the dictionary", agent.model.name);
+                findings.push(Finding::error("C0601", place, message).help(help));
+            }
+        }
+    }
+    let methods = &mission.layers.methods;
+    for (_, intention) in methods.model.durative_actions.enumerate() {
+        let ends: Vec<Span> = intention
+            .effects
+            .iter()
+            .filter(|e| e.when == TimeSpecifier::End)
+            .map(|e| e.effect.span)
+            .collect();
+        for written in effects(&mission.layers, &methods.model, intention) {
+            // At its end an intention does not write; it looks.
+            let expected = ends.iter().any(|s| s.start <= written.span.start && written.span.end <= s.end);
+            if expected || vocabulary.permissions.iter().any(|p| permits(vocabulary, p, &written)) {
+                continue;
+            }
+            let place = Place { source: methods.source, span: written.span };
+            let message = format!("`{}` writes `{}`, which nobody may", intention.name, written.token);
+            findings.push(Finding::error("C0601", place, message));
+        }
+    }
+}
+
+fn effects(layers: &Layers, domain: &Domain, action: &DurativeAction) -> Vec<Written> {
+    let candidates = |term: &Term| -> Vec<Name> {
+        let variable = match term {
+            Term::Object(id) => return vec![domain.constants[*id].name.clone()],
+            Term::Variable(id) => &action.variables[*id],
+        };
+        let ids = variable.types.0.iter().filter_map(|&t| layers.nodes.types.find(&domain.types[t].name));
+        let types = TypeSet(ids.collect());
+        let nodes = layers.nodes.constants.enumerate();
+        nodes
+            .filter(|(_, n)| layers.nodes.types.is_subset(&n.types, &types))
+            .map(|(_, n)| n.name.clone())
+            .collect()
+    };
+    let mut all = Vec::new();
+    for effect in &action.effects {
+        collect(domain, &effect.effect, &mut |token, terms: &[Term], span| {
+            all.push(Written { token, arguments: terms.iter().map(candidates).collect(), span });
+        });
+    }
+    all
+}
+
+fn collect(domain: &Domain, effect: &Effect, add: &mut impl FnMut(Name, &[Term], Span)) {
+    match &effect.kind {
+        EffectKind::And(parts) => parts.iter().for_each(|e| collect(domain, e, add)),
+        EffectKind::Forall(_, inner) | EffectKind::When(_, inner) => collect(domain, inner, add),
+        EffectKind::Add(atom) | EffectKind::Delete(atom) => {
+            add(domain.predicates[atom.predicate].name.clone(), &atom.arguments, atom.span);
+        }
+        EffectKind::Assign(_, to, _) => {
+            add(domain.functions[to.function].name.clone(), &to.arguments, to.span);
+        }
+    }
+}
+
+/// Whether a permission covers a token whatever its variables are bound to.
+fn permits(vocabulary: &Domain, permission: &Permission, written: &Written) -> bool {
+    permission.tokens.iter().any(|pattern| {
+        let symbol = match pattern.symbol {
+            TokenSymbol::Predicate(id) => &vocabulary.predicates[id].name,
+            TokenSymbol::Function(id) => &vocabulary.functions[id].name,
+            TokenSymbol::Type(_) => return false,
+        };
+        let fits = |(fixed, candidates): (&Option<_>, &Vec<Name>)| {
+            fixed.is_none_or(|id| candidates.iter().all(|c| vocabulary.constants[id].name == *c))
+        };
+        *symbol == written.token && pattern.arguments.iter().zip(&written.arguments).all(fits)
+    })
+}

@@ -1,0 +1,47 @@
+//! C0501, C0502: a name of another layer that is no node of the graph.
+//!
+//! **What** Each object of `problem.pddl` whose type the dictionary has is a node of the initial graph,
+//! of that type; so is each constant of `perception.pddl` and `methods.hddl`.
+//! **Why** Perception speaks of nodes; about an object that is none, nothing is ever perceived.
+//! **Example** `stair - item` in the problem, `stairs - item` in the graph.
+
+use pddl::model::{Domain, Object};
+
+use crate::finding::{Finding, Place, SourceId, did_you_mean};
+use crate::mission::Mission;
+
+pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
+    let layers = &mission.layers;
+    let (domain, problem) = (&layers.domain.model, &layers.problem);
+    for (_, object) in problem.model.objects.enumerate() {
+        check_name(mission, domain, object, problem.source, "C0501", findings);
+    }
+    for layer in [&layers.perception, &layers.methods] {
+        let constants = layer.model.constants.enumerate().map(|(_, c)| c);
+        // Imported constants are nodes.
+        for constant in constants.filter(|c| layers.nodes.constant(&c.name).is_none()) {
+            check_name(mission, &layer.model, constant, layer.source, "C0502", findings);
+        }
+    }
+}
+
+fn check_name(
+    mission: &Mission,
+    domain: &Domain,
+    object: &Object,
+    source: SourceId,
+    code: &'static str,
+    findings: &mut Vec<Finding>,
+) {
+    let layers = &mission.layers;
+    let types = &layers.nodes.types;
+    let Some(ty) = object.types.0.iter().find_map(|&t| types.find(&domain.types[t].name)) else { return };
+    if layers.graph.model.object(&object.name).is_some_and(|id| layers.is_a(id, ty)) {
+        return;
+    }
+    let place = Place { source, span: object.span };
+    let message = format!("`{}` is no node of the graph of type `{}`", object.name, types[ty].name);
+    let nodes = layers.graph.model.objects.ids().filter(|&id| layers.is_a(id, ty));
+    let help = did_you_mean(&object.name, nodes.map(|id| layers.name(id)));
+    findings.push(Finding::error(code, place, message).help_if(help));
+}

@@ -1,0 +1,42 @@
+//! C0401: a derived predicate that looks at a token which nothing ever writes.
+//!
+//! **What** Each token in a body of `perception.pddl` is written by a rule of an agent or by an
+//! intention, stands in the initial graph, is measured by the graph, or is derived itself.
+//! **Why** Such a predicate has the same value for ever: a plan waits for it in vain, or counts on it
+//! wrongly.
+//! **Example** `(:derived (present ?p) (exists (?r - robot) (is_wth ?p ?r)))` after renaming a token.
+
+use super::tokens::{Tokens, written_by_intentions, written_by_rules};
+use crate::finding::{Finding, Place};
+use crate::mission::Mission;
+
+pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
+    let layers = &mission.layers;
+    let (perception, nodes) = (&layers.perception, &layers.nodes);
+    let mut written = written_by_rules(mission);
+    written.append(&mut written_by_intentions(mission));
+    for problem in [&layers.world.model, &layers.graph.model] {
+        written.extend(problem.init.iter().map(|f| nodes.predicates[f.predicate].name.clone()));
+        let fluents = problem.fluents.iter();
+        written.extend(fluents.map(|f| nodes.functions[f.application.function].name.clone()));
+    }
+    let axioms = &perception.model.axioms;
+    written.extend(axioms.iter().map(|a| perception.model.predicates[a.predicate].name.clone()));
+    // What the planning problem says initially holds for good unless perception derives it.
+    let (domain, problem) = (&layers.domain.model, &layers.problem.model);
+    written.extend(problem.init.iter().map(|f| domain.predicates[f.predicate].name.clone()));
+    for axiom in axioms {
+        let mut looked_at = Tokens::of(&perception.model);
+        looked_at.condition(&axiom.body);
+        for name in looked_at.names.difference(&written) {
+            // Numbers between frames are computed from poses.
+            if nodes.function(name).is_some() {
+                continue;
+            }
+            let head = &perception.model.predicates[axiom.predicate].name;
+            let place = Place { source: perception.source, span: axiom.span };
+            let message = format!("`{head}` looks at `{name}`, which nothing writes");
+            findings.push(Finding::warning("C0401", place, message));
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! The PDDL layers of a mission, each with its source, and the tokens that `mission.toml` names.
+//!
+//! The nodes of the initial graph are declared in three files (constants of the dictionary, objects of
+//! the world, objects of the graph), and perception, methods and scenarios may name any of them. So
+//! there is one more domain, [`Layers::nodes`]: the dictionary with all of them as constants, under the
+//! ids that they have in `graph.pddl`.
+
+use pddl::model::{Domain, FunctionId, Idx, ObjectId, PredicateId, Problem, TypeId};
+
+use crate::finding::{Place, SourceId};
+
+/// A model and the source it came from.
+#[derive(Clone, Debug)]
+pub struct Layer<M> {
+    /// What its spans refer to.
+    pub source: SourceId,
+    /// The model.
+    pub model: M,
+}
+
+/// The tokens of `mission.toml`, as ids of the dictionary.
+#[derive(Clone, Copy, Debug)]
+pub struct Tokens {
+    /// The node of the report.
+    pub document: ObjectId,
+    /// Type of the items.
+    pub items: TypeId,
+    /// From item to option.
+    pub offers: PredicateId,
+    /// From option to item.
+    pub answer: PredicateId,
+    /// From question to item.
+    pub unanswered: PredicateId,
+    /// Of item and option.
+    pub score: FunctionId,
+    /// Type of what is said.
+    pub utterances: TypeId,
+    /// Type of where it is said.
+    pub parts: TypeId,
+    /// Type of what a person may ask for.
+    pub requests: TypeId,
+}
+
+/// Everything that is PDDL in a mission.
+#[derive(Clone, Debug)]
+pub struct Layers {
+    /// The robot's dictionary.
+    pub vocabulary: Layer<Domain>,
+    /// The world before anybody is seen.
+    pub world: Layer<Problem>,
+    /// The agents' rules, by file name.
+    pub agents: Vec<Layer<Domain>>,
+    /// The test as nodes and edges; its objects are all nodes of the initial graph.
+    pub graph: Layer<Problem>,
+    /// The dictionary with all nodes of the initial graph as constants.
+    pub nodes: Domain,
+    /// The planning domain.
+    pub domain: Layer<Domain>,
+    /// The planning problem.
+    pub problem: Layer<Problem>,
+    /// LowToHigh; imports [`Layers::nodes`] and the planning domain.
+    pub perception: Layer<Domain>,
+    /// HighToLow; imports [`Layers::nodes`].
+    pub methods: Layer<Domain>,
+    /// The tokens of `mission.toml`.
+    pub tokens: Tokens,
+}
+
+impl Layers {
+    /// Where a node of the initial graph is declared.
+    pub fn node_place(&self, node: ObjectId) -> Place {
+        let constants = self.vocabulary.model.constants.len();
+        let source = if node.index() < constants {
+            self.vocabulary.source
+        } else if node.index() < self.world.model.objects.len() {
+            self.world.source
+        } else {
+            self.graph.source
+        };
+        Place { source, span: self.graph.model.objects[node].span }
+    }
+
+    /// Whether a node of the initial graph is of a type.
+    pub fn is_a(&self, node: ObjectId, ty: TypeId) -> bool {
+        let types = &self.graph.model.objects[node].types;
+        types.0.iter().all(|&t| self.nodes.types.is_subtype(t, ty))
+    }
+
+    /// The items, in the order of declaration.
+    pub fn items(&self) -> Vec<ObjectId> {
+        self.graph.model.objects.ids().filter(|&id| self.is_a(id, self.tokens.items)).collect()
+    }
+
+    /// What an item offers, in the order of declaration.
+    pub fn options(&self, item: ObjectId) -> Vec<ObjectId> {
+        let facts = self.graph.model.init.iter().filter(|f| f.predicate == self.tokens.offers);
+        let mut options: Vec<ObjectId> = facts
+            .filter_map(|f| match f.arguments[..] {
+                [from, option] if from == item => Some(option),
+                _ => None,
+            })
+            .collect();
+        options.sort_unstable();
+        options.dedup();
+        options
+    }
+
+    /// The name of a node.
+    pub fn name(&self, node: ObjectId) -> &str {
+        &self.graph.model.objects[node].name
+    }
+}

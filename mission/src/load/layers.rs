@@ -1,0 +1,127 @@
+//! Reading the PDDL layers, and resolving the tokens that the manifest names.
+
+use pddl::model::{Domain, Problem};
+use pddl::{Parsed, Source, Span};
+
+use super::Loader;
+use crate::files::join;
+use crate::finding::{Finding, Place, SourceId, did_you_mean};
+use crate::layers::{Layer, Layers, Tokens};
+use crate::manifest::{Manifest, Mention};
+
+/// All layers; `None` if one is not there, and then the loader knows why.
+pub(super) fn read(loader: &mut Loader<'_>, from: SourceId, manifest: &Manifest) -> Option<Layers> {
+    let paths = &manifest.paths;
+    let robot = Place { source: from, span: manifest.robot_span };
+    let here = Place { source: from, span: Span::default() };
+
+    let vocabulary = parse(loader, &paths.vocabulary, robot, |s| pddl::parse_domain(s, &[]));
+    let domain = parse(loader, &paths.domain, here, |s| pddl::parse_domain(s, &[]));
+    let problem = domain
+        .as_ref()
+        .and_then(|d| parse(loader, &paths.problem, here, |s| pddl::parse_problem(s, &d.model)));
+
+    let vocabulary = vocabulary?;
+    let agents = agents(loader, &paths.agents, robot, &vocabulary.model);
+    let world: Layer<Problem> =
+        parse(loader, &paths.world, robot, |s| pddl::parse_problem(s, &vocabulary.model))?;
+    let seen = with_nodes(&vocabulary.model, &world.model);
+    let graph: Layer<Problem> = parse(loader, &paths.graph, here, |s| pddl::parse_problem(s, &seen))?;
+    let nodes = with_nodes(&vocabulary.model, &graph.model);
+
+    let methods = parse(loader, &paths.methods, here, |s| pddl::parse_domain(s, &[&nodes]));
+    let domain = domain?;
+    let perception =
+        parse(loader, &paths.perception, here, |s| pddl::parse_domain(s, &[&nodes, &domain.model]));
+    let tokens = tokens(loader, from, manifest, &nodes);
+    Some(Layers {
+        vocabulary,
+        world,
+        agents: agents?,
+        graph,
+        nodes,
+        domain,
+        problem: problem?,
+        perception: perception?,
+        methods: methods?,
+        tokens: tokens?,
+    })
+}
+
+fn parse<M>(
+    loader: &mut Loader<'_>,
+    path: &str,
+    asked_at: Place,
+    parse: impl FnOnce(&Source) -> Parsed<M>,
+) -> Option<Layer<M>> {
+    let source = loader.source(path, asked_at)?;
+    let parsed = parse(&loader.sources[source]);
+    loader.findings.extend(parsed.diagnostics.iter().map(|d| Finding::of_pddl(source, d)));
+    parsed.model.map(|model| Layer { source, model })
+}
+
+fn agents(
+    loader: &mut Loader<'_>,
+    folder: &str,
+    asked_at: Place,
+    vocabulary: &Domain,
+) -> Option<Vec<Layer<Domain>>> {
+    let names = loader.names(folder, ".pddl", asked_at);
+    let parsed: Vec<Option<Layer<Domain>>> = names
+        .iter()
+        .map(|name| parse(loader, &join(folder, name), asked_at, |s| pddl::parse_domain(s, &[vocabulary])))
+        .collect();
+    parsed.into_iter().collect()
+}
+
+/// The dictionary with the objects of `problem` (its own constants come first there) as constants.
+fn with_nodes(vocabulary: &Domain, problem: &Problem) -> Domain {
+    Domain { constants: problem.objects.clone(), ..vocabulary.clone() }
+}
+
+fn tokens(loader: &mut Loader<'_>, from: SourceId, manifest: &Manifest, nodes: &Domain) -> Option<Tokens> {
+    let mut resolve = Resolve { loader, from };
+    let types: Vec<&str> = nodes.types.enumerate().map(|(_, t)| t.name.as_str()).collect();
+    let predicates: Vec<&str> = nodes.predicates.enumerate().map(|(_, p)| p.name.as_str()).collect();
+    let functions: Vec<&str> = nodes.functions.enumerate().map(|(_, f)| f.name.as_str()).collect();
+    let constants: Vec<&str> = nodes.constants.enumerate().map(|(_, o)| o.name.as_str()).collect();
+
+    let (report, words) = (&manifest.report, &manifest.words);
+    let document = resolve.name("node", &report.document, &constants, nodes.constant(&report.document.name));
+    let mut ty = |m: &Mention| resolve.name("type", m, &types, nodes.types.find(&m.name));
+    let (items, utterances, parts, requests) =
+        (ty(&report.items), ty(&words.utterances), ty(&words.parts), ty(&words.requests));
+    let mut predicate = |m: &Mention| resolve.name("predicate", m, &predicates, nodes.predicate(&m.name));
+    let (offers, answer, unanswered) =
+        (predicate(&report.offers), predicate(&report.answer), predicate(&report.unanswered));
+    let score = resolve.name("function", &report.score, &functions, nodes.function(&report.score.name));
+    Some(Tokens {
+        document: document?,
+        items: items?,
+        offers: offers?,
+        answer: answer?,
+        unanswered: unanswered?,
+        score: score?,
+        utterances: utterances?,
+        parts: parts?,
+        requests: requests?,
+    })
+}
+
+/// Looks names of the manifest up, and reports what is not there.
+struct Resolve<'l, 'f> {
+    loader: &'l mut Loader<'f>,
+    from: SourceId,
+}
+
+impl Resolve<'_, '_> {
+    fn name<T>(&mut self, kind: &str, mention: &Mention, known: &[&str], found: Option<T>) -> Option<T> {
+        if found.is_none() {
+            let place = Place { source: self.from, span: mention.span };
+            let help = did_you_mean(&mention.name, known.iter().copied());
+            let message = format!("the graph knows no {kind} `{}`", mention.name);
+            self.loader.findings.push(Finding::error("E0706", place, message).help_if(help));
+        }
+        found
+    }
+}

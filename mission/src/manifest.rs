@@ -1,0 +1,246 @@
+//! `mission.toml`: which texts make a mission, and which tokens the outside needs to know.
+//!
+//! Rust knows no mission. What the report counts, what is said, and what happens when there is no plan
+//! are therefore named here, as tokens of the graph and tasks of the methods.
+
+use pddl::Span;
+use pddl::model::Name;
+
+use crate::files::join;
+use crate::reader::{Reader, Table, Text};
+
+/// A name that the manifest mentions, with its place.
+#[derive(Clone, Debug)]
+pub struct Mention {
+    /// The name.
+    pub name: Name,
+    /// Where it is written in `mission.toml`.
+    pub span: Span,
+}
+
+/// Where the files of a mission are, as paths that [`crate::Files`] understands.
+#[derive(Clone, Debug)]
+pub struct Paths {
+    /// The robot's dictionary.
+    pub vocabulary: String,
+    /// The world before anybody is seen.
+    pub world: String,
+    /// The folder of the agents' rules.
+    pub agents: String,
+    /// The test as nodes and edges.
+    pub graph: String,
+    /// The planning domain.
+    pub domain: String,
+    /// The planning problem.
+    pub problem: String,
+    /// LowToHigh.
+    pub perception: String,
+    /// HighToLow.
+    pub methods: String,
+    /// The folder of the languages.
+    pub content: String,
+    /// The folder of the scenarios.
+    pub scenarios: String,
+}
+
+/// How hard to try.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Budget {
+    /// States that one replan may expand.
+    pub replan_expansions: u32,
+    /// How often one action may be started before it counts as failed.
+    pub attempts: u32,
+}
+
+/// The tokens that make the report.
+#[derive(Clone, Debug)]
+pub struct ReportTokens {
+    /// The node that stands for the report when it is delivered.
+    pub document: Mention,
+    /// The type of the items.
+    pub items: Mention,
+    /// Label from an item to an option that it offers.
+    pub offers: Mention,
+    /// Label from the option that was chosen to its item.
+    pub answer: Mention,
+    /// Label from a question that got no answer to its item.
+    pub unanswered: Mention,
+    /// Attribute of the pair (item, option): what the option is worth.
+    pub score: Mention,
+}
+
+/// The types that the languages put into words.
+#[derive(Clone, Debug)]
+pub struct WordTypes {
+    /// What is said or shown.
+    pub utterances: Mention,
+    /// Where it is said or shown.
+    pub parts: Mention,
+    /// What a person may ask for at any moment.
+    pub requests: Mention,
+}
+
+/// `mission.toml`, its names not yet resolved.
+#[derive(Clone, Debug)]
+pub struct Manifest {
+    /// Short name.
+    pub name: String,
+    /// Name for people.
+    pub title: String,
+    /// Tag of the language that is spoken unless another is asked for.
+    pub language: String,
+    /// Where that tag is written.
+    pub language_span: Span,
+    /// Where the robot's folder is named.
+    pub robot_span: Span,
+    /// The task for when there is no plan: `fall-back` or `(fall-back person)`.
+    pub fallback: Mention,
+    /// Its arguments, if written.
+    pub fallback_arguments: Vec<Mention>,
+    /// Where the files are.
+    pub paths: Paths,
+    /// How hard to try.
+    pub budget: Budget,
+    /// The tokens of the report.
+    pub report: ReportTokens,
+    /// The types of the words.
+    pub words: WordTypes,
+}
+
+const DEFAULT_BUDGET: Budget = Budget { replan_expansions: 20_000, attempts: 3 };
+
+/// Reads a manifest that lies in `folder`; `None` if a key that has no default is missing.
+pub(crate) fn read(reader: &mut Reader<'_>, mut root: Table<'_>, folder: &str) -> Option<Manifest> {
+    let name = root.required_text(reader, "name");
+    let title = root.text(reader, "title");
+    let robot = root.required_text(reader, "robot");
+    let language = root.required_text(reader, "language");
+    let fallback = root.required_text(reader, "fallback");
+    let budget = budget(reader, &mut root);
+    root.require(reader, "report");
+    let report = root.table(reader, "report").and_then(|t| report(reader, t));
+    let words = words(reader, &mut root);
+    let robot_folder = robot.as_ref().map_or_else(String::new, |r| join(folder, &r.value));
+    let paths = paths(reader, &mut root, folder, &robot_folder);
+    root.finish(reader);
+
+    let (name, robot, language, fallback) = (name?, robot?, language?, fallback?);
+    let mut words_of_fallback = symbols(&fallback);
+    if words_of_fallback.is_empty() {
+        reader.error("E0705", fallback.span, "`fallback` should name a task, as in \"(fall-back person)\"");
+        return None;
+    }
+    let arguments = words_of_fallback.split_off(1);
+    Some(Manifest {
+        title: title.map_or_else(|| name.value.clone(), |t| t.value),
+        name: name.value,
+        language: language.value,
+        language_span: language.span,
+        robot_span: robot.span,
+        fallback: words_of_fallback.remove(0),
+        fallback_arguments: arguments,
+        paths,
+        budget,
+        report: report?,
+        words,
+    })
+}
+
+fn budget(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Budget {
+    let Some(mut table) = root.table(reader, "budget") else { return DEFAULT_BUDGET };
+    let expansions = table.count(reader, "replan-expansions", 1).map(|(n, _)| n);
+    let attempts = table.count(reader, "attempts", 1).map(|(n, _)| n);
+    table.finish(reader);
+    Budget {
+        replan_expansions: expansions.unwrap_or(DEFAULT_BUDGET.replan_expansions),
+        attempts: attempts.unwrap_or(DEFAULT_BUDGET.attempts),
+    }
+}
+
+fn report(reader: &mut Reader<'_>, mut table: Table<'_>) -> Option<ReportTokens> {
+    let document = required_mention(reader, &mut table, "document");
+    let items = required_mention(reader, &mut table, "items");
+    let offers = required_mention(reader, &mut table, "offers");
+    let answer = required_mention(reader, &mut table, "answer");
+    let unanswered = required_mention(reader, &mut table, "unanswered");
+    let score = required_mention(reader, &mut table, "score");
+    table.finish(reader);
+    Some(ReportTokens {
+        document: document?,
+        items: items?,
+        offers: offers?,
+        answer: answer?,
+        unanswered: unanswered?,
+        score: score?,
+    })
+}
+
+fn words(reader: &mut Reader<'_>, root: &mut Table<'_>) -> WordTypes {
+    let at = root.span;
+    let mut table = root.table(reader, "words");
+    let mut of = |key: &str, default: &str| {
+        let text = table.as_mut().and_then(|t| t.text(reader, key));
+        text.map_or_else(|| Mention { name: Name::new(default), span: at }, |t| mention(&t))
+    };
+    let types = WordTypes {
+        utterances: of("utterances", "utterance"),
+        parts: of("parts", "part"),
+        requests: of("requests", "request"),
+    };
+    if let Some(table) = table {
+        table.finish(reader);
+    }
+    types
+}
+
+fn paths(reader: &mut Reader<'_>, root: &mut Table<'_>, folder: &str, robot: &str) -> Paths {
+    let mut table = root.table(reader, "files");
+    let mut of = |key: &str, base: &str, default: &str| {
+        let text = table.as_mut().and_then(|t| t.text(reader, key));
+        text.map_or_else(|| join(base, default), |t| join(folder, &t.value))
+    };
+    let paths = Paths {
+        vocabulary: of("vocabulary", robot, "vocabulary.pddl"),
+        world: of("world", robot, "world.pddl"),
+        agents: of("agents", robot, "agents"),
+        graph: of("graph", folder, "graph.pddl"),
+        domain: of("domain", folder, "domain.pddl"),
+        problem: of("problem", folder, "problem.pddl"),
+        perception: of("perception", folder, "perception.pddl"),
+        methods: of("methods", folder, "methods.hddl"),
+        content: of("content", folder, "content"),
+        scenarios: of("scenarios", folder, "scenarios"),
+    };
+    if let Some(table) = table {
+        table.finish(reader);
+    }
+    paths
+}
+
+fn required_mention(reader: &mut Reader<'_>, table: &mut Table<'_>, key: &str) -> Option<Mention> {
+    table.required_text(reader, key).map(|t| mention(&t))
+}
+
+fn mention(text: &Text) -> Mention {
+    Mention { name: Name::new(&text.value), span: text.span }
+}
+
+/// The symbols of a ground term `(name argument …)`, parentheses optional, each with its place.
+pub(crate) fn symbols(text: &Text) -> Vec<Mention> {
+    let mut mentions = Vec::new();
+    let mut start = None;
+    for (i, c) in text.value.char_indices().chain(std::iter::once((text.value.len(), ' '))) {
+        let inside = !c.is_whitespace() && c != '(' && c != ')';
+        match (inside, start) {
+            (true, None) => start = Some(i),
+            (false, Some(from)) => {
+                let at = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);
+                let span = text.within(Span::new(at(from), at(i)));
+                mentions.push(Mention { name: Name::new(&text.value[from..i]), span });
+                start = None;
+            }
+            _ => {}
+        }
+    }
+    mentions
+}

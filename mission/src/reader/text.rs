@@ -1,0 +1,38 @@
+//! A string of a TOML file that knows where its characters stand.
+
+use pddl::Span;
+
+/// A string value and its place.
+#[derive(Clone, Debug)]
+pub(crate) struct Text {
+    /// The value, escapes resolved.
+    pub(crate) value: String,
+    /// The literal in the file, quotes included.
+    pub(crate) span: Span,
+    /// Where the value's first byte stands, if the literal is the value letter by letter.
+    inner: Option<u32>,
+}
+
+impl Text {
+    /// The string `value`, written at `span` of `file`.
+    pub(crate) fn new(value: &str, span: Span, file: &str) -> Self {
+        let literal = file.get(span.range()).unwrap_or("");
+        let quote = literal.chars().next().unwrap_or('"');
+        let body = literal.trim_start_matches(quote);
+        let opening = literal.len() - body.len();
+        // A multi-line string drops the newline right after its quotes.
+        let newline = if opening == 3 { body.len() - body.trim_start_matches(['\r', '\n']).len() } else { 0 };
+        let start = opening + newline;
+        let verbatim = !value.is_empty() && literal.get(start..start + value.len()) == Some(value);
+        let inner = verbatim.then(|| span.start + u32::try_from(start).unwrap_or(0));
+        Self { value: value.to_owned(), span, inner }
+    }
+
+    /// The place of a byte range of the value; the whole literal where escapes hide it.
+    pub(crate) fn within(&self, range: Span) -> Span {
+        let Some(inner) = self.inner else { return self.span };
+        let length = u32::try_from(self.value.len()).unwrap_or(u32::MAX);
+        let (start, end) = (range.start.min(length), range.end.min(length));
+        Span::new(inner + start, inner + end.max(start))
+    }
+}

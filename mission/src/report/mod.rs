@@ -1,0 +1,217 @@
+//! The report: per item what was answered and what it scores, and the sum.
+//!
+//! Problem: the report belongs to the test, and Rust must not know the test. Idea: `mission.toml` names
+//! five tokens (items, what they offer, what was answered, which question was not, what an option
+//! scores), and the report is a query over one snapshot of the graph. Invariant: the same snapshot and
+//! language give the same bytes; an item without an answer never scores.
+
+mod table;
+
+use std::fmt;
+use std::time::Duration;
+
+use dsr::{EdgeKey, NodeId, Snapshot};
+use pddl::model::Name;
+use serde::{Serialize, Serializer};
+
+use crate::content::{ReportLabels, Words};
+use crate::mission::Mission;
+
+/// A score or a sum of scores. Whole numbers show without decimals.
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
+pub struct Score(pub f64);
+
+impl Score {
+    /// Whether it is that whole number.
+    pub fn is(self, number: u32) -> bool {
+        (self.0 - f64::from(number)).abs() < 1e-9
+    }
+}
+
+impl fmt::Display for Score {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // `{}` of an integral f64 has no decimals.
+        write!(f, "{}", self.0)
+    }
+}
+
+impl Serialize for Score {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        if self.0.fract() == 0.0 && self.0.abs() < 1e15 {
+            #[expect(clippy::cast_possible_truncation, reason = "integral, and far below 2^63")]
+            return to.serialize_i64(self.0 as i64);
+        }
+        to.serialize_f64(self.0)
+    }
+}
+
+impl std::iter::Sum for Score {
+    fn sum<I: Iterator<Item = Self>>(scores: I) -> Self {
+        // `f64`'s own sum of nothing is -0.
+        Self(scores.fold(0.0, |sum, s| sum + s.0))
+    }
+}
+
+/// How far an item came.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Status {
+    /// It has an answer.
+    Answered,
+    /// It was asked, and has no answer.
+    Unanswered,
+    /// It was not asked, or not to the end.
+    NotReached,
+}
+
+/// One item of the report.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ItemReport {
+    /// Its node.
+    pub item: Name,
+    /// Its name in the report's language.
+    pub name: String,
+    /// How far it came.
+    pub status: Status,
+    /// The option that was chosen.
+    pub option: Option<Name>,
+    /// What that option says.
+    pub answer: Option<String>,
+    /// What it scores.
+    pub score: Option<Score>,
+    /// The most that the item can score.
+    pub maximum: Score,
+}
+
+/// When the test began and ended, counted from the start of the run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Times {
+    /// The first commit of the mission.
+    #[serde(rename = "started_s", serialize_with = "seconds")]
+    pub started: Duration,
+    /// The commit that the report is of.
+    #[serde(rename = "finished_s", serialize_with = "seconds")]
+    pub finished: Duration,
+}
+
+fn seconds<S: Serializer>(duration: &Duration, to: S) -> Result<S::Ok, S::Error> {
+    to.serialize_f64(duration.as_secs_f64())
+}
+
+/// The result of a test.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Report {
+    /// The mission's short name.
+    pub mission: String,
+    /// Its name for people.
+    pub title: String,
+    /// The tag of the language.
+    pub language: String,
+    /// When.
+    #[serde(flatten)]
+    pub times: Times,
+    /// All items, in the order of the test.
+    pub items: Vec<ItemReport>,
+    /// The sum over the answered items.
+    pub total: Score,
+    /// The most that the test can score.
+    pub maximum: Score,
+    /// Whether every item is answered.
+    pub complete: bool,
+    #[serde(skip)]
+    labels: ReportLabels,
+}
+
+impl Report {
+    /// The report over a snapshot of the graph.
+    pub fn new(mission: &Mission, words: &Words, snapshot: &Snapshot, times: Times) -> Self {
+        let graph = Graph::new(mission, snapshot);
+        let layers = &mission.layers;
+        let items: Vec<ItemReport> = layers
+            .items()
+            .into_iter()
+            .map(|item| {
+                let name = layers.graph.model.objects[item].name.clone();
+                let offered = layers.options(item);
+                let score = |option: &str| graph.score(&name, option);
+                let maximum = offered.iter().filter_map(|&o| score(layers.name(o))).fold(0.0, f64::max);
+                let option = graph.answer(&name);
+                let status = match option {
+                    Some(_) => Status::Answered,
+                    None if graph.has_silence(&name) => Status::Unanswered,
+                    None => Status::NotReached,
+                };
+                let spoken = |o: &Name| words.options(&name).iter().find(|w| w.option == *o);
+                ItemReport {
+                    name: words.name(&name).unwrap_or(&name).to_owned(),
+                    status,
+                    answer: option.as_ref().and_then(spoken).map(|w| w.text.clone()),
+                    score: option.as_ref().map(|o| Score(score(o).unwrap_or(0.0))),
+                    maximum: Score(maximum),
+                    item: name,
+                    option,
+                }
+            })
+            .collect();
+        Self {
+            mission: mission.manifest.name.clone(),
+            title: mission.manifest.title.clone(),
+            language: words.tag().to_owned(),
+            times,
+            total: items.iter().filter_map(|i| i.score).sum(),
+            maximum: items.iter().map(|i| i.maximum).sum(),
+            complete: items.iter().all(|i| i.status == Status::Answered),
+            items,
+            labels: words.labels().clone(),
+        }
+    }
+
+    /// How many items are answered.
+    pub fn answered(&self) -> usize {
+        self.items.iter().filter(|i| i.status == Status::Answered).count()
+    }
+
+    /// The items that were asked and not answered.
+    pub fn unanswered(&self) -> impl Iterator<Item = &Name> {
+        self.items.iter().filter(|i| i.status == Status::Unanswered).map(|i| &i.item)
+    }
+}
+
+/// The five tokens, looked up in one snapshot.
+struct Graph<'a> {
+    mission: &'a Mission,
+    snapshot: &'a Snapshot,
+}
+
+impl<'a> Graph<'a> {
+    fn new(mission: &'a Mission, snapshot: &'a Snapshot) -> Self {
+        Self { mission, snapshot }
+    }
+
+    fn incoming(&self, item: &str, label: &str) -> Vec<EdgeKey> {
+        let node = self.snapshot.node(item).and_then(|id| self.snapshot.get(id));
+        let label = self.snapshot.dictionary().label(label);
+        node.into_iter().flat_map(|n| n.incoming()).filter(|e| Some(e.label) == label).collect()
+    }
+
+    /// The option that was chosen last.
+    fn answer(&self, item: &str) -> Option<Name> {
+        let edges = self.incoming(item, &self.mission.manifest.report.answer.name);
+        let since = |e: &EdgeKey| self.snapshot.edge(e.from, e.label, e.to).map(|view| view.since());
+        edges.iter().max_by_key(|e| since(e)).and_then(|e| self.snapshot.name(e.from)).map(Name::new)
+    }
+
+    fn has_silence(&self, item: &str) -> bool {
+        !self.incoming(item, &self.mission.manifest.report.unanswered.name).is_empty()
+    }
+
+    /// A binary function is a label whose edges carry the attribute of the same name.
+    fn score(&self, item: &str, option: &str) -> Option<f64> {
+        let name = &self.mission.manifest.report.score.name;
+        let dictionary = self.snapshot.dictionary();
+        let (label, attribute) = (dictionary.label(name)?, dictionary.attribute(name)?);
+        let node = |name: &str| -> Option<NodeId> { self.snapshot.node(name) };
+        let edge = EdgeKey { from: node(item)?, label, to: node(option)? };
+        self.snapshot.attribute(edge, attribute)?.as_number()
+    }
+}

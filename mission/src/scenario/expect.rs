@@ -1,0 +1,118 @@
+//! `[expect]`: what must come out of a scenario. Each expectation is optional.
+
+use pddl::Span;
+use pddl::model::Name;
+
+use super::GraphCondition;
+use super::read::node;
+use crate::finding::{Finding, did_you_mean};
+use crate::layers::Layers;
+use crate::reader::{Reader, Table, Text};
+
+/// An expected value and where it is written.
+#[derive(Clone, Debug)]
+pub struct Expected<T> {
+    /// The value.
+    pub value: T,
+    /// Where it is written.
+    pub span: Span,
+}
+
+/// A token that some replan must name as its reason.
+#[derive(Clone, Debug)]
+pub struct Naming {
+    /// A predicate or function of the graph, of perception or of the planning domain.
+    pub token: Name,
+    /// Where it is written.
+    pub span: Span,
+}
+
+/// What is expected of the replans.
+#[derive(Clone, Debug, Default)]
+pub struct ReplanExpectation {
+    /// At least so many.
+    pub at_least: Option<Expected<u32>>,
+    /// At most so many.
+    pub at_most: Option<Expected<u32>>,
+    /// Each of these tokens is named by some replan.
+    pub naming: Vec<Naming>,
+}
+
+/// What must come out.
+#[derive(Clone, Debug, Default)]
+pub struct Expectation {
+    /// Whether the mission reaches its goal.
+    pub accomplished: Option<Expected<bool>>,
+    /// Conditions over the final graph.
+    pub holds: Vec<GraphCondition>,
+    /// How many items are answered.
+    pub answered: Option<Expected<u32>>,
+    /// The sum of the scores.
+    pub total: Option<Expected<u32>>,
+    /// Exactly these items were asked and not answered.
+    pub unanswered: Option<Expected<Vec<Name>>>,
+    /// What is expected of the replans.
+    pub replans: ReplanExpectation,
+    /// No answered item but these may be asked again.
+    pub asked_again: Option<Expected<Vec<Name>>>,
+}
+
+/// Reads `[expect]`.
+pub(super) fn read(reader: &mut Reader<'_>, layers: &Layers, table: Option<Table<'_>>) -> Expectation {
+    let mut expect = Expectation::default();
+    let Some(mut table) = table else { return expect };
+    let span = table.key_span("accomplished");
+    expect.accomplished = table.boolean(reader, "accomplished").map(|value| Expected { value, span });
+    for text in table.texts(reader, "holds").unwrap_or_default() {
+        expect.holds.extend(super::condition::read(reader, layers, &text));
+    }
+    expect.answered = count(reader, &mut table, "answered");
+    expect.total = count(reader, &mut table, "total");
+    expect.unanswered = items(reader, layers, &mut table, "unanswered");
+    expect.asked_again = items(reader, layers, &mut table, "asked-again");
+    if let Some(mut replans) = table.table(reader, "replans") {
+        expect.replans.at_least = count(reader, &mut replans, "at-least");
+        expect.replans.at_most = count(reader, &mut replans, "at-most");
+        for text in replans.texts(reader, "naming").unwrap_or_default() {
+            expect.replans.naming.extend(token(reader, layers, &text));
+        }
+        replans.finish(reader);
+    }
+    table.finish(reader);
+    expect
+}
+
+fn count(reader: &mut Reader<'_>, table: &mut Table<'_>, key: &str) -> Option<Expected<u32>> {
+    table.count(reader, key, 0).map(|(value, span)| Expected { value, span })
+}
+
+fn items(
+    reader: &mut Reader<'_>,
+    layers: &Layers,
+    table: &mut Table<'_>,
+    key: &str,
+) -> Option<Expected<Vec<Name>>> {
+    let span = table.key_span(key);
+    let mut value = Vec::new();
+    for text in table.texts(reader, key)? {
+        let id = node(reader, layers, &text, layers.tokens.items, "item");
+        value.extend(id.map(|id| layers.graph.model.objects[id].name.clone()));
+    }
+    Some(Expected { value, span })
+}
+
+fn token(reader: &mut Reader<'_>, layers: &Layers, text: &Text) -> Option<Naming> {
+    let mut known: Vec<&str> = Vec::new();
+    for domain in [&layers.nodes, &layers.perception.model, &layers.domain.model] {
+        known.extend(domain.predicates.enumerate().map(|(_, p)| p.name.as_str()));
+        known.extend(domain.functions.enumerate().map(|(_, f)| f.name.as_str()));
+    }
+    let token = Name::new(&text.value);
+    if !known.contains(&token.as_str()) {
+        let message = format!("unknown token `{}`", text.value);
+        let finding = Finding::error("E0910", reader.place(text.span), message);
+        reader.findings.push(finding.help_if(did_you_mean(&token, known)));
+        return None;
+    }
+    Some(Naming { token, span: text.span })
+}

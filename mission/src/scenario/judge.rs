@@ -1,0 +1,134 @@
+//! Holding what came out against what must come out. Pure: facts in, violations out.
+
+use pddl::Span;
+use pddl::model::Name;
+
+use super::{Expectation, GraphCondition};
+use crate::report::Report;
+
+/// A replan, as far as a scenario judges it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Replan {
+    /// The tokens that its reason names.
+    pub names: Vec<Name>,
+}
+
+/// What came out of a run.
+#[derive(Clone, Copy, Debug)]
+pub struct Outcome<'a> {
+    /// Whether the mission reached its goal.
+    pub accomplished: bool,
+    /// The report over the final graph.
+    pub report: &'a Report,
+    /// All replans.
+    pub replans: &'a [Replan],
+    /// Items that were asked again after they had been answered.
+    pub asked_again: &'a [Name],
+}
+
+/// An expectation that was not met.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[expect(missing_docs, reason = "the fields are the terms of the message")]
+pub enum Violation {
+    /// The mission should have reached its goal and did not, or the other way round.
+    #[error("the mission was {}accomplished", if *expected { "not " } else { "" })]
+    Accomplished { expected: bool, span: Span },
+    /// A condition does not hold in the final graph.
+    #[error("{condition} does not hold in the end")]
+    DoesNotHold { condition: String, span: Span },
+    /// Another number of items was answered.
+    #[error("{found} items were answered, {expected} expected")]
+    Answered { expected: u32, found: usize, span: Span },
+    /// Another total.
+    #[error("the total is {found}, {expected} expected")]
+    Total { expected: u32, found: String, span: Span },
+    /// Other items stayed without an answer.
+    #[error("unanswered: [{}], expected: [{}]", found.join(", "), expected.join(", "))]
+    Unanswered { expected: Vec<String>, found: Vec<String>, span: Span },
+    /// Too few replans.
+    #[error("{found} replans, at least {expected} expected")]
+    TooFewReplans { expected: u32, found: usize, span: Span },
+    /// Too many replans.
+    #[error("{found} replans, at most {expected} expected")]
+    TooManyReplans { expected: u32, found: usize, span: Span },
+    /// No replan names the token.
+    #[error("no replan names `{token}`")]
+    NotNamed { token: Name, span: Span },
+    /// An item that was answered was asked again.
+    #[error("`{item}` was asked again after it had been answered")]
+    AskedAgain { item: Name, span: Span },
+}
+
+impl Violation {
+    /// Where the expectation is written.
+    pub fn span(&self) -> Span {
+        match self {
+            Self::Accomplished { span, .. }
+            | Self::DoesNotHold { span, .. }
+            | Self::Answered { span, .. }
+            | Self::Total { span, .. }
+            | Self::Unanswered { span, .. }
+            | Self::TooFewReplans { span, .. }
+            | Self::TooManyReplans { span, .. }
+            | Self::NotNamed { span, .. }
+            | Self::AskedAgain { span, .. } => *span,
+        }
+    }
+}
+
+impl Expectation {
+    /// What of this was not met. `holds` answers whether a condition holds in the final graph.
+    pub fn judge(
+        &self,
+        outcome: &Outcome<'_>,
+        mut holds: impl FnMut(&GraphCondition) -> bool,
+    ) -> Vec<Violation> {
+        let mut violations = Vec::new();
+        if let Some(e) = self.accomplished.as_ref().filter(|e| e.value != outcome.accomplished) {
+            violations.push(Violation::Accomplished { expected: e.value, span: e.span });
+        }
+        for condition in self.holds.iter().filter(|c| !holds(c)) {
+            let (condition, span) = (condition.text.clone(), condition.span);
+            violations.push(Violation::DoesNotHold { condition, span });
+        }
+        let found = outcome.report.answered();
+        if let Some(e) = self.answered.as_ref().filter(|e| e.value as usize != found) {
+            violations.push(Violation::Answered { expected: e.value, found, span: e.span });
+        }
+        let total = outcome.report.total;
+        if let Some(e) = self.total.as_ref().filter(|e| !total.is(e.value)) {
+            violations.push(Violation::Total { expected: e.value, found: total.to_string(), span: e.span });
+        }
+        if let Some(e) = &self.unanswered {
+            let mut found: Vec<String> = outcome.report.unanswered().map(ToString::to_string).collect();
+            let mut expected: Vec<String> = e.value.iter().map(ToString::to_string).collect();
+            found.sort_unstable();
+            expected.sort_unstable();
+            if found != expected {
+                violations.push(Violation::Unanswered { expected, found, span: e.span });
+            }
+        }
+        self.judge_replans(outcome, &mut violations);
+        if let Some(e) = &self.asked_again {
+            for item in outcome.asked_again.iter().filter(|i| !e.value.contains(i)) {
+                violations.push(Violation::AskedAgain { item: item.clone(), span: e.span });
+            }
+        }
+        violations
+    }
+
+    fn judge_replans(&self, outcome: &Outcome<'_>, violations: &mut Vec<Violation>) {
+        let found = outcome.replans.len();
+        if let Some(e) = self.replans.at_least.as_ref().filter(|e| found < e.value as usize) {
+            violations.push(Violation::TooFewReplans { expected: e.value, found, span: e.span });
+        }
+        if let Some(e) = self.replans.at_most.as_ref().filter(|e| found > e.value as usize) {
+            violations.push(Violation::TooManyReplans { expected: e.value, found, span: e.span });
+        }
+        for naming in &self.replans.naming {
+            if !outcome.replans.iter().any(|r| r.names.contains(&naming.token)) {
+                violations.push(Violation::NotNamed { token: naming.token.clone(), span: naming.span });
+            }
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! The simulated patient: what they answer, when, and how.
+
+use std::time::Duration;
+
+use pddl::model::{Name, ObjectId};
+
+use super::read::{argument, node};
+use crate::layers::Layers;
+use crate::reader::{Reader, Table};
+
+/// How an answer is given.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum By {
+    /// Said aloud.
+    #[default]
+    Voice,
+    /// Touched on the screen.
+    Touch,
+}
+
+/// What is answered.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// The item's option of that number, from 1.
+    Option(u32),
+    /// Nothing.
+    Silent,
+    /// Something that the recogniser takes for these words, which are no option.
+    Misheard(String),
+}
+
+/// An answer, when, and how.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Reply {
+    /// What.
+    pub answer: Answer,
+    /// How long after the robot begins to listen.
+    pub delay: Duration,
+    /// How.
+    pub by: By,
+}
+
+/// An exception to the patient's default.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReplyRule {
+    /// For this item.
+    pub item: Name,
+    /// For this question; `None`: for all questions about the item.
+    pub question: Option<Name>,
+    /// The reply.
+    pub reply: Reply,
+}
+
+/// The simulated patient.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Patient {
+    /// Whether they sit in front of the robot when it starts.
+    pub in_view: bool,
+    /// What they reply unless an exception says otherwise.
+    pub default: Reply,
+    /// The exceptions.
+    pub replies: Vec<ReplyRule>,
+}
+
+const DELAY: Duration = Duration::from_secs(2);
+
+impl Patient {
+    /// What the patient replies to a question about an item: the exception for both, else the exception
+    /// for the item, else the default.
+    pub fn reply(&self, item: &str, question: &str) -> &Reply {
+        let of_item = || self.replies.iter().filter(|r| &*r.item == item);
+        let exact = of_item().find(|r| r.question.as_deref() == Some(question));
+        exact.or_else(|| of_item().find(|r| r.question.is_none())).map_or(&self.default, |r| &r.reply)
+    }
+}
+
+/// Reads `[patient]`.
+pub(super) fn read(reader: &mut Reader<'_>, layers: &Layers, table: Option<Table<'_>>) -> Patient {
+    let otherwise = Reply { answer: Answer::Option(1), delay: DELAY, by: By::Voice };
+    let mut patient = Patient { in_view: true, default: otherwise, replies: Vec::new() };
+    let Some(mut table) = table else { return patient };
+    patient.in_view = table.boolean(reader, "in-view").unwrap_or(true);
+    let default = table.table(reader, "default");
+    let rules = table.tables(reader, "reply");
+    table.finish(reader);
+    for rule in rules {
+        patient.replies.extend(read_rule(reader, layers, rule));
+    }
+    if let Some(mut default) = default {
+        let excepted = |item: ObjectId| {
+            patient.replies.iter().any(|r| *r.item == *layers.name(item) && r.question.is_none())
+        };
+        let items: Vec<ObjectId> = layers.items().into_iter().filter(|&i| !excepted(i)).collect();
+        let reply = read_reply(reader, layers, &mut default, &items);
+        default.finish(reader);
+        patient.default = reply.unwrap_or(patient.default);
+    }
+    patient
+}
+
+fn read_rule(reader: &mut Reader<'_>, layers: &Layers, mut table: Table<'_>) -> Option<ReplyRule> {
+    let tokens = &layers.tokens;
+    let item = table.required_text(reader, "item");
+    let item = item.and_then(|text| node(reader, layers, &text, tokens.items, "item"));
+    let question = table.text(reader, "question");
+    let question = question.map(|text| argument(reader, layers, &text, tokens.unanswered, 0, "question"));
+    let items: Vec<ObjectId> = item.into_iter().collect();
+    let reply = read_reply(reader, layers, &mut table, &items);
+    table.finish(reader);
+    let name = |id| layers.graph.model.objects[id].name.clone();
+    let question = match question {
+        None => None,
+        Some(found) => Some(name(found?)),
+    };
+    Some(ReplyRule { item: name(item?), question, reply: reply? })
+}
+
+/// Exactly one of `option`, `silent`, `misheard`; `delay` and `by`. The option must be one that each of
+/// `items` offers.
+fn read_reply(
+    reader: &mut Reader<'_>,
+    layers: &Layers,
+    table: &mut Table<'_>,
+    items: &[ObjectId],
+) -> Option<Reply> {
+    let option = table.count(reader, "option", 1);
+    let silent = table.boolean(reader, "silent");
+    let misheard = table.text(reader, "misheard");
+    let delay = table.seconds(reader, "delay").unwrap_or(DELAY);
+    let by = read_by(reader, table);
+    if ["option", "silent", "misheard"].iter().filter(|k| table.has(k)).count() != 1 {
+        let message = "a reply is exactly one of `option`, `silent = true`, `misheard`";
+        reader.error("E0904", table.span, message);
+        return None;
+    }
+    if let Some((number, span)) = option {
+        let few = items.iter().map(|&item| (item, layers.options(item).len()));
+        for (item, offered) in few.filter(|&(_, offered)| (number as usize) > offered) {
+            let message = format!("`{}` offers {offered} options only", layers.name(item));
+            reader.error("E0905", span, message);
+        }
+        return Some(Reply { answer: Answer::Option(number), delay, by });
+    }
+    if let Some(text) = misheard {
+        return Some(Reply { answer: Answer::Misheard(text.value), delay, by });
+    }
+    if !silent? {
+        reader.error("E0904", table.key_span("silent"), "`silent` is true, or is not written");
+        return None;
+    }
+    Some(Reply { answer: Answer::Silent, delay, by })
+}
+
+fn read_by(reader: &mut Reader<'_>, table: &mut Table<'_>) -> By {
+    let Some(text) = table.text(reader, "by") else { return By::Voice };
+    match text.value.as_str() {
+        "voice" => By::Voice,
+        "touch" => By::Touch,
+        _ => {
+            reader.error("E0903", text.span, "`by` is \"voice\" or \"touch\"");
+            By::Voice
+        }
+    }
+}

@@ -1,0 +1,8 @@
+//! The crate as its users see it: the missions of this repository, a small one of its own, bad input.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod cases;
+mod disk;
+mod domains;
+mod report;
+mod tea;

@@ -1,0 +1,16 @@
+(define (domain voice)
+  (:requirements :typing :negative-preconditions :fluents :durative-actions :agent-rules)
+  (:import waiter)
+  (:durative-action say
+    :parameters (?r - robot ?t - test ?p - part ?u - utterance)
+    :condition (over all (= (label ?t ?p) ?u))
+    :effect (and (at start (is ?r speaking)) (at end (not (is ?r speaking))) (at end (was_said_in ?u ?p)))
+    :skill (say ?p ?u)
+    :claims (loudspeaker)
+    :priority 50)
+  (:durative-action hear
+    :parameters (?t - test ?i - item ?q - question)
+    :condition (over all (= (label ?t ?i) ?q))
+    :results (?o - option)
+    :effect (and (at end (was_chosen_in ?o ?i)) (at timeout (was_unanswered_in ?q ?i)))
+    :skill (listen ?i)))

@@ -1,0 +1,5 @@
+(define (problem room)
+  (:domain waiter)
+  (:objects waiter - robot guest - person)
+  (:init (is_with guest waiter))
+  (:goal (and)))
