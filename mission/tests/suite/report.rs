@@ -104,7 +104,7 @@ asked-again = []
         4: the mission was not accomplished
         5: (is_with guest waiter) does not hold in the end
         6: 0 items were answered, 1 expected
-        7: the total is -0, 2 expected
+        7: the total is 0, 2 expected
         8: unanswered: [drink], expected: []
         9: 0 replans, at least 1 expected
         9: no replan names `is_with`
