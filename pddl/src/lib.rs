@@ -1,17 +1,35 @@
 //! PDDL 3.1 and HDDL: lossless syntax, a typed model, diagnostics, and a printer.
 //!
-//! Text becomes a `syntax::Tree` that keeps every byte, the tree becomes a typed
+//! Text becomes a [`syntax::Tree`] that keeps every byte, the tree becomes a typed
 //! [`model::Domain`] or [`model::Problem`] with resolved names, and whatever is wrong on the way
-//! becomes a [`Diagnostic`] with a place. Nothing here reads files or prints.
+//! becomes a [`Diagnostic`] with a place. Nothing here reads files or prints to a terminal.
 //!
 //! ```
-//! use pddl::{Source, parse_domain};
+//! use pddl::{Source, parse_domain, print_domain};
 //!
 //! let source = Source::new("hall.pddl", "(define (domain hall) (:predicates (lit)))");
 //! let parsed = parse_domain(&source, &[]);
 //! assert!(parsed.diagnostics.is_empty());
-//! assert_eq!(parsed.model.expect("no errors").predicates.len(), 1);
+//! let domain = parsed.model.expect("no errors");
+//! assert_eq!(domain.predicates.len(), 1);
+//! assert!(print_domain(&domain).contains("(:predicates"));
+//!
+//! let source = Source::new("hall.pddl", "(define (domain hall) (:predicates (lit))
+//!   (:action switch :effect (lti)))");
+//! let parsed = parse_domain(&source, &[]);
+//! assert!(parsed.model.is_none());
+//! let said = parsed.diagnostics[0].describe(&source);
+//! assert!(said.starts_with("hall.pddl:2:28: error[E0202]: unknown predicate `lti`"));
+//! assert!(said.ends_with("did you mean `lit`?\n"));
 //! ```
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`syntax`] | tokens that tile the text, the tree over them, recovery at parentheses |
+//! | `lower` | tree to model: names, arities, types; a file for each part of the language |
+//! | [`model`] | what a file means |
+//! | `diagnostic` | what can be wrong, with stable codes |
+//! | `print` | model to text |
 
 mod diagnostic;
 mod lower;

@@ -1,5 +1,5 @@
 //! Cases as files: `test_data/ok` must be read and printed without a word, `test_data/err` must say
-//! exactly what stands in the `.expected` file beside it (`UPDATE_EXPECT=1` writes it anew).
+//! exactly what stands in the `.expected` file (`.plan.expected` for a plan) beside it (`UPDATE_EXPECT=1` writes it anew).
 //!
 //! A file holds a domain, a problem for it, or both. A comment `; with FILE` names another file of
 //! the folder: a domain to import, or the domain of the problem.
@@ -92,6 +92,8 @@ fn bad_files_say_what_is_expected() {
         let case = read(&path);
         let said: String = case.diagnostics.iter().map(|d| d.describe(&case.source)).collect();
         assert!(!said.is_empty(), "{} is not bad", path.display());
-        expect_test::expect_file![path.with_extension("expected")].assert_eq(&said);
+        let is_plan = path.extension().is_some_and(|e| e == "plan");
+        let expected = path.with_extension(if is_plan { "plan.expected" } else { "expected" });
+        expect_test::expect_file![expected].assert_eq(&said);
     }
 }

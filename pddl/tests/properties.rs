@@ -151,7 +151,7 @@ fn deep_nesting_is_an_error_and_no_overflow() {
 #[test]
 fn a_hundred_thousand_open_lists_are_one_error_for_their_depth_and_a_few_for_their_ends() {
     let source = Source::new("deep.pddl", "(".repeat(100_000));
-    let codes: Vec<_> = parse_domain(&source, &[]).diagnostics.iter().map(|d| d.code()).collect();
+    let codes: Vec<_> = parse_domain(&source, &[]).diagnostics.iter().map(pddl::Diagnostic::code).collect();
     assert_eq!(codes.iter().filter(|c| **c == "E0103").count(), 1);
     assert!(codes.len() < 30, "{codes:?}");
 }

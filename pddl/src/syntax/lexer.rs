@@ -8,7 +8,7 @@
 //! `?x?y` two variables. Cost: one pass, no backtracking over more than one word.
 
 use nom::branch::alt;
-use nom::bytes::complete::{tag, take_while, take_while1};
+use nom::bytes::complete::{tag, take, take_while, take_while1};
 use nom::combinator::{map, recognize, value};
 use nom::sequence::pair;
 use nom::{IResult, Parser};
@@ -35,20 +35,26 @@ pub(super) fn lex(text: &str) -> Tokens {
     tokens
 }
 
+/// The next token; its first byte says which kind it is.
 fn token(input: &[u8]) -> IResult<&[u8], TokenKind> {
-    alt((
-        value(TokenKind::Whitespace, take_while1(is_blank)),
-        value(TokenKind::Open, tag(&b"("[..])),
-        value(TokenKind::Close, tag(&b")"[..])),
-        value(TokenKind::Variable, pair(tag(&b"?"[..]), take_while(is_word))),
-        value(TokenKind::Keyword, pair(tag(&b":"[..]), take_while(is_word))),
-        value(TokenKind::Comment, pair(tag(&b";"[..]), take_while(|b| b != b'\n' && b != b'\r'))),
-        value(TokenKind::Whitespace, tag(BYTE_ORDER_MARK)),
-        value(TokenKind::Name, take_while1(|b| matches!(b, b'<' | b'=' | b'>'))),
-        hyphen,
-        map(take_while1(is_word), |word| if is_number(word) { TokenKind::Number } else { TokenKind::Name }),
-    ))
-    .parse(input)
+    match input.first() {
+        Some(b'(') => value(TokenKind::Open, take(1usize)).parse(input),
+        Some(b')') => value(TokenKind::Close, take(1usize)).parse(input),
+        Some(b'?') => value(TokenKind::Variable, pair(take(1usize), take_while(is_word))).parse(input),
+        Some(b':') => value(TokenKind::Keyword, pair(take(1usize), take_while(is_word))).parse(input),
+        Some(b';') => value(TokenKind::Comment, take_while(|b| b != b'\n' && b != b'\r')).parse(input),
+        Some(b'<' | b'=' | b'>') => {
+            value(TokenKind::Name, take_while1(|b| matches!(b, b'<' | b'=' | b'>'))).parse(input)
+        }
+        Some(b'-') => hyphen(input),
+        Some(&byte) if is_blank(byte) => value(TokenKind::Whitespace, take_while1(is_blank)).parse(input),
+        _ => alt((value(TokenKind::Whitespace, tag(BYTE_ORDER_MARK)), word)).parse(input),
+    }
+}
+
+fn word(input: &[u8]) -> IResult<&[u8], TokenKind> {
+    let kind = |word| if is_number(word) { TokenKind::Number } else { TokenKind::Name };
+    map(take_while1(is_word), kind).parse(input)
 }
 
 /// A hyphen before what is no number stands alone: no name starts with one.
