@@ -62,6 +62,11 @@ impl Mission {
         self.words.get(tag).expect("a mission without its default language is not loaded")
     }
 
+    /// The words of every language, by tag.
+    pub fn all_words(&self) -> impl Iterator<Item = &Words> {
+        self.words.values()
+    }
+
     /// The tags of all languages, sorted.
     pub fn languages(&self) -> impl Iterator<Item = &str> {
         self.words.keys().map(String::as_str)

@@ -5,7 +5,7 @@ use std::time::Duration;
 use pddl::model::{Name, ObjectId};
 
 use super::read::{argument, node};
-use crate::layers::Layers;
+use crate::mission::Mission;
 use crate::reader::{Reader, Table};
 
 /// How an answer is given.
@@ -75,7 +75,8 @@ impl Patient {
 }
 
 /// Reads `[patient]`.
-pub(super) fn read(reader: &mut Reader<'_>, layers: &Layers, table: Option<Table<'_>>) -> Patient {
+pub(super) fn read(reader: &mut Reader<'_>, mission: &Mission, table: Option<Table<'_>>) -> Patient {
+    let layers = &mission.layers;
     let otherwise = Reply { answer: Answer::Option(1), delay: DELAY, by: By::Voice };
     let mut patient = Patient { in_view: true, default: otherwise, replies: Vec::new() };
     let Some(mut table) = table else { return patient };
@@ -84,28 +85,29 @@ pub(super) fn read(reader: &mut Reader<'_>, layers: &Layers, table: Option<Table
     let rules = table.tables(reader, "reply");
     table.finish(reader);
     for rule in rules {
-        patient.replies.extend(read_rule(reader, layers, rule));
+        patient.replies.extend(read_rule(reader, mission, rule));
     }
     if let Some(mut default) = default {
         let excepted = |item: ObjectId| {
             patient.replies.iter().any(|r| *r.item == *layers.name(item) && r.question.is_none())
         };
         let items: Vec<ObjectId> = layers.items().into_iter().filter(|&i| !excepted(i)).collect();
-        let reply = read_reply(reader, layers, &mut default, &items);
+        let reply = read_reply(reader, mission, &mut default, &items);
         default.finish(reader);
         patient.default = reply.unwrap_or(patient.default);
     }
     patient
 }
 
-fn read_rule(reader: &mut Reader<'_>, layers: &Layers, mut table: Table<'_>) -> Option<ReplyRule> {
+fn read_rule(reader: &mut Reader<'_>, mission: &Mission, mut table: Table<'_>) -> Option<ReplyRule> {
+    let layers = &mission.layers;
     let tokens = &layers.tokens;
     let item = table.required_text(reader, "item");
     let item = item.and_then(|text| node(reader, layers, &text, tokens.items, "item"));
     let question = table.text(reader, "question");
     let question = question.map(|text| argument(reader, layers, &text, tokens.unanswered, 0, "question"));
     let items: Vec<ObjectId> = item.into_iter().collect();
-    let reply = read_reply(reader, layers, &mut table, &items);
+    let reply = read_reply(reader, mission, &mut table, &items);
     table.finish(reader);
     let name = |id| layers.graph.model.objects[id].name.clone();
     let question = match question {
@@ -119,10 +121,11 @@ fn read_rule(reader: &mut Reader<'_>, layers: &Layers, mut table: Table<'_>) -> 
 /// `items` offers.
 fn read_reply(
     reader: &mut Reader<'_>,
-    layers: &Layers,
+    mission: &Mission,
     table: &mut Table<'_>,
     items: &[ObjectId],
 ) -> Option<Reply> {
+    let layers = &mission.layers;
     let option = table.count(reader, "option", 1);
     let silent = table.boolean(reader, "silent");
     let misheard = table.text(reader, "misheard");
@@ -142,6 +145,14 @@ fn read_reply(
         return Some(Reply { answer: Answer::Option(number), delay, by });
     }
     if let Some(text) = misheard {
+        for (words, item) in mission.all_words().flat_map(|w| items.iter().map(move |i| (w, *i))) {
+            if let Some(option) = words.understand(layers.name(item), &text.value) {
+                let (language, item) = (words.tag(), layers.name(item));
+                let message =
+                    format!("in `{language}` this is understood: it chooses `{option}` of `{item}`");
+                reader.error("E0911", text.span, message);
+            }
+        }
         return Some(Reply { answer: Answer::Misheard(text.value), delay, by });
     }
     if !silent? {

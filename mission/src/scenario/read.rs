@@ -19,7 +19,7 @@ pub(crate) fn read(mission: &Mission, source: Source) -> Result<Scenario, Missio
     let id = sources.push(source);
     let source = sources.shared(id);
     let (scenario, mut findings) =
-        Reader::read(id, &source, |reader, root| read_root(reader, &mission.layers, root, &source));
+        Reader::read(id, &source, |reader, root| read_root(reader, mission, root, &source));
     match scenario {
         Some(scenario) if !findings.iter().any(Finding::is_error) => Ok(scenario),
         _ => {
@@ -31,13 +31,14 @@ pub(crate) fn read(mission: &Mission, source: Source) -> Result<Scenario, Missio
 
 fn read_root(
     reader: &mut Reader<'_>,
-    layers: &Layers,
+    mission: &Mission,
     mut root: Table<'_>,
     source: &Arc<Source>,
 ) -> Option<Scenario> {
+    let layers = &mission.layers;
     let title = root.required_text(reader, "title");
     let patient = root.table(reader, "patient");
-    let patient = patient::read(reader, layers, patient);
+    let patient = patient::read(reader, mission, patient);
     let clinician = root.table(reader, "clinician");
     let clinician = read_clinician(reader, clinician);
     let disruptions = root.tables(reader, "disruption");

@@ -71,3 +71,21 @@ fn the_mission_that_the_cases_edit_is_good() {
     let unknown = mission.scenario(&files, "plane").unwrap_err();
     assert!(unknown.to_string().contains("did you mean `plain`?"), "{unknown}");
 }
+
+/// Half a file is what an editor saves now and then: it must be reported, never break the reader.
+#[test]
+fn no_truncated_file_panics() {
+    let whole = tea::files();
+    for (path, text) in &whole.texts {
+        for end in (0..text.len()).step_by(11).filter(|&i| text.is_char_boundary(i)) {
+            let mut files = whole.clone();
+            files.texts.insert(path.clone(), text[..end].to_owned());
+            findings(&files);
+        }
+    }
+    let mission = tea::mission();
+    let scenario = &whole.texts["tea/scenarios/plain.toml"];
+    for end in (0..scenario.len()).filter(|&i| scenario.is_char_boundary(i)) {
+        let _ = mission.read_scenario(pddl::Source::new("plain.toml", &scenario[..end]));
+    }
+}
