@@ -219,6 +219,6 @@ mod tests {
         assert_eq!(edit_distance("", "abc"), 3);
         assert_eq!(edit_distance("kitten", "sitting"), 3);
         assert_eq!(did_you_mean("aks", ["ask", "axe"]), Some("did you mean `ask`?".to_owned()));
-        assert_eq!(did_you_mean("stairs", ["bathing", "feeding"]), None);
+        assert_eq!(did_you_mean("kitchen", ["lift", "ramp"]), None);
     }
 }

@@ -3,7 +3,7 @@
 //! **What** Each object of `problem.pddl` whose type the dictionary has is a node of the initial graph,
 //! of that type; so is each constant of `perception.pddl` and `methods.hddl`.
 //! **Why** Perception speaks of nodes; about an object that is none, nothing is ever perceived.
-//! **Example** `stair - item` in the problem, `stairs - item` in the graph.
+//! **Example** `drinks - item` in the problem, `drink - item` in the graph.
 
 use pddl::model::{Domain, Object};
 

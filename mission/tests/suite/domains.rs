@@ -68,17 +68,3 @@ fn every_option_can_be_answered_in_every_language() {
         }
     }
 }
-
-#[test]
-fn the_part_speaks_before_the_general() {
-    let mission = load("domains/barthel");
-    let words = mission.default_words();
-    let general = words.sentence("feeding", "first-question").unwrap();
-    let own = words.sentence("bowels", "first-question").unwrap();
-    assert_ne!(general, own);
-    assert_eq!(words.sentence("dressing", "first-question"), Some(general));
-    assert!(words.sentence("stairs", "all-options").unwrap().starts_with("Stairs:"));
-    assert_eq!(words.sentence("bathing", "option-3"), None, "bathing offers two options");
-    assert_eq!(words.spot("Oh, please help me!").unwrap().as_str(), "help");
-    assert_eq!(words.spot("I need help with some of it"), None, "that is an answer");
-}

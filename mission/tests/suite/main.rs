@@ -6,3 +6,4 @@ mod disk;
 mod domains;
 mod report;
 mod tea;
+mod words;

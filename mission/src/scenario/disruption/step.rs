@@ -1,4 +1,4 @@
-//! An action of the plan, as `"(describe person grooming)"`.
+//! An action of the plan, as `"(ask guest drink)"`.
 
 use pddl::model::{ActionId, Name, ObjectId};
 
