@@ -1,1 +1,83 @@
 //! PDDL read as graph: dictionary, conditions as patterns, effects as edits.
+//!
+//! The robot's vocabulary, the agents' rules, the methods and the perception of every test are PDDL; the world is a
+//! graph of binary tokens. This crate is the one place where the two meet: a [`Vocabulary`] is a domain read as a
+//! [`dsr::Dictionary`], and a [`Link`] reads what any domain that imports it says as graph: a [`Condition`] is
+//! patterns, an [`Effect`] is edits, an expectation is the condition that an effect can be *seen*.
+//!
+//! ```
+//! use dsr::{AgentId, Time};
+//! use pddl::{Source, parse_domain, parse_problem};
+//! use vocabulary::{Binding, Vocabulary};
+//!
+//! let words = Source::new("words.pddl", "(define (domain words) (:requirements :typing :vocabulary)
+//!     (:types robot state - object) (:constants speaking - state)
+//!     (:predicates (is ?r - robot ?s - state)))");
+//! let words = parse_domain(&words, &[]).model.expect("no errors");
+//! let vocabulary = Vocabulary::new(&words).expect("every token is binary");
+//!
+//! let world = Source::new("world.pddl", "(define (problem world) (:domain words)
+//!     (:objects clarc - robot) (:init (is clarc speaking)) (:goal (and)))");
+//! let world = parse_problem(&world, &words).model.expect("no errors");
+//! let graph = vocabulary.populate(&[&world], Time(0)).expect("fits the vocabulary");
+//!
+//! let rules = Source::new("rules.pddl", "(define (domain rules) (:requirements :typing) (:import words)
+//!     (:action hush :parameters (?r - robot) :precondition (is ?r speaking)
+//!         :effect (not (is ?r speaking))))");
+//! let rules = parse_domain(&rules, &[&words]).model.expect("no errors");
+//! let hush = rules.actions.iter().next().expect("there is one");
+//!
+//! let link = vocabulary.link(&rules);
+//! let before = link.condition(&hush.variables, [&hush.precondition]).expect("made of tokens");
+//! let effect = link.effect(&hush.variables, [&hush.effect]).expect("made of tokens");
+//! let snapshot = graph.snapshot();
+//! let who = before.bindings(&snapshot, &Binding::of(&hush.variables)).remove(0);
+//! graph.edit(AgentId::DSR, Time(1), |tx| {
+//!     tx.extend(effect.edits(&snapshot, &who).expect("all bound"));
+//! }).expect("allowed");
+//! let why = before.why_not(&graph.snapshot(), &who).expect("no longer");
+//! assert_eq!(why.to_string(), "clarc is not speaking");
+//! ```
+//!
+//! Map, from the ground up: `located` (errors with places) → `tokens` (the names), `dictionary` (reading them),
+//! `permission` → `populate`, `pose` (the initial graph) → `scope`, `formula`, `translate`, `number`, `disjuncts`
+//! (conditions as logic over tokens) → `binding`, `condition`, `alternative`, `unmet` (as patterns) → `effect`,
+//! `lower_effect`, `expectation` (as edits) → `sentence` (all of it in words) → `link` (the door for importing
+//! domains).
+
+mod alternative;
+mod binding;
+mod condition;
+mod dictionary;
+mod disjuncts;
+mod effect;
+mod expectation;
+mod formula;
+mod link;
+mod located;
+mod lower_effect;
+mod number;
+mod permission;
+mod populate;
+mod pose;
+mod scope;
+mod sentence;
+mod tokens;
+mod translate;
+mod unmet;
+
+pub use alternative::Alternative;
+pub use binding::{Binding, Datum};
+pub use condition::Condition;
+pub use dictionary::{VocabularyError, VocabularyErrorKind};
+pub use disjuncts::{Conjunction, MAX_ALTERNATIVES};
+pub use effect::{Effect, EffectError, is_redundant};
+pub use formula::{Formula, Holder, Literal, Right, Term};
+pub use link::{Link, LinkError, LinkErrorKind};
+pub use located::Located;
+pub use populate::{PopulateError, PopulateErrorKind};
+pub use pose::PoseComponent;
+pub use scope::{Scope, Slot};
+pub use sentence::{Sentence, Speaker, describe_edit};
+pub use tokens::{FunctionToken, Sort, ValueSort, Vocabulary};
+pub use unmet::Unmet;

@@ -1,0 +1,414 @@
+//! Reading a domain as a dictionary.
+//!
+//! Idea: types first, parents before children, then constants, predicates, functions and permissions; whatever does
+//! not fit the graph is a [`VocabularyError`] at its place, and all of them are reported. Invariant: a vocabulary
+//! exists only if there was none.
+
+use std::sync::Arc;
+
+use dsr::{AgentId, DictionaryBuilder, DictionaryError, Kind, LabelId, Nature, TypeId, Value};
+use indexmap::IndexMap;
+use pddl::Span;
+use pddl::model::{Domain, Function, FunctionValue, Idx, Name, Predicate, TypeSet, Variables};
+use rustc_hash::FxHashMap;
+
+use crate::located::Located;
+use crate::permission;
+use crate::pose::PoseComponent;
+use crate::tokens::{Constant, FunctionToken, Sort, ValueSort, Vocabulary};
+
+/// Why a declaration does not fit the graph.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the fields are the names that the variant is about")]
+pub enum VocabularyErrorKind {
+    /// Node types form a tree.
+    #[error("type `{name}` has several parents; the graph's types have one each")]
+    SeveralParents { name: Name },
+    /// The graph's own types have no subtypes and stand below `object`.
+    #[error(
+        "`{name}` is below `{below}`; `agent` and `resource` stand below `object` and nothing below them"
+    )]
+    BuiltInType { name: Name, below: Name },
+    /// Only `text`, `flag` and `pose` are kinds of values.
+    #[error("`{name}` is no kind of value; there are `text`, `flag` and `pose`")]
+    UnknownValueType { name: Name },
+    /// A node has one type.
+    #[error("constant `{name}` has several types; a node has one")]
+    SeveralTypes { name: Name },
+    /// Only the truth values have names.
+    #[error("constant `{name}` cannot be a value; only `true` and `false` of type `flag` can")]
+    ValueConstant { name: Name },
+    /// An edge has two ends.
+    #[error("predicate `{name}` has {arity} arguments; an edge of the graph has two ends")]
+    NotBinary { name: Name, arity: usize },
+    /// A derived predicate is not something that anybody writes.
+    #[error("predicate `{name}` is derived; a token of the vocabulary is written by agents")]
+    Derived { name: Name },
+    /// Edges are between nodes.
+    #[error("`{name}` cannot be about a value (`?{variable}`); tokens are about nodes")]
+    ValueArgument { name: Name, variable: Name },
+    /// An attribute hangs on a node or an edge.
+    #[error("function `{name}` has {arity} arguments; an attribute is of a node or of a pair of nodes")]
+    FunctionArity { name: Name, arity: usize },
+    /// An attribute is of one type of node.
+    #[error("function `{name}`: `?{variable}` has several types; an attribute's argument has one")]
+    FunctionArgument { name: Name, variable: Name },
+    /// An attribute has one kind.
+    #[error("function `{name}` has values of several types; an attribute has one kind")]
+    FunctionKind { name: Name },
+    /// Poses are kept in one tree.
+    #[error("function `{name}` cannot be a pose; the graph keeps poses in one binary function `rt`")]
+    PoseFunction { name: Name },
+    /// These names are the graph's.
+    #[error("function `{name}` must be binary, between frames, and a {expected}")]
+    ReservedFunction { name: Name, expected: &'static str },
+    /// A name means one thing.
+    #[error("`{name}` is a predicate and a function; a label has one meaning")]
+    TwoMeanings { name: Name },
+    /// `:writes` names an agent.
+    #[error("`{name}` may not write: it is no constant of type `agent`")]
+    NotAnAgent { name: Name },
+    /// Nobody writes what is computed.
+    #[error("nobody can write `{name}`: the graph computes it")]
+    Computed { name: Name },
+    /// The graph refuses it.
+    #[error(transparent)]
+    Dictionary(#[from] DictionaryError),
+}
+
+/// A declaration that does not fit the graph.
+pub type VocabularyError = Located<VocabularyErrorKind>;
+
+impl Vocabulary {
+    /// Reads a domain as a dictionary; all that does not fit is reported.
+    pub fn new(domain: &Domain) -> Result<Self, Vec<VocabularyError>> {
+        let mut reader = Reader {
+            domain,
+            builder: DictionaryBuilder::new(),
+            errors: Vec::new(),
+            types: FxHashMap::default(),
+            labels: FxHashMap::default(),
+            functions: FxHashMap::default(),
+            constants: IndexMap::new(),
+            agents: FxHashMap::default(),
+        };
+        reader.types();
+        reader.constants();
+        domain.predicates.iter().for_each(|predicate| reader.predicate(predicate));
+        domain.functions.iter().for_each(|function| reader.function(function));
+        permission::read(&mut reader);
+        let Reader { builder, mut errors, types, labels, functions, constants, .. } = reader;
+        if !errors.is_empty() {
+            errors.sort_by_key(|error| error.span);
+            errors.dedup();
+            return Err(errors);
+        }
+        Ok(Self {
+            name: domain.name.clone(),
+            dictionary: builder.build(),
+            types,
+            labels,
+            functions,
+            constants,
+            domain: Arc::new(domain.clone()),
+        })
+    }
+}
+
+/// A dictionary in the making.
+pub(crate) struct Reader<'d> {
+    pub(crate) domain: &'d Domain,
+    pub(crate) builder: DictionaryBuilder,
+    errors: Vec<VocabularyError>,
+    types: FxHashMap<Name, Sort>,
+    pub(crate) labels: FxHashMap<Name, LabelId>,
+    pub(crate) functions: FxHashMap<Name, FunctionToken>,
+    pub(crate) constants: IndexMap<Name, Constant>,
+    pub(crate) agents: FxHashMap<Name, AgentId>,
+}
+
+impl Reader<'_> {
+    pub(crate) fn error(&mut self, span: Span, kind: impl Into<VocabularyErrorKind>) {
+        self.errors.push(Located::new(span, kind.into()));
+    }
+
+    /// Keeps what the builder gives, or reports why it does not.
+    pub(crate) fn take<T>(&mut self, span: Span, result: Result<T, DictionaryError>) -> Option<T> {
+        result.map_err(|error| self.error(span, error)).ok()
+    }
+
+    pub(crate) fn type_name(&self, id: pddl::model::TypeId) -> Name {
+        self.domain.types[id].name.clone()
+    }
+
+    /// Parents before children: a type waits until its parent is known. The hierarchy is acyclic.
+    fn types(&mut self) {
+        let mut waiting: Vec<_> = self.domain.types.enumerate().map(|(id, _)| id).collect();
+        while !waiting.is_empty() {
+            let before = waiting.len();
+            waiting.retain(|&id| !self.type_declared(id));
+            if waiting.len() == before {
+                break;
+            }
+        }
+    }
+
+    /// Declares a type if its parent is; whether it is done with.
+    fn type_declared(&mut self, id: pddl::model::TypeId) -> bool {
+        let declared = &self.domain.types[id];
+        let (name, span) = (declared.name.clone(), declared.span);
+        let parent = match *declared.parents.as_slice() {
+            [] if name.as_str() == "object" => {
+                self.types.insert(name, Sort::Node(TypeId::OBJECT));
+                return true;
+            }
+            [] => Name::new("object"),
+            [parent] => self.type_name(parent),
+            _ => {
+                self.error(span, VocabularyErrorKind::SeveralParents { name: name.clone() });
+                self.type_name(declared.parents[0])
+            }
+        };
+        let own = match name.as_str() {
+            "agent" => Some(TypeId::AGENT),
+            "resource" => Some(TypeId::RESOURCE),
+            _ => None,
+        };
+        let under_built_in = matches!(parent.as_str(), "agent" | "resource");
+        if under_built_in || (own.is_some() && parent.as_str() != "object") {
+            self.error(span, VocabularyErrorKind::BuiltInType { name: name.clone(), below: parent.clone() });
+        }
+        if let Some(id) = own {
+            self.types.insert(name, Sort::Node(id));
+            return true;
+        }
+        let sort = match (name.as_str(), parent.as_str()) {
+            // The root of the values is never the type of anything that can be stored.
+            ("value", "object") => Some(Sort::Value(ValueSort::Text)),
+            ("text", "value") => Some(Sort::Value(ValueSort::Text)),
+            ("flag", "value") => Some(Sort::Value(ValueSort::Flag)),
+            ("pose", "value") => Some(Sort::Value(ValueSort::Pose)),
+            _ => None,
+        };
+        let sort = match (sort, self.types.get(&parent).copied()) {
+            (Some(sort), _) => sort,
+            (None, None) => return false,
+            (None, Some(Sort::Value(sort))) => {
+                self.error(span, VocabularyErrorKind::UnknownValueType { name: name.clone() });
+                Sort::Value(sort)
+            }
+            (None, Some(Sort::Node(parent))) => {
+                let nature = if name.as_str() == "frame" { Nature::Geometric } else { Nature::Symbolic };
+                let declared = self.builder.node_type(&name, Some(parent), nature);
+                Sort::Node(self.take(span, declared).unwrap_or(TypeId::OBJECT))
+            }
+        };
+        self.types.insert(name, sort);
+        true
+    }
+
+    fn constants(&mut self) {
+        for constant in &self.domain.constants {
+            let (name, span) = (constant.name.clone(), constant.span);
+            let &[of] = constant.types.0.as_slice() else {
+                self.error(span, VocabularyErrorKind::SeveralTypes { name });
+                continue;
+            };
+            let entry = match self.types.get(&self.domain.types[of].name).copied() {
+                None => continue,
+                Some(Sort::Value(sort)) => match (sort, name.as_str()) {
+                    (ValueSort::Flag, "true") => Constant::Value(Value::Bool(true)),
+                    (ValueSort::Flag, "false") => Constant::Value(Value::Bool(false)),
+                    _ => {
+                        self.error(span, VocabularyErrorKind::ValueConstant { name });
+                        continue;
+                    }
+                },
+                Some(Sort::Node(TypeId::AGENT)) => {
+                    // `dsr` is the graph itself, an agent of every dictionary.
+                    let made =
+                        if name.as_str() == "dsr" { Ok(AgentId::DSR) } else { self.builder.agent(&name) };
+                    if let Some(agent) = self.take(span, made) {
+                        self.agents.insert(name.clone(), agent);
+                    }
+                    Constant::BuiltIn(TypeId::AGENT)
+                }
+                Some(Sort::Node(TypeId::RESOURCE)) => {
+                    let made = self.builder.resource(&name);
+                    self.take(span, made);
+                    Constant::BuiltIn(TypeId::RESOURCE)
+                }
+                Some(Sort::Node(id)) => Constant::Node(id),
+            };
+            self.constants.insert(name, entry);
+        }
+    }
+
+    fn predicate(&mut self, predicate: &Predicate) {
+        let (name, span) = (predicate.name.clone(), predicate.span);
+        if predicate.derived {
+            return self.error(span, VocabularyErrorKind::Derived { name });
+        }
+        let [from, to] = predicate.variables.parameters() else {
+            let arity = predicate.variables.parameters;
+            return self.error(span, VocabularyErrorKind::NotBinary { name, arity });
+        };
+        let (Some(starts), Some(ends)) = (
+            self.node_types(&name, &from.name, &from.types, span),
+            self.node_types(&name, &to.name, &to.types, span),
+        ) else {
+            return;
+        };
+        for &start in &starts {
+            for &end in &ends {
+                let label = self.builder.label(&name, start, end);
+                if let Some(label) = self.take(span, label) {
+                    self.labels.insert(name.clone(), label);
+                }
+            }
+        }
+    }
+
+    /// The node types of an argument; reports it if it is about a value.
+    fn node_types(
+        &mut self,
+        name: &Name,
+        variable: &Name,
+        types: &TypeSet,
+        span: Span,
+    ) -> Option<Vec<TypeId>> {
+        let mut found = Vec::new();
+        for &id in &types.0 {
+            match self.types.get(&self.domain.types[id].name) {
+                Some(Sort::Node(id)) => found.push(*id),
+                Some(Sort::Value(_)) => {
+                    let (name, variable) = (name.clone(), variable.clone());
+                    self.error(span, VocabularyErrorKind::ValueArgument { name, variable });
+                    return None;
+                }
+                None => return None,
+            }
+        }
+        Some(found)
+    }
+
+    fn function(&mut self, function: &Function) {
+        let (name, span) = (function.name.clone(), function.span);
+        if self.domain.predicate(&name).is_some() {
+            return self.error(span, VocabularyErrorKind::TwoMeanings { name });
+        }
+        if let Some(token) = self.computed(function) {
+            self.functions.insert(name, token);
+            return;
+        }
+        let Some(kind) = self.kind(function) else { return };
+        let Some(arguments) = self.arguments(function) else { return };
+        let token = match *arguments.as_slice() {
+            [of] => {
+                let attribute = self.builder.attribute_on_node(&name, of, kind);
+                self.take(span, attribute).map(|attribute| FunctionToken::Node { attribute })
+            }
+            [from, to] => {
+                let label = self.builder.label(&name, from, to);
+                let label = self.take(span, label);
+                label.and_then(|label| {
+                    let attribute = self.builder.attribute_on_edge(&name, label, (from, to), kind);
+                    self.take(span, attribute).map(|attribute| FunctionToken::Edge { label, attribute })
+                })
+            }
+            _ => {
+                let arity = function.variables.parameters;
+                return self.error(span, VocabularyErrorKind::FunctionArity { name, arity });
+            }
+        };
+        if let Some(token) = token {
+            self.functions.insert(name, token);
+        }
+    }
+
+    /// The functions that the graph computes or keeps as transforms.
+    fn computed(&mut self, function: &Function) -> Option<FunctionToken> {
+        let name = &function.name;
+        let is_pose = matches!(&function.value, FunctionValue::Object(types)
+            if self.values(types) == Some(ValueSort::Pose));
+        let (token, fits, expected) = match (name.as_str(), PoseComponent::named(name)) {
+            ("rt", _) => (FunctionToken::Transform, is_pose, "pose"),
+            ("distance", _) => (FunctionToken::Distance, function.value == FunctionValue::Number, "number"),
+            (_, Some(component)) => {
+                (FunctionToken::Pose(component), function.value == FunctionValue::Number, "number")
+            }
+            _ => return None,
+        };
+        if !fits || !self.between_frames(&function.variables) {
+            let name = name.clone();
+            self.error(function.span, VocabularyErrorKind::ReservedFunction { name, expected });
+        }
+        Some(token)
+    }
+
+    fn between_frames(&self, variables: &Variables) -> bool {
+        let frame = self.domain.types.find("frame");
+        variables.parameters == 2
+            && variables.parameters().iter().all(|variable| {
+                frame.is_some_and(|frame| {
+                    variable.types.0.iter().all(|&t| self.domain.types.is_subtype(t, frame))
+                })
+            })
+    }
+
+    /// The kind of values of a union, if it is a union of values.
+    fn values(&self, types: &TypeSet) -> Option<ValueSort> {
+        match self.types.get(&self.domain.types[*types.0.first()?].name)? {
+            Sort::Value(sort) => Some(*sort),
+            Sort::Node(_) => None,
+        }
+    }
+
+    fn kind(&mut self, function: &Function) -> Option<Kind> {
+        let (name, span) = (function.name.clone(), function.span);
+        let types = match &function.value {
+            FunctionValue::Number => return Some(Kind::Number),
+            FunctionValue::Object(types) => types,
+        };
+        let &[of] = types.0.as_slice() else {
+            self.error(span, VocabularyErrorKind::FunctionKind { name });
+            return None;
+        };
+        match self.types.get(&self.domain.types[of].name)? {
+            Sort::Node(id) => Some(Kind::Node(*id)),
+            Sort::Value(ValueSort::Text) => Some(Kind::Text),
+            Sort::Value(ValueSort::Flag) => Some(Kind::Bool),
+            Sort::Value(ValueSort::Pose) => {
+                self.error(span, VocabularyErrorKind::PoseFunction { name });
+                None
+            }
+        }
+    }
+
+    fn arguments(&mut self, function: &Function) -> Option<Vec<TypeId>> {
+        let mut found = Vec::new();
+        for variable in function.variables.parameters() {
+            let types = self.node_types(&function.name, &variable.name, &variable.types, function.span)?;
+            let [of] = *types.as_slice() else {
+                let (name, variable) = (function.name.clone(), variable.name.clone());
+                self.error(function.span, VocabularyErrorKind::FunctionArgument { name, variable });
+                return None;
+            };
+            found.push(of);
+        }
+        Some(found)
+    }
+
+    /// The node type of that id; `None` for values.
+    pub(crate) fn node_type(&self, id: pddl::model::TypeId) -> Option<TypeId> {
+        match self.types.get(&self.domain.types[id].name)? {
+            Sort::Node(id) => Some(*id),
+            Sort::Value(_) => None,
+        }
+    }
+
+    /// The constant of that id, as the source has it.
+    pub(crate) fn constant_name(&self, id: pddl::model::ObjectId) -> Option<Name> {
+        (id.index() < self.domain.constants.len()).then(|| self.domain.constants[id].name.clone())
+    }
+}

@@ -1,0 +1,58 @@
+//! `:writes`: who may write which token, and where.
+//!
+//! A binary function is an edge and its attribute, so the permission to write it is two. A bare symbol means the
+//! token anywhere; a constant fixes an end.
+
+use dsr::{End, Permission, Token};
+use pddl::model::{TokenPattern, TokenSymbol};
+
+use crate::dictionary::{Reader, VocabularyErrorKind};
+use crate::tokens::FunctionToken;
+
+pub(crate) fn read(reader: &mut Reader<'_>) {
+    let domain = reader.domain;
+    for permission in &domain.permissions {
+        let Some(&agent) = reader.agents.get(&permission.agent) else {
+            let name = permission.agent.clone();
+            reader.error(permission.span, VocabularyErrorKind::NotAnAgent { name });
+            continue;
+        };
+        for pattern in &permission.tokens {
+            for token in tokens(reader, pattern) {
+                let granted = Permission::between(token, end(reader, pattern, 0), end(reader, pattern, 1));
+                let permitted = reader.builder.permit(agent, granted);
+                reader.take(pattern.span, permitted);
+            }
+        }
+    }
+}
+
+fn tokens(reader: &mut Reader<'_>, pattern: &TokenPattern) -> Vec<Token> {
+    let domain = reader.domain;
+    match pattern.symbol {
+        TokenSymbol::Predicate(id) => {
+            reader.labels.get(&domain.predicates[id].name).copied().map(Token::Label).into_iter().collect()
+        }
+        TokenSymbol::Function(id) => {
+            let name = domain.functions[id].name.clone();
+            match reader.functions.get(&name).copied() {
+                Some(FunctionToken::Node { attribute }) => vec![Token::Attribute(attribute)],
+                Some(FunctionToken::Edge { label, attribute }) => {
+                    vec![Token::Label(label), Token::Attribute(attribute)]
+                }
+                Some(FunctionToken::Transform) => vec![Token::Transform],
+                Some(FunctionToken::Distance | FunctionToken::Pose(_)) => {
+                    reader.error(pattern.span, VocabularyErrorKind::Computed { name });
+                    Vec::new()
+                }
+                None => Vec::new(),
+            }
+        }
+        TokenSymbol::Type(id) => reader.node_type(id).map(Token::Node).into_iter().collect(),
+    }
+}
+
+fn end(reader: &Reader<'_>, pattern: &TokenPattern, at: usize) -> End {
+    let fixed = pattern.arguments.get(at).copied().flatten();
+    fixed.and_then(|id| reader.constant_name(id)).map_or(End::Any, |name| End::named(name.as_str()))
+}

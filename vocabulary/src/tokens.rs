@@ -1,0 +1,139 @@
+//! The names of a vocabulary and what each is in the graph.
+//!
+//! | PDDL | graph |
+//! |---|---|
+//! | type | type of nodes; below `frame`: with a pose; `agent` and `resource` are the graph's own |
+//! | type below `value` (`text`, `flag`, `pose`) | no nodes: a kind of attribute |
+//! | constant | a node that always exists; of type `flag`: the truth values `true` and `false` |
+//! | binary predicate | label of edges |
+//! | unary function | attribute of nodes |
+//! | binary function | label whose edges carry one attribute of the same name: undefined = no such edge |
+//! | binary function `rt` - pose | edge of the geometric quiver, pose of the second frame in the first |
+//! | binary function `distance` - number | computed by the graph from the poses |
+//! | binary functions `rt_x` … `rt_yaw` - number | parts of an initial pose, in `:init` only |
+//!
+//! Ids of PDDL differ from domain to domain; names link them. Invariant: every id in a [`Vocabulary`] is of its
+//! dictionary.
+
+use std::sync::Arc;
+
+use dsr::{AttributeId, Dictionary, LabelId, TypeId, Value};
+use indexmap::IndexMap;
+use pddl::Span;
+use pddl::model::{Domain, Name};
+use rustc_hash::FxHashMap;
+
+use crate::link::Link;
+use crate::pose::PoseComponent;
+
+/// What a PDDL type is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sort {
+    /// A type of nodes.
+    Node(TypeId),
+    /// A kind of values.
+    Value(ValueSort),
+}
+
+/// What is not a node.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ValueSort {
+    /// Text.
+    Text,
+    /// A truth value.
+    Flag,
+    /// A rigid transform.
+    Pose,
+}
+
+/// What a PDDL function is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the fields are what the variant names")]
+pub enum FunctionToken {
+    /// An attribute of nodes.
+    Node { attribute: AttributeId },
+    /// An attribute of the edges with a label of its own.
+    Edge { label: LabelId, attribute: AttributeId },
+    /// The pose of the second argument in the frame of the first.
+    Transform,
+    /// The distance between two frames.
+    Distance,
+    /// A number of an initial pose.
+    Pose(PoseComponent),
+}
+
+/// What a constant is.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Constant {
+    /// An agent or a resource: the graph makes its node.
+    BuiltIn(TypeId),
+    /// A node that populating makes.
+    Node(TypeId),
+    /// A value.
+    Value(Value),
+}
+
+/// A domain of PDDL read as the dictionary of a graph.
+#[derive(Debug, Clone)]
+pub struct Vocabulary {
+    pub(crate) name: Name,
+    pub(crate) dictionary: Arc<Dictionary>,
+    pub(crate) types: FxHashMap<Name, Sort>,
+    pub(crate) labels: FxHashMap<Name, LabelId>,
+    pub(crate) functions: FxHashMap<Name, FunctionToken>,
+    /// In the order of the source.
+    pub(crate) constants: IndexMap<Name, Constant>,
+    /// The domain itself: problems that populate the graph speak in its ids.
+    pub(crate) domain: Arc<Domain>,
+}
+
+impl Vocabulary {
+    /// The name of the domain.
+    pub fn name(&self) -> &Name {
+        &self.name
+    }
+
+    /// The dictionary for graphs.
+    pub fn dictionary(&self) -> &Arc<Dictionary> {
+        &self.dictionary
+    }
+
+    /// What the type of that name is.
+    pub fn sort(&self, name: &str) -> Option<Sort> {
+        self.types.get(name).copied()
+    }
+
+    /// The label that a predicate is.
+    pub fn label(&self, predicate: &str) -> Option<LabelId> {
+        self.labels.get(predicate).copied()
+    }
+
+    /// What a function is.
+    pub fn function(&self, name: &str) -> Option<FunctionToken> {
+        self.functions.get(name).copied()
+    }
+
+    /// Whether this is a token: something that can stand in the graph or be measured in it.
+    pub fn is_token(&self, name: &str) -> bool {
+        self.labels.contains_key(name) || self.functions.contains_key(name)
+    }
+
+    /// The value for which a constant stands; `None` if it stands for a node.
+    pub fn value(&self, constant: &str) -> Option<&Value> {
+        match self.constants.get(constant)? {
+            Constant::Value(value) => Some(value),
+            Constant::BuiltIn(_) | Constant::Node(_) => None,
+        }
+    }
+
+    /// Reads what `domain`, which imports this vocabulary, says about the graph.
+    pub fn link<'a>(&'a self, domain: &'a Domain) -> Link<'a> {
+        Link::new(self, domain)
+    }
+
+    /// Where a predicate or function of the vocabulary was declared, in its own source.
+    pub fn declared(&self, name: &str) -> Option<Span> {
+        let predicate = self.domain.predicate(name).map(|id| self.domain.predicates[id].span);
+        predicate.or_else(|| self.domain.function(name).map(|id| self.domain.functions[id].span))
+    }
+}
