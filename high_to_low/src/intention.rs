@@ -1,0 +1,194 @@
+//! One intention on its way: waiting, written, seen or failed.
+//!
+//! Invariant: it is done when its expectation holds in a version *later* than the one it was written on, or
+//! at once if nothing had to be written. Together with an `at end` that includes a token which the `at start`
+//! edits falsify, a fact that is left over from an earlier time never counts.
+
+use crate::event::RefinementEvent;
+use crate::failure::Reason;
+use crate::library::{Intention, Methods};
+use crate::refinement::Turn;
+use dsr::{Edit, HolderRef, NodeId, NodeRef, Snapshot, Time, Version};
+use pddl::model::Idx;
+use vocabulary::{Binding, is_redundant};
+
+/// An intention with its arguments.
+#[derive(Clone, Debug)]
+pub(crate) struct Activity {
+    intention: usize,
+    binding: Binding,
+    /// `(say barthel feeding introduction)`.
+    text: String,
+    /// When its deadline runs out.
+    deadline: Option<Time>,
+    state: State,
+}
+
+#[derive(Clone, Debug)]
+enum State {
+    /// Its precondition does not hold yet.
+    Waiting,
+    /// Written on this version.
+    Written { on: Option<Version>, edits: Vec<Edit> },
+}
+
+/// How an intention stands after a turn.
+pub(crate) enum Standing {
+    Running,
+    Seen,
+    Failed(Reason),
+}
+
+impl Activity {
+    pub(crate) fn new(
+        methods: &Methods,
+        intention: usize,
+        arguments: &[NodeId],
+        text: String,
+        now: Time,
+    ) -> Self {
+        let compiled = &methods.intentions[intention];
+        let mut binding = Binding::of(&compiled.variables);
+        for (i, &node) in arguments.iter().enumerate() {
+            binding.bind(Idx::from_index(i), node);
+        }
+        let deadline = compiled.deadline.map(|seconds| after(now, seconds));
+        Self { intention, binding, text, deadline, state: State::Waiting }
+    }
+
+    /// Carries it as far as the graph allows.
+    pub(crate) fn step(&mut self, methods: &Methods, turn: &mut Turn<'_>) -> Standing {
+        let compiled = &methods.intentions[self.intention];
+        if matches!(self.state, State::Waiting) {
+            if !compiled.before.holds(turn.snapshot, &self.binding) {
+                return self.wait(turn, |unmet, intention| Reason::NotStarted { intention, unmet }, compiled);
+            }
+            if let Err(reason) = self.write(compiled, turn) {
+                return Standing::Failed(reason);
+            }
+        }
+        let State::Written { on, .. } = &self.state else { return Standing::Running };
+        let later = on.is_none_or(|version| turn.snapshot.version() > version);
+        if later && compiled.expects.holds(turn.snapshot, &self.binding) {
+            turn.events.push(RefinementEvent::Seen { intention: self.text.clone() });
+            return Standing::Seen;
+        }
+        if later && let Some(unmet) = compiled.keep.why_not(turn.snapshot, &self.binding) {
+            self.withdraw(turn.snapshot, turn.edits);
+            return self
+                .fail(turn, Reason::Broken { intention: self.text.clone(), unmet: unmet.to_string() });
+        }
+        let seconds = compiled.deadline.unwrap_or_default();
+        self.wait(turn, |unmet, intention| Reason::Missed { intention, seconds, unmet }, compiled)
+    }
+
+    /// Writes its edits; what the graph says already need not be written.
+    fn write(&mut self, compiled: &Intention, turn: &mut Turn<'_>) -> Result<(), Reason> {
+        let edits = compiled
+            .writes
+            .edits(turn.snapshot, &self.binding)
+            .map_err(|error| Reason::Impossible(error.to_string()))?;
+        let edits = net(edits, turn.snapshot);
+        let on = (!edits.is_empty()).then(|| turn.snapshot.version());
+        if on.is_some() {
+            turn.events.push(RefinementEvent::Written { intention: self.text.clone() });
+        }
+        turn.edits.extend(edits.iter().cloned());
+        self.state = State::Written { on, edits };
+        Ok(())
+    }
+
+    /// Waits on, unless the deadline has passed.
+    fn wait(
+        &mut self,
+        turn: &mut Turn<'_>,
+        reason: impl FnOnce(String, String) -> Reason,
+        compiled: &Intention,
+    ) -> Standing {
+        match self.deadline {
+            Some(deadline) if turn.now >= deadline => {
+                let awaited =
+                    if matches!(self.state, State::Waiting) { &compiled.before } else { &compiled.expects };
+                let unmet =
+                    awaited.why_not(turn.snapshot, &self.binding).map_or_else(String::new, |u| u.to_string());
+                self.withdraw(turn.snapshot, turn.edits);
+                if let Ok(edits) = compiled.on_timeout.edits(turn.snapshot, &self.binding) {
+                    turn.edits.extend(edits);
+                }
+                self.fail(turn, reason(unmet, self.text.clone()))
+            }
+            Some(deadline) => {
+                turn.wake(deadline);
+                Standing::Running
+            }
+            None => Standing::Running,
+        }
+    }
+
+    fn fail(&self, turn: &mut Turn<'_>, reason: Reason) -> Standing {
+        turn.events.push(RefinementEvent::Failed { intention: self.text.clone(), why: reason.to_string() });
+        Standing::Failed(reason)
+    }
+
+    /// Takes back what it has added and what still stands as it was written. What it has removed is not put
+    /// back: that it was true once is not that it is true now.
+    pub(crate) fn withdraw(&self, snapshot: &Snapshot, edits: &mut Vec<Edit>) {
+        let State::Written { on, edits: written } = &self.state else { return };
+        if *on == Some(snapshot.version()) {
+            // Asked for in this very step: nobody has written it yet.
+            edits.retain(|edit| !written.contains(edit));
+            return;
+        }
+        for edit in written {
+            match edit {
+                Edit::AddEdge { from, label, to } => {
+                    let edge = HolderRef::Edge { from: from.clone(), label: *label, to: to.clone() };
+                    let rewritten = written.iter().any(|other| match other {
+                        Edit::SetAttribute { holder, .. } => {
+                            *holder == edge && !is_redundant(snapshot, other)
+                        }
+                        _ => false,
+                    });
+                    if !rewritten {
+                        take_back(from, *label, to, snapshot, edits);
+                    }
+                }
+                Edit::SetAttribute { holder: HolderRef::Edge { from, label, to }, .. }
+                    if is_redundant(snapshot, edit) =>
+                {
+                    take_back(from, *label, to, snapshot, edits);
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+/// What of the edits would change the graph. As in PDDL, what is both deleted and added is added.
+fn net(edits: Vec<Edit>, snapshot: &Snapshot) -> Vec<Edit> {
+    let added: Vec<_> = edits.iter().filter_map(as_removal).collect();
+    edits.into_iter().filter(|edit| !added.contains(edit) && !is_redundant(snapshot, edit)).collect()
+}
+
+/// The edit that undoes the adding of an edge.
+fn as_removal(edit: &Edit) -> Option<Edit> {
+    match edit {
+        Edit::AddEdge { from, label, to } => {
+            Some(Edit::RemoveEdge { from: from.clone(), label: *label, to: to.clone() })
+        }
+        _ => None,
+    }
+}
+
+fn take_back(from: &NodeRef, label: dsr::LabelId, to: &NodeRef, snapshot: &Snapshot, edits: &mut Vec<Edit>) {
+    let removal = Edit::RemoveEdge { from: from.clone(), label, to: to.clone() };
+    if !is_redundant(snapshot, &removal) && !edits.contains(&removal) {
+        edits.push(removal);
+    }
+}
+
+/// `seconds` after `now`; far beyond any mission, the end of time.
+fn after(now: Time, seconds: f64) -> Time {
+    let nanos = std::time::Duration::try_from_secs_f64(seconds).map_or(u128::MAX, |d| d.as_nanos());
+    Time(now.0.saturating_add(u64::try_from(nanos).unwrap_or(u64::MAX)))
+}

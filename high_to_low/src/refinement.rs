@@ -1,0 +1,323 @@
+//! A task on its way: the tree of tasks, methods and intentions, refined while it is carried out.
+//!
+//! Problem: which method works is known only when it is used. Idea: choose the first method, and the first
+//! binding of its own variables, whose precondition holds now; carry its subtasks as far as their order
+//! allows, several at a time; when one fails, withdraw its siblings and choose the next. Candidates are
+//! looked for anew each time, in the graph as it is then; one that has failed is not tried again. Invariant: of the
+//! edits asked for, those of a failed method are taken back in the same step. Cost: per step, linear in the
+//! open part of the tree, which methods keep small.
+
+use crate::event::RefinementEvent;
+use crate::failure::{Failure, Reason, StartError};
+use crate::intention::{Activity, Standing};
+use crate::library::{Head, Method, Methods, Subtask};
+use dsr::{Edit, NodeId, Snapshot, Time};
+use pddl::model::Name;
+use vocabulary::Binding;
+
+/// How deep tasks may be nested; a test describes dozens of options by recursion, not hundreds.
+const DEEPEST: usize = 128;
+
+/// A task being carried out.
+#[derive(Clone, Debug)]
+pub struct Refinement {
+    root: Goal,
+}
+
+/// What a step asks for and says.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// What PELEA shall write now, in one transaction.
+    pub edits: Vec<Edit>,
+    /// What was done and seen.
+    pub events: Vec<RefinementEvent>,
+    /// Where it stands.
+    pub status: Status,
+}
+
+/// Where a refinement stands.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Status {
+    /// It waits for the graph, or for its next deadline.
+    Running {
+        /// When to step it even if nothing changes.
+        wake_at: Option<Time>,
+    },
+    /// All that it intended has been seen.
+    Done,
+    /// No method is left.
+    Failed(Failure),
+}
+
+/// One turn: what is seen, and what is asked for.
+pub(crate) struct Turn<'a> {
+    pub(crate) snapshot: &'a Snapshot,
+    pub(crate) now: Time,
+    pub(crate) edits: &'a mut Vec<Edit>,
+    pub(crate) events: &'a mut Vec<RefinementEvent>,
+    wake_at: Option<Time>,
+}
+
+impl Turn<'_> {
+    pub(crate) fn wake(&mut self, at: Time) {
+        self.wake_at = Some(self.wake_at.map_or(at, |earlier| earlier.min(at)));
+    }
+}
+
+impl Refinement {
+    /// A task with nodes as arguments; nothing is written yet.
+    ///
+    /// # Errors
+    /// No such task, the wrong number of arguments, or a node that is not in the graph.
+    pub fn new(
+        methods: &Methods,
+        snapshot: &Snapshot,
+        task: &str,
+        arguments: &[Name],
+    ) -> Result<Self, StartError> {
+        let index = methods.find(task).ok_or_else(|| StartError::UnknownTask(Name::new(task)))?;
+        let expected = methods.tasks[index].arity;
+        if arguments.len() != expected {
+            return Err(StartError::Arity { task: Name::new(task), expected, found: arguments.len() });
+        }
+        let nodes = arguments
+            .iter()
+            .map(|name| snapshot.node(name).ok_or_else(|| StartError::UnknownNode(name.clone())))
+            .collect::<Result<_, _>>()?;
+        Ok(Self { root: Goal::new(index, nodes) })
+    }
+
+    /// Advances everything that can advance. Call it when the graph has changed and at `wake_at`, with a
+    /// snapshot in which the edits of earlier steps stand.
+    pub fn step(&mut self, methods: &Methods, snapshot: &Snapshot, now: Time) -> Step {
+        let (mut edits, mut events) = (Vec::new(), Vec::new());
+        let mut turn = Turn { snapshot, now, edits: &mut edits, events: &mut events, wake_at: None };
+        let progress = self.root.step(methods, &mut turn, 0);
+        let wake_at = turn.wake_at;
+        let status = match progress {
+            Progress::Running => Status::Running { wake_at },
+            Progress::Done => Status::Done,
+            Progress::Failed(failure) => Status::Failed(failure),
+        };
+        Step { edits, events, status }
+    }
+
+    /// Gives up: the edits that take back what its running intentions have written.
+    pub fn cancel(&mut self, snapshot: &Snapshot) -> Vec<Edit> {
+        let mut edits = Vec::new();
+        self.root.withdraw(snapshot, &mut edits);
+        edits
+    }
+}
+
+/// A compound task.
+#[derive(Clone, Debug)]
+struct Goal {
+    task: usize,
+    arguments: Vec<NodeId>,
+    /// Methods with their bindings that were tried.
+    tried: Vec<(usize, Vec<Option<NodeId>>)>,
+    failed: Vec<(Name, Reason)>,
+    expansion: Option<Expansion>,
+}
+
+/// A method at work.
+#[derive(Clone, Debug)]
+struct Expansion {
+    method: usize,
+    binding: Binding,
+    children: Vec<Child>,
+}
+
+#[derive(Clone, Debug)]
+enum Child {
+    /// Something before it is not done.
+    NotYet,
+    Task(Box<Goal>),
+    Intention(Activity),
+    Done,
+}
+
+enum Progress {
+    Running,
+    Done,
+    Failed(Failure),
+}
+
+impl Goal {
+    fn new(task: usize, arguments: Vec<NodeId>) -> Self {
+        Self { task, arguments, tried: Vec::new(), failed: Vec::new(), expansion: None }
+    }
+
+    fn step(&mut self, methods: &Methods, turn: &mut Turn<'_>, depth: usize) -> Progress {
+        loop {
+            if self.expansion.is_none() {
+                if depth > DEEPEST {
+                    return Progress::Failed(self.failure(methods, turn, Some(&Reason::TooDeep)));
+                }
+                let Some(expansion) = self.choose(methods, turn) else {
+                    return Progress::Failed(self.failure(methods, turn, None));
+                };
+                self.expansion = Some(expansion);
+            }
+            let expansion = self.expansion.as_mut().expect("one was just chosen");
+            let reason = match expansion.step(methods, turn, depth) {
+                Ok(true) => return Progress::Done,
+                Ok(false) => return Progress::Running,
+                Err(reason) => reason,
+            };
+            expansion.withdraw(turn.snapshot, turn.edits);
+            let method = &methods.methods[expansion.method].name;
+            let task = text(methods, Head::Task(self.task), &self.arguments, turn.snapshot);
+            turn.events.push(RefinementEvent::MethodFailed { task, method: method.to_string() });
+            self.failed.push((method.clone(), reason));
+            self.expansion = None;
+        }
+    }
+
+    /// The first method and binding that apply now and were not tried.
+    fn choose(&mut self, methods: &Methods, turn: &mut Turn<'_>) -> Option<Expansion> {
+        for &index in &methods.tasks[self.task].methods {
+            let method = &methods.methods[index];
+            let Some(binding) = self.unify(method, turn.snapshot) else { continue };
+            for binding in method.precondition.bindings(turn.snapshot, &binding) {
+                let key = (index, binding.nodes().to_vec());
+                if self.tried.contains(&key) {
+                    continue;
+                }
+                self.tried.push(key);
+                let task = text(methods, Head::Task(self.task), &self.arguments, turn.snapshot);
+                turn.events.push(RefinementEvent::MethodChosen { task, method: method.name.to_string() });
+                let children = vec![Child::NotYet; method.subtasks.len()];
+                return Some(Expansion { method: index, binding, children });
+            }
+        }
+        None
+    }
+
+    /// Binds the method's variables to the task's arguments.
+    fn unify(&self, method: &Method, snapshot: &Snapshot) -> Option<Binding> {
+        let mut binding = Binding::of(&method.variables);
+        for (argument, &node) in method.head.iter().zip(&self.arguments) {
+            match argument.node(&binding, snapshot) {
+                Some(bound) if bound == node => {}
+                Some(_) => return None,
+                None => match argument {
+                    crate::library::Argument::Variable(variable) => {
+                        binding.bind(*variable, node);
+                    }
+                    crate::library::Argument::Node(_) => return None,
+                },
+            }
+        }
+        Some(binding)
+    }
+
+    fn failure(&mut self, methods: &Methods, turn: &Turn<'_>, reason: Option<&Reason>) -> Failure {
+        let task = text(methods, Head::Task(self.task), &self.arguments, turn.snapshot);
+        let mut reasons = std::mem::take(&mut self.failed);
+        for &index in &methods.tasks[self.task].methods {
+            let method = &methods.methods[index];
+            if self.tried.iter().any(|(tried, _)| *tried == index) {
+                continue;
+            }
+            let why = match (reason, self.unify(method, turn.snapshot)) {
+                (Some(reason), _) => reason.clone(),
+                (None, None) => Reason::NotApplicable("it is for other arguments".to_owned()),
+                (None, Some(binding)) => {
+                    let unmet = method.precondition.why_not(turn.snapshot, &binding);
+                    Reason::NotApplicable(unmet.map_or_else(String::new, |unmet| unmet.to_string()))
+                }
+            };
+            reasons.push((method.name.clone(), why));
+        }
+        Failure { task, methods: reasons }
+    }
+
+    fn withdraw(&mut self, snapshot: &Snapshot, edits: &mut Vec<Edit>) {
+        if let Some(expansion) = &mut self.expansion {
+            expansion.withdraw(snapshot, edits);
+        }
+    }
+}
+
+impl Expansion {
+    /// Whether all is done, or why it cannot be.
+    fn step(&mut self, methods: &Methods, turn: &mut Turn<'_>, depth: usize) -> Result<bool, Reason> {
+        let method = &methods.methods[self.method];
+        loop {
+            let mut advanced = false;
+            for i in 0..self.children.len() {
+                if matches!(self.children[i], Child::NotYet)
+                    && method.before[i].iter().all(|&b| matches!(self.children[b], Child::Done))
+                {
+                    self.children[i] = self.start(methods, &method.subtasks[i], turn)?;
+                }
+                let done = match &mut self.children[i] {
+                    Child::NotYet | Child::Done => false,
+                    Child::Task(goal) => match goal.step(methods, turn, depth + 1) {
+                        Progress::Running => false,
+                        Progress::Done => true,
+                        Progress::Failed(failure) => return Err(Reason::Subtask(Box::new(failure))),
+                    },
+                    Child::Intention(activity) => match activity.step(methods, turn) {
+                        Standing::Running => false,
+                        Standing::Seen => true,
+                        Standing::Failed(reason) => {
+                            self.children[i] = Child::Done;
+                            return Err(reason);
+                        }
+                    },
+                };
+                if done {
+                    self.children[i] = Child::Done;
+                    advanced = true;
+                }
+            }
+            // Only something that became done can let something else start.
+            if !advanced {
+                return Ok(self.children.iter().all(|child| matches!(child, Child::Done)));
+            }
+        }
+    }
+
+    fn start(&self, methods: &Methods, subtask: &Subtask, turn: &Turn<'_>) -> Result<Child, Reason> {
+        let nodes = subtask.arguments.iter().map(|a| a.node(&self.binding, turn.snapshot));
+        let Some(nodes) = nodes.collect::<Option<Vec<_>>>() else {
+            let missing = "an argument of a subtask is bound by nothing, or has left the graph".to_owned();
+            return Err(Reason::Impossible(missing));
+        };
+        Ok(match subtask.head {
+            Head::Task(task) => Child::Task(Box::new(Goal::new(task, nodes))),
+            Head::Intention(intention) => {
+                let text = text(methods, subtask.head, &nodes, turn.snapshot);
+                Child::Intention(Activity::new(methods, intention, &nodes, text, turn.now))
+            }
+        })
+    }
+
+    fn withdraw(&mut self, snapshot: &Snapshot, edits: &mut Vec<Edit>) {
+        for child in &mut self.children {
+            match child {
+                Child::Task(goal) => goal.withdraw(snapshot, edits),
+                Child::Intention(activity) => activity.withdraw(snapshot, edits),
+                Child::NotYet | Child::Done => {}
+            }
+        }
+    }
+}
+
+/// `(say barthel feeding introduction)`.
+fn text(methods: &Methods, head: Head, arguments: &[NodeId], snapshot: &Snapshot) -> String {
+    let name = match head {
+        Head::Task(task) => &methods.tasks[task].name,
+        Head::Intention(intention) => &methods.intentions[intention].name,
+    };
+    let mut text = format!("({name}");
+    for &node in arguments {
+        text.push(' ');
+        text.push_str(snapshot.name(node).unwrap_or("?"));
+    }
+    text.push(')');
+    text
+}
