@@ -1,1 +1,45 @@
-//! The binary pelea: the only composition root.
+//! The command line of pelea: arguments, files, the terminal. The only composition root.
+//!
+//! Each command is a module with its clap arguments and one function from arguments to [`Exit`]; what it
+//! says goes through a [`Console`], results to standard output and everything else to standard error.
+//! The crates below never print, read files or look at the clock; that happens here.
+//!
+//! ```
+//! use pelea::{Console, Exit};
+//!
+//! let (mut out, mut err) = (Vec::new(), Vec::new());
+//! let mut console = Console::new(&mut out, &mut err);
+//! let exit = pelea::run(["pelea", "check", "no/such/file.pddl"], &mut console);
+//! drop(console);
+//! assert_eq!(exit, Exit::Unreadable);
+//! assert!(String::from_utf8(err).unwrap().contains("no/such/file.pddl"));
+//! ```
+//!
+//! Members: `arguments` (the tree of commands), `plan`, `validate`, `check` (one each), `task` (a domain
+//! with its problem, read from files), `header` (which file needs which), `files`, `memory`, `clock`,
+//! `render` (diagnostics as text with excerpts, or as JSON), `console` and `exit`.
+
+mod arguments;
+mod check;
+mod clock;
+mod console;
+mod exit;
+mod files;
+mod header;
+mod memory;
+mod plan;
+mod render;
+mod task;
+mod validate;
+
+pub use arguments::run;
+pub use console::Console;
+pub use exit::Exit;
+
+use std::process::ExitCode;
+
+/// The whole program.
+pub fn main() -> ExitCode {
+    let mut console = Console::of_process();
+    ExitCode::from(run(std::env::args_os(), &mut console))
+}

@@ -1,3 +1,7 @@
 //! The binary `pelea`.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    pelea::main()
+}

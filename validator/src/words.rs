@@ -55,8 +55,8 @@ pub fn explain(domain: &Domain, problem: &Problem, plan: &Plan, verdict: &Verdic
         Verdict::Invalid(failure) => Some(words.failure(failure)),
         Verdict::Unsupported(unsupported) => {
             let (file, sentence) = match &unsupported.feature {
-                Feature::InDomain(what) => (File::Domain, format!("not supported: {what}")),
-                Feature::InProblem(what) => (File::Problem, format!("not supported: {what}")),
+                Feature::InDomain(what) => (File::Domain, what.clone()),
+                Feature::InProblem(what) => (File::Problem, what.clone()),
                 Feature::TaskNetwork => (
                     File::Problem,
                     "not supported: a plan for a task network without its decomposition".into(),

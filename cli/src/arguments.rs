@@ -1,0 +1,62 @@
+//! The tree of commands.
+
+use crate::console::{Console, Form};
+use crate::exit::Exit;
+use crate::{check, plan, validate};
+use clap::{Parser, Subcommand};
+use std::ffi::OsString;
+
+/// A planner-centric executive for robots: PDDL in, safe behaviour out.
+#[derive(Debug, Parser)]
+#[command(
+    name = "pelea",
+    version,
+    after_help = "Exit codes: 0 yes · 1 no · 2 input that cannot be read · 3 a limit was reached · \
+                  4 a PDDL feature that the command does not support · 70 a bug of ours · 74 cannot write"
+)]
+struct Arguments {
+    /// Write one JSON object a line on standard output.
+    #[arg(long, global = true)]
+    json: bool,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Find a plan.
+    Plan(plan::Arguments),
+    /// Check plans.
+    Validate(validate::Arguments),
+    /// Report every error of domains, problems and methods.
+    Check(check::Arguments),
+}
+
+/// Reads the arguments (the first is the program's name) and does what they say.
+pub fn run<I>(arguments: I, console: &mut Console<'_>) -> Exit
+where
+    I: IntoIterator,
+    I::Item: Into<OsString> + Clone,
+{
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            let text =
+                if console.colour() { error.render().ansi().to_string() } else { error.render().to_string() };
+            if error.use_stderr() {
+                console.complain(&text);
+                return Exit::Unreadable;
+            }
+            console.print(&text);
+            return Exit::Yes;
+        }
+    };
+    if arguments.json {
+        console.set_form(Form::Json);
+    }
+    match arguments.command {
+        Command::Plan(arguments) => plan::run(&arguments, console),
+        Command::Validate(arguments) => validate::run(&arguments, console),
+        Command::Check(arguments) => check::run(&arguments, console),
+    }
+}

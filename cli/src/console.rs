@@ -1,0 +1,105 @@
+//! Where words go: results to standard output, everything else to standard error.
+//!
+//! A reader that closes the pipe (`pelea … | head`) is no error: what cannot be written any more is
+//! dropped, and the exit code still says what came out. Colours only where a terminal shows them.
+
+use serde::Serialize;
+use std::io::{self, IsTerminal, Write};
+
+/// How results are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// For people.
+    Text,
+    /// One JSON object a line, all on standard output.
+    Json,
+}
+
+/// Standard output and standard error, or what a test puts in their place.
+pub struct Console<'a> {
+    out: Box<dyn Write + 'a>,
+    err: Box<dyn Write + 'a>,
+    form: Form,
+    colour: bool,
+}
+
+impl<'a> Console<'a> {
+    /// Writes to `out` and `err`, without colours.
+    pub fn new(out: &'a mut dyn Write, err: &'a mut dyn Write) -> Self {
+        Self { out: Box::new(out), err: Box::new(err), form: Form::Text, colour: false }
+    }
+
+    /// The process's own.
+    pub fn of_process() -> Console<'static> {
+        let colour = io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+        Console {
+            out: Box::new(io::BufWriter::new(io::stdout())),
+            err: Box::new(io::stderr()),
+            form: Form::Text,
+            colour,
+        }
+    }
+
+    /// The form of results.
+    pub fn form(&self) -> Form {
+        self.form
+    }
+
+    /// Whether standard error shows colours.
+    pub fn colour(&self) -> bool {
+        self.colour
+    }
+
+    pub(crate) fn set_form(&mut self, form: Form) {
+        self.form = form;
+    }
+
+    /// A result: a line of text. In JSON form nothing is written.
+    pub fn result(&mut self, line: &str) {
+        if self.form == Form::Text {
+            dropped(writeln!(self.out, "{line}"));
+        }
+    }
+
+    /// A result as an object. In text form nothing is written.
+    pub fn record(&mut self, record: &impl Serialize) {
+        if self.form == Form::Json
+            && let Ok(line) = serde_json::to_string(record)
+        {
+            dropped(writeln!(self.out, "{line}"));
+        }
+    }
+
+    /// A line for people, beside the result.
+    pub fn note(&mut self, line: &str) {
+        if self.form == Form::Text {
+            dropped(writeln!(self.err, "{line}"));
+        }
+    }
+
+    /// Text for people that has its own line ends.
+    pub fn block(&mut self, text: &str) {
+        if self.form == Form::Text {
+            dropped(self.err.write_all(text.as_bytes()));
+        }
+    }
+
+    /// Text on standard output whatever the form, such as `--help`.
+    pub(crate) fn print(&mut self, text: &str) {
+        dropped(self.out.write_all(text.as_bytes()));
+    }
+
+    /// Text on standard error whatever the form, such as wrong arguments.
+    pub(crate) fn complain(&mut self, text: &str) {
+        dropped(self.err.write_all(text.as_bytes()));
+    }
+}
+
+impl Drop for Console<'_> {
+    fn drop(&mut self) {
+        dropped(self.out.flush());
+    }
+}
+
+/// Whoever does not listen any more is not told.
+fn dropped(_: io::Result<()>) {}

@@ -1,0 +1,49 @@
+//! What the exit code says.
+
+use std::process::ExitCode;
+
+/// The outcome of a command, as scripts see it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Exit {
+    /// 0: solved, valid, accomplished, no errors.
+    Yes,
+    /// 1: proven unsolvable, plan invalid, not accomplished, errors found.
+    No,
+    /// 3: a limit (time, memory) was reached without an answer.
+    Limit,
+    /// 4: the task uses a PDDL feature that this command does not support; it is named.
+    Unsupported,
+    /// 2: input that cannot be read: syntax, types, a missing file, wrong arguments.
+    Unreadable,
+    /// 74: a result could not be written.
+    Unwritable,
+    /// 70: a bug of ours, for instance a plan that does not validate. Nothing was written.
+    Bug,
+}
+
+impl Exit {
+    /// The number.
+    pub const fn code(self) -> u8 {
+        match self {
+            Self::Yes => 0,
+            Self::No => 1,
+            Self::Unreadable => 2,
+            Self::Limit => 3,
+            Self::Unsupported => 4,
+            Self::Bug => 70,
+            Self::Unwritable => 74,
+        }
+    }
+
+    /// Of two outcomes, the one that a caller must hear of.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        self.max(other)
+    }
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(exit.code())
+    }
+}

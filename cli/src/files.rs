@@ -1,0 +1,116 @@
+//! Reading and writing files.
+//!
+//! Old benchmark files are Latin-1; a file that is not UTF-8 is read as that, so that names come out as
+//! they were written. A result is written beside its place and then renamed into it: whoever waits for
+//! the file never sees half of it.
+
+use pddl::Source;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// A file could not be read or written.
+#[derive(Debug, Error)]
+pub(crate) enum FileError {
+    /// The system says no.
+    #[error("cannot read `{}`: {reason}", path.display(), reason = plainly(source))]
+    Read { path: PathBuf, source: io::Error },
+    /// More than spans can address.
+    #[error("cannot read `{}`: it is larger than 4 GiB", path.display())]
+    TooLarge { path: PathBuf },
+    /// The system says no.
+    #[error("cannot write `{}`: {reason}", path.display(), reason = plainly(source))]
+    Write { path: PathBuf, source: io::Error },
+}
+
+/// The usual reasons in words that do not depend on the system.
+fn plainly(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        io::ErrorKind::IsADirectory => "it is a folder".to_owned(),
+        _ => error.to_string(),
+    }
+}
+
+/// Reads a text; `-` is standard input.
+pub(crate) fn read(path: &Path) -> Result<Source, FileError> {
+    let failed = |source| FileError::Read { path: path.to_owned(), source };
+    let mut bytes = Vec::new();
+    if path == Path::new("-") {
+        io::stdin().lock().read_to_end(&mut bytes).map_err(failed)?;
+        return source("<standard input>".to_owned(), bytes, path);
+    }
+    if path.is_dir() {
+        return Err(failed(io::ErrorKind::IsADirectory.into()));
+    }
+    File::open(path).and_then(|mut file| file.read_to_end(&mut bytes)).map_err(failed)?;
+    source(path.display().to_string(), bytes, path)
+}
+
+fn source(name: String, bytes: Vec<u8>, path: &Path) -> Result<Source, FileError> {
+    let text = decode(bytes);
+    if text.len() > Source::MAX_BYTES {
+        return Err(FileError::TooLarge { path: path.to_owned() });
+    }
+    Ok(Source::new(name, text))
+}
+
+fn decode(bytes: Vec<u8>) -> String {
+    let text = match String::from_utf8(bytes) {
+        Ok(text) => text,
+        Err(error) => error.as_bytes().iter().map(|&byte| char::from(byte)).collect(),
+    };
+    match text.strip_prefix('\u{feff}') {
+        Some(rest) => rest.to_owned(),
+        None => text,
+    }
+}
+
+/// Writes all of `text`, or nothing.
+pub(crate) fn write(path: &Path, text: &str) -> Result<(), FileError> {
+    let failed = |source| FileError::Write { path: path.to_owned(), source };
+    if fs::metadata(path).is_ok_and(|m| !m.is_file()) {
+        // A device or a pipe stays what it is.
+        return OpenOptions::new()
+            .write(true)
+            .open(path)
+            .and_then(|mut file| file.write_all(text.as_bytes()))
+            .map_err(failed);
+    }
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}.tmp", std::process::id()));
+    let beside = path.with_file_name(name);
+    let written = File::create(&beside)
+        .and_then(|mut file| file.write_all(text.as_bytes()))
+        .and_then(|()| fs::rename(&beside, path));
+    written.map_err(|source| {
+        // The write failed already; a remainder that cannot be removed adds nothing to that.
+        let _ = fs::remove_file(&beside);
+        failed(source)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{decode, write};
+
+    #[test]
+    fn latin_1_is_read() {
+        assert_eq!(decode(b"(at caf\xe9)".to_vec()), "(at café)");
+        assert_eq!(decode("(at café)".as_bytes().to_vec()), "(at café)");
+        assert_eq!(decode(b"\xef\xbb\xbf(a)".to_vec()), "(a)");
+    }
+
+    #[test]
+    fn writing_replaces_the_whole_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("plan");
+        write(&path, "a long first text").unwrap();
+        write(&path, "short").unwrap();
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), "short");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+        assert!(write(&folder.path().join("no/such/folder"), "").is_err());
+    }
+}

@@ -1,0 +1,318 @@
+//! `pelea plan DOMAIN PROBLEM`: a plan on standard output or in a file, statistics on standard error.
+//!
+//! Every plan goes through `validator` before anyone sees it. One that does not validate is a bug of
+//! ours: it is not written, and the exit code is 70. As JSON the result is
+//!
+//! ```json
+//! {"kind": "plan", "outcome": "solved", "steps": ["(go a b)"], "cost": 1, "cost_kind": "unit cost",
+//!  "search": "dual", "message": null,
+//!  "statistics": {"read_ms": 1.2, "ground_ms": 0.4, "search_ms": 0.3, "facts": 3, "operators": 4,
+//!                 "expanded": 2, "evaluated": 2, "generated": 4}}
+//! ```
+//!
+//! `outcome` is `solved`, `unsolvable` (with the reason in `message`), `limit` (with which) or
+//! `unsupported`; `statistics` is null where grounding did not end.
+
+use crate::clock::{Deadline, Seconds, Stopwatch};
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::files;
+use crate::memory;
+use crate::render::Message;
+use crate::task::TaskFiles;
+use crate::validate::{Figure, finding_message};
+use clap::Args;
+use pddl::{PlanStep, Severity, Source, Span};
+use planner::{
+    Budget, GroundError, GroundOptions, Impossible, Limit, Origin, Outcome, Query, Report,
+    SearchConfiguration, Task, UnsolvableReason, ground, solve,
+};
+use serde::Serialize;
+use std::fmt::Write;
+use std::path::PathBuf;
+use validator::{Number, Valid, Verdict, explain};
+
+/// What to plan.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The domain file.
+    domain: PathBuf,
+    /// The problem file.
+    problem: PathBuf,
+    /// Write the plan into this file, once it is complete.
+    #[arg(short, long, value_name = "PLAN")]
+    output: Option<PathBuf>,
+    /// Give up after so many seconds.
+    #[arg(long, value_name = "S")]
+    timeout: Option<Seconds>,
+    /// The search to use.
+    #[arg(long, value_name = "NAME", value_parser = search)]
+    search: Option<SearchConfiguration>,
+    /// Find a plan of least cost.
+    #[arg(long, conflicts_with = "search")]
+    optimal: bool,
+}
+
+fn search(name: &str) -> Result<SearchConfiguration, String> {
+    SearchConfiguration::named(name).ok_or_else(|| {
+        let mut text = "there is no such search; there are".to_owned();
+        for known in SearchConfiguration::ALL {
+            write!(text, "\n  {:12} {}", known.name, known.summary).expect("a string takes all");
+        }
+        text
+    })
+}
+
+pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
+    let deadline = Deadline::after(arguments.timeout);
+    let interrupted = move || deadline.is_over();
+    let configuration = match arguments.search {
+        Some(configuration) => configuration,
+        None if arguments.optimal => SearchConfiguration::best_optimal(),
+        None => SearchConfiguration::portfolio(),
+    };
+    let mut answer = Answer::of(configuration.name);
+
+    let watch = Stopwatch::start();
+    let files = match TaskFiles::read(&arguments.domain, &arguments.problem, console) {
+        Ok(files) => files,
+        Err(exit) => return exit,
+    };
+    let read_ms = watch.milliseconds();
+
+    let watch = Stopwatch::start();
+    let options = GroundOptions { interrupted: &interrupted, ..GroundOptions::default() };
+    let task = match ground(&files.domain, &files.problem, &options) {
+        Ok(task) => task,
+        Err(error) => return not_grounded(&error, &files, &mut answer, console),
+    };
+    let ground_ms = watch.milliseconds();
+
+    let watch = Stopwatch::start();
+    let budget = Budget { expansions: None, memory_bytes: Some(memory::budget()), interrupted: &interrupted };
+    let report = solve(&task, &Query::of(&task), &configuration, &budget);
+    let statistics = StatisticsRecord::of(&task, &report, [read_ms, ground_ms, watch.milliseconds()]);
+    console.note(&statistics.line(configuration.name));
+    answer.statistics = Some(statistics);
+
+    match &report.outcome {
+        Outcome::Solved(plan) => solved(arguments, &files, &task, plan, &mut answer, console),
+        Outcome::Unsolvable(reason) => {
+            let reason = why_unsolvable(&task, reason);
+            Message::error(format!("there is no plan: {reason}"))
+                .at(&files.problem_source, files.problem.goal_span)
+                .show(console);
+            answer.end("unsolvable", &reason, console);
+            Exit::No
+        }
+        Outcome::LimitReached(limit) => {
+            let limit = match limit {
+                Limit::Interrupted => "the time is over",
+                Limit::Expansions => "as many states were expanded as allowed",
+                Limit::Memory => "the memory is used up",
+                Limit::Incomplete => "this search is incomplete and gave up; another one may find a plan",
+            };
+            no_answer(limit, &mut answer, console)
+        }
+    }
+}
+
+fn no_answer(limit: &str, answer: &mut Answer, console: &mut Console<'_>) -> Exit {
+    answer.end("limit", limit, console);
+    console.note(&format!("no plan found: {limit}"));
+    Exit::Limit
+}
+
+fn not_grounded(
+    error: &GroundError,
+    files: &TaskFiles,
+    answer: &mut Answer,
+    console: &mut Console<'_>,
+) -> Exit {
+    match error {
+        GroundError::Unsupported { origin, span, .. } => {
+            let source = match origin {
+                Origin::Domain => &files.domain_source,
+                Origin::Problem => &files.problem_source,
+            };
+            let text = error.to_string();
+            let mut message = Message::error(text.clone()).at(source, *span);
+            message.severity = Severity::Unsupported;
+            message.show(console);
+            answer.end("unsupported", &text, console);
+            Exit::Unsupported
+        }
+        GroundError::Limit { .. } | GroundError::Interrupted { .. } => {
+            no_answer(&error.to_string(), answer, console)
+        }
+    }
+}
+
+fn solved(
+    arguments: &Arguments,
+    files: &TaskFiles,
+    task: &Task,
+    found: &planner::Plan,
+    answer: &mut Answer,
+    console: &mut Console<'_>,
+) -> Exit {
+    let mut text = String::new();
+    let mut plan = pddl::Plan::default();
+    for &id in &found.operators {
+        let line = task.operator_name(id);
+        let start = u32::try_from(text.len()).unwrap_or(u32::MAX);
+        let end = u32::try_from(text.len() + line.len()).unwrap_or(u32::MAX);
+        let operator = &task.operators()[id];
+        plan.steps.push(PlanStep {
+            action: operator.action,
+            arguments: operator.arguments.to_vec(),
+            span: Span::new(start, end),
+        });
+        text.push_str(&line);
+        text.push('\n');
+        answer.steps.push(line);
+    }
+    let verdict = validator::validate(&files.domain, &files.problem, &plan);
+    let Verdict::Valid(valid) = verdict else {
+        return bug(&verdict, &plan, &text, files, console);
+    };
+    let kind = cost_kind(files);
+    writeln!(text, "; cost = {} ({kind})", valid.cost()).expect("a string takes all");
+    match &arguments.output {
+        Some(path) => {
+            if let Err(error) = files::write(path, &text) {
+                Message::error(error.to_string()).show(console);
+                return Exit::Unwritable;
+            }
+            console.note(&format!(
+                "{} steps, cost {}, written to {}",
+                valid.steps,
+                valid.cost(),
+                path.display()
+            ));
+        }
+        None => console.result(text.trim_end()),
+    }
+    answer.solved(&valid, kind, console);
+    Exit::Yes
+}
+
+/// Never seen, we hope. The plan is shown as it is, since whoever repairs this needs it.
+fn bug(
+    verdict: &Verdict,
+    plan: &pddl::Plan,
+    text: &str,
+    files: &TaskFiles,
+    console: &mut Console<'_>,
+) -> Exit {
+    let source = Source::new("<plan>", text);
+    if let Some(finding) = explain(&files.domain, &files.problem, plan, verdict) {
+        finding_message(&finding, verdict, files, &source).show(console);
+    }
+    Message::error(
+        "a bug in pelea: the planner's plan is not valid, so it was not written; please report it",
+    )
+    .show(console);
+    Exit::Bug
+}
+
+fn cost_kind(files: &TaskFiles) -> &'static str {
+    if files.problem.metric.is_some() { "general cost" } else { "unit cost" }
+}
+
+fn why_unsolvable(task: &Task, reason: &UnsolvableReason) -> String {
+    let named = |atoms: &[planner::GroundAtom]| {
+        atoms.iter().map(|atom| task.atom_name(atom)).collect::<Vec<_>>().join(", ")
+    };
+    match reason {
+        UnsolvableReason::SpaceExhausted => "no reachable state satisfies the goal".to_owned(),
+        UnsolvableReason::Impossible(Impossible::Atoms(atoms)) => {
+            format!("the goal needs {}, which nothing can bring about", named(atoms))
+        }
+        UnsolvableReason::Impossible(Impossible::NegatedAtoms(atoms)) => {
+            format!("the goal needs {} to become false, which nothing can bring about", named(atoms))
+        }
+        UnsolvableReason::Impossible(_) => "nothing can bring the goal about".to_owned(),
+    }
+}
+
+#[derive(Serialize)]
+struct Answer {
+    kind: &'static str,
+    outcome: &'static str,
+    steps: Vec<String>,
+    cost: Option<Figure>,
+    cost_kind: Option<&'static str>,
+    search: &'static str,
+    message: Option<String>,
+    statistics: Option<StatisticsRecord>,
+}
+
+impl Answer {
+    fn of(search: &'static str) -> Self {
+        Self {
+            kind: "plan",
+            outcome: "limit",
+            steps: Vec::new(),
+            cost: None,
+            cost_kind: None,
+            search,
+            message: None,
+            statistics: None,
+        }
+    }
+
+    fn end(&mut self, outcome: &'static str, message: &str, console: &mut Console<'_>) {
+        self.outcome = outcome;
+        self.message = Some(message.to_owned());
+        console.record(self);
+    }
+
+    fn solved(&mut self, valid: &Valid, kind: &'static str, console: &mut Console<'_>) {
+        let cost: Number = valid.cost();
+        self.outcome = "solved";
+        self.cost = Some(Figure(cost));
+        self.cost_kind = Some(kind);
+        console.record(self);
+    }
+}
+
+#[derive(Serialize)]
+struct StatisticsRecord {
+    read_ms: f64,
+    ground_ms: f64,
+    search_ms: f64,
+    facts: usize,
+    operators: usize,
+    expanded: u64,
+    evaluated: u64,
+    generated: u64,
+}
+
+impl StatisticsRecord {
+    fn of(task: &Task, report: &Report, [read_ms, ground_ms, search_ms]: [f64; 3]) -> Self {
+        Self {
+            read_ms,
+            ground_ms,
+            search_ms,
+            facts: task.facts().len(),
+            operators: task.operators().len(),
+            expanded: report.statistics.expanded,
+            evaluated: report.statistics.evaluated,
+            generated: report.statistics.generated,
+        }
+    }
+
+    fn line(&self, search: &str) -> String {
+        format!(
+            "read {} ms, ground {} ms ({} facts, {} operators), {search} {} ms ({} expanded, {} evaluated)",
+            self.read_ms,
+            self.ground_ms,
+            self.facts,
+            self.operators,
+            self.search_ms,
+            self.expanded,
+            self.evaluated
+        )
+    }
+}

@@ -1,0 +1,127 @@
+//! Every folder of `cases/`: what the binary says.
+//!
+//! `cmd` holds the arguments, one command a file; the binary runs in a copy of the folder, and its
+//! standard output, standard error and exit code must be what `stdout`, `stderr` and `exit` hold (no file
+//! means nothing). What is measured is written as `#`. `UPDATE_EXPECT=1 cargo test -p pelea` writes them anew.
+
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+use expect_test::expect_file;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+fn cases() -> Vec<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
+    let mut cases: Vec<_> = fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path()).collect();
+    cases.sort();
+    cases
+}
+
+fn copy(from: &Path, to: &Path) {
+    for entry in fs::read_dir(from).unwrap() {
+        let path = entry.unwrap().path();
+        let target = to.join(path.file_name().unwrap());
+        if path.is_dir() {
+            fs::create_dir(&target).unwrap();
+            copy(&path, &target);
+        } else {
+            fs::copy(&path, &target).unwrap();
+        }
+    }
+}
+
+/// Times differ from run to run and effort from search to search: `0.123 ms` becomes `# ms`,
+/// `12 expanded` becomes `# expanded`, and so in JSON.
+fn without_measurements(text: &str) -> String {
+    const AFTER: [&str; 5] = [" ms", " facts", " operators", " expanded", " evaluated"];
+    const BEFORE: [&str; 6] =
+        ["_ms\":", "\"facts\":", "\"operators\":", "\"expanded\":", "\"evaluated\":", "\"generated\":"];
+    let mut kept = String::new();
+    let mut rest = text;
+    while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
+        let length =
+            rest[start..].find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(rest.len() - start);
+        let (before, after) = (&rest[..start], &rest[start + length..]);
+        let measured =
+            AFTER.iter().any(|a| after.starts_with(a)) || BEFORE.iter().any(|b| before.ends_with(b));
+        kept.push_str(before);
+        kept.push_str(if measured { "#" } else { &rest[start..start + length] });
+        rest = after;
+    }
+    kept + rest
+}
+
+fn check(name: &Path, said: &str) {
+    if said.is_empty() && !name.exists() {
+        return;
+    }
+    expect_file![name].assert_eq(said);
+}
+
+#[test]
+fn every_case() {
+    let cases = cases();
+    assert!(cases.len() >= 20, "only {} cases", cases.len());
+    for case in cases {
+        let folder = tempfile::tempdir().unwrap();
+        copy(&case, folder.path());
+        let arguments = fs::read_to_string(case.join("cmd")).unwrap();
+        let output = Command::new(env!("CARGO_BIN_EXE_pelea"))
+            .args(arguments.split_whitespace())
+            .current_dir(folder.path())
+            .stdin(Stdio::null())
+            .output()
+            .unwrap();
+        check(&case.join("stdout"), &without_measurements(&String::from_utf8(output.stdout).unwrap()));
+        check(&case.join("stderr"), &without_measurements(&String::from_utf8(output.stderr).unwrap()));
+        check(&case.join("exit"), &format!("{}\n", output.status.code().unwrap()));
+    }
+}
+
+#[test]
+fn an_unknown_search_is_told_the_known_ones() {
+    let output = Command::new(env!("CARGO_BIN_EXE_pelea"))
+        .args(["plan", "domain.pddl", "problem.pddl", "--search", "nothing"])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8(output.stderr).unwrap();
+    for known in planner::SearchConfiguration::ALL {
+        assert!(said.contains(known.name), "{said}");
+    }
+}
+
+#[test]
+fn a_written_plan_is_the_printed_plan() {
+    let folder = tempfile::tempdir().unwrap();
+    copy(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/plan"), folder.path());
+    let run = |arguments: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_pelea"))
+            .args(arguments)
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let printed = run(&["plan", "domain.pddl", "problem.pddl", "--optimal"]);
+    assert_eq!(run(&["plan", "domain.pddl", "problem.pddl", "--optimal", "-o", "out.plan"]), "");
+    assert_eq!(fs::read_to_string(folder.path().join("out.plan")).unwrap(), printed);
+    assert!(run(&["validate", "domain.pddl", "problem.pddl", "out.plan"]).contains("valid"));
+}
+
+#[test]
+fn a_closed_pipe_is_no_error() {
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/validate-verbose");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_pelea"))
+        .args(["validate", "domain.pddl", "problem.pddl", "a.plan", "--verbose"])
+        .current_dir(case)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    drop(child.stderr.take());
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+}

@@ -1,0 +1,1 @@
+(define (domain a) (:requirements :typing) (:types place) (:predicates (at ?x - place)))

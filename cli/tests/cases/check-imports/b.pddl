@@ -1,0 +1,1 @@
+(define (domain b) (:import a) (:predicates (near ?x - place)))

@@ -1,0 +1,1 @@
+(define (problem p) (:domain b) (:objects here - place) (:init (at here)) (:goal (near here)))

@@ -1,0 +1,3 @@
+(define (domain liar) (:requirements :derived-predicates :negative-preconditions)
+  (:predicates (lies) (done))
+  (:derived (lies) (not (lies))))

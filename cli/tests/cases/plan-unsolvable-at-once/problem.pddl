@@ -1,0 +1,5 @@
+(define (problem morning)
+  (:domain rounds)
+  (:objects ward store - room pills - item)
+  (:init (at ward) (free)  (door ward store) )
+  (:goal (in pills ward)))

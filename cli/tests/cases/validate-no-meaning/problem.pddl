@@ -1,0 +1,1 @@
+(define (problem p) (:domain liar) (:init) (:goal (done)))

@@ -1,0 +1,3 @@
+(define (domain lamp) (:requirements :strips :preferences)
+  (:predicates (lit) (warm))
+  (:action light :parameters () :precondition () :effect (lit)))

@@ -1,0 +1,2 @@
+(define (problem p) (:domain lamp) (:init)
+  (:goal (and (lit) (preference w (warm)))))
