@@ -56,7 +56,12 @@ async fn a_dropped_sentence_stops_within_it() {
 
 #[tokio::test(start_paused = true)]
 async fn silence_is_for_one_question_and_not_for_its_repetition_after_an_interruption() {
-    let room = room("replies.eating = ['silent', { answer = { option = 1, delay = 3.0 } }]");
+    let room = room(
+        "replies = [
+        { topic = 'eating', question = 'first', reply = 'silent' },
+        { topic = 'eating', question = 'second', reply = { answer = { option = 1, delay = 3.0 } } },
+    ]",
+    );
     let devices = room.devices();
     devices.speech_out.say("Well?", "en").await.unwrap();
     for _ in 0..2 {
@@ -82,7 +87,10 @@ async fn silence_is_for_one_question_and_not_for_its_repetition_after_an_interru
 
 #[tokio::test(start_paused = true)]
 async fn a_touch_needs_the_option_on_the_screen() {
-    let touch = "replies.eating = [{ answer = { option = 0, by = 'touch' } }, { answer = { option = 1, by = 'touch' } }]";
+    let touch = "replies = [
+        { topic = 'eating', question = 'first', reply = { answer = { option = 0, by = 'touch' } } },
+        { topic = 'eating', reply = { answer = { option = 1, by = 'touch' } } },
+    ]";
     let room = room(touch);
     let devices = room.devices();
     devices.speech_out.say("Well?", "en").await.unwrap();

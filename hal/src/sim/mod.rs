@@ -28,4 +28,4 @@ pub use event::{Moment, RoomEvent};
 pub use loudspeaker::SECONDS_PER_WORD;
 pub use presence::{SECONDS_TO_LOSE, SECONDS_TO_SEE};
 pub use room::SimRoom;
-pub use script::{By, ClinicianScript, PatientScript, Reply};
+pub use script::{By, ClinicianScript, PatientScript, Reply, ReplyRule};

@@ -19,13 +19,13 @@ impl Rig for SimRoom {
         let answer = |option, by| Reply::Answer { option, delay: 1.0, by };
         match stimulus {
             Stimulus::PersonWillSay { topic, option } => {
-                self.will_reply(topic, vec![answer(option, By::Voice)])
+                self.will_reply(topic, answer(option, By::Voice));
             }
             Stimulus::PersonWillMumble { topic } => {
-                self.will_reply(topic, vec![Reply::Misheard { words: "well, you know".into(), delay: 1.0 }]);
+                self.will_reply(topic, Reply::Misheard { words: "well, you know".into(), delay: 1.0 });
             }
             Stimulus::PersonWillTouch { topic, option } => {
-                self.will_reply(topic, vec![answer(option, By::Touch)]);
+                self.will_reply(topic, answer(option, By::Touch));
             }
             Stimulus::PersonAsks(request) => self.ask(request),
             Stimulus::PersonLeaves => self.lose_person(),

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tokio::time::Instant;
 
 use super::event::{Moment, RoomEvent};
-use super::script::{ClinicianScript, PatientScript, Reply};
+use super::script::{ClinicianScript, PatientScript, Reply, ReplyRule};
 use super::state::{Behaviour, State};
 use crate::{Device, Devices};
 
@@ -105,9 +105,10 @@ impl SimRoom {
         });
     }
 
-    /// From now on the person replies to a topic's questions so.
-    pub fn will_reply(&self, topic: &str, replies: Vec<Reply>) {
-        self.change(|state, _| state.patient.replies.insert(topic.to_owned(), replies));
+    /// From now on the person replies so to the questions about a topic.
+    pub fn will_reply(&self, topic: &str, reply: Reply) {
+        let rule = ReplyRule { topic: topic.to_owned(), question: None, reply };
+        self.change(|state, _| state.patient.replies.insert(0, rule));
     }
 
     /// From now on the device fails; what it is doing fails at once.

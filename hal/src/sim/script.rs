@@ -1,6 +1,5 @@
 //! What the simulated person and clinician will do: plain data, as a scenario file gives it.
 
-use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 
 /// How an answer is given.
@@ -22,7 +21,7 @@ pub enum Reply {
     Answer {
         /// Which, counted from 0 in the order in which the question lists them; past the end: the last.
         option: usize,
-        /// Seconds from being asked to answering.
+        /// Seconds from when a device begins to wait for the answer.
         #[serde(default = "two_seconds")]
         delay: f64,
         /// How.
@@ -33,7 +32,7 @@ pub enum Reply {
     Misheard {
         /// What.
         words: String,
-        /// Seconds from being asked to speaking.
+        /// Seconds from when a device begins to wait for the answer.
         #[serde(default = "two_seconds")]
         delay: f64,
     },
@@ -47,7 +46,7 @@ impl Reply {
         Self::Answer { option, delay: two_seconds(), by: By::Voice }
     }
 
-    /// Seconds from being asked to replying; `None` for a silence.
+    /// Seconds from when a device begins to wait; `None` for a silence.
     pub(super) fn delay(&self) -> Option<f64> {
         match self {
             Self::Answer { delay, .. } | Self::Misheard { delay, .. } => Some(*delay),
@@ -60,6 +59,19 @@ fn two_seconds() -> f64 {
     2.0
 }
 
+/// An exception to what the person does otherwise.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ReplyRule {
+    /// For questions about this topic.
+    pub topic: String,
+    /// For the question of this name; `None`: for every question about the topic.
+    #[serde(default)]
+    pub question: Option<String>,
+    /// The reply.
+    pub reply: Reply,
+}
+
 /// The simulated person.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -68,21 +80,26 @@ pub struct PatientScript {
     pub in_view: bool,
     /// Where they are then and whenever they are in view: metres in the frame of the world.
     pub position: [f64; 3],
-    /// Per topic, the reply to each question about it, in the order in which the questions are first put. A
-    /// question that is put again after an interruption gets the same reply.
-    pub replies: IndexMap<String, Vec<Reply>>,
-    /// The reply where `replies` has none.
+    /// The exceptions; one for the very question goes before one for its topic, then the first goes.
+    pub replies: Vec<ReplyRule>,
+    /// The reply where there is no exception.
     pub otherwise: Reply,
+}
+
+impl PatientScript {
+    /// What the person replies to a question.
+    pub fn reply(&self, topic: &str, question: &str) -> &Reply {
+        let of_topic = || self.replies.iter().filter(|rule| rule.topic == topic);
+        let exact = of_topic().find(|rule| rule.question.as_deref() == Some(question));
+        exact
+            .or_else(|| of_topic().find(|rule| rule.question.is_none()))
+            .map_or(&self.otherwise, |rule| &rule.reply)
+    }
 }
 
 impl Default for PatientScript {
     fn default() -> Self {
-        Self {
-            in_view: true,
-            position: [1.2, 0.0, 0.0],
-            replies: IndexMap::new(),
-            otherwise: Reply::option(0),
-        }
+        Self { in_view: true, position: [1.2, 0.0, 0.0], replies: Vec::new(), otherwise: Reply::option(0) }
     }
 }
 

@@ -35,6 +35,17 @@ pub(super) struct Window {
     devices: usize,
 }
 
+impl Window {
+    fn is_of(&self, question: &Question) -> bool {
+        self.topic == question.topic && (self.name == question.name || question.name.is_empty())
+    }
+
+    /// Whether the person knows that they are being asked.
+    fn asked(&self, perceived: u64) -> bool {
+        self.asked_before || perceived > self.perceived_before
+    }
+}
+
 #[derive(Debug)]
 pub(super) struct State {
     pub(super) patient: PatientScript,
@@ -53,8 +64,6 @@ pub(super) struct State {
     perceived: u64,
     perceived_at_last_window: u64,
     pub(super) window: Option<Window>,
-    /// The names of the questions put on each topic, in the order in which they came up.
-    questions: BTreeMap<String, Vec<String>>,
     asked: BTreeSet<(String, String)>,
     /// What the person is asking for and no ear has caught yet.
     pub(super) requests: VecDeque<String>,
@@ -84,7 +93,6 @@ impl State {
             perceived: 0,
             perceived_at_last_window: 0,
             window: None,
-            questions: BTreeMap::new(),
             asked: BTreeSet::new(),
             requests: VecDeque::new(),
             pressed: None,
@@ -145,30 +153,18 @@ impl State {
         self.happens(now, event);
     }
 
-    /// A device begins to wait for an answer.
+    /// A device begins to wait for an answer: to the question that is open, if it is the same, or to another.
     pub(super) fn open(&mut self, question: &Question, now: Instant) {
-        if let Some(window) = &mut self.window
-            && window.topic == question.topic
-            && window.name == question.name
-        {
+        if let Some(window) = self.window_of(question) {
             window.devices += 1;
             return;
         }
-        let names = self.questions.entry(question.topic.clone()).or_default();
-        let attempt = match names.iter().position(|name| *name == question.name && !name.is_empty()) {
-            Some(attempt) => attempt,
-            None => {
-                names.push(question.name.clone());
-                names.len() - 1
-            }
-        };
-        let scripted = self.patient.replies.get(&question.topic).and_then(|replies| replies.get(attempt));
         let key = (question.topic.clone(), question.name.clone());
         self.window = Some(Window {
             topic: question.topic.clone(),
             name: question.name.clone(),
             opened: now,
-            reply: scripted.unwrap_or(&self.patient.otherwise).clone(),
+            reply: self.patient.reply(&question.topic, &question.name).clone(),
             answered: false,
             asked_before: self.asked.contains(&key),
             perceived_before: self.perceived_at_last_window,
@@ -176,28 +172,29 @@ impl State {
         });
     }
 
+    /// The open window, if it is this question's. A question without a name is any about its topic.
+    fn window_of(&mut self, question: &Question) -> Option<&mut Window> {
+        self.window.as_mut().filter(|window| window.is_of(question))
+    }
+
     /// A device no longer waits for an answer.
     pub(super) fn close(&mut self, question: &Question) {
-        let Some(window) = &mut self.window else { return };
-        if window.topic != question.topic || window.name != question.name {
+        let perceived = self.perceived;
+        let Some(window) = self.window_of(question) else { return };
+        window.devices -= 1;
+        if window.devices > 0 {
             return;
         }
-        window.devices -= 1;
-        if window.devices == 0 {
-            if window.asked_before || self.perceived > window.perceived_before {
-                self.asked.insert((window.topic.clone(), window.name.clone()));
-            }
-            self.perceived_at_last_window = self.perceived;
-            self.window = None;
-        }
+        let asked = window.asked(perceived).then(|| (window.topic.clone(), window.name.clone()));
+        self.asked.extend(asked);
+        self.perceived_at_last_window = self.perceived;
+        self.window = None;
     }
 
     /// When the person replies to the open question, and how; `None` while they do not.
     pub(super) fn reply(&self, question: &Question) -> Option<(Instant, Reply)> {
-        let window = self.window.as_ref()?;
-        let theirs = window.topic == question.topic && window.name == question.name;
-        let asked = window.asked_before || self.perceived > window.perceived_before;
-        if !theirs || window.answered || !self.in_view || !asked {
+        let window = self.window.as_ref().filter(|window| window.is_of(question))?;
+        if window.answered || !self.in_view || !window.asked(self.perceived) {
             return None;
         }
         let from = window.opened.max(self.view_changed);
@@ -213,6 +210,7 @@ impl State {
     /// Whether the screen offers this option for a touch.
     pub(super) fn offers(&self, option: &str) -> bool {
         self.works(Device::Buttons)
+            && self.behaviour(Device::Screen) != Behaviour::Fails
             && self.displayed.as_ref().is_some_and(|page| page.options.iter().any(|o| o.id == option))
     }
 }
