@@ -1,0 +1,106 @@
+//! What a rule needs of the graph before it starts.
+//!
+//! Problem: a condition over all may be what the rule's own effects at start make true (`waiting` while one
+//! waits), so it cannot all be asked of the graph before. Idea: regress it through the effects at start, as a
+//! planner regresses a goal through an action: a conjunct that the effects establish, literally, is dropped;
+//! the others must hold already. Where the test by letters keeps too much or too little, the guard decides,
+//! which the graph checks after the effects.
+//!
+//! The same comparison tells whether a rule without a skill falsifies its own condition.
+
+use pddl::model::{
+    Application, AssignOperator, AssignedValue, Atom, Condition, ConditionKind, DurativeAction, Effect,
+    EffectKind, Term, TimeSpecifier,
+};
+
+/// The unconditional effects at start.
+pub(super) struct Beginning<'a> {
+    adds: Vec<&'a Atom>,
+    deletes: Vec<&'a Atom>,
+    assigns: Vec<(&'a Application, &'a AssignedValue)>,
+}
+
+impl<'a> Beginning<'a> {
+    pub(super) fn of(action: &'a DurativeAction) -> Self {
+        let mut beginning = Self { adds: Vec::new(), deletes: Vec::new(), assigns: Vec::new() };
+        for timed in action.effects.iter().filter(|timed| timed.when == TimeSpecifier::Start) {
+            beginning.collect(&timed.effect);
+        }
+        beginning
+    }
+
+    fn collect(&mut self, effect: &'a Effect) {
+        match &effect.kind {
+            EffectKind::And(parts) => parts.iter().for_each(|part| self.collect(part)),
+            EffectKind::Add(atom) => self.adds.push(atom),
+            EffectKind::Delete(atom) => self.deletes.push(atom),
+            EffectKind::Assign(AssignOperator::Assign, application, value) => {
+                self.assigns.push((application, value));
+            }
+            EffectKind::Assign(..) | EffectKind::Forall(..) | EffectKind::When(..) => {}
+        }
+    }
+
+    fn adds(&self, atom: &Atom) -> bool {
+        self.adds.iter().any(|added| same_atom(added, atom))
+    }
+
+    /// An add of the same atom at the same time wins.
+    fn deletes(&self, atom: &Atom) -> bool {
+        self.deletes.iter().any(|deleted| same_atom(deleted, atom)) && !self.adds(atom)
+    }
+
+    fn assigned(&self, application: &Application) -> Option<&AssignedValue> {
+        let same = |other: &Application| {
+            other.function == application.function && other.arguments == application.arguments
+        };
+        self.assigns.iter().find(|(other, _)| same(other)).map(|(_, value)| *value)
+    }
+
+    /// Whether the condition holds after these effects whatever was before.
+    pub(super) fn establishes(&self, condition: &Condition) -> bool {
+        match &condition.kind {
+            ConditionKind::Atom(atom) => self.adds(atom),
+            ConditionKind::Not(inner) => match &inner.kind {
+                ConditionKind::Atom(atom) => self.deletes(atom),
+                _ => false,
+            },
+            ConditionKind::FluentIs(application, term) => {
+                matches!(self.assigned(application), Some(AssignedValue::Object(value)) if value == term)
+            }
+            _ => false,
+        }
+    }
+
+    /// Whether the condition is false after these effects whatever was before.
+    pub(super) fn falsifies(&self, condition: &Condition) -> bool {
+        match &condition.kind {
+            ConditionKind::And(parts) => parts.iter().any(|part| self.falsifies(part)),
+            ConditionKind::Atom(atom) => self.deletes(atom),
+            ConditionKind::Not(inner) => match &inner.kind {
+                ConditionKind::Atom(atom) => self.adds(atom),
+                _ => false,
+            },
+            ConditionKind::FluentIs(application, term) => match self.assigned(application) {
+                Some(AssignedValue::Undefined) => true,
+                Some(AssignedValue::Object(Term::Object(value))) => {
+                    matches!(term, Term::Object(wanted) if wanted != value)
+                }
+                _ => false,
+            },
+            _ => false,
+        }
+    }
+}
+
+/// The conjuncts of a condition, flattened.
+pub(super) fn conjuncts<'a>(condition: &'a Condition, into: &mut Vec<&'a Condition>) {
+    match &condition.kind {
+        ConditionKind::And(parts) => parts.iter().for_each(|part| conjuncts(part, into)),
+        _ => into.push(condition),
+    }
+}
+
+fn same_atom(a: &Atom, b: &Atom) -> bool {
+    a.predicate == b.predicate && a.arguments == b.arguments
+}

@@ -1,0 +1,457 @@
+//! The runtime of one agent: a pure state machine from what changes to what to do.
+//!
+//! Problem: an agent must start each rule as soon as the graph looks so, never twice, stop it when a reflex
+//! fired, and write what its skill ended with, while the graph moves on under it. Idea: no I/O here. The shell
+//! reports commits, endings and the time, and asks for the next [`Action`] until there is none; every commit
+//! it makes is on the very version that the machine has seen, so that a decision is never applied to a graph it
+//! was not made for.
+//!
+//! Invariants:
+//! - Rules are level-triggered: a rule runs for a binding whenever its conditions hold and it does not run for
+//!   it already. Nothing is lost by being busy, restarted, or late.
+//! - One instance is one guard in the graph. The instance ends exactly once: by its own commit, which dismisses
+//!   the guard, or by the guard, which has then written the effects of `abort` already.
+//! - A resource that is held at a lower priority is taken in a commit of its own. The reflexes of whoever held
+//!   it write in that commit, so the rule starts on a graph in which they have had their say.
+//! - No loop without time passing: a rule whose skill failed, or that ended in the instant in which it began,
+//!   rests for [`REST`] for that binding.
+//!
+//! Cost: per commit, one intersection of small bit sets per rule, and matching for those that it touches.
+
+mod instance;
+
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::sync::Arc;
+
+use dsr::{
+    Commit, Delta, LabelId, Mentions, Preemption, ReflexId, ResourceId, Snapshot, Time, Transaction,
+    TransactionError,
+};
+use tracing::{debug, error};
+
+use self::instance::{Instance, Phase};
+use crate::rule::{Agent, Parameters, Rule, RuleId};
+use crate::skill::{Call, Ended, Outcome, Skill};
+
+/// How long a rule rests for a binding after a failure, or after it began and ended in one instant.
+pub const REST: std::time::Duration = std::time::Duration::from_secs(1);
+
+/// A running rule. Ids are never given out twice.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct InstanceId(u64);
+
+/// What the shell shall do.
+pub enum Action {
+    /// Commit this, and hand the result to [`Runtime::committed`] before anything else.
+    Commit(Transaction),
+    /// Run this skill, and hand its ending to [`Runtime::ended`].
+    Launch {
+        /// For which instance.
+        instance: InstanceId,
+        /// Which skill.
+        skill: Arc<dyn Skill>,
+        /// With what.
+        call: Call,
+    },
+    /// Drop the skill of this instance, if it still runs.
+    Stop(InstanceId),
+}
+
+/// A rule for a binding of its parameters.
+type Key = (RuleId, Parameters);
+
+/// What the commit that the shell was asked for is about.
+enum Pending {
+    /// To take resources from lower priorities, for this rule.
+    Take(Key, Vec<ResourceId>),
+    /// To start this rule.
+    Start(Key),
+    /// To give back what was taken and is no longer needed.
+    GiveBack,
+    /// To end this instance.
+    End(Key),
+}
+
+/// The state of one agent.
+pub struct Runtime {
+    agent: Arc<Agent>,
+    instances: BTreeMap<Key, Instance>,
+    next: u64,
+    /// Rules whose matches may have changed.
+    dirty: BTreeSet<RuleId>,
+    /// Bindings to look at, before the next dirty rule is.
+    candidates: VecDeque<Key>,
+    /// Resources taken for a rule that is about to start.
+    taken: Option<(Key, Vec<ResourceId>)>,
+    resting: BTreeMap<Key, Time>,
+    /// When rules without a skill were last carried out.
+    carried_out: BTreeMap<Key, Time>,
+    actions: VecDeque<Action>,
+    pending: Option<Pending>,
+}
+
+impl Runtime {
+    /// An agent that has looked at nothing yet.
+    pub fn new(agent: Arc<Agent>) -> Self {
+        let dirty = agent.rule_ids().collect();
+        Self {
+            agent,
+            instances: BTreeMap::new(),
+            next: 0,
+            dirty,
+            candidates: VecDeque::new(),
+            taken: None,
+            resting: BTreeMap::new(),
+            carried_out: BTreeMap::new(),
+            actions: VecDeque::new(),
+            pending: None,
+        }
+    }
+
+    /// The agent.
+    pub fn agent(&self) -> &Arc<Agent> {
+        &self.agent
+    }
+
+    /// How many rules run.
+    pub fn running(&self) -> usize {
+        self.instances.len()
+    }
+
+    /// Somebody's commit. May be told twice, and late.
+    pub fn changed(&mut self, delta: &Delta) {
+        for &reflex in &delta.reflexes {
+            self.fired(reflex);
+        }
+        let touched = Mentions::of(delta);
+        let leases = touched.labels().any(|label| label == LabelId::HOLDS);
+        for (id, rule) in self.agent.enumerate() {
+            if rule.mentions().intersects(&touched) || (leases && !rule.claims.is_empty()) {
+                self.dirty.insert(id);
+            }
+        }
+    }
+
+    /// Commits were missed; `snapshot` is what they led to. Instances whose condition over all does not hold
+    /// there have been stopped by their guards; others that were will find their guard gone when they end.
+    pub fn lagged(&mut self, snapshot: &Snapshot) {
+        let broken: Vec<Key> = self
+            .instances
+            .iter()
+            .filter(|((rule, parameters), _)| !self.agent.rule(*rule).keeps(snapshot, parameters))
+            .map(|(key, _)| key.clone())
+            .collect();
+        for key in broken {
+            self.stopped(&key);
+        }
+        self.dirty.extend(self.agent.rule_ids());
+    }
+
+    /// A skill ended. An instance that is gone is ignored: its reflex was faster.
+    pub fn ended(&mut self, id: InstanceId, ended: Ended) {
+        if let Some(instance) = self.instances.values_mut().find(|instance| instance.id == id)
+            && matches!(instance.phase, Phase::Running)
+        {
+            instance.phase = Phase::Ending(ended);
+        }
+    }
+
+    /// The next instant at which [`Runtime::next_action`] shall be asked even if nothing happens.
+    pub fn deadline(&self) -> Option<Time> {
+        let limits = self.instances.values().filter_map(|instance| instance.deadline);
+        limits.chain(self.resting.values().copied()).min()
+    }
+
+    /// What to do next, given the present graph and time; `None` when there is nothing until something happens.
+    pub fn next_action(&mut self, snapshot: &Snapshot, now: Time) -> Option<Action> {
+        self.time_out(now);
+        if let Some(action) = self.actions.pop_front() {
+            return Some(action);
+        }
+        self.end_one(snapshot)
+            .or_else(|| self.use_what_was_taken(snapshot, now))
+            .or_else(|| self.start_one(snapshot, now))
+            .map(Action::Commit)
+    }
+
+    /// The result of the commit that was asked for.
+    pub fn committed(&mut self, result: Result<&Commit, &TransactionError>, now: Time) {
+        let Some(pending) = self.pending.take() else { return };
+        match (pending, result) {
+            (Pending::Take(key, resources), Ok(_)) => self.taken = Some((key, resources)),
+            (Pending::Start(key), Ok(commit)) => self.started(key, commit, now),
+            (Pending::End(key), Ok(_)) => self.finished(&key, now),
+            (Pending::GiveBack, Ok(_)) => {}
+            (pending, Err(error)) => self.refused(pending, error, now),
+        }
+        // Reflexes that this very commit broke, own ones included.
+        if let Ok(commit) = result {
+            self.changed(&commit.delta);
+        }
+    }
+
+    /// Skills whose duration is over, and bindings that have rested.
+    fn time_out(&mut self, now: Time) {
+        for ((rule, _), instance) in &mut self.instances {
+            if instance.deadline.is_some_and(|deadline| deadline <= now) {
+                instance.deadline = None;
+                if matches!(instance.phase, Phase::Running) {
+                    debug!(rule = %self.agent.rule(*rule).name, "timeout");
+                    instance.phase = Phase::Ending(Ended::otherwise(Outcome::TIMEOUT));
+                    self.actions.push_back(Action::Stop(instance.id));
+                }
+            }
+        }
+        let dirty = &mut self.dirty;
+        self.resting.retain(|(rule, _), until| {
+            let rests = *until > now;
+            if !rests {
+                dirty.insert(*rule);
+            }
+            rests
+        });
+    }
+
+    /// The commit that ends an instance whose skill has ended.
+    fn end_one(&mut self, snapshot: &Snapshot) -> Option<Transaction> {
+        loop {
+            let (key, instance) =
+                self.instances.iter_mut().find(|(_, instance)| matches!(instance.phase, Phase::Ending(_)))?;
+            let Phase::Ending(ended) = &instance.phase else { return None };
+            let rule = self.agent.rule(key.0);
+            match rule.after(snapshot, &key.1, ended) {
+                Ok(edits) => {
+                    let mut transaction = transaction(&self.agent, snapshot);
+                    transaction.dismiss(instance.guard).extend(edits);
+                    self.pending = Some(Pending::End(key.clone()));
+                    return Some(transaction);
+                }
+                Err(refusal) => {
+                    error!(rule = %rule.name, outcome = %ended.outcome, %refusal, "a rule cannot end so");
+                    instance.phase = instance.phase.retreat();
+                }
+            }
+        }
+    }
+
+    /// Starts the rule for which resources were taken, or gives them back.
+    fn use_what_was_taken(&mut self, snapshot: &Snapshot, now: Time) -> Option<Transaction> {
+        let (key, resources) = self.taken.take()?;
+        if self.agent.rule(key.0).may_start(snapshot, &key.1)
+            && let Some(start) = self.start(snapshot, key, &resources, now)
+        {
+            return Some(start);
+        }
+        let mut transaction = transaction(&self.agent, snapshot);
+        for resource in resources {
+            transaction.release(resource);
+        }
+        self.pending = Some(Pending::GiveBack);
+        Some(transaction)
+    }
+
+    /// The commit that starts the next rule that may, or takes resources for it.
+    fn start_one(&mut self, snapshot: &Snapshot, now: Time) -> Option<Transaction> {
+        loop {
+            let Some(key) = self.candidates.pop_front() else {
+                let rule = self.most_urgent_dirty()?;
+                self.dirty.remove(&rule);
+                let bindings = self.agent.rule(rule).candidates(snapshot);
+                self.candidates = bindings.into_iter().map(|parameters| (rule, parameters)).collect();
+                continue;
+            };
+            if self.instances.contains_key(&key) || self.resting.contains_key(&key) {
+                continue;
+            }
+            let rule = self.agent.rule(key.0);
+            if !rule.may_start(snapshot, &key.1) {
+                continue;
+            }
+            match access(snapshot, rule) {
+                Access::Free => {
+                    if let Some(start) = self.start(snapshot, key, &[], now) {
+                        return Some(start);
+                    }
+                }
+                Access::Refused => {}
+                Access::Takeable(resources) => {
+                    let mut transaction = transaction(&self.agent, snapshot);
+                    for &resource in &resources {
+                        transaction.claim(resource, rule.priority, Preemption::Yields);
+                    }
+                    self.pending = Some(Pending::Take(key, resources));
+                    return Some(transaction);
+                }
+            }
+        }
+    }
+
+    fn most_urgent_dirty(&self) -> Option<RuleId> {
+        self.dirty.iter().copied().min_by_key(|&id| (std::cmp::Reverse(self.agent.rule(id).priority), id))
+    }
+
+    /// The commit that starts a rule; `held` has been claimed for it before.
+    fn start(
+        &mut self,
+        snapshot: &Snapshot,
+        key: Key,
+        held: &[ResourceId],
+        now: Time,
+    ) -> Option<Transaction> {
+        let rule = self.agent.rule(key.0);
+        let mut transaction = transaction(&self.agent, snapshot);
+        for &resource in rule.claims.iter().filter(|resource| !held.contains(resource)) {
+            transaction.claim(resource, rule.priority, Preemption::Yields);
+        }
+        let prepared = rule.meanwhile(snapshot, &key.1).and_then(|edits| {
+            transaction.extend(edits);
+            if rule.skill.is_some() {
+                transaction.guard(rule.reflex(self.agent.id, snapshot, &key.1)?);
+            }
+            Ok(())
+        });
+        if let Err(refusal) = prepared {
+            error!(rule = %rule.name, %refusal, "a rule cannot start");
+            self.rest(&key, now);
+            return None;
+        }
+        self.pending = Some(Pending::Start(key));
+        Some(transaction)
+    }
+
+    fn started(&mut self, key: Key, commit: &Commit, now: Time) {
+        let rule = self.agent.rule(key.0);
+        let Some((skill, arguments)) = &rule.skill else {
+            if self.carried_out.insert(key.clone(), now) == Some(now) {
+                self.rest(&key, now);
+            }
+            return;
+        };
+        let Some(&guard) = commit.guards.first() else { return };
+        debug!(agent = %self.agent.name, rule = %rule.name, version = commit.version.0, "starts");
+        let instance = InstanceId(self.next);
+        self.next += 1;
+        let deadline = rule.limit.map(|limit| after(now, limit));
+        let call = Call {
+            arguments: arguments
+                .iter()
+                .map(|argument| rule.argument(argument, &commit.snapshot, &key.1))
+                .collect(),
+            snapshot: commit.snapshot.clone(),
+        };
+        self.actions.push_back(Action::Launch { instance, skill: Arc::clone(skill), call });
+        self.instances
+            .insert(key, Instance { id: instance, guard, since: now, deadline, phase: Phase::Running });
+    }
+
+    /// An instance has written its own end.
+    fn finished(&mut self, key: &Key, now: Time) {
+        let Some(instance) = self.instances.remove(key) else { return };
+        self.dirty.insert(key.0);
+        if let Phase::Ending(ended) = &instance.phase {
+            debug!(
+                agent = %self.agent.name, rule = %self.agent.rule(key.0).name, outcome = %ended.outcome, "ends"
+            );
+            if instance.since == now || ended.outcome.name() == Outcome::FAILURE {
+                self.rest(key, now);
+            }
+        }
+    }
+
+    fn refused(&mut self, pending: Pending, refusal: &TransactionError, now: Time) {
+        match (pending, refusal) {
+            // The graph moved on; the same question gets a new answer.
+            (Pending::Take(key, _) | Pending::Start(key), TransactionError::Stale { .. }) => {
+                self.candidates.push_front(key);
+            }
+            (Pending::End(_), TransactionError::Stale { .. }) => {}
+            // Somebody was faster, or what the start would leave does not keep: a later delta asks again.
+            (
+                Pending::Take(..) | Pending::Start(_),
+                TransactionError::ResourceHeld { .. } | TransactionError::KeepBroken { .. },
+            ) => {}
+            // The guard was faster than the end; `abort` is written.
+            (Pending::End(key), TransactionError::ReflexGone { .. }) => self.stopped(&key),
+            // What was taken is gone by itself if somebody took it; otherwise nothing else is left to try.
+            (Pending::GiveBack, refusal) => debug!(%refusal, "nothing to give back"),
+            (Pending::Take(key, _) | Pending::Start(key), refusal) => {
+                error!(rule = %self.agent.rule(key.0).name, %refusal, "a rule cannot start");
+                self.rest(&key, now);
+            }
+            (Pending::End(key), refusal) => {
+                error!(rule = %self.agent.rule(key.0).name, %refusal, "a rule cannot end so");
+                if let Some(instance) = self.instances.get_mut(&key) {
+                    instance.phase = instance.phase.retreat();
+                }
+            }
+        }
+    }
+
+    /// A reflex fired: if it was the guard of one of ours, its skill is to be dropped.
+    fn fired(&mut self, reflex: ReflexId) {
+        let key =
+            self.instances.iter().find(|(_, instance)| instance.guard == reflex).map(|(key, _)| key.clone());
+        if let Some(key) = key {
+            debug!(agent = %self.agent.name, rule = %self.agent.rule(key.0).name, "reflex");
+            self.stopped(&key);
+        }
+    }
+
+    fn stopped(&mut self, key: &Key) {
+        if let Some(instance) = self.instances.remove(key) {
+            self.dirty.insert(key.0);
+            // Before anything that is still to be launched.
+            self.actions.retain(
+                |action| !matches!(action, Action::Launch { instance: id, .. } if *id == instance.id),
+            );
+            self.actions.push_front(Action::Stop(instance.id));
+        }
+    }
+
+    fn rest(&mut self, key: &Key, now: Time) {
+        self.resting.insert(key.clone(), after(now, REST));
+    }
+}
+
+/// On this very version, so that what was decided is what is done.
+fn transaction(agent: &Agent, snapshot: &Snapshot) -> Transaction {
+    let mut transaction = Transaction::new(agent.id);
+    transaction.expect_version(snapshot.version());
+    transaction
+}
+
+/// Whether a rule could have its resources now.
+enum Access {
+    Free,
+    /// These are held at a lower priority.
+    Takeable(Vec<ResourceId>),
+    Refused,
+}
+
+fn access(snapshot: &Snapshot, rule: &Rule) -> Access {
+    let mut takeable = Vec::new();
+    for &resource in &rule.claims {
+        match snapshot.lease(resource) {
+            None => {}
+            Some(lease) if lease.priority < rule.priority && lease.preemption == Preemption::Yields => {
+                takeable.push(resource);
+            }
+            Some(_) => return Access::Refused,
+        }
+    }
+    if takeable.is_empty() { Access::Free } else { Access::Takeable(takeable) }
+}
+
+fn after(now: Time, duration: std::time::Duration) -> Time {
+    Time(now.0.saturating_add(u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX)))
+}
+
+impl std::fmt::Debug for Runtime {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Runtime")
+            .field("agent", &self.agent.name)
+            .field("instances", &self.instances)
+            .field("resting", &self.resting)
+            .finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,149 @@
+//! The shell: drives one agent over the real graph, clock and devices.
+//!
+//! Idea: one future per agent that is woken by the graph, by a skill, or by the time; it feeds the pure
+//! [`Runtime`] and does what that asks for. It spawns nothing, so all agents together can live in one task.
+//!
+//! Invariant: the same wakings in the same order give the same commits. News of the graph come before endings
+//! of skills, so that a skill which a reflex stopped can no longer end; skills are polled in the order of their
+//! launch. Dropping the future drops every skill, which stops every device; the graph is then told by
+//! [`dsr::Graph::expire`].
+
+use std::collections::BTreeMap;
+use std::convert::Infallible;
+use std::fmt;
+use std::future::poll_fn;
+use std::sync::Arc;
+use std::task::Poll;
+use std::time::Duration;
+
+use dsr::{Event, Graph, Time};
+use tokio::sync::Notify;
+use tokio::time::{Instant, sleep};
+use tracing::{Instrument, debug_span};
+
+use crate::rule::Agent;
+use crate::runtime::{Action, InstanceId, Runtime};
+use crate::skill::{Ended, Equipment, Work};
+
+/// Whoever knows the time that commits are stamped with.
+pub trait Clock: Send + Sync {
+    /// Now; never less than before.
+    fn now(&self) -> Time;
+}
+
+/// Tokio's clock, from an instant on; simulated where that is paused.
+#[derive(Debug, Clone, Copy)]
+pub struct TokioClock {
+    started: Instant,
+}
+
+impl TokioClock {
+    /// Time 0 is now.
+    pub fn start() -> Self {
+        Self { started: Instant::now() }
+    }
+}
+
+impl Clock for TokioClock {
+    fn now(&self) -> Time {
+        Time(u64::try_from(self.started.elapsed().as_nanos()).unwrap_or(u64::MAX))
+    }
+}
+
+/// Where agents live.
+#[derive(Clone)]
+pub struct Environment {
+    /// The shared graph.
+    pub graph: Graph,
+    /// What skills work with.
+    pub equipment: Equipment,
+    /// The time.
+    pub clock: Arc<dyn Clock>,
+}
+
+impl fmt::Debug for Environment {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Environment").field("graph", &self.graph).finish_non_exhaustive()
+    }
+}
+
+/// Runs an agent until it is dropped.
+pub async fn run(agent: Arc<Agent>, environment: Environment) -> Infallible {
+    let span = debug_span!("agent", name = %agent.name);
+    drive(Runtime::new(agent), environment).instrument(span).await
+}
+
+/// Runs agents side by side in one task until it is dropped. They take their turns in the order given.
+pub async fn run_all(agents: impl IntoIterator<Item = Arc<Agent>>, environment: Environment) -> Infallible {
+    let mut agents: Vec<_> =
+        agents.into_iter().map(|agent| Box::pin(run(agent, environment.clone()))).collect();
+    poll_fn(|context| {
+        for agent in &mut agents {
+            if let Poll::Ready(never) = agent.as_mut().poll(context) {
+                return Poll::Ready(never);
+            }
+        }
+        Poll::Pending
+    })
+    .await
+}
+
+async fn drive(mut runtime: Runtime, Environment { graph, equipment, clock }: Environment) -> Infallible {
+    let news = Arc::new(Notify::new());
+    let deltas = graph.subscribe_deltas();
+    let waker = Arc::clone(&news);
+    deltas.on_wake(move || waker.notify_one());
+    let mut skills: BTreeMap<InstanceId, Work> = BTreeMap::new();
+    loop {
+        loop {
+            while let Some(event) = deltas.try_recv() {
+                match event {
+                    Event::Committed(committed) => runtime.changed(&committed.delta),
+                    Event::Lagged { snapshot, .. } => runtime.lagged(&snapshot),
+                }
+            }
+            let now = clock.now();
+            match runtime.next_action(&graph.snapshot(), now) {
+                Some(Action::Commit(transaction)) => {
+                    let result = graph.commit(&transaction, now);
+                    runtime.committed(result.as_ref(), now);
+                }
+                Some(Action::Launch { instance, skill, call }) => {
+                    skills.insert(instance, skill.launch(call, &equipment));
+                }
+                Some(Action::Stop(instance)) => drop(skills.remove(&instance)),
+                None => break,
+            }
+        }
+        let left =
+            runtime.deadline().map(|deadline| Duration::from_nanos(deadline.0.saturating_sub(clock.now().0)));
+        let time_is_up = async {
+            match left {
+                Some(left) => sleep(left).await,
+                None => std::future::pending().await,
+            }
+        };
+        tokio::select! {
+            biased;
+            () = news.notified() => {}
+            (instance, ended) = first_ended(&mut skills) => {
+                skills.remove(&instance);
+                runtime.ended(instance, ended);
+            }
+            () = time_is_up => {}
+        }
+    }
+}
+
+/// The first skill to end, in the order of their launch.
+async fn first_ended(skills: &mut BTreeMap<InstanceId, Work>) -> (InstanceId, Ended) {
+    poll_fn(|context| {
+        for (&instance, work) in &mut *skills {
+            if let Poll::Ready(ended) = work.as_mut().poll(context) {
+                return Poll::Ready((instance, ended));
+            }
+        }
+        Poll::Pending
+    })
+    .await
+}

@@ -1,0 +1,202 @@
+//! Skills: what a rule launches, between its start and its end.
+//!
+//! Problem: rules are text, devices are Rust. Idea: a skill is a named, typed entry point: it gets the names of
+//! nodes, calls the hardware abstraction and ends with one of the outcomes that it declares, and with results
+//! for the rule's `:results` when the outcome is `end`. It never sees the graph change and never writes: what
+//! an outcome means is in the rule.
+//!
+//! Invariant: dropping a [`Work`] stops the device, as [`hal::Operation`] promises.
+
+use std::borrow::Borrow;
+use std::collections::BTreeMap;
+use std::fmt;
+use std::future::Future;
+use std::ops::RangeInclusive;
+use std::pin::Pin;
+use std::sync::Arc;
+
+use dsr::{Isometry3, Snapshot};
+use hal::{DeviceError, Devices};
+
+use crate::words::{Reporter, Words};
+
+/// How a skill, or the rule around it, ends.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Outcome(Arc<str>);
+
+impl Outcome {
+    /// The skill did what it was launched for.
+    pub const END: &'static str = "end";
+    /// A reflex stopped it: what had to keep holding no longer did.
+    pub const ABORT: &'static str = "abort";
+    /// The rule's duration was over first.
+    pub const TIMEOUT: &'static str = "timeout";
+    /// The device failed.
+    pub const FAILURE: &'static str = "failure";
+    /// Nothing is written; never in a rule.
+    pub(crate) const NOTHING: &'static str = "";
+
+    /// The outcome of that name.
+    pub fn new(name: &str) -> Self {
+        Self(name.into())
+    }
+
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.0
+    }
+}
+
+impl Borrow<str> for Outcome {
+    fn borrow(&self) -> &str {
+        &self.0
+    }
+}
+
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+/// What a skill hands back for one of the rule's `:results`.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Datum {
+    /// The node of this name.
+    Node(Arc<str>),
+    /// A pose, in metres.
+    Pose(Isometry3<f64>),
+}
+
+/// The kind of a [`Datum`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DatumKind {
+    /// A node.
+    Node,
+    /// A pose.
+    Pose,
+}
+
+impl fmt::Display for DatumKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Node => "node",
+            Self::Pose => "pose",
+        })
+    }
+}
+
+/// How a skill ended.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ended {
+    /// Which outcome.
+    pub outcome: Outcome,
+    /// As many as the signature says, when the outcome is `end`.
+    pub results: Vec<Datum>,
+}
+
+impl Ended {
+    /// Ended well, with these results.
+    pub fn well(results: Vec<Datum>) -> Self {
+        Self { outcome: Outcome::new(Outcome::END), results }
+    }
+
+    /// Ended otherwise.
+    pub fn otherwise(outcome: &str) -> Self {
+        Self { outcome: Outcome::new(outcome), results: Vec::new() }
+    }
+
+    /// Ended well, or failed with the device.
+    pub(crate) fn of<T>(result: Result<T, DeviceError>, results: impl FnOnce(T) -> Vec<Datum>) -> Self {
+        match result {
+            Ok(value) => Self::well(results(value)),
+            Err(error) => {
+                tracing::debug!(%error, "a device failed");
+                Self::otherwise(Outcome::FAILURE)
+            }
+        }
+    }
+}
+
+/// What a skill offers to rules.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Signature {
+    /// Its name in `:skill`.
+    pub name: &'static str,
+    /// How many arguments it takes.
+    pub arity: RangeInclusive<usize>,
+    /// What it yields at `end`.
+    pub results: &'static [DatumKind],
+    /// The outcomes that it can report beside `end`.
+    pub outcomes: &'static [&'static str],
+}
+
+/// What a skill is launched with.
+#[derive(Debug, Clone)]
+pub struct Call {
+    /// The names of the argument nodes.
+    pub arguments: Vec<Arc<str>>,
+    /// The graph right after the rule's effects at start.
+    pub snapshot: Snapshot,
+}
+
+impl Call {
+    /// An argument; empty where the rule gives none.
+    pub fn argument(&self, at: usize) -> &str {
+        self.arguments.get(at).map_or("", |name| name)
+    }
+}
+
+/// What skills work with.
+#[derive(Clone)]
+pub struct Equipment {
+    /// The robot's devices.
+    pub devices: Devices,
+    /// What is said and shown.
+    pub words: Arc<dyn Words>,
+    /// What is reported.
+    pub reporter: Arc<dyn Reporter>,
+}
+
+/// A skill at work. Dropping it stops the device at once.
+pub type Work = Pin<Box<dyn Future<Output = Ended> + Send>>;
+
+/// A skill.
+pub trait Skill: Send + Sync {
+    /// What it offers.
+    fn signature(&self) -> Signature;
+
+    /// Prepares the work; nothing happens before it is polled.
+    fn launch(&self, call: Call, equipment: &Equipment) -> Work;
+}
+
+/// The skills that rules may name.
+#[derive(Clone, Default)]
+pub struct Skills {
+    by_name: BTreeMap<&'static str, Arc<dyn Skill>>,
+}
+
+impl Skills {
+    /// The skill of that name.
+    pub fn get(&self, name: &str) -> Option<&Arc<dyn Skill>> {
+        self.by_name.get(name)
+    }
+
+    /// All signatures, by name.
+    pub fn signatures(&self) -> impl Iterator<Item = Signature> + '_ {
+        self.by_name.values().map(|skill| skill.signature())
+    }
+
+    /// These, and one more; it replaces another of its name.
+    #[must_use]
+    pub fn with(mut self, skill: impl Skill + 'static) -> Self {
+        self.by_name.insert(skill.signature().name, Arc::new(skill));
+        self
+    }
+}
+
+impl fmt::Debug for Skills {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_set().entries(self.by_name.keys()).finish()
+    }
+}

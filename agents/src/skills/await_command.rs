@@ -1,0 +1,17 @@
+//! `await-command`: the clinician gives a command.
+
+use super::FAILURE;
+use crate::skill::{Call, Ended, Equipment, Signature, Skill, Work};
+
+pub(super) struct AwaitCommand;
+
+impl Skill for AwaitCommand {
+    fn signature(&self) -> Signature {
+        Signature { name: "await-command", arity: 1..=1, results: &[], outcomes: FAILURE }
+    }
+
+    fn launch(&self, call: Call, equipment: &Equipment) -> Work {
+        let device = equipment.devices.clinic.clone();
+        Box::pin(async move { Ended::of(device.next_command(call.argument(0)).await, |()| Vec::new()) })
+    }
+}

@@ -1,0 +1,18 @@
+//! `await-loss`: nobody is in view any more.
+
+use super::FAILURE;
+use crate::skill::{Call, Ended, Equipment, Signature, Skill, Work};
+
+pub(super) struct AwaitLoss;
+
+impl Skill for AwaitLoss {
+    fn signature(&self) -> Signature {
+        Signature { name: "await-loss", arity: 0..=1, results: &[], outcomes: FAILURE }
+    }
+
+    fn launch(&self, call: Call, equipment: &Equipment) -> Work {
+        let _ = call;
+        let device = equipment.devices.skeleton.clone();
+        Box::pin(async move { Ended::of(device.await_loss().await, |()| Vec::new()) })
+    }
+}

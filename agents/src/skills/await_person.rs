@@ -1,0 +1,19 @@
+//! `await-person`: somebody comes into view; where.
+
+use super::FAILURE;
+use crate::skill::Datum;
+use crate::skill::{Call, DatumKind, Ended, Equipment, Signature, Skill, Work};
+
+pub(super) struct AwaitPerson;
+
+impl Skill for AwaitPerson {
+    fn signature(&self) -> Signature {
+        Signature { name: "await-person", arity: 0..=1, results: &[DatumKind::Pose], outcomes: FAILURE }
+    }
+
+    fn launch(&self, call: Call, equipment: &Equipment) -> Work {
+        let _ = call;
+        let device = equipment.devices.skeleton.clone();
+        Box::pin(async move { Ended::of(device.await_person().await, |pose| vec![Datum::Pose(pose)]) })
+    }
+}

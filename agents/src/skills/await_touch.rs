@@ -1,0 +1,22 @@
+//! `await-touch`: the touchscreen waits for one of the options of a part.
+
+use super::FAILURE;
+use super::question;
+use crate::skill::Datum;
+use crate::skill::{Call, DatumKind, Ended, Equipment, Signature, Skill, Work};
+
+pub(super) struct AwaitTouch;
+
+impl Skill for AwaitTouch {
+    fn signature(&self) -> Signature {
+        Signature { name: "await-touch", arity: 1..=2, results: &[DatumKind::Node], outcomes: FAILURE }
+    }
+
+    fn launch(&self, call: Call, equipment: &Equipment) -> Work {
+        let asked = question(&*equipment.words, call.argument(0), call.argument(1));
+        let device = equipment.devices.buttons.clone();
+        Box::pin(async move {
+            Ended::of(device.next_touch(&asked).await, |option| vec![Datum::Node(option.into())])
+        })
+    }
+}

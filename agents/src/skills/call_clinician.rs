@@ -1,0 +1,17 @@
+//! `call-clinician`: the clinician is called, comes, and sees to it.
+
+use super::FAILURE;
+use crate::skill::{Call, Ended, Equipment, Signature, Skill, Work};
+
+pub(super) struct CallClinician;
+
+impl Skill for CallClinician {
+    fn signature(&self) -> Signature {
+        Signature { name: "call-clinician", arity: 1..=1, results: &[], outcomes: FAILURE }
+    }
+
+    fn launch(&self, call: Call, equipment: &Equipment) -> Work {
+        let device = equipment.devices.clinic.clone();
+        Box::pin(async move { Ended::of(device.call(call.argument(0)).await, |()| Vec::new()) })
+    }
+}

@@ -1,0 +1,25 @@
+//! `deliver`: a document is written from the graph and handed to the clinician.
+
+use super::FAILURE;
+use crate::skill::Outcome;
+use crate::skill::{Call, Ended, Equipment, Signature, Skill, Work};
+
+pub(super) struct Deliver;
+
+impl Skill for Deliver {
+    fn signature(&self) -> Signature {
+        Signature { name: "deliver", arity: 1..=1, results: &[], outcomes: FAILURE }
+    }
+
+    fn launch(&self, call: Call, equipment: &Equipment) -> Work {
+        let report = equipment.reporter.report(call.argument(0), &call.snapshot);
+        let device = equipment.devices.clinic.clone();
+        Box::pin(async move {
+            let Some(report) = report else {
+                tracing::warn!(?call.arguments, "no such document");
+                return Ended::otherwise(Outcome::FAILURE);
+            };
+            Ended::of(device.deliver(&report).await, |()| Vec::new())
+        })
+    }
+}

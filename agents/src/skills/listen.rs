@@ -1,0 +1,34 @@
+//! `listen`: the ear waits for one of the options of a part. What is none of them is `misheard`.
+
+use super::question;
+use crate::skill::{Call, DatumKind, Ended, Equipment, Signature, Skill, Work};
+use crate::skill::{Datum, Outcome};
+use hal::Heard;
+
+pub(super) struct Listen;
+
+impl Skill for Listen {
+    fn signature(&self) -> Signature {
+        Signature {
+            name: "listen",
+            arity: 1..=2,
+            results: &[DatumKind::Node],
+            outcomes: &["misheard", Outcome::FAILURE],
+        }
+    }
+
+    fn launch(&self, call: Call, equipment: &Equipment) -> Work {
+        let asked = question(&*equipment.words, call.argument(0), call.argument(1));
+        let device = equipment.devices.speech_in.clone();
+        Box::pin(async move {
+            match device.listen(&asked).await {
+                Ok(Heard::NotUnderstood(words)) => {
+                    tracing::debug!(words, "not understood");
+                    Ended::otherwise("misheard")
+                }
+                Ok(Heard::Phrase(option)) => Ended::well(vec![Datum::Node(option.into())]),
+                Err(error) => Ended::of(Err::<(), _>(error), |()| Vec::new()),
+            }
+        })
+    }
+}

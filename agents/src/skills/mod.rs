@@ -1,0 +1,66 @@
+//! The skills over the hardware abstraction, a file each.
+//!
+//! | skill | arguments | results | outcomes beside `end` |
+//! |---|---|---|---|
+//! | `say` | part, utterance | | failure |
+//! | `listen` | part, question? | option | misheard, failure |
+//! | `spot` | request | | failure |
+//! | `show` | part, utterance | | failure |
+//! | `watch-page` | | utterance, part | failure |
+//! | `await-touch` | part, question? | option | failure |
+//! | `await-person`, `await-loss` | person? | pose; – | failure |
+//! | `await-command` | command | | failure |
+//! | `call-clinician` | need | | failure |
+//! | `deliver` | document | | failure |
+//!
+//! The optional question tells one asking from another; it reaches the device as a name only.
+
+mod await_command;
+mod await_loss;
+mod await_person;
+mod await_touch;
+mod call_clinician;
+mod deliver;
+mod listen;
+mod say;
+mod show;
+mod spot;
+mod watch_page;
+
+use hal::{Phrase, Question};
+
+use crate::skill::{Outcome, Skills};
+use crate::words::Words;
+
+/// What a skill over one device reports beside `end`.
+const FAILURE: &[&str] = &[Outcome::FAILURE];
+
+/// Every skill of this crate.
+pub fn standard() -> Skills {
+    Skills::default()
+        .with(say::Say)
+        .with(listen::Listen)
+        .with(spot::Spot)
+        .with(show::Show)
+        .with(watch_page::WatchPage)
+        .with(await_touch::AwaitTouch)
+        .with(await_person::AwaitPerson)
+        .with(await_loss::AwaitLoss)
+        .with(await_command::AwaitCommand)
+        .with(call_clinician::CallClinician)
+        .with(deliver::Deliver)
+}
+
+/// The options of a part as what may be said or touched.
+fn options(words: &dyn Words, part: &str) -> Vec<Phrase> {
+    words.options(part).into_iter().map(|(id, words)| Phrase { id, words }).collect()
+}
+
+fn question(words: &dyn Words, part: &str, name: &str) -> Question {
+    Question {
+        topic: part.to_owned(),
+        name: name.to_owned(),
+        language: words.language().to_owned(),
+        options: options(words, part),
+    }
+}

@@ -1,0 +1,26 @@
+//! `say`: the loudspeaker says an utterance of a part.
+
+use super::FAILURE;
+use crate::skill::Outcome;
+use crate::skill::{Call, Ended, Equipment, Signature, Skill, Work};
+
+pub(super) struct Say;
+
+impl Skill for Say {
+    fn signature(&self) -> Signature {
+        Signature { name: "say", arity: 2..=2, results: &[], outcomes: FAILURE }
+    }
+
+    fn launch(&self, call: Call, equipment: &Equipment) -> Work {
+        let words = &equipment.words;
+        let text = words.sentence(call.argument(0), call.argument(1));
+        let (device, language) = (equipment.devices.speech_out.clone(), words.language().to_owned());
+        Box::pin(async move {
+            let Some(text) = text else {
+                tracing::warn!(?call.arguments, "no words for what is to be said");
+                return Ended::otherwise(Outcome::FAILURE);
+            };
+            Ended::of(device.say(&text, &language).await, |()| Vec::new())
+        })
+    }
+}

@@ -1,0 +1,34 @@
+//! `show`: the screen shows the page of an utterance of a part, with the options of the part.
+
+use super::FAILURE;
+use super::options;
+use crate::skill::Outcome;
+use crate::skill::{Call, Ended, Equipment, Signature, Skill, Work};
+use hal::{Page, PageId};
+
+pub(super) struct Show;
+
+impl Skill for Show {
+    fn signature(&self) -> Signature {
+        Signature { name: "show", arity: 2..=2, results: &[], outcomes: FAILURE }
+    }
+
+    fn launch(&self, call: Call, equipment: &Equipment) -> Work {
+        let words = &equipment.words;
+        let (part, utterance) = (call.argument(0), call.argument(1));
+        let page = words.sentence(part, utterance).map(|text| Page {
+            id: PageId { topic: part.to_owned(), name: utterance.to_owned() },
+            title: words.title(part),
+            text,
+            options: options(&**words, part),
+        });
+        let device = equipment.devices.screen.clone();
+        Box::pin(async move {
+            let Some(page) = page else {
+                tracing::warn!(?call.arguments, "no words for what is to be shown");
+                return Ended::otherwise(Outcome::FAILURE);
+            };
+            Ended::of(device.show(&page).await, |()| Vec::new())
+        })
+    }
+}

@@ -1,0 +1,27 @@
+//! `spot`: the ear waits for a request, whatever else is said.
+
+use super::FAILURE;
+use crate::skill::{Call, Ended, Equipment, Signature, Skill, Work};
+use hal::{Phrase, Question};
+
+pub(super) struct Spot;
+
+impl Skill for Spot {
+    fn signature(&self) -> Signature {
+        Signature { name: "spot", arity: 1..=1, results: &[], outcomes: FAILURE }
+    }
+
+    fn launch(&self, call: Call, equipment: &Equipment) -> Work {
+        let words = &equipment.words;
+        let request = call.argument(0);
+        let options = words.request_words(request);
+        let wanted = Question {
+            topic: request.to_owned(),
+            name: String::new(),
+            language: words.language().to_owned(),
+            options: options.into_iter().map(|words| Phrase { id: request.to_owned(), words }).collect(),
+        };
+        let device = equipment.devices.speech_in.clone();
+        Box::pin(async move { Ended::of(device.spot(&wanted).await, |()| Vec::new()) })
+    }
+}

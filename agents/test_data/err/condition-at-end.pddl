@@ -1,0 +1,8 @@
+(define (domain talker)
+  (:requirements :typing :negative-preconditions :fluents :durative-actions :agent-rules)
+  (:import lab)
+  (:durative-action rule
+    :parameters (?r - robot ?s - sentence)
+    :condition (at end (shall_say ?r ?s))
+    :effect (at end (said ?r ?s))
+    :skill (say ?r ?s)))

@@ -1,0 +1,8 @@
+(define (domain talker)
+  (:requirements :typing :negative-preconditions :fluents :durative-actions :agent-rules)
+  (:import lab)
+  (:durative-action rule
+    :parameters (?r - robot ?s - sentence)
+    :condition (at start (shall_say ?r ?s))
+    :effect (and (at end (said ?r ?s)) (at abort (not (shall_say ?r ?s))))
+    :skill (say ?r ?s)))

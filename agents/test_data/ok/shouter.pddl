@@ -1,0 +1,22 @@
+(define (domain shouter)
+  (:requirements :typing :negative-preconditions :durative-actions :agent-rules)
+  (:import lab)
+
+  (:durative-action shout
+    :parameters (?r - robot ?s - sentence)
+    :condition (over all (shall_shout ?r ?s))
+    :effect (and
+      (at start (not (is_not ?r speaking)))
+      (at start (is ?r speaking))
+      (at start (says ?r ?s))
+      (at end (not (is ?r speaking)))
+      (at end (is_not ?r speaking))
+      (at end (not (says ?r ?s)))
+      (at end (not (shall_shout ?r ?s)))
+      (at end (said ?r ?s))
+      (at abort (not (is ?r speaking)))
+      (at abort (is_not ?r speaking))
+      (at abort (not (says ?r ?s))))
+    :skill (say ?r ?s)
+    :claims (mouth)
+    :priority 70))

@@ -1,0 +1,175 @@
+//! Agents over the simulated room: the real shell, the simulated clock.
+#![allow(clippy::unwrap_used, reason = "a test")]
+
+mod common;
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use agents::{Environment, Equipment, Reporter, TokioClock, Words, run_all};
+use common::{Lab, told};
+use dsr::{Event, Snapshot};
+use expect_test::expect;
+use hal::Device;
+use hal::sim::{ClinicianScript, PatientScript, RoomEvent, SimRoom};
+use tokio::time::sleep;
+
+struct LabWords;
+
+impl Words for LabWords {
+    fn language(&self) -> &str {
+        "en"
+    }
+
+    fn sentence(&self, _: &str, utterance: &str) -> Option<String> {
+        Some(format!("{utterance} and eight more words to be said"))
+    }
+
+    fn options(&self, _: &str) -> Vec<(String, String)> {
+        ["hello", "goodbye"].map(|option| (option.to_owned(), format!("I say {option}"))).into()
+    }
+
+    fn request_words(&self, request: &str) -> Vec<String> {
+        vec![request.to_owned()]
+    }
+}
+
+impl Reporter for LabWords {
+    fn report(&self, document: &str, _: &Snapshot) -> Option<serde_json::Value> {
+        Some(document.into())
+    }
+}
+
+/// Runs the agents for a simulated time while a director acts; the commits with their times, and the room.
+async fn play<F: Future<Output = ()>>(
+    names: &[&str],
+    director: impl FnOnce(Arc<Lab>, SimRoom) -> F,
+) -> (Vec<String>, SimRoom) {
+    let lab = Arc::new(Lab::new());
+    let room = SimRoom::new(PatientScript::default(), ClinicianScript::default());
+    let deltas = lab.graph.subscribe_deltas();
+    let words = Arc::new(LabWords);
+    let equipment = Equipment { devices: room.devices(), words: words.clone(), reporter: words };
+    let environment =
+        Environment { graph: lab.graph.clone(), equipment, clock: Arc::new(TokioClock::start()) };
+    let agents: Vec<_> = names.iter().map(|name| lab.agent(name)).collect();
+    tokio::select! {
+        biased;
+        never = run_all(agents, environment) => match never {},
+        () = director(Arc::clone(&lab), room.clone()) => {}
+    }
+    let mut lines = Vec::new();
+    while let Some(event) = deltas.try_recv() {
+        let Event::Committed(committed) = event else { panic!("lagged") };
+        let seconds = Duration::from_nanos(committed.delta.time.0).as_secs_f64();
+        lines.push(format!("{seconds:.1} {}", told(&committed.delta, &committed.snapshot)));
+    }
+    (lines, room)
+}
+
+async fn seconds(seconds: f64) {
+    sleep(Duration::from_secs_f64(seconds)).await;
+}
+
+#[tokio::test(start_paused = true)]
+async fn speech_stops_in_the_version_in_which_the_person_is_lost() {
+    let (lines, room) = play(&["talker", "watcher"], |lab, room| async move {
+        seconds(1.0).await;
+        lab.direct(&["+robot shall_say hello"], 1);
+        seconds(1.0).await;
+        room.lose_person();
+        seconds(1.0).await;
+    })
+    .await;
+    // One commit takes the person and the speaking away.
+    let lost: Vec<_> = lines.iter().filter(|line| line.contains("no longer: person is with robot")).collect();
+    let [lost] = lost.as_slice() else { panic!("{lines:#?}") };
+    assert!(
+        lost.contains("no longer: robot is speaking") && lost.contains("robot is not speaking"),
+        "{lost}"
+    );
+    // And the loudspeaker falls silent at that very time, 0.3 s after the person left.
+    let stopped =
+        room.moments().into_iter().find(|moment| matches!(moment.event, RoomEvent::RobotStops { .. }));
+    assert_eq!(stopped.unwrap().at, Duration::from_millis(2300));
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_sentence_goes_from_intention_to_said() {
+    let (lines, room) = play(&["talker", "watcher"], |lab, _| async move {
+        lab.direct(&["+robot shall_say hello"], 0);
+        seconds(10.0).await;
+    })
+    .await;
+    expect![[r#"
+        0.0 v2 director: robot shall say hello
+        0.0 v3 talker: no longer: robot is not speaking, robot is speaking, robot says hello
+        3.2 v4 talker: no longer: robot is speaking, no longer: robot shall say hello, no longer: robot says hello, robot said hello
+    "#]].assert_eq(&(lines.join("\n") + "\n"));
+    assert_eq!(room.moments().len(), 1);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_device_that_fails_gives_the_outcome_failure_and_is_tried_again_after_a_rest() {
+    let (lines, room) = play(&["talker"], |lab, room| async move {
+        room.fail(Device::SpeechOut);
+        lab.direct(&["+robot shall_say hello"], 0);
+        seconds(2.5).await;
+        room.recover(Device::SpeechOut);
+        seconds(5.5).await;
+    })
+    .await;
+    let starts = lines
+        .iter()
+        .filter(|line| line.contains("robot says hello") && !line.contains("no longer: robot says"));
+    let starts: Vec<_> = starts.map(|line| &line[..3]).collect();
+    assert_eq!(starts, ["0.0", "1.0", "2.0", "3.0"], "{lines:#?}");
+    assert!(lines.last().unwrap().contains("robot said hello"));
+    assert!(room.moments().iter().any(|moment| matches!(moment.event, RoomEvent::RobotSays { .. })));
+}
+
+#[tokio::test(start_paused = true)]
+async fn the_person_answers_what_they_were_asked() {
+    let (lines, _) = play(&["talker", "watcher"], |lab, _| async move {
+        lab.direct(&["+robot shall_say hello"], 0);
+        seconds(5.0).await;
+        lab.direct(&["+robot shall_ask person"], 5);
+        seconds(5.0).await;
+    })
+    .await;
+    assert!(lines.last().unwrap().contains("robot heard hello"), "{lines:#?}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn the_same_scenario_gives_the_same_commits_and_the_same_room() {
+    async fn scenario() -> (Vec<String>, String) {
+        let (lines, room) = play(&["talker", "shouter", "watcher"], |lab, room| async move {
+            lab.direct(&["+robot shall_say hello", "+robot shall_say goodbye", "+robot shall_ask person"], 0);
+            seconds(1.5).await;
+            lab.direct(&["+robot shall_shout fire"], 1);
+            seconds(1.5).await;
+            room.lose_person();
+            seconds(4.0).await;
+            room.return_person();
+            seconds(30.0).await;
+        })
+        .await;
+        (lines, format!("{:?}", room.moments()))
+    }
+    let first = scenario().await;
+    assert!(first.0.len() > 10);
+    for _ in 0..5 {
+        assert_eq!(scenario().await, first);
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn dropping_the_shell_stops_every_device() {
+    let (_, room) = play(&["talker"], |lab, _| async move {
+        lab.direct(&["+robot shall_say hello"], 0);
+        seconds(1.0).await;
+    })
+    .await;
+    let stopped = room.moments().last().cloned().unwrap();
+    assert!(matches!(stopped.event, RoomEvent::RobotStops { .. }), "{stopped:?}");
+}
