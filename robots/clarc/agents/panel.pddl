@@ -68,14 +68,15 @@
     :skill (watch-page))
 
   (:durative-action touch
-    :parameters (?r - robot ?p - person ?t - test ?i - item ?a - answer)
+    :parameters (?r - robot ?p - person ?t - test ?i - item ?a - answer ?q - question)
     :condition (and
       (over all (waiting ?p ?a))
       (over all (is_in ?t ?i))
+      (over all (= (question ?t ?i) ?q))
       (over all (is_with ?p ?r)))
     :results (?o - option)
     :effect (and
       (at end (not (waiting ?p ?a)))
       (at end (got ?p ?a))
       (at end (was_chosen_in ?o ?i)))
-    :skill (await-touch ?i)))
+    :skill (await-touch ?i ?q)))

@@ -94,7 +94,7 @@
       (at misheard (not (waiting ?p ?a)))
       (at misheard (was_misheard_in ?q ?i))
       (at misheard (was_unanswered_in ?q ?i)))
-    :skill (listen ?i))
+    :skill (listen ?i ?q))
 
   (:durative-action hear-request
     :parameters (?r - robot ?p - person ?q - request)
