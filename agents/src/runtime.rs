@@ -18,6 +18,7 @@
 //!
 //! Cost: per commit, one intersection of small bit sets per rule, and matching for those that it touches.
 
+mod access;
 mod instance;
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -29,8 +30,9 @@ use dsr::{
 };
 use tracing::{debug, error};
 
+use self::access::{Access, access};
 use self::instance::{Instance, Phase};
-use crate::rule::{Agent, Parameters, Rule, RuleId};
+use crate::rule::{Agent, Parameters, RuleId};
 use crate::skill::{Call, Ended, Outcome, Skill};
 
 /// How long a rule rests for a binding after a failure, or after it began and ended in one instant.
@@ -418,28 +420,6 @@ fn transaction(agent: &Agent, snapshot: &Snapshot) -> Transaction {
     let mut transaction = Transaction::new(agent.id);
     transaction.expect_version(snapshot.version());
     transaction
-}
-
-/// Whether a rule could have its resources now.
-enum Access {
-    Free,
-    /// These are held at a lower priority.
-    Takeable(Vec<ResourceId>),
-    Refused,
-}
-
-fn access(snapshot: &Snapshot, rule: &Rule) -> Access {
-    let mut takeable = Vec::new();
-    for &resource in &rule.claims {
-        match snapshot.lease(resource) {
-            None => {}
-            Some(lease) if lease.priority < rule.priority && lease.preemption == Preemption::Yields => {
-                takeable.push(resource);
-            }
-            Some(_) => return Access::Refused,
-        }
-    }
-    if takeable.is_empty() { Access::Free } else { Access::Takeable(takeable) }
 }
 
 fn after(now: Time, duration: std::time::Duration) -> Time {

@@ -7,7 +7,7 @@
     world robot person - frame
     state sentence - symbol)
   (:constants
-    director talker shouter watcher - agent
+    director talker shouter watcher secretary - agent
     mouth - resource
     speaking broken quiet - state)
   (:predicates
@@ -27,4 +27,5 @@
   (:writes director is_with shall_say shall_shout shall_ask (is _ broken) (is _ quiet))
   (:writes talker (is _ _) (is_not _ speaking) shall_say says said shall_ask waits_for heard missed)
   (:writes shouter (is _ speaking) (is_not _ speaking) shall_shout says said)
-  (:writes watcher is_with rt))
+  (:writes watcher is_with rt)
+  (:writes secretary said heard))

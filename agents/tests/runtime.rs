@@ -6,7 +6,7 @@ mod common;
 use std::sync::Arc;
 
 use agents::{Datum, Ended, Outcome};
-use common::Bench;
+use common::{Bench, at};
 use dsr::Isometry3;
 use expect_test::expect;
 
@@ -210,6 +210,46 @@ fn a_result_that_is_no_node_ends_like_an_abort() {
         v7 talker: no longer: robot waits for person
     "#]]
     .assert_eq(&bench.log());
+}
+
+#[test]
+fn a_rule_without_a_skill_is_over_when_it_begins() {
+    let mut bench = Bench::new(&["talker", "secretary"]);
+    bench.direct(1, &["+robot shall_say hello"]);
+    bench.log();
+    bench.end(2, "say", well());
+    expect![[r#"
+        v4 talker: no longer: robot is speaking, no longer: robot shall say hello, no longer: robot says hello, robot said hello
+        v5 secretary: no longer: robot said hello, robot heard hello
+    "#]].assert_eq(&bench.log());
+}
+
+#[test]
+fn who_missed_commits_stops_what_no_longer_holds() {
+    let mut bench = Bench::new(&["talker"]);
+    bench.direct(1, &["+robot shall_say hello", "+robot shall_ask person"]);
+    bench.log();
+    bench.miss(2, &["-person is_with robot"]);
+    expect![[r#"
+        v5 director: no longer: robot is speaking, no longer: robot says hello, no longer: person is with robot, robot is not speaking
+        talker: stop say person hello
+    "#]].assert_eq(&bench.log());
+}
+
+#[test]
+fn an_agent_that_was_declared_dead_and_is_not_starts_again() {
+    let mut bench = Bench::new(&["talker"]);
+    bench.direct(1, &["+robot shall_say hello"]);
+    bench.log();
+    let talker = bench.lab.graph.dictionary().agent("talker").unwrap();
+    bench.lab.graph.expire(talker, at(2)).unwrap();
+    bench.settle(2);
+    expect![[r#"
+        v4 dsr: no longer: robot is speaking, no longer: robot says hello, robot is not speaking
+        talker: stop say person hello
+        v5 talker: no longer: robot is not speaking, robot is speaking, robot says hello
+        talker: launch say person hello
+    "#]].assert_eq(&bench.log());
 }
 
 #[test]

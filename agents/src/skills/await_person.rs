@@ -1,8 +1,7 @@
 //! `await-person`: somebody comes into view; where.
 
 use super::FAILURE;
-use crate::skill::Datum;
-use crate::skill::{Call, DatumKind, Ended, Equipment, Signature, Skill, Work};
+use crate::skill::{Call, Datum, DatumKind, Ended, Equipment, Signature, Skill, Work};
 
 pub(super) struct AwaitPerson;
 

@@ -1,9 +1,7 @@
 //! `await-touch`: the touchscreen waits for one of the options of a part.
 
-use super::FAILURE;
-use super::question;
-use crate::skill::Datum;
-use crate::skill::{Call, DatumKind, Ended, Equipment, Signature, Skill, Work};
+use super::{FAILURE, question};
+use crate::skill::{Call, Datum, DatumKind, Ended, Equipment, Signature, Skill, Work};
 
 pub(super) struct AwaitTouch;
 

@@ -1,8 +1,7 @@
 //! `deliver`: a document is written from the graph and handed to the clinician.
 
 use super::FAILURE;
-use crate::skill::Outcome;
-use crate::skill::{Call, Ended, Equipment, Signature, Skill, Work};
+use crate::skill::{Call, Ended, Equipment, Outcome, Signature, Skill, Work};
 
 pub(super) struct Deliver;
 

@@ -1,9 +1,9 @@
 //! `listen`: the ear waits for one of the options of a part. What is none of them is `misheard`.
 
-use super::question;
-use crate::skill::{Call, DatumKind, Ended, Equipment, Signature, Skill, Work};
-use crate::skill::{Datum, Outcome};
 use hal::Heard;
+
+use super::question;
+use crate::skill::{Call, Datum, DatumKind, Ended, Equipment, Outcome, Signature, Skill, Work};
 
 pub(super) struct Listen;
 

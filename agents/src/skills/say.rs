@@ -1,8 +1,7 @@
 //! `say`: the loudspeaker says an utterance of a part.
 
 use super::FAILURE;
-use crate::skill::Outcome;
-use crate::skill::{Call, Ended, Equipment, Signature, Skill, Work};
+use crate::skill::{Call, Ended, Equipment, Outcome, Signature, Skill, Work};
 
 pub(super) struct Say;
 

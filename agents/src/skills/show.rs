@@ -1,10 +1,9 @@
 //! `show`: the screen shows the page of an utterance of a part, with the options of the part.
 
-use super::FAILURE;
-use super::options;
-use crate::skill::Outcome;
-use crate::skill::{Call, Ended, Equipment, Signature, Skill, Work};
 use hal::{Page, PageId};
+
+use super::{FAILURE, options};
+use crate::skill::{Call, Ended, Equipment, Outcome, Signature, Skill, Work};
 
 pub(super) struct Show;
 

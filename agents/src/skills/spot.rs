@@ -1,8 +1,9 @@
 //! `spot`: the ear waits for a request, whatever else is said.
 
+use hal::{Phrase, Question};
+
 use super::FAILURE;
 use crate::skill::{Call, Ended, Equipment, Signature, Skill, Work};
-use hal::{Phrase, Question};
 
 pub(super) struct Spot;
 

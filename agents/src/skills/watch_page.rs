@@ -1,8 +1,7 @@
 //! `watch-page`: the screen reports what stands on it: the utterance and its part.
 
 use super::FAILURE;
-use crate::skill::Datum;
-use crate::skill::{Call, DatumKind, Ended, Equipment, Signature, Skill, Work};
+use crate::skill::{Call, Datum, DatumKind, Ended, Equipment, Signature, Skill, Work};
 
 pub(super) struct WatchPage;
 

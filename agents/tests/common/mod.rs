@@ -107,6 +107,17 @@ impl Bench {
         self.settle(seconds);
     }
 
+    /// The director writes, and the agents only learn that they have missed something.
+    pub(crate) fn miss(&mut self, seconds: u64, edits: &[&str]) {
+        self.lab.direct(edits, seconds);
+        let snapshot = self.lab.graph.snapshot();
+        for (runtime, deltas) in &mut self.runtimes {
+            while deltas.try_recv().is_some() {}
+            runtime.lagged(&snapshot);
+        }
+        self.settle(seconds);
+    }
+
     /// Agents take turns until nobody has anything to do.
     pub(crate) fn settle(&mut self, seconds: u64) {
         let now = at(seconds);
