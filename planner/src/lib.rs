@@ -31,6 +31,7 @@ mod ground;
 mod heuristics;
 mod ids;
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test")]
 mod random_tests;
 mod search;
 mod task;

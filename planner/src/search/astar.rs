@@ -55,7 +55,6 @@ fn run(
     if h != Estimate::DEAD_END {
         open.push(Reverse((u64::from(h.0), h.0, order, 0, start.0)));
     }
-    let mut calls = 0;
     while let Some(Reverse((_, _, _, g, id))) = open.pop() {
         let id = StateId(id);
         if nodes[id.0 as usize].g < g {
@@ -65,9 +64,8 @@ fn run(
         if query.goal.holds_in(&here) {
             return Outcome::Solved(Plan::of(task, registry.path(id)));
         }
-        calls += 1;
         let bytes = registry.memory() + nodes.len() * size_of::<Node>() + open.len() * 40;
-        if let Some(limit) = budget.exceeded(statistics.expanded, bytes, calls) {
+        if let Some(limit) = budget.exceeded(statistics.expanded, bytes, 0) {
             return Outcome::LimitReached(limit);
         }
         statistics.expanded += 1;

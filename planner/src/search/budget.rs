@@ -43,13 +43,14 @@ pub enum Limit {
 }
 
 impl Budget<'_> {
-    /// The limit that is exceeded. The closure is asked once in 16 calls.
-    pub(crate) fn exceeded(&self, expanded: u64, bytes: usize, calls: u64) -> Option<Limit> {
+    /// The limit that is exceeded. The closure is asked where `turn` is a
+    /// multiple of 16: searches whose steps are dear pass 0.
+    pub(crate) fn exceeded(&self, expanded: u64, bytes: usize, turn: u64) -> Option<Limit> {
         if self.expansions.is_some_and(|most| expanded >= most) {
             Some(Limit::Expansions)
         } else if self.memory_bytes.is_some_and(|most| bytes > most) {
             Some(Limit::Memory)
-        } else if calls.is_multiple_of(16) && (self.interrupted)() {
+        } else if turn.is_multiple_of(16) && (self.interrupted)() {
             Some(Limit::Interrupted)
         } else {
             None

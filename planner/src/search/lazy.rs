@@ -74,15 +74,13 @@ impl Lazy<'_> {
         for h in &mut self.heuristics {
             h.start(current, &next);
         }
-        let mut calls = 0;
         loop {
             if query.goal.holds_in(&next) {
                 return Outcome::Solved(Plan::of(self.task, self.registry.path(current)));
             }
             self.visit(current, &next);
             loop {
-                calls += 1;
-                if let Some(limit) = budget.exceeded(self.statistics.expanded, self.memory(), calls) {
+                if let Some(limit) = budget.exceeded(self.statistics.expanded, self.memory(), 0) {
                     return Outcome::LimitReached(limit);
                 }
                 let Some((from, operator)) = self.pop() else {

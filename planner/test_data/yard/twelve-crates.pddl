@@ -1,0 +1,10 @@
+; expect: solvable
+(define (problem twelve-crates) (:domain yard)
+  (:objects p1 p2 p3 p4 - place t1 t2 - truck c1 c2 c3 c4 c5 c6 c7 c8 c9 c10 c11 c12 - crate)
+  (:init (link p1 p2) (link p2 p1) (link p2 p3) (link p3 p2) (link p3 p4) (link p4 p3)
+         (crane-free p1) (crane-free p2) (crane-free p3) (crane-free p4) (parked t1 p1) (parked t2 p4)
+         (ground c1 p1) (at c1 p1) (on c2 c1) (at c2 p1) (on c3 c2) (at c3 p1) (clear c3)
+         (ground c4 p2) (at c4 p2) (on c5 c4) (at c5 p2) (on c6 c5) (at c6 p2) (clear c6)
+         (ground c7 p3) (at c7 p3) (on c8 c7) (at c8 p3) (on c9 c8) (at c9 p3) (clear c9)
+         (ground c10 p4) (at c10 p4) (on c11 c10) (at c11 p4) (on c12 c11) (at c12 p4) (clear c12))
+  (:goal (and (at c2 p4) (on c4 c7) (at c10 p1) (clear c8))))
