@@ -39,9 +39,29 @@ impl Conjunction {
     fn and(&self, other: &Self) -> Self {
         let mut both = self.clone();
         both.variables.extend_from_slice(&other.variables);
-        both.literals.extend_from_slice(&other.literals);
+        for literal in &other.literals {
+            // Distributing repeats literals; each is asked once.
+            if !both.literals.iter().any(|(known, _)| *known == literal.0) {
+                both.literals.push(literal.clone());
+            }
+        }
         both.without.extend_from_slice(&other.without);
         both
+    }
+}
+
+impl From<&Conjunction> for Formula {
+    /// What makes a match of the conjunction.
+    fn from(conjunction: &Conjunction) -> Self {
+        let literals =
+            conjunction.literals.iter().map(|(literal, span)| Self::Literal(literal.clone(), *span));
+        let without = conjunction.without.iter().map(|part| Self::from(part).negated());
+        let mut parts: Vec<Self> = literals.chain(without).collect();
+        let body = if parts.len() == 1 { parts.remove(0) } else { Self::All(parts) };
+        if conjunction.variables.is_empty() {
+            return body;
+        }
+        Self::Some(conjunction.variables.iter().map(|(variable, _)| *variable).collect(), Box::new(body))
     }
 }
 

@@ -204,6 +204,9 @@ fn edge(dictionary: &Dictionary, from: &str, label: LabelId, to: &str, affirmed:
     if affirmed {
         return format!("{from} {label} {to}");
     }
+    if let Some(kind) = from.strip_prefix("any ") {
+        return format!("no {kind} {label} {to}");
+    }
     let (first, rest) = label.split_once(' ').unwrap_or((label.as_str(), ""));
     if !AUXILIARIES.contains(&first) {
         return format!("not: {from} {label} {to}");

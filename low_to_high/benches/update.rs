@@ -1,0 +1,79 @@
+//! One delta of the Barthel test: the last option was said, so its item is described; and all of it from scratch.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use dsr::{AgentId, Graph, Time};
+use low_to_high::{LowToHigh, Perception};
+use pddl::model::{Domain, Problem};
+use pddl::{Source, parse_domain, parse_problem};
+use vocabulary::Vocabulary;
+
+fn source(path: &str) -> Source {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    Source::new(path, std::fs::read_to_string(root.join(path)).expect("part of the repository"))
+}
+
+fn domain(path: &str, imports: &[&Domain]) -> Domain {
+    parse_domain(&source(path), imports).model.expect("the repository's own texts have no errors")
+}
+
+fn problem(path: &str, domain: &Domain) -> Problem {
+    parse_problem(&source(path), domain).model.expect("the repository's own texts have no errors")
+}
+
+fn barthel() -> (Vocabulary, Arc<Perception>, Graph) {
+    let words = domain("robots/clarc/vocabulary.pddl", &[]);
+    let planning = domain("domains/barthel/domain.pddl", &[]);
+    let perception = domain("domains/barthel/perception.pddl", &[&words, &planning]);
+    let world = problem("robots/clarc/world.pddl", &words);
+    let test = problem("domains/barthel/graph.pddl", &words);
+    let vocabulary = Vocabulary::new(&words).expect("fits the graph");
+    let perception = Arc::new(Perception::new(&perception, &vocabulary).expect("made of tokens"));
+    let graph = vocabulary.populate(&[&world, &test], Time(0)).expect("fits the vocabulary");
+    (vocabulary, perception, graph)
+}
+
+fn bench(criterion: &mut Criterion) {
+    let (vocabulary, perception, graph) = barthel();
+    let label = |name: &str| vocabulary.label(name).expect("declared");
+    let (said, shown) = (label("was_said_in"), label("was_shown_in"));
+    graph
+        .edit(AgentId::DSR, Time(1), |tx| {
+            for part in ["introduction", "option-1", "option-2", "option-3"] {
+                tx.add_edge(part, shown, "feeding");
+                if part != "option-3" {
+                    tx.add_edge(part, said, "feeding");
+                }
+            }
+        })
+        .expect("the graph itself may write");
+    let before = LowToHigh::new(Arc::clone(&perception), &graph.snapshot());
+    let commit = graph
+        .edit(AgentId::DSR, Time(2), |tx| {
+            tx.add_edge("option-3", said, "feeding");
+        })
+        .expect("the graph itself may write");
+    let undo = graph
+        .edit(AgentId::DSR, Time(3), |tx| {
+            tx.remove_edge("option-3", said, "feeding");
+        })
+        .expect("the graph itself may write");
+
+    // There and back, so that every update starts from the same facts: two updates per iteration.
+    let mut seen = before.clone();
+    criterion.bench_function("low_to_high/two updates (barthel)", |bencher| {
+        bencher.iter(|| {
+            let come = seen.update(&commit.snapshot, &commit.delta);
+            let gone = seen.update(&undo.snapshot, &undo.delta);
+            assert_eq!((come.appeared.len(), gone.disappeared.len()), (1, 1));
+        });
+    });
+    criterion.bench_function("low_to_high/from scratch (barthel)", |bencher| {
+        bencher.iter(|| LowToHigh::new(Arc::clone(&perception), &commit.snapshot));
+    });
+}
+
+criterion_group!(benches, bench);
+criterion_main!(benches);

@@ -1,0 +1,125 @@
+//! An axiom, compiled: alternatives of its body, and where the graph can touch it.
+//!
+//! Idea: whether a head instance holds depends only on the ground instances of the body's literals under that head.
+//! So a change of a ground token can only change heads that agree with it wherever the literal names a parameter of
+//! the head. A [`Watch`] keeps, per literal, which parameter stands at which end. This holds for literals at any
+//! depth of negation and quantification.
+
+use dsr::{AttributeId, LabelId, TypeId};
+use pddl::model::{Idx, Name, PredicateId};
+use vocabulary::{Conjunction, Holder, Literal, Right, Scope, Term};
+
+/// A compiled axiom.
+#[derive(Debug)]
+pub(crate) struct Axiom {
+    pub(crate) predicate: PredicateId,
+    pub(crate) scope: Scope,
+    /// The alternatives of the body.
+    pub(crate) body: Vec<Conjunction>,
+    pub(crate) watches: Vec<Watch>,
+    /// The types over which a parameter or a quantified variable ranges.
+    pub(crate) types: Vec<TypeId>,
+    /// The nodes that it names.
+    pub(crate) constants: Vec<Name>,
+}
+
+/// What a literal depends on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Token {
+    Label(LabelId),
+    Attribute(AttributeId),
+    Transforms,
+    Predicate(PredicateId),
+}
+
+/// What stands at one place of a literal.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// This parameter of the head.
+    Head(usize),
+    /// The node of that name.
+    Named(Name),
+    /// A quantified variable: any node.
+    Any,
+}
+
+/// A literal of the body, as seen by a change.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Watch {
+    pub(crate) token: Token,
+    /// One per argument of the token.
+    pub(crate) places: Vec<Place>,
+}
+
+impl Axiom {
+    pub(crate) fn new(predicate: PredicateId, scope: Scope, body: Vec<Conjunction>) -> Self {
+        let mut axiom = Self {
+            predicate,
+            scope,
+            body: Vec::new(),
+            watches: Vec::new(),
+            types: Vec::new(),
+            constants: Vec::new(),
+        };
+        let parameters = axiom.scope.parameters();
+        axiom.types.extend(parameters.flat_map(|variable| axiom.scope.slot(variable).types.clone()));
+        body.iter().for_each(|part| axiom.watch_all(part));
+        axiom.types.sort_unstable();
+        axiom.types.dedup();
+        axiom.body = body;
+        axiom
+    }
+
+    /// How many parameters the head has.
+    pub(crate) fn arity(&self) -> usize {
+        self.scope.parameters().count()
+    }
+
+    fn watch_all(&mut self, part: &Conjunction) {
+        self.types.extend(part.variables.iter().map(|(_, id)| *id));
+        part.literals.iter().for_each(|(literal, _)| self.watch_literal(literal));
+        part.without.iter().for_each(|part| self.watch_all(part));
+    }
+
+    fn watch_literal(&mut self, literal: &Literal) {
+        for term in literal.terms() {
+            if let Term::Named(name) = term
+                && !self.constants.contains(name)
+            {
+                self.constants.push(name.clone());
+            }
+        }
+        match literal {
+            Literal::Edge { from, label, to } => self.watch(Token::Label(*label), &[from, to]),
+            Literal::Present { holder, attribute } => self.watch_attribute(holder, *attribute),
+            Literal::Compare { holder, attribute, right, .. } => {
+                self.watch_attribute(holder, *attribute);
+                if let Right::Attribute(holder, attribute) = right {
+                    self.watch_attribute(holder, *attribute);
+                }
+            }
+            // A chain of transforms may pass through any frame, so the ends say nothing.
+            Literal::Distance { .. } => self.watch(Token::Transforms, &[]),
+            Literal::Derived { predicate, arguments, .. } => {
+                self.watch(Token::Predicate(*predicate), &arguments.iter().collect::<Vec<_>>());
+            }
+            Literal::Same(..) | Literal::Differ(..) => {}
+        }
+    }
+
+    fn watch_attribute(&mut self, holder: &Holder, attribute: AttributeId) {
+        self.watch(Token::Attribute(attribute), &holder.terms());
+    }
+
+    fn watch(&mut self, token: Token, terms: &[&Term]) {
+        let place = |term: &&Term| match term {
+            Term::Named(name) => Place::Named(name.clone()),
+            Term::Variable(variable) if variable.index() < self.arity() => Place::Head(variable.index()),
+            Term::Variable(_) => Place::Any,
+        };
+        let watch = Watch { token, places: terms.iter().map(place).collect() };
+        if !self.watches.contains(&watch) {
+            self.watches.push(watch);
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! `perception.pddl`, compiled.
+//!
+//! Heads are predicates of the planner's domain, which the file imports, or auxiliary ones that it declares itself;
+//! bodies are tokens of the vocabulary, comparisons of attributes, and derived predicates, negated if stratified.
+
+use std::sync::Arc;
+
+use dsr::Dictionary;
+use pddl::Span;
+use pddl::model::{Domain, IndexVec, Name, PredicateId};
+use vocabulary::{Conjunction, LinkErrorKind, Literal, Located, MAX_ALTERNATIVES, Vocabulary};
+
+use crate::axiom::Axiom;
+use crate::strata::{Component, components};
+
+/// The most literals of one alternative: they are kept as bits while matching.
+const MAX_LITERALS: usize = 64;
+
+/// Why an axiom cannot be evaluated.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the fields are the names that the variant is about")]
+pub enum PerceptionErrorKind {
+    /// Tokens are written by agents.
+    #[error("`{name}` is a token: agents write it, nothing derives it")]
+    DerivesToken { name: Name },
+    /// Nothing can make it true.
+    #[error("`{name}` is neither a token of vocabulary `{vocabulary}` nor derived here: it never holds")]
+    NeverHolds { name: Name, vocabulary: Name },
+    /// Derived from its own absence.
+    #[error("`{head}` depends on the absence of `{denied}`, which depends on `{head}`")]
+    NotStratified { head: Name, denied: Name },
+    /// Too many disjunctions.
+    #[error("`{name}` has more than {MAX_ALTERNATIVES} alternatives")]
+    TooManyAlternatives { name: Name },
+    /// Too long.
+    #[error("an alternative of `{name}` has more than {MAX_LITERALS} literals")]
+    TooLong { name: Name },
+    /// Something in it is not of the graph.
+    #[error(transparent)]
+    Link(#[from] LinkErrorKind),
+}
+
+/// An axiom that cannot be evaluated.
+pub type PerceptionError = Located<PerceptionErrorKind>;
+
+/// For whom a derived predicate is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// The planner: imported from its domain.
+    HighLevel,
+    /// Other axioms: declared in the perception itself.
+    Auxiliary,
+}
+
+/// A derived predicate.
+#[derive(Debug)]
+pub(crate) struct Derived {
+    pub(crate) name: Name,
+    pub(crate) role: Role,
+    /// Positions of its axioms.
+    pub(crate) axioms: Vec<usize>,
+}
+
+/// The axioms of a test, compiled for the graphs of one vocabulary.
+#[derive(Debug)]
+pub struct Perception {
+    pub(crate) dictionary: Arc<Dictionary>,
+    /// By the perception's own ids; those that nothing derives have no axioms.
+    pub(crate) predicates: IndexVec<PredicateId, Derived>,
+    pub(crate) axioms: Vec<Axiom>,
+    /// Each after those on which it depends.
+    pub(crate) components: Vec<Component>,
+}
+
+impl Perception {
+    /// Compiles the axioms of a domain that imports the vocabulary and the planner's domain; all that cannot be
+    /// evaluated is reported.
+    pub fn new(domain: &Domain, vocabulary: &Vocabulary) -> Result<Self, Vec<PerceptionError>> {
+        let link = vocabulary.link(domain);
+        let mut errors = Vec::new();
+        let mut axioms = Vec::new();
+        let mut spans = Vec::new();
+        let mut predicates: IndexVec<PredicateId, Derived> = domain
+            .predicates
+            .iter()
+            .map(|predicate| Derived {
+                name: predicate.name.clone(),
+                // What is imported has no place in this source.
+                role: if predicate.span == Span::default() { Role::HighLevel } else { Role::Auxiliary },
+                axioms: Vec::new(),
+            })
+            .collect();
+        for axiom in &domain.axioms {
+            let name = predicates[axiom.predicate].name.clone();
+            if vocabulary.is_token(&name) {
+                errors.push(Located::new(axiom.span, PerceptionErrorKind::DerivesToken { name }));
+                continue;
+            }
+            let formula = link
+                .scope(&axiom.variables)
+                .and_then(|scope| Ok((link.formula(&scope, [&axiom.body])?, scope)));
+            let (formula, scope) = match formula {
+                Ok(done) => done,
+                Err(more) => {
+                    errors.extend(more.into_iter().map(|error| Located::new(error.span, error.kind.into())));
+                    continue;
+                }
+            };
+            let Some(body) = formula.disjuncts(&scope) else {
+                errors.push(Located::new(axiom.span, PerceptionErrorKind::TooManyAlternatives { name }));
+                continue;
+            };
+            if body.iter().any(too_long) {
+                errors.push(Located::new(axiom.span, PerceptionErrorKind::TooLong { name }));
+                continue;
+            }
+            predicates[axiom.predicate].axioms.push(axioms.len());
+            spans.push(axiom.span);
+            axioms.push(Axiom::new(axiom.predicate, scope, body));
+        }
+        let derived = |id: PredicateId| domain.axioms.iter().any(|axiom| axiom.predicate == id);
+        for axiom in &axioms {
+            for part in &axiom.body {
+                never_holds(part, &derived, vocabulary.name(), &mut errors);
+            }
+        }
+        let components = components(&axioms).unwrap_or_else(|(at, denied)| {
+            let head = predicates[axioms[at].predicate].name.clone();
+            let denied = predicates[denied].name.clone();
+            errors.push(Located::new(spans[at], PerceptionErrorKind::NotStratified { head, denied }));
+            Vec::new()
+        });
+        if !errors.is_empty() {
+            errors.sort_by_key(|error| error.span);
+            errors.dedup();
+            return Err(errors);
+        }
+        Ok(Self { dictionary: Arc::clone(vocabulary.dictionary()), predicates, axioms, components })
+    }
+
+    /// The predicates that some axiom derives, in the order of their declaration.
+    pub fn derived(&self) -> impl Iterator<Item = (&Name, Role)> {
+        let derived = self.predicates.iter().filter(|predicate| !predicate.axioms.is_empty());
+        derived.map(|predicate| (&predicate.name, predicate.role))
+    }
+
+    /// The derived predicate of that name.
+    pub(crate) fn find(&self, name: &str) -> Option<PredicateId> {
+        let named = |(_, predicate): &(PredicateId, &Derived)| &*predicate.name == name;
+        self.predicates
+            .enumerate()
+            .find(named)
+            .filter(|(_, found)| !found.axioms.is_empty())
+            .map(|(id, _)| id)
+    }
+}
+
+fn too_long(part: &Conjunction) -> bool {
+    part.literals.len() + part.without.len() > MAX_LITERALS || part.without.iter().any(too_long)
+}
+
+fn never_holds(
+    part: &Conjunction,
+    derived: &dyn Fn(PredicateId) -> bool,
+    vocabulary: &Name,
+    errors: &mut Vec<PerceptionError>,
+) {
+    for (literal, span) in &part.literals {
+        if let Literal::Derived { predicate, name, .. } = literal
+            && !derived(*predicate)
+        {
+            let (name, vocabulary) = (name.clone(), vocabulary.clone());
+            errors.push(Located::new(*span, PerceptionErrorKind::NeverHolds { name, vocabulary }));
+        }
+    }
+    part.without.iter().for_each(|part| never_holds(part, derived, vocabulary, errors));
+}

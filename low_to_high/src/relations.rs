@@ -1,0 +1,91 @@
+//! What is derived: per axiom the heads that it gives, per predicate how many axioms give each.
+//!
+//! Sorted sets, so that whoever looks for a witness finds the same one every time.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use dsr::NodeId;
+use pddl::model::{Idx, PredicateId};
+
+/// The arguments of a fact.
+pub(crate) type Tuple = Vec<NodeId>;
+
+/// The heads that some parameters fix; an empty slot fits any node.
+pub(crate) type Partial = Vec<Option<NodeId>>;
+
+/// Whether a tuple agrees with what is fixed.
+pub(crate) fn agrees(tuple: &[NodeId], partial: &[Option<NodeId>]) -> bool {
+    tuple.iter().zip(partial).all(|(node, fixed)| fixed.is_none_or(|fixed| fixed == *node))
+}
+
+/// All derived facts.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Relations {
+    by_axiom: Vec<BTreeSet<Tuple>>,
+    /// By predicate; how many axioms give the tuple, never 0.
+    support: Vec<BTreeMap<Tuple, u32>>,
+}
+
+impl Relations {
+    pub(crate) fn new(axioms: usize, predicates: usize) -> Self {
+        Self { by_axiom: vec![BTreeSet::new(); axioms], support: vec![BTreeMap::new(); predicates] }
+    }
+
+    pub(crate) fn contains(&self, predicate: PredicateId, tuple: &[NodeId]) -> bool {
+        self.support[predicate.index()].contains_key(tuple)
+    }
+
+    /// The tuples of a predicate that agree with what is fixed, in order.
+    pub(crate) fn matching<'a>(
+        &'a self,
+        predicate: PredicateId,
+        fixed: &'a [Option<NodeId>],
+    ) -> impl Iterator<Item = &'a Tuple> {
+        // Sorted by the first argument, so a fixed one is a range.
+        let first = fixed.first().copied().flatten();
+        let start: Tuple = first.into_iter().collect();
+        self.support[predicate.index()]
+            .range(start..)
+            .map(|(tuple, _)| tuple)
+            .take_while(move |tuple| first.is_none() || tuple.first().copied() == first)
+            .filter(|tuple| agrees(tuple, fixed))
+    }
+
+    /// The heads that an axiom gives and that agree with what is fixed.
+    pub(crate) fn heads(&self, axiom: usize, fixed: &[Option<NodeId>]) -> Vec<Tuple> {
+        self.by_axiom[axiom].iter().filter(|tuple| agrees(tuple, fixed)).cloned().collect()
+    }
+
+    /// Whether the axiom gives the tuple.
+    pub(crate) fn gives(&self, axiom: usize, tuple: &[NodeId]) -> bool {
+        self.by_axiom[axiom].contains(tuple)
+    }
+
+    /// Lets an axiom give a tuple; whether it did not before.
+    pub(crate) fn insert(&mut self, axiom: usize, predicate: PredicateId, tuple: &Tuple) -> bool {
+        let new = self.by_axiom[axiom].insert(tuple.clone());
+        if new {
+            *self.support[predicate.index()].entry(tuple.clone()).or_insert(0) += 1;
+        }
+        new
+    }
+
+    /// Takes a tuple back from an axiom.
+    pub(crate) fn remove(&mut self, axiom: usize, predicate: PredicateId, tuple: &Tuple) {
+        if !self.by_axiom[axiom].remove(tuple) {
+            return;
+        }
+        let support = &mut self.support[predicate.index()];
+        match support.get_mut(tuple) {
+            Some(count) if *count > 1 => *count -= 1,
+            _ => {
+                support.remove(tuple);
+            }
+        }
+    }
+
+    /// All tuples of a predicate.
+    pub(crate) fn tuples(&self, predicate: PredicateId) -> impl Iterator<Item = &Tuple> {
+        self.support[predicate.index()].keys()
+    }
+}
