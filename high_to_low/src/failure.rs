@@ -48,6 +48,17 @@ pub enum Reason {
     Impossible(String),
 }
 
+impl Reason {
+    /// Whether no other method may be tried either: one that recurses without an end has brothers that do.
+    pub(crate) fn is_fatal(&self) -> bool {
+        match self {
+            Self::TooDeep => true,
+            Self::Subtask(failure) => failure.methods.iter().any(|(_, reason)| reason.is_fatal()),
+            _ => false,
+        }
+    }
+}
+
 /// Why a refinement cannot start.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum StartError {

@@ -107,12 +107,13 @@ impl Activity {
     ) -> Standing {
         match self.deadline {
             Some(deadline) if turn.now >= deadline => {
-                let awaited =
-                    if matches!(self.state, State::Waiting) { &compiled.before } else { &compiled.expects };
+                let written = matches!(self.state, State::Written { .. });
+                let awaited = if written { &compiled.expects } else { &compiled.before };
                 let unmet =
                     awaited.why_not(turn.snapshot, &self.binding).map_or_else(String::new, |u| u.to_string());
                 self.withdraw(turn.snapshot, turn.edits);
-                if let Ok(edits) = compiled.on_timeout.edits(turn.snapshot, &self.binding) {
+                // Nobody is doubted for what was never asked for.
+                if written && let Ok(edits) = compiled.on_timeout.edits(turn.snapshot, &self.binding) {
                     turn.edits.extend(edits);
                 }
                 self.fail(turn, reason(unmet, self.text.clone()))
@@ -157,6 +158,11 @@ impl Activity {
                     if is_redundant(snapshot, edit) =>
                 {
                     take_back(from, *label, to, snapshot, edits);
+                }
+                Edit::SetAttribute { holder: holder @ HolderRef::Node(_), attribute, .. }
+                    if is_redundant(snapshot, edit) =>
+                {
+                    edits.push(Edit::ClearAttribute { holder: holder.clone(), attribute: *attribute });
                 }
                 _ => {}
             }

@@ -170,8 +170,17 @@ impl Goal {
             let method = &methods.methods[expansion.method].name;
             let task = text(methods, Head::Task(self.task), &self.arguments, turn.snapshot);
             turn.events.push(RefinementEvent::MethodFailed { task, method: method.to_string() });
+            let fatal = reason.is_fatal();
             self.failed.push((method.clone(), reason));
             self.expansion = None;
+            if fatal {
+                return Progress::Failed(self.failure(methods, turn, None));
+            }
+            if !turn.edits.is_empty() {
+                // What failed has something to say (a doubt, a withdrawal): the next method is chosen in a graph
+                // where that stands.
+                return Progress::Running;
+            }
         }
     }
 

@@ -1,0 +1,111 @@
+//! Makes the scenario's disruptions happen when they are due.
+//!
+//! A trigger is a time, a condition on the graph, or a step of the plan; whatever it is, the director then
+//! waits `after` seconds and does it to the room, which knows nothing of scenarios.
+
+use dsr::Graph;
+use executive::Step;
+use futures::future::join_all;
+use hal::Device;
+use hal::sim::SimRoom;
+use mission::scenario::{self, Act, Disruption, Trigger};
+use std::future::pending;
+use std::sync::Arc;
+use tokio::sync::{Notify, broadcast};
+use tokio::time::{Instant, sleep, sleep_until};
+use vocabulary::{Binding, Condition};
+
+/// A disruption with its condition compiled.
+pub(super) struct Cue {
+    pub(super) disruption: Disruption,
+    /// For a `when`: the condition over the graph.
+    pub(super) condition: Option<(Condition, Binding)>,
+}
+
+/// Where the director works.
+pub(super) struct Stage {
+    pub(super) graph: Graph,
+    pub(super) room: SimRoom,
+    pub(super) epoch: Instant,
+}
+
+/// Directs until everything has happened. The receivers must be there before the first step starts.
+pub(super) async fn direct(cues: Vec<(Cue, broadcast::Receiver<Step>)>, stage: Stage) {
+    join_all(cues.into_iter().map(|(cue, steps)| follow(cue, steps, &stage))).await;
+}
+
+async fn follow(cue: Cue, steps: broadcast::Receiver<Step>, stage: &Stage) {
+    match &cue.disruption.trigger {
+        Trigger::At(time) => sleep_until(stage.epoch + *time).await,
+        Trigger::When { occurrence, .. } => {
+            let (condition, binding) = cue.condition.as_ref().expect("a `when` is compiled");
+            appears(condition, binding, *occurrence, &stage.graph).await;
+        }
+        Trigger::Step { step, occurrence } => starts(step, *occurrence, steps).await,
+    }
+    sleep(cue.disruption.after).await;
+    act(&cue.disruption.act, &stage.room);
+}
+
+/// Waits until the condition has become true for the nth time.
+async fn appears(condition: &Condition, binding: &Binding, occurrence: u32, graph: &Graph) {
+    let news = Arc::new(Notify::new());
+    let deltas = graph.subscribe_deltas();
+    let wake = news.clone();
+    deltas.on_wake(move || wake.notify_one());
+    let mut left = occurrence;
+    let mut held = false;
+    let mut look = |snapshot: &dsr::Snapshot| {
+        let holds = condition.holds(snapshot, binding);
+        left -= u32::from(holds && !held);
+        held = holds;
+        left == 0
+    };
+    if look(deltas.start()) {
+        return;
+    }
+    loop {
+        while let Some(event) = deltas.try_recv() {
+            if look(event.snapshot()) {
+                return;
+            }
+        }
+        news.notified().await;
+    }
+}
+
+/// Waits until PELEA has started the step for the nth time.
+async fn starts(wanted: &scenario::Step, occurrence: u32, mut steps: broadcast::Receiver<Step>) {
+    let mut left = occurrence;
+    while left > 0 {
+        match steps.recv().await {
+            Ok(step) => {
+                left -= u32::from(step.action == wanted.name && step.arguments == wanted.names);
+            }
+            Err(broadcast::error::RecvError::Lagged(_)) => {}
+            Err(broadcast::error::RecvError::Closed) => pending().await,
+        }
+    }
+}
+
+fn act(act: &Act, room: &SimRoom) {
+    match act {
+        Act::LosePerson => room.lose_person(),
+        Act::ReturnPerson => room.return_person(),
+        Act::Ask { request } => room.ask(request),
+        Act::Pause => room.command("pause"),
+        Act::Resume => room.command("resume"),
+        Act::Abort => room.command("abort"),
+        Act::Fail(device) => room.fail(hardware(*device)),
+        Act::Lie(device) => room.lie(hardware(*device)),
+        Act::Recover(device) => room.recover(hardware(*device)),
+    }
+}
+
+fn hardware(device: scenario::Device) -> Device {
+    match device {
+        scenario::Device::Speaker => Device::SpeechOut,
+        scenario::Device::Screen => Device::Screen,
+        scenario::Device::Microphone => Device::SpeechIn,
+    }
+}

@@ -1,0 +1,129 @@
+//! What the scenario expects, held against what came out.
+//!
+//! Replans and repeated questions are read off the story as it is told; everything else off the final graph.
+
+use super::content::Content;
+use super::script::questions;
+use super::story::{Commit, Entry, What};
+use executive::Narration;
+use mission::Mission;
+use mission::scenario::{Outcome, Replan, Scenario, Violation};
+use pddl::model::{Condition, ConditionKind, Domain, Name};
+use std::collections::BTreeSet;
+use vocabulary::{Binding, Vocabulary};
+
+/// Collects what expectations are about.
+pub(super) struct Record<'a> {
+    mission: &'a Mission,
+    /// The edge that says that an item is answered.
+    answer: Name,
+    questions: Vec<Name>,
+    answered: BTreeSet<String>,
+    asked_again: Vec<Name>,
+    replans: Vec<Replan>,
+    plans: u32,
+}
+
+impl<'a> Record<'a> {
+    pub(super) fn new(mission: &'a Mission) -> Self {
+        Self {
+            mission,
+            answer: mission.manifest.report.answer.name.clone(),
+            questions: questions(mission),
+            answered: BTreeSet::new(),
+            asked_again: Vec::new(),
+            replans: Vec::new(),
+            plans: 0,
+        }
+    }
+
+    /// How often a plan was made again.
+    pub(super) fn replans(&self) -> u32 {
+        self.plans.saturating_sub(1)
+    }
+
+    /// Items that were asked again after they had been answered.
+    pub(super) fn asked_again(&self) -> &[Name] {
+        &self.asked_again
+    }
+
+    /// Takes note of an entry.
+    pub(super) fn note(&mut self, entry: &Entry) {
+        match &entry.what {
+            What::Pelea(Narration::Deviated(deviation)) => {
+                let facts = deviation.broken.iter().filter_map(|literal| literal.fact.as_ref());
+                let mut names = BTreeSet::new();
+                for fact in facts {
+                    mentioned(&self.mission.layers.perception.model, &fact.predicate, &mut names);
+                }
+                self.replans.push(Replan { names: names.into_iter().collect() });
+            }
+            What::Pelea(Narration::Planned { .. }) => self.plans += 1,
+            What::Graph(commit) => self.note_commit(commit),
+            _ => {}
+        }
+    }
+
+    fn note_commit(&mut self, commit: &Commit) {
+        for (from, label, to) in &commit.edges {
+            if **label == *self.answer {
+                self.answered.insert(to.clone());
+            } else if self.questions.iter().any(|q| **q == **from) && self.answered.contains(to) {
+                self.asked_again.push(Name::new(to));
+            }
+        }
+    }
+
+    /// What of the scenario's expectations was not met.
+    pub(super) fn judge(
+        &self,
+        scenario: &Scenario,
+        accomplished: bool,
+        content: &Content,
+        vocabulary: &Vocabulary,
+        snapshot: &dsr::Snapshot,
+    ) -> Vec<Violation> {
+        let report = content.report(snapshot);
+        let outcome =
+            Outcome { accomplished, report: &report, replans: &self.replans, asked_again: &self.asked_again };
+        let link = vocabulary.link(&self.mission.layers.nodes);
+        scenario.expect.judge(&outcome, |condition| {
+            link.condition(&condition.variables, [&condition.condition])
+                .is_ok_and(|c| c.holds(snapshot, &Binding::of(&condition.variables)))
+        })
+    }
+}
+
+/// The predicate and everything that its axioms mention, through derived ones down to tokens.
+fn mentioned(perception: &Domain, predicate: &Name, names: &mut BTreeSet<Name>) {
+    if !names.insert(predicate.clone()) {
+        return;
+    }
+    let id = perception.predicate(predicate);
+    for axiom in perception.axioms.iter().filter(|axiom| Some(axiom.predicate) == id) {
+        let mut atoms = Vec::new();
+        collect(&axiom.body, &mut atoms);
+        for atom in atoms {
+            mentioned(perception, &perception.predicates[atom].name, names);
+        }
+    }
+}
+
+fn collect(condition: &Condition, atoms: &mut Vec<pddl::model::PredicateId>) {
+    match &condition.kind {
+        ConditionKind::And(parts) | ConditionKind::Or(parts) => {
+            for part in parts {
+                collect(part, atoms);
+            }
+        }
+        ConditionKind::Not(part) | ConditionKind::Exists(_, part) | ConditionKind::Forall(_, part) => {
+            collect(part, atoms);
+        }
+        ConditionKind::Imply(a, b) => {
+            collect(a, atoms);
+            collect(b, atoms);
+        }
+        ConditionKind::Atom(atom) => atoms.push(atom.predicate),
+        ConditionKind::Same(..) | ConditionKind::Compare(..) | ConditionKind::FluentIs(..) => {}
+    }
+}

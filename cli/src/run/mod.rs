@@ -1,0 +1,365 @@
+//! `pelea run`: a mission on simulated devices, in real time or as fast as the machine.
+//!
+//! Everything lives in one task on one thread: PELEA, the agents, the scenario's director and whoever reads
+//! the story take their turns in a fixed order. With `--speed max` tokio's clock is paused and jumps to the
+//! next thing that happens, so the same mission, scenario and seed give the same bytes.
+
+mod assemble;
+mod content;
+mod director;
+mod judge;
+mod script;
+mod story;
+mod terminal;
+
+use crate::console::{Console, Form};
+use crate::disk::{Disk, show};
+use crate::exit::Exit;
+use crate::files;
+use assemble::{Assembly, assemble};
+use clap::{Args, ValueEnum};
+use content::Content;
+use dsr::{AgentId, Graph};
+use executive::{Ending, Narration, Shell, Step, Wheel};
+use hal::sim::{ClinicianScript, PatientScript, SimRoom};
+use judge::Record;
+use mission::Mission;
+use mission::scenario::{Scenario, Trigger};
+use serde::Serialize;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+use story::{Entry, Story, What, seconds};
+use terminal::Terminal;
+use tokio::sync::{broadcast, mpsc};
+use tokio::time::Instant;
+use vocabulary::Binding;
+
+/// Arguments of `pelea run`.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The mission's folder.
+    mission: PathBuf,
+    /// A scenario of the mission, by name, or a scenario file. Without one the simulated person answers
+    /// everything.
+    #[arg(long, value_name = "NAME|FILE")]
+    scenario: Option<String>,
+    /// `1`: real time. `max`: simulated time, as fast as the machine.
+    #[arg(long, value_enum, default_value_t = Speed::Real)]
+    speed: Speed,
+    /// Varies how long the simulated person takes to answer; the same seed gives the same bytes.
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// The language to speak; the mission's own if not given.
+    #[arg(long, value_name = "TAG")]
+    lang: Option<String>,
+    /// Write the report here as well.
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+    /// Tell how each step is carried out, too.
+    #[arg(long)]
+    verbose: bool,
+}
+
+/// How fast time passes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Speed {
+    /// As on the wall.
+    #[value(name = "1")]
+    Real,
+    /// As fast as the machine.
+    Max,
+}
+
+/// The last line of a run in JSON.
+#[derive(Serialize)]
+struct Result<'a> {
+    source: &'static str,
+    time: f64,
+    #[serde(flatten)]
+    ending: &'a Ending,
+    replans: u32,
+    asked_again: Vec<String>,
+    violations: Vec<String>,
+    report: &'a mission::report::Report,
+}
+
+/// Runs a mission.
+pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
+    let path = arguments.mission.to_string_lossy();
+    let mission = match Mission::load(&Disk, &path) {
+        Ok(mission) => mission,
+        Err(errors) => return show(&errors.sources, &errors.findings, console),
+    };
+    let scenario = match load_scenario(&mission, arguments.scenario.as_deref()) {
+        Ok(scenario) => scenario,
+        Err(errors) => return show(&errors.sources, &errors.findings, console),
+    };
+    let language = arguments.lang.clone().unwrap_or_else(|| mission.manifest.language.clone());
+    if mission.words(&language).is_none() {
+        let known: Vec<_> = mission.languages().collect();
+        console.complain(&format!(
+            "error: `{path}` has no words in `{language}`; it has: {}\n",
+            known.join(", ")
+        ));
+        return Exit::Unreadable;
+    }
+    let assembly = match assemble(&mission) {
+        Ok(assembly) => assembly,
+        Err(findings) => return show(&mission.sources, &findings, console),
+    };
+    let runtime = tokio::runtime::Builder::new_current_thread()
+        .enable_time()
+        .start_paused(arguments.speed == Speed::Max)
+        .build();
+    let Ok(runtime) = runtime else {
+        console.complain("error: the system gives no threads or timers\n");
+        return Exit::Limit;
+    };
+    let play = Play {
+        content: Content { mission: Arc::new(mission), language },
+        scenario,
+        seed: arguments.seed,
+        verbose: arguments.verbose,
+    };
+    let exit = runtime.block_on(play.play(assembly, arguments.report.as_deref(), console));
+    // The planner's thread may still be at work on a plan that nobody wants any more.
+    runtime.shutdown_background();
+    exit
+}
+
+fn load_scenario(
+    mission: &Mission,
+    name: Option<&str>,
+) -> std::result::Result<Option<Scenario>, mission::MissionErrors> {
+    let Some(name) = name else { return Ok(None) };
+    let path = PathBuf::from(name);
+    let scenario = if path.extension().is_some() && path.is_file() {
+        match files::read(&path) {
+            Ok(source) => mission.read_scenario(source),
+            Err(_) => mission.scenario(&Disk, name),
+        }
+    } else {
+        mission.scenario(&Disk, name)
+    };
+    scenario.map(Some)
+}
+
+/// A mission about to be played.
+struct Play {
+    content: Content,
+    scenario: Option<Scenario>,
+    seed: u64,
+    verbose: bool,
+}
+
+impl Play {
+    async fn play(
+        self,
+        assembly: Assembly,
+        report_file: Option<&std::path::Path>,
+        console: &mut Console<'_>,
+    ) -> Exit {
+        let Assembly { vocabulary, graph, agents, wheel } = assembly;
+        let epoch = Instant::now();
+        let room = self.room();
+        let (reader, mut entries) = mpsc::unbounded_channel();
+        let story = Story::new(graph.subscribe_deltas(), reader);
+        let observed = story.clone();
+        room.observe(move |moment| observed.tell(seconds(moment.at), What::Room(moment.event.clone())));
+
+        let (steps, _) = broadcast::channel(64);
+        let cues = match self.cues(&vocabulary, &steps) {
+            Ok(cues) => cues,
+            Err(findings) => return show(&self.content.mission.sources, &findings, console),
+        };
+        let stage = director::Stage { graph: graph.clone(), room: room.clone(), epoch };
+        let environment = agents::Environment {
+            graph: graph.clone(),
+            equipment: agents::Equipment {
+                devices: room.devices(),
+                words: Arc::new(self.content.clone()),
+                reporter: Arc::new(self.content.clone()),
+            },
+            clock: Arc::new(agents::TokioClock::start()),
+        };
+
+        let mut teller = Teller::new(&self, console);
+        teller.heading(&self);
+        let ending = {
+            let pelea = pelea(graph.clone(), wheel, story.clone(), steps, epoch);
+            let agents = agents::run_all(agents, environment);
+            let directed = async {
+                director::direct(cues, stage).await;
+                std::future::pending::<()>().await;
+            };
+            let mut pelea = std::pin::pin!(pelea);
+            let mut agents = std::pin::pin!(agents);
+            let mut directed = std::pin::pin!(directed);
+            loop {
+                tokio::select! {
+                    biased;
+                    Some(entry) = entries.recv() => teller.tell(&entry),
+                    ending = &mut pelea => break ending,
+                    never = &mut agents => match never {},
+                    () = &mut directed => {}
+                }
+            }
+        };
+        story.catch_up();
+        while let Ok(entry) = entries.try_recv() {
+            teller.tell(&entry);
+        }
+        teller.end(&self, &ending, &vocabulary, &graph, epoch.elapsed(), report_file)
+    }
+
+    /// The room, as the scenario has it.
+    fn room(&self) -> SimRoom {
+        let mission = &self.content.mission;
+        match &self.scenario {
+            Some(scenario) => SimRoom::new(
+                script::patient(mission, &scenario.patient, self.seed),
+                script::clinician(&scenario.clinician),
+            ),
+            None => SimRoom::new(PatientScript::default(), ClinicianScript::default()),
+        }
+    }
+
+    /// The disruptions, with their conditions compiled, each with ears for the steps of the plan.
+    fn cues(
+        &self,
+        vocabulary: &vocabulary::Vocabulary,
+        steps: &broadcast::Sender<Step>,
+    ) -> std::result::Result<Vec<(director::Cue, broadcast::Receiver<Step>)>, Vec<mission::Finding>> {
+        let Some(scenario) = &self.scenario else { return Ok(Vec::new()) };
+        let layers = &self.content.mission.layers;
+        let link = vocabulary.link(&layers.nodes);
+        let mut cues = Vec::new();
+        let mut findings = Vec::new();
+        for disruption in &scenario.disruptions {
+            let condition = match &disruption.trigger {
+                Trigger::When { condition, .. } => {
+                    match link.condition(&condition.variables, [&condition.condition]) {
+                        Ok(compiled) => Some((compiled, Binding::of(&condition.variables))),
+                        Err(errors) => {
+                            let place = mission::Place { source: layers.graph.source, span: condition.span };
+                            findings.extend(errors.iter().map(|error| {
+                                let message = format!("scenario `{}`: {error}", scenario.name);
+                                mission::Finding::error("E0902", place, message)
+                            }));
+                            continue;
+                        }
+                    }
+                }
+                Trigger::At(_) | Trigger::Step { .. } => None,
+            };
+            cues.push((director::Cue { disruption: disruption.clone(), condition }, steps.subscribe()));
+        }
+        if findings.is_empty() { Ok(cues) } else { Err(findings) }
+    }
+}
+
+/// PELEA on the real graph.
+async fn pelea(
+    graph: Graph,
+    wheel: Wheel,
+    story: Story,
+    steps: broadcast::Sender<Step>,
+    epoch: Instant,
+) -> Ending {
+    let writer = graph.dictionary().agent("pelea").unwrap_or(AgentId::DSR);
+    let tell = move |time: dsr::Time, narration: Narration| {
+        if let Narration::Started { step, .. } = &narration {
+            // Nobody listens where no disruption waits for a step.
+            let _ = steps.send(step.clone());
+        }
+        story.tell(seconds(Duration::from_nanos(time.0)), What::Pelea(narration));
+    };
+    Shell { graph, writer, epoch, tell }.run(wheel).await
+}
+
+/// Reads the story out, and sums it up.
+struct Teller<'m, 'c, 'o> {
+    console: &'c mut Console<'o>,
+    terminal: Terminal,
+    record: Record<'m>,
+}
+
+impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
+    fn new(play: &'m Play, console: &'c mut Console<'o>) -> Self {
+        let terminal = Terminal::new(console.result_colour(), play.verbose);
+        Self { console, terminal, record: Record::new(&play.content.mission) }
+    }
+
+    fn heading(&mut self, play: &Play) {
+        let title = &play.content.mission.manifest.title;
+        let scenario = play.scenario.as_ref().map_or("a person who answers", |s| &s.title);
+        self.console.result(&format!("{title} · {scenario}"));
+    }
+
+    fn tell(&mut self, entry: &Entry) {
+        self.record.note(entry);
+        match self.console.form() {
+            Form::Json => self.console.record(entry),
+            Form::Text => {
+                for line in self.terminal.lines(entry) {
+                    self.console.result(&line);
+                }
+            }
+        }
+        self.console.flush();
+    }
+
+    fn end(
+        self,
+        play: &Play,
+        ending: &Ending,
+        vocabulary: &vocabulary::Vocabulary,
+        graph: &Graph,
+        elapsed: Duration,
+        report_file: Option<&std::path::Path>,
+    ) -> Exit {
+        let snapshot = graph.snapshot();
+        let report = play.content.report(&snapshot);
+        let accomplished = *ending == Ending::Accomplished;
+        let violations = play.scenario.as_ref().map_or_else(Vec::new, |scenario| {
+            let judged = self.record.judge(scenario, accomplished, &play.content, vocabulary, &snapshot);
+            judged.iter().map(|v| format!("{}: {v}", place(scenario, v.span()))).collect()
+        });
+        self.console.result("");
+        self.console.result(report.to_string().trim_end());
+        let replans = self.record.replans();
+        let time = seconds(elapsed);
+        let word = if accomplished { "accomplished" } else { "not accomplished" };
+        self.console.result(&format!("\nmission {word} after {time:.1} s, {replans} replan(s)"));
+        let asked_again = self.record.asked_again().iter().map(ToString::to_string).collect();
+        for violation in &violations {
+            self.console.note(&format!("expectation not met: {violation}"));
+        }
+        let failed = !violations.is_empty();
+        let source = "result";
+        self.console.record(&Result {
+            source,
+            time,
+            ending,
+            replans,
+            asked_again,
+            violations,
+            report: &report,
+        });
+        if let Some(path) = report_file {
+            let json = serde_json::to_string_pretty(&report).unwrap_or_default();
+            if let Err(error) = files::write(path, &format!("{json}\n")) {
+                self.console.complain(&format!("error: {error}\n"));
+                return Exit::Unwritable;
+            }
+        }
+        if accomplished && !failed { Exit::Yes } else { Exit::No }
+    }
+}
+
+/// `file:line:column` in a scenario.
+fn place(scenario: &Scenario, span: pddl::Span) -> String {
+    let at = scenario.source.line_column(span.start);
+    format!("{}:{}:{}", scenario.source.name(), at.line, at.column)
+}

@@ -1,0 +1,100 @@
+//! From a scenario, which names items and questions, to what the simulated room can do.
+//!
+//! A seed other than 0 varies how long the simulated person takes to answer, by up to half, so that a
+//! campaign meets other interleavings; the same seed gives the same delays.
+
+use hal::sim::{By, ClinicianScript, PatientScript, Reply, ReplyRule};
+use mission::{Mission, scenario};
+use pddl::model::{Name, ObjectId};
+use std::time::Duration;
+
+/// The person's script.
+pub(super) fn patient(mission: &Mission, patient: &scenario::Patient, seed: u64) -> PatientScript {
+    let mut jitter = Jitter(seed);
+    let (layers, questions) = (&mission.layers, questions(mission));
+    let mut replies = Vec::new();
+    for item in layers.items() {
+        let topic = layers.name(item);
+        for question in &questions {
+            let reply = reply(patient.reply(topic, question), &mut jitter);
+            replies.push(ReplyRule { topic: topic.to_owned(), question: Some(question.to_string()), reply });
+        }
+    }
+    PatientScript {
+        in_view: patient.in_view,
+        replies,
+        otherwise: reply(&patient.default, &mut jitter),
+        ..PatientScript::default()
+    }
+}
+
+/// The clinician's script.
+pub(super) fn clinician(clinician: &scenario::Clinician) -> ClinicianScript {
+    ClinicianScript {
+        comes: clinician.comes_after.is_some(),
+        after: clinician.comes_after.unwrap_or_default().as_secs_f64(),
+        stays: clinician.stays.as_secs_f64(),
+        fetches: clinician.fetches,
+    }
+}
+
+/// What a person may be asked about an item, in the order in which it is: the nodes that can stand before
+/// the token of an unanswered question.
+pub(super) fn questions(mission: &Mission) -> Vec<Name> {
+    let layers = &mission.layers;
+    let asked = &layers.vocabulary.model.predicates[layers.tokens.unanswered].variables;
+    let Some(asked) = asked.parameters().first() else { return Vec::new() };
+    let objects = &layers.graph.model.objects;
+    let of_type = |&id: &ObjectId| asked.types.0.iter().any(|&ty| layers.is_a(id, ty));
+    objects.ids().filter(of_type).map(|id| objects[id].name.clone()).collect()
+}
+
+fn reply(reply: &scenario::Reply, jitter: &mut Jitter) -> Reply {
+    let delay = jitter.vary(reply.delay).as_secs_f64();
+    match &reply.answer {
+        scenario::Answer::Option(number) => {
+            let option = (*number as usize).saturating_sub(1);
+            let by = match reply.by {
+                scenario::By::Voice => By::Voice,
+                scenario::By::Touch => By::Touch,
+            };
+            Reply::Answer { option, delay, by }
+        }
+        scenario::Answer::Silent => Reply::Silent,
+        scenario::Answer::Misheard(words) => Reply::Misheard { words: words.clone(), delay },
+    }
+}
+
+/// A small generator (splitmix64): Steele, Lea & Flood, "Fast splittable pseudorandom number generators",
+/// OOPSLA 2014.
+struct Jitter(u64);
+
+impl Jitter {
+    /// `delay` times a factor in 0.5..1.5; unchanged for seed 0.
+    fn vary(&mut self, delay: Duration) -> Duration {
+        if self.0 == 0 {
+            return delay;
+        }
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^= z >> 31;
+        let percent = u32::try_from(z % 101).expect("below 101") + 50;
+        delay * percent / 100
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seed_zero_changes_nothing_and_a_seed_repeats() {
+        let delay = Duration::from_secs(2);
+        assert_eq!(Jitter(0).vary(delay), delay);
+        assert_eq!(Jitter(7).vary(delay), Jitter(7).vary(delay));
+        let varied = Jitter(7).vary(delay);
+        assert!(varied >= delay / 2 && varied <= delay * 3 / 2);
+    }
+}

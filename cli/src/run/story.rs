@@ -1,0 +1,141 @@
+//! The story of a run: one linear stream of what happened in the room, in the graph and in PELEA.
+//!
+//! Reporters (terminal, JSON) only read it. Whoever adds to the story first adds what the graph has done
+//! since, so that the order is that of the versions.
+
+use dsr::{Change, Deltas, Event, Holder, LabelId, Snapshot, Value};
+use executive::Narration;
+use hal::sim::RoomEvent;
+use serde::Serialize;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+use tokio::sync::mpsc::UnboundedSender;
+
+/// An entry: when, in which version, what.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Entry {
+    /// Seconds since the mission started, to the millisecond.
+    pub(super) time: f64,
+    /// The graph's version then.
+    pub(super) version: u64,
+    #[serde(flatten)]
+    pub(super) what: What,
+}
+
+/// What happened.
+#[derive(Clone, Debug, Serialize)]
+#[serde(tag = "source", rename_all = "kebab-case")]
+pub(super) enum What {
+    /// Something that can be heard or seen in the room.
+    Room(RoomEvent),
+    /// A commit, as sentences.
+    Graph(Commit),
+    /// A decision of PELEA.
+    Pelea(Narration),
+}
+
+/// What a commit changed, in the paper's sentences.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Commit {
+    /// Who wrote it.
+    pub(super) writer: String,
+    /// Tokens that stand in the graph now.
+    pub(super) now: Vec<String>,
+    /// Tokens that no longer do.
+    pub(super) no_longer: Vec<String>,
+    /// Whether a reflex wrote in the same commit.
+    pub(super) reflex: bool,
+    /// The tokens that stand there now, by name: from, label, to.
+    #[serde(skip)]
+    pub(super) edges: Vec<(String, String, String)>,
+}
+
+/// The shared pen. Cloning it gives another handle on the same story.
+#[derive(Clone)]
+pub(super) struct Story(Arc<Mutex<Telling>>);
+
+struct Telling {
+    deltas: Deltas,
+    version: u64,
+    /// Where the story is read. Whoever does not listen any more is not told.
+    reader: UnboundedSender<Entry>,
+}
+
+impl Story {
+    /// A story of the graph whose changes `deltas` are.
+    pub(super) fn new(deltas: Deltas, reader: UnboundedSender<Entry>) -> Self {
+        let version = deltas.start().version().0;
+        Self(Arc::new(Mutex::new(Telling { deltas, version, reader })))
+    }
+
+    /// Adds an entry, after what the graph has done until now.
+    pub(super) fn tell(&self, time: f64, what: What) {
+        let mut telling = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        telling.catch_up();
+        let _ = telling.reader.send(Entry { time, version: telling.version, what });
+    }
+
+    /// Adds what the graph has done until now.
+    pub(super) fn catch_up(&self) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).catch_up();
+    }
+}
+
+impl Telling {
+    fn catch_up(&mut self) {
+        while let Some(event) = self.deltas.try_recv() {
+            self.version = event.snapshot().version().0;
+            let Event::Committed(committed) = event else { continue };
+            let commit = commit(&committed.delta, &committed.snapshot);
+            if commit.now.is_empty() && commit.no_longer.is_empty() {
+                continue;
+            }
+            let time = seconds(Duration::from_nanos(committed.delta.time.0));
+            let _ = self.reader.send(Entry { time, version: self.version, what: What::Graph(commit) });
+        }
+    }
+}
+
+fn commit(delta: &dsr::Delta, after: &Snapshot) -> Commit {
+    let (mut now, mut no_longer, mut edges) = (Vec::new(), Vec::new(), Vec::new());
+    let dictionary = after.dictionary();
+    let node = |id| after.name(id).unwrap_or_default().to_owned();
+    let label = |id| dictionary.label_name(id).map_or_else(String::new, ToString::to_string);
+    // The function of two nodes is an edge that carries a value: told with its value, or not at all.
+    let carries_value = |id| id == LabelId::HOLDS || dictionary.attribute(&label(id)).is_some();
+    for (change, sentence) in delta.changes.iter().zip(delta.sentences(after)) {
+        match change {
+            Change::EdgeAdded { edge } => {
+                edges.push((node(edge.from), label(edge.label), node(edge.to)));
+                if !carries_value(edge.label) {
+                    now.push(sentence);
+                }
+            }
+            Change::EdgeRemoved { edge } if !carries_value(edge.label) => {
+                let gone = sentence.strip_prefix("no longer: ").unwrap_or(&sentence);
+                no_longer.push(gone.to_owned());
+            }
+            Change::AttributeAdded { holder: Holder::Edge(edge), new: Value::Node(value), .. }
+            | Change::AttributeChanged { holder: Holder::Edge(edge), new: Value::Node(value), .. } => {
+                edges.push((node(*value), label(edge.label), node(edge.to)));
+                now.push(format!(
+                    "{} {} of {} is {}",
+                    node(edge.from),
+                    label(edge.label),
+                    node(edge.to),
+                    node(*value)
+                ));
+            }
+            _ => {}
+        }
+    }
+    let writer = dictionary.agent_name(delta.writer).map_or_else(String::new, ToString::to_string);
+    Commit { writer, now, no_longer, reflex: !delta.reflexes.is_empty(), edges }
+}
+
+/// Seconds, to the millisecond: what a person can tell apart, and short in JSON.
+pub(super) fn seconds(time: Duration) -> f64 {
+    #[expect(clippy::cast_precision_loss, reason = "2^53 ms are longer than any mission")]
+    let millis = time.as_millis() as f64;
+    millis / 1000.0
+}

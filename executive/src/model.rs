@@ -1,0 +1,167 @@
+//! The high-level model: what the planner's facts and operators are called in the world.
+//!
+//! Problem: LowToHigh speaks of `(introduced feeding)`, the planner of fact 17. Idea: ground the domain
+//! once, at the start, and keep the map. Predicates that perception derives are exogenous, so that
+//! grounding keeps whatever they could become and no replan ever grounds again; all other predicates
+//! are what the problem says. Cost: one hash look-up per fact that changes.
+
+use indexmap::IndexSet;
+use low_to_high::Fact;
+use pddl::model::{Domain, Name, ObjectId, PredicateId, Problem};
+use planner::{FactId, GroundAtom, GroundError, GroundOptions, OperatorId, State, Task, ground};
+use rustc_hash::FxHashMap;
+
+/// The grounded task with its names.
+#[derive(Clone, Debug)]
+pub struct Model {
+    domain: Domain,
+    problem: Problem,
+    task: Task,
+    predicates: FxHashMap<Name, PredicateId>,
+    objects: FxHashMap<Name, ObjectId>,
+    exogenous: IndexSet<PredicateId>,
+    /// Facts of the initial state that are not perceived.
+    given: Vec<FactId>,
+}
+
+/// Why there is no model.
+#[derive(Debug, thiserror::Error)]
+pub enum ModelError {
+    /// The domain cannot be grounded.
+    #[error(transparent)]
+    Ground(#[from] GroundError),
+}
+
+/// An operator by name: `introduce`, `[person, opening, feeding]`.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, serde::Serialize)]
+pub struct Step {
+    /// The action.
+    pub action: Name,
+    /// Its arguments.
+    pub arguments: Vec<Name>,
+}
+
+impl std::fmt::Display for Step {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "({}", self.action)?;
+        for argument in &self.arguments {
+            write!(f, " {argument}")?;
+        }
+        f.write_str(")")
+    }
+}
+
+impl Model {
+    /// Grounds `problem`; `perceived` are the predicates that perception derives.
+    ///
+    /// # Errors
+    /// What the planner cannot ground.
+    pub fn new(domain: Domain, problem: Problem, perceived: &[Name]) -> Result<Self, ModelError> {
+        let exogenous: IndexSet<_> = perceived.iter().filter_map(|name| domain.predicate(name)).collect();
+        let volatile: Vec<_> = exogenous.iter().copied().collect();
+        let options = GroundOptions { exogenous: &volatile, ..GroundOptions::default() };
+        let task = ground(&domain, &problem, &options)?;
+        let predicates = domain.predicates.enumerate().map(|(id, p)| (p.name.clone(), id)).collect();
+        let objects = problem.objects.enumerate().map(|(id, o)| (o.name.clone(), id)).collect();
+        let given = task
+            .initial_state()
+            .facts()
+            .into_iter()
+            .filter(|&fact| {
+                let atom = task.facts()[fact].atom.as_ref();
+                atom.is_none_or(|atom| !exogenous.contains(&atom.predicate))
+            })
+            .collect();
+        Ok(Self { domain, problem, task, predicates, objects, exogenous, given })
+    }
+
+    /// The grounded task.
+    pub fn task(&self) -> &Task {
+        &self.task
+    }
+
+    /// The domain.
+    pub fn domain(&self) -> &Domain {
+        &self.domain
+    }
+
+    /// The problem as it was given.
+    pub fn problem(&self) -> &Problem {
+        &self.problem
+    }
+
+    /// The planner's number of a perceived fact; `None` if no plan depends on it.
+    pub fn fact(&self, fact: &Fact) -> Option<FactId> {
+        let predicate = *self.predicates.get(&fact.predicate)?;
+        let arguments: Option<Vec<_>> = fact.arguments.iter().map(|a| self.objects.get(a).copied()).collect();
+        self.task.fact(predicate, &arguments?)
+    }
+
+    /// The state in which of the perceivable facts exactly these hold.
+    pub fn state<'f>(&self, perceived: impl IntoIterator<Item = &'f Fact>) -> State {
+        let seen = perceived.into_iter().filter_map(|fact| self.fact(fact));
+        self.task.state(self.given.iter().copied().chain(seen))
+    }
+
+    /// What a planner's fact is called.
+    pub fn name(&self, fact: FactId) -> Option<Fact> {
+        self.task.facts()[fact].atom.as_ref().map(|atom| self.atom(atom))
+    }
+
+    /// What a ground atom is called.
+    pub fn atom(&self, atom: &GroundAtom) -> Fact {
+        Fact {
+            predicate: self.domain.predicates[atom.predicate].name.clone(),
+            arguments: atom.arguments.iter().map(|&o| self.problem.objects[o].name.clone()).collect(),
+        }
+    }
+
+    /// What an operator is called.
+    pub fn step(&self, operator: OperatorId) -> Step {
+        let operator = &self.task.operators()[operator];
+        Step {
+            action: self.domain.actions[operator.action].name.clone(),
+            arguments: operator.arguments.iter().map(|&o| self.problem.objects[o].name.clone()).collect(),
+        }
+    }
+
+    /// The problem as it stands in `state`, for a validator that shares nothing with the planner.
+    pub fn problem_in(&self, state: &State) -> Problem {
+        let mut problem = self.problem.clone();
+        problem.init.retain(|fact| !self.exogenous.contains(&fact.predicate));
+        let known: Vec<_> = problem.init.iter().map(|f| (f.predicate, f.arguments.clone())).collect();
+        let mut add = |predicate: PredicateId, arguments: &[ObjectId]| {
+            if !known.iter().any(|(p, a)| *p == predicate && a == arguments) {
+                problem.init.push(pddl::model::Fact {
+                    predicate,
+                    arguments: arguments.to_vec(),
+                    span: self.problem.goal_span,
+                });
+            }
+        };
+        for fact in state.facts() {
+            if let Some(atom) = &self.task.facts()[fact].atom
+                && !self.domain.predicates[atom.predicate].derived
+            {
+                add(atom.predicate, &atom.arguments);
+            }
+        }
+        problem
+    }
+
+    /// The first object of each parameter's type: the arguments of a task that nobody instantiates,
+    /// such as the fallback. `None` if a type has no object.
+    pub fn default_arguments(&self, types: &[Name]) -> Option<Vec<Name>> {
+        types
+            .iter()
+            .map(|name| {
+                let wanted = self.domain.types.find(name)?;
+                let found =
+                    self.problem.objects.iter().find(|object| {
+                        object.types.0.iter().any(|&t| self.domain.types.is_subtype(t, wanted))
+                    })?;
+                Some(found.name.clone())
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,118 @@
+//! A plan on its way: which step it is at, and how far HighToLow has come with it.
+
+use super::event::Effect;
+use super::{start, tell, write};
+use crate::Model;
+use crate::monitoring::Monitor;
+use crate::narration::Narration;
+use dsr::{Snapshot, Time};
+use high_to_low::{Methods, Refinement, Status};
+use planner::{OperatorId, State, Task};
+
+/// A plan, its current step, and that step's refinement.
+pub(super) struct Course {
+    pub(super) monitor: Monitor,
+    /// The step at hand; the plan's length when all are done.
+    pub(super) current: usize,
+    refinement: Option<Refinement>,
+}
+
+/// What Monitoring says of the current step.
+pub(super) enum Progress {
+    /// The suffix from here is the furthest that reaches the goal.
+    Stays,
+    /// A later suffix does.
+    Moves {
+        /// Its first step.
+        to: usize,
+    },
+    /// None from here on does.
+    Deviates,
+}
+
+impl Course {
+    pub(super) fn new(model: &Model, plan: Vec<OperatorId>, state: &State) -> Self {
+        let goal = model.task().goal().clone();
+        Self { monitor: Monitor::new(model.task(), plan, goal, state), current: 0, refinement: None }
+    }
+
+    pub(super) fn progress(&self, task: &Task, state: &State) -> Progress {
+        match self.monitor.furthest(task, state) {
+            Some(to) if to == self.current => Progress::Stays,
+            Some(to) if to > self.current => Progress::Moves { to },
+            // An earlier suffix may well reach the goal, by steps that were meant for another situation; whether
+            // that is the best way from here is for Decision Support to say.
+            _ => Progress::Deviates,
+        }
+    }
+
+    /// Leaves the current step for a later one.
+    pub(super) fn move_to(
+        &mut self,
+        to: usize,
+        model: &Model,
+        snapshot: &Snapshot,
+        effects: &mut Vec<Effect>,
+    ) {
+        let step = |i: usize| model.step(self.monitor.plan()[i]);
+        let (index, first) = (self.current, step(self.current));
+        effects.push(Effect::Tell(Narration::Achieved { index, step: first }));
+        let skipped: Vec<_> = (self.current + 1..to).map(step).collect();
+        if !skipped.is_empty() {
+            effects.push(Effect::Tell(Narration::Skipped { steps: skipped }));
+        }
+        self.withdraw(snapshot, effects);
+        self.current = to;
+    }
+
+    /// Carries the current step further, starting it if need be.
+    pub(super) fn refine(
+        &mut self,
+        model: &Model,
+        methods: &Methods,
+        snapshot: &Snapshot,
+        now: Time,
+        effects: &mut Vec<Effect>,
+    ) -> Status {
+        let mut refinement = match self.refinement.take() {
+            Some(refinement) => refinement,
+            None => {
+                let step = model.step(self.monitor.plan()[self.current]);
+                effects.push(Effect::Tell(Narration::Started { index: self.current, step: step.clone() }));
+                match start(methods, snapshot, &step) {
+                    Ok(refinement) => refinement,
+                    Err(error) => return Status::Failed(error.into()),
+                }
+            }
+        };
+        let step = refinement.step(methods, snapshot, now);
+        write(step.edits, effects);
+        tell(&step.events, effects);
+        self.refinement = Some(refinement);
+        step.status
+    }
+
+    /// Takes back what the current step has written and not yet achieved.
+    pub(super) fn withdraw(&mut self, snapshot: &Snapshot, effects: &mut Vec<Effect>) {
+        if let Some(mut refinement) = self.refinement.take() {
+            write(refinement.cancel(snapshot), effects);
+        }
+    }
+
+    /// Goes on with what `old` was doing if this plan starts with it; else withdraws it.
+    pub(super) fn take_over(
+        &mut self,
+        mut old: Self,
+        snapshot: &Snapshot,
+        effects: &mut Vec<Effect>,
+    ) -> bool {
+        let running = old.monitor.plan().get(old.current);
+        if running.is_some() && running == self.monitor.plan().first() {
+            self.refinement = old.refinement;
+            self.refinement.is_some()
+        } else {
+            old.withdraw(snapshot, effects);
+            false
+        }
+    }
+}

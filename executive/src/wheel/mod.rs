@@ -1,0 +1,411 @@
+//! The High Level Executive: one turn of the wheel per event.
+//!
+//! Problem: an executive that waits for its planner cannot notice that the patient left; one that acts on
+//! what it believes talks to an empty chair. Idea: a pure state machine, `step(event) -> effects`. Time is
+//! an argument; committing, planning and timers are effects that somebody else carries out. Planning does
+//! not stop the wheel: a decision is held against the present before it is used.
+//!
+//! A turn: LowToHigh says which predicates changed → Monitoring finds the furthest suffix of the plan that
+//! still reaches the goal → the goal holds: done · a later suffix: skip ahead · the current one: refine on ·
+//! none: ask Decision Support, with the reason. No plan: the mission's fallback.
+//!
+//! **Invariant:** the same events give the same effects. **Invariant:** a step counts as done only when
+//! LowToHigh sees what it was to achieve.
+//!
+//! Source: §4.2 of the CORTEX/CLARC paper (HLE, Monitoring, Decision Support, HighToLow, LowToHigh).
+
+mod course;
+mod event;
+mod failures;
+
+pub use event::{Effect, Ending, Event};
+
+use crate::decision_support::{Decision, Request, RequestId};
+use crate::monitoring::Deviation;
+use crate::narration::Narration;
+use crate::{Model, Step};
+use course::{Course, Progress};
+use dsr::{Delta, Edit, Snapshot, Time, Version};
+use failures::Failures;
+use high_to_low::{Methods, Refinement, RefinementEvent, Status};
+use low_to_high::{LowToHigh, Perception};
+use pddl::model::Name;
+use planner::{FactId, State};
+use std::sync::Arc;
+
+/// What a mission allows.
+#[derive(Clone, Debug)]
+pub struct Policy {
+    /// The task to carry out when there is no plan, with its arguments.
+    pub fallback: Step,
+    /// How many states one search may expand.
+    pub expansions: u64,
+    /// How often one step may fail before it is not tried again in this mission.
+    pub attempts: u32,
+}
+
+/// PELEA between two events.
+///
+/// It decides only with its own writes in view: between asking for a write and seeing it in the graph, it
+/// takes in what happens and does nothing. And what it takes back is taken back before anything new is
+/// written, so that no intention is mistaken for the remains of another.
+pub struct Wheel {
+    model: Arc<Model>,
+    methods: Arc<Methods>,
+    perception: Arc<Perception>,
+    policy: Policy,
+    /// LowToHigh over the last graph seen; `None` before the first.
+    sight: Option<Sight>,
+    phase: Phase,
+    failures: Failures,
+    next_request: u64,
+    plans: u32,
+    /// A write was asked for and not yet answered.
+    unanswered: bool,
+    /// The version of its last write.
+    written: Version,
+    /// A decision that came while its own write was out of view.
+    deferred: Option<(RequestId, Decision)>,
+}
+
+struct Sight {
+    snapshot: Snapshot,
+    low_to_high: LowToHigh,
+    state: State,
+}
+
+enum Phase {
+    /// Nothing has been seen yet.
+    Waiting,
+    /// A plan has been asked for; what was running waits to see whether it survives.
+    Deciding { request: RequestId, running: Option<Course> },
+    /// A plan is being carried out.
+    Acting(Course),
+    /// There is no plan.
+    FallingBack { refinement: Box<Refinement>, why: String },
+    /// It is over.
+    Ended,
+}
+
+impl Wheel {
+    /// A wheel at rest; the first [`Event::Seen`] sets it in motion.
+    pub fn new(
+        model: Arc<Model>,
+        perception: Arc<Perception>,
+        methods: Arc<Methods>,
+        policy: Policy,
+    ) -> Self {
+        let failures = Failures::new(policy.attempts);
+        Self {
+            model,
+            methods,
+            perception,
+            policy,
+            sight: None,
+            phase: Phase::Waiting,
+            failures,
+            next_request: 0,
+            plans: 0,
+            unanswered: false,
+            written: Version(0),
+            deferred: None,
+        }
+    }
+
+    /// The model it plans with; Decision Support needs it.
+    pub fn model(&self) -> &Arc<Model> {
+        &self.model
+    }
+
+    /// One turn.
+    pub fn step(&mut self, event: Event, now: Time) -> Vec<Effect> {
+        let mut effects = Vec::new();
+        if matches!(self.phase, Phase::Ended) {
+            return effects;
+        }
+        match event {
+            Event::Seen(snapshot) => self.see(snapshot, None, now, &mut effects),
+            Event::Changed { snapshot, delta } => self.see(snapshot, Some(&delta), now, &mut effects),
+            Event::Woke => self.advance(now, &mut effects),
+            Event::Decided(id, decision) => {
+                self.deferred = Some((id, decision));
+                self.advance(now, &mut effects);
+            }
+            Event::Written(version) => {
+                self.unanswered = false;
+                self.written = self.written.max(version);
+                self.advance(now, &mut effects);
+            }
+            Event::Refused(why) => {
+                self.unanswered = false;
+                self.refused(why, now, &mut effects);
+            }
+        }
+        let effects = in_one_transaction(effects);
+        self.unanswered |= effects.iter().any(is_write);
+        effects
+    }
+
+    /// The graph as last seen, unless a write of its own is still out of view.
+    fn in_view(&self) -> bool {
+        let seen = self.sight.as_ref().map(|sight| sight.snapshot.version());
+        !self.unanswered && seen.is_some_and(|version| version >= self.written)
+    }
+
+    /// Takes in what the graph says, then goes on with whatever that means.
+    fn see(&mut self, snapshot: Snapshot, delta: Option<&Delta>, now: Time, effects: &mut Vec<Effect>) {
+        let changes = match (&mut self.sight, delta) {
+            (Some(sight), Some(delta)) => {
+                let change = sight.low_to_high.update(&snapshot, delta);
+                sight.snapshot = snapshot;
+                let model = &self.model;
+                let gone = change.disappeared.iter().filter_map(|f| Some((model.fact(f)?, false)));
+                let come = change.appeared.iter().filter_map(|f| Some((model.fact(f)?, true)));
+                gone.chain(come).collect::<Vec<_>>()
+            }
+            (sight, _) => {
+                let low_to_high = LowToHigh::new(self.perception.clone(), &snapshot);
+                let state = self.model.state(low_to_high.facts());
+                let before = sight.replace(Sight { snapshot, low_to_high, state: state.clone() });
+                before.map_or_else(Vec::new, |before| differences(&before.state, &state))
+            }
+        };
+        if !changes.is_empty() {
+            if let Some(sight) = &mut self.sight {
+                sight.state = self.model.state(sight.low_to_high.facts());
+            }
+            if let Phase::Acting(course) | Phase::Deciding { running: Some(course), .. } = &mut self.phase {
+                course.monitor.change(&changes);
+            }
+        }
+        self.advance(now, effects);
+    }
+
+    /// Looks where the plan stands, and carries it further.
+    fn advance(&mut self, now: Time, effects: &mut Vec<Effect>) {
+        if !self.in_view() {
+            return;
+        }
+        let Some(sight) = &self.sight else { return };
+        let task = self.model.task();
+        if !matches!(self.phase, Phase::FallingBack { .. }) && task.satisfies(&sight.state, task.goal()) {
+            return self.accomplished(effects);
+        }
+        if let Some((id, decision)) = self.deferred.take() {
+            return self.decided(id, decision, now, effects);
+        }
+        match std::mem::replace(&mut self.phase, Phase::Ended) {
+            Phase::Waiting => self.ask(None, effects),
+            Phase::Deciding { request, running } => self.phase = Phase::Deciding { request, running },
+            Phase::Acting(course) => self.act(course, now, effects),
+            Phase::FallingBack { refinement, why } => self.fall(refinement, why, now, effects),
+            Phase::Ended => {}
+        }
+    }
+
+    /// Monitoring and HighToLow for the plan at hand.
+    fn act(&mut self, mut course: Course, now: Time, effects: &mut Vec<Effect>) {
+        let sight = self.sight.as_ref().expect("a plan is made from what was seen");
+        match course.progress(self.model.task(), &sight.state) {
+            Progress::Stays => {}
+            Progress::Moves { to } => {
+                self.failures.forget(&self.model.step(course.monitor.plan()[course.current]));
+                course.move_to(to, &self.model, &sight.snapshot, effects);
+            }
+            Progress::Deviates => {
+                let mut deviation = course.monitor.deviation(&self.model, &sight.state, course.current);
+                sight.name_tokens(&mut deviation);
+                effects.push(Effect::Tell(Narration::Deviated(deviation)));
+                return self.ask(Some(course), effects);
+            }
+        }
+        if effects.iter().any(is_write) {
+            self.phase = Phase::Acting(course);
+            return;
+        }
+        match course.refine(&self.model, &self.methods, &sight.snapshot, now, effects) {
+            Status::Running { wake_at } => {
+                effects.extend(wake_at.map(Effect::WakeAt));
+                self.phase = Phase::Acting(course);
+            }
+            // Its effects would have moved the course on above: it claims to be done and is not seen to be.
+            Status::Done => {
+                let why = "carried out, but what it was to achieve was not sensed".to_owned();
+                self.failed(course, why, effects);
+            }
+            Status::Failed(failure) => self.failed(course, failure.to_string(), effects),
+        }
+    }
+
+    /// The current step failed: bar it in this state and ask for another plan.
+    fn failed(&mut self, mut course: Course, why: String, effects: &mut Vec<Effect>) {
+        let sight = self.sight.as_ref().expect("a plan is made from what was seen");
+        let step = self.model.step(course.monitor.plan()[course.current]);
+        effects.push(Effect::Tell(Narration::Failed { step: step.clone(), why }));
+        self.failures.add(step, &sight.state);
+        course.withdraw(&sight.snapshot, effects);
+        self.ask(None, effects);
+    }
+
+    /// Asks Decision Support for a plan from here.
+    fn ask(&mut self, running: Option<Course>, effects: &mut Vec<Effect>) {
+        let Some(sight) = &self.sight else { return };
+        let id = RequestId(self.next_request);
+        self.next_request += 1;
+        effects.push(Effect::Plan(Request {
+            id,
+            state: sight.state.clone(),
+            barred: self.failures.barred(&sight.state),
+            expansions: self.policy.expansions,
+        }));
+        self.phase = Phase::Deciding { request: id, running };
+    }
+
+    /// Holds a decision against the present.
+    fn decided(&mut self, id: RequestId, decision: Decision, now: Time, effects: &mut Vec<Effect>) {
+        let running = match std::mem::replace(&mut self.phase, Phase::Ended) {
+            Phase::Deciding { request, running } if request == id => running,
+            other => {
+                self.phase = other;
+                return;
+            }
+        };
+        let Some(sight) = &self.sight else { return };
+        match decision {
+            Decision::Plan { operators, expanded } => {
+                let mut course = Course::new(&self.model, operators, &sight.state);
+                if course.monitor.furthest(self.model.task(), &sight.state).is_none() {
+                    // The state has moved on since it was asked for.
+                    return self.ask(running, effects);
+                }
+                let survives = running.is_some_and(|old| course.take_over(old, &sight.snapshot, effects));
+                self.plans += 1;
+                let plan = course.monitor.plan().iter().map(|&o| self.model.step(o)).collect();
+                let count = self.plans;
+                effects.push(Effect::Tell(Narration::Planned { plan, expanded, survives, count }));
+                self.act(course, now, effects);
+            }
+            Decision::NoPlan(why) => self.fall_back(running, why, now, effects),
+            Decision::LimitReached(most) => {
+                self.fall_back(running, format!("no plan within {most} expansions"), now, effects);
+            }
+            Decision::Rejected(why) => {
+                self.fall_back(running, format!("the plan found does not validate: {why}"), now, effects);
+            }
+        }
+    }
+
+    /// The graph refused what the current step wanted to write.
+    fn refused(&mut self, why: String, now: Time, effects: &mut Vec<Effect>) {
+        effects.push(Effect::Tell(Narration::Refused { why: why.clone() }));
+        match std::mem::replace(&mut self.phase, Phase::Ended) {
+            Phase::Acting(course) => self.failed(course, why, effects),
+            Phase::FallingBack { why: reason, .. } => self.end_without(reason, false, effects),
+            other => {
+                self.phase = other;
+                self.advance(now, effects);
+            }
+        }
+    }
+
+    fn fall_back(&mut self, running: Option<Course>, why: String, now: Time, effects: &mut Vec<Effect>) {
+        let Some(sight) = &self.sight else { return };
+        if let Some(mut course) = running {
+            course.withdraw(&sight.snapshot, effects);
+        }
+        effects.push(Effect::Tell(Narration::FellBack { why: why.clone() }));
+        let Step { action, arguments } = &self.policy.fallback;
+        match Refinement::new(&self.methods, &sight.snapshot, action, arguments) {
+            Ok(refinement) if effects.iter().any(is_write) => {
+                self.phase = Phase::FallingBack { refinement: Box::new(refinement), why };
+            }
+            Ok(refinement) => self.fall(Box::new(refinement), why, now, effects),
+            Err(error) => self.end_without(format!("{why}; {error}"), false, effects),
+        }
+    }
+
+    /// Carries the fallback further.
+    fn fall(&mut self, mut refinement: Box<Refinement>, why: String, now: Time, effects: &mut Vec<Effect>) {
+        let Some(sight) = &self.sight else { return };
+        let step = refinement.step(&self.methods, &sight.snapshot, now);
+        write(step.edits, effects);
+        tell(&step.events, effects);
+        match step.status {
+            Status::Running { wake_at } => {
+                effects.extend(wake_at.map(Effect::WakeAt));
+                self.phase = Phase::FallingBack { refinement, why };
+            }
+            Status::Done => self.end_without(why, true, effects),
+            Status::Failed(failure) => self.end_without(format!("{why}; {failure}"), false, effects),
+        }
+    }
+
+    fn accomplished(&mut self, effects: &mut Vec<Effect>) {
+        if let (Phase::Acting(course) | Phase::Deciding { running: Some(course), .. }, Some(sight)) =
+            (&mut self.phase, &self.sight)
+        {
+            let end = course.monitor.plan().len();
+            course.move_to(end, &self.model, &sight.snapshot, effects);
+        }
+        self.end(Ending::Accomplished, effects);
+    }
+
+    fn end_without(&mut self, why: String, fallback: bool, effects: &mut Vec<Effect>) {
+        self.end(Ending::NotAccomplished { why, fallback }, effects);
+    }
+
+    fn end(&mut self, ending: Ending, effects: &mut Vec<Effect>) {
+        self.phase = Phase::Ended;
+        effects.push(Effect::Tell(Narration::Ended(ending.clone())));
+        effects.push(Effect::End(ending));
+    }
+}
+
+impl Sight {
+    /// Adds what the graph shows to each reason.
+    fn name_tokens(&self, deviation: &mut Deviation) {
+        for literal in &mut deviation.broken {
+            if let Some(fact) = &literal.fact {
+                literal.seen = self.low_to_high.explain(&self.snapshot, fact);
+            }
+        }
+    }
+}
+
+fn differences(before: &State, after: &State) -> Vec<(FactId, bool)> {
+    let gone = before.facts().into_iter().filter(|&f| !after.contains(f)).map(|f| (f, false));
+    let come = after.facts().into_iter().filter(|&f| !before.contains(f)).map(|f| (f, true));
+    gone.chain(come).collect()
+}
+
+fn is_write(effect: &Effect) -> bool {
+    matches!(effect, Effect::Write(_))
+}
+
+/// All writes of a turn as one, where the first stood.
+fn in_one_transaction(effects: Vec<Effect>) -> Vec<Effect> {
+    let mut merged: Vec<Effect> = Vec::with_capacity(effects.len());
+    for effect in effects {
+        match (effect, merged.iter_mut().find(|e| is_write(e))) {
+            (Effect::Write(more), Some(Effect::Write(edits))) => edits.extend(more),
+            (effect, _) => merged.push(effect),
+        }
+    }
+    merged
+}
+
+fn write(edits: Vec<Edit>, effects: &mut Vec<Effect>) {
+    if !edits.is_empty() {
+        effects.push(Effect::Write(edits));
+    }
+}
+
+fn tell(events: &[RefinementEvent], effects: &mut Vec<Effect>) {
+    effects.extend(events.iter().map(|e| Effect::Tell(Narration::Refined { what: e.to_string() })));
+}
+
+/// Names of a step's action and arguments, for HighToLow.
+fn start(methods: &Methods, snapshot: &Snapshot, step: &Step) -> Result<Refinement, high_to_low::StartError> {
+    let arguments: &[Name] = &step.arguments;
+    Refinement::new(methods, snapshot, &step.action, arguments)
+}

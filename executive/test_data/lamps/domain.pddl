@@ -1,0 +1,8 @@
+(define (domain lamps)
+  (:requirements :strips :typing :negative-preconditions)
+  (:types lamp)
+  (:predicates (bright ?l - lamp) (dead ?l - lamp) (first ?l - lamp) (next ?l ?m - lamp))
+  (:action light-first :parameters (?l - lamp)
+    :precondition (and (first ?l) (not (dead ?l))) :effect (bright ?l))
+  (:action light :parameters (?l ?m - lamp)
+    :precondition (and (next ?l ?m) (bright ?l) (not (dead ?m))) :effect (bright ?m)))

@@ -1,0 +1,5 @@
+(define (domain lamps-perception)
+  (:requirements :typing :derived-predicates)
+  (:import lab lamps)
+  (:derived (bright ?l - lamp) (is ?l lit))
+  (:derived (dead ?l - lamp) (is ?l broken)))

@@ -1,0 +1,8 @@
+; A small world: lamps that an agent lights when PELEA wants it, in a fixed order.
+(define (domain lab)
+  (:requirements :typing :equality :fluents :vocabulary)
+  (:types agent resource symbol - object lamp state - symbol)
+  (:constants pelea lighter - agent wanted lit broken - state)
+  (:predicates (is ?l - lamp ?s - state))
+  (:writes pelea (is _ wanted))
+  (:writes lighter (is _ lit) (is _ broken) (is _ wanted)))

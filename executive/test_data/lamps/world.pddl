@@ -1,0 +1,1 @@
+(define (problem bench) (:domain lab) (:objects a b - lamp) (:init) (:goal (and)))

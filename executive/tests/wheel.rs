@@ -1,0 +1,228 @@
+//! The wheel turned by hand: the test plays graph, planner thread, clock and the lighter.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use dsr::{AgentId, Edit, Graph, Time, Transaction};
+use executive::{Decision, Effect, Ending, Event, Model, Narration, Policy, Request, Step, Wheel, decide};
+use high_to_low::Methods;
+use low_to_high::Perception;
+use pddl::model::{Domain, Name};
+use pddl::{Source, parse_domain, parse_problem};
+use std::collections::VecDeque;
+use std::sync::Arc;
+use vocabulary::Vocabulary;
+
+/// A wheel over the lamps, with everything around it.
+struct Bench {
+    graph: Graph,
+    deltas: dsr::Deltas,
+    wheel: Wheel,
+    now: Time,
+    told: Vec<Narration>,
+    ending: Option<Ending>,
+    /// Plans asked for and not yet made.
+    requests: VecDeque<Request>,
+}
+
+fn domain(name: &str, text: &str, imports: &[&Domain]) -> Domain {
+    let source = Source::new(name, text);
+    let parsed = parse_domain(&source, imports);
+    parsed.model.unwrap_or_else(|| panic!("{}", parsed.diagnostics[0].describe(&source)))
+}
+
+impl Bench {
+    fn new() -> Self {
+        let lab = domain("vocabulary", include_str!("../test_data/lamps/vocabulary.pddl"), &[]);
+        let lamps = domain("domain", include_str!("../test_data/lamps/domain.pddl"), &[]);
+        let perception =
+            domain("perception", include_str!("../test_data/lamps/perception.pddl"), &[&lab, &lamps]);
+        let methods = domain("methods", include_str!("../test_data/lamps/methods.hddl"), &[&lab]);
+        let world = Source::new("world", include_str!("../test_data/lamps/world.pddl"));
+        let world = parse_problem(&world, &lab).model.unwrap();
+        let problem = Source::new("problem", include_str!("../test_data/lamps/problem.pddl"));
+        let problem = parse_problem(&problem, &lamps).model.unwrap();
+
+        let vocabulary = Vocabulary::new(&lab).unwrap();
+        let graph = vocabulary.populate(&[&world], Time(0)).unwrap();
+        let perceived = [Name::new("bright"), Name::new("dead")];
+        let model = Arc::new(Model::new(lamps, problem, &perceived).unwrap());
+        let perception = Arc::new(Perception::new(&perception, &vocabulary).unwrap());
+        let methods = Arc::new(Methods::new(&methods, &vocabulary).unwrap());
+        let fallback = Step { action: Name::new("give-up"), arguments: vec![Name::new("a")] };
+        let wheel =
+            Wheel::new(model, perception, methods, Policy { fallback, expansions: 1_000, attempts: 2 });
+        let deltas = graph.subscribe_deltas();
+        let told = Vec::new();
+        let mut bench =
+            Self { graph, deltas, wheel, now: Time(0), told, ending: None, requests: VecDeque::new() };
+        bench.turn(Event::Seen(bench.graph.snapshot()));
+        bench
+    }
+
+    /// Hands an event in, carries out what is asked for, and everything that follows from that.
+    fn turn(&mut self, event: Event) {
+        let mut events = VecDeque::from([event]);
+        while let Some(event) = events.pop_front() {
+            for effect in self.wheel.step(event, self.now) {
+                match effect {
+                    Effect::Write(edits) => events.push_back(self.commit("pelea", edits)),
+                    Effect::Plan(request) => self.requests.push_back(request),
+                    Effect::WakeAt(_) => {}
+                    Effect::Tell(narration) => self.told.push(narration),
+                    Effect::End(ending) => self.ending = Some(ending),
+                }
+            }
+            while let Some(dsr::Event::Committed(c)) = self.deltas.try_recv() {
+                events.push_back(Event::Changed { snapshot: c.snapshot, delta: c.delta });
+            }
+        }
+    }
+
+    fn commit(&self, agent: &str, edits: Vec<Edit>) -> Event {
+        let mut transaction = Transaction::new(self.agent(agent));
+        transaction.extend(edits);
+        match self.graph.commit(&transaction, self.now) {
+            Ok(commit) => Event::Written(commit.version),
+            Err(error) => Event::Refused(error.to_string()),
+        }
+    }
+
+    fn agent(&self, name: &str) -> AgentId {
+        self.graph.dictionary().agent(name).unwrap()
+    }
+
+    /// The lighter, or whoever, makes a token true.
+    fn write(&mut self, agent: &str, lamp: &str, state: &str) {
+        let is = self.graph.dictionary().label("is").unwrap();
+        self.commit(agent, vec![Edit::AddEdge { from: lamp.into(), label: is, to: state.into() }]);
+        while let Some(dsr::Event::Committed(c)) = self.deltas.try_recv() {
+            self.turn(Event::Changed { snapshot: c.snapshot, delta: c.delta });
+        }
+    }
+
+    fn plan(&mut self) {
+        let request = self.requests.pop_front().expect("a plan was asked for");
+        let decision = decide(self.wheel.model(), &request);
+        self.turn(Event::Decided(request.id, decision));
+    }
+
+    fn pass(&mut self, seconds: u64) {
+        self.now = Time(self.now.0 + seconds * 1_000_000_000);
+        self.turn(Event::Woke);
+    }
+
+    fn wants(&self, lamp: &str) -> bool {
+        self.graph.snapshot().sentences().contains(&format!("{lamp} is wanted"))
+    }
+
+    fn count(&self, matches: impl Fn(&Narration) -> bool) -> usize {
+        self.told.iter().filter(|n| matches(n)).count()
+    }
+}
+
+#[test]
+fn a_plan_is_carried_out_step_by_step_as_it_is_sensed() {
+    let mut bench = Bench::new();
+    bench.plan();
+    assert!(bench.wants("a") && !bench.wants("b"));
+    bench.write("lighter", "a", "lit");
+    assert!(bench.wants("b"));
+    assert_eq!(bench.ending, None);
+    bench.write("lighter", "b", "lit");
+    assert_eq!(bench.ending, Some(Ending::Accomplished));
+    assert!(bench.requests.is_empty());
+}
+
+#[test]
+fn luck_skips_steps_and_takes_back_what_is_no_longer_wanted() {
+    let mut bench = Bench::new();
+    bench.plan();
+    bench.write("lighter", "b", "lit");
+    assert_eq!(bench.ending, None);
+    bench.write("lighter", "a", "lit");
+    assert_eq!(bench.ending, Some(Ending::Accomplished));
+    assert!(bench.requests.is_empty(), "no planner was needed");
+    assert!(!bench.wants("b"), "the second step never started");
+}
+
+#[test]
+fn a_deviation_names_the_fact_and_who_needed_it() {
+    let mut bench = Bench::new();
+    bench.plan();
+    bench.write("lighter", "b", "broken");
+    let Some(Narration::Deviated(deviation)) =
+        bench.told.iter().find(|n| matches!(n, Narration::Deviated(_))).cloned()
+    else {
+        panic!("no deviation: {:?}", bench.told)
+    };
+    assert_eq!(deviation.broken.len(), 1);
+    let literal = &deviation.broken[0];
+    assert_eq!(literal.fact.as_ref().unwrap().to_string(), "(dead b)");
+    assert!(!literal.expected);
+    assert_eq!(literal.needed_by.as_ref().unwrap().to_string(), "(light a b)");
+    assert_eq!(literal.given_by, None);
+
+    bench.plan();
+    assert!(
+        matches!(bench.ending, Some(Ending::NotAccomplished { fallback: true, .. })),
+        "{:?}",
+        bench.ending
+    );
+    assert!(!bench.wants("a"), "what was intended is taken back");
+}
+
+#[test]
+fn a_step_that_changes_nothing_is_tried_again_and_then_given_up() {
+    let mut bench = Bench::new();
+    bench.plan();
+    bench.pass(6);
+    assert_eq!(bench.count(|n| matches!(n, Narration::Failed { .. })), 1);
+    assert!(!bench.wants("a"));
+    // In the very state in which it failed it is not tried again: there is no plan.
+    bench.plan();
+    assert!(matches!(bench.ending, Some(Ending::NotAccomplished { .. })));
+}
+
+#[test]
+fn a_decision_for_a_state_that_has_moved_on_is_held_against_the_present() {
+    let mut bench = Bench::new();
+    let request = bench.requests.pop_front().unwrap();
+    let decision = decide(bench.wheel.model(), &request);
+    assert!(matches!(decision, Decision::Plan { .. }));
+    bench.write("lighter", "a", "lit");
+    bench.turn(Event::Decided(request.id, decision));
+    assert!(bench.wants("b") && !bench.wants("a"), "the first step is skipped");
+    assert!(bench.requests.is_empty());
+}
+
+#[test]
+fn an_answer_to_an_older_request_is_thrown_away() {
+    let mut bench = Bench::new();
+    let request = bench.requests.pop_front().unwrap();
+    let decision = decide(bench.wheel.model(), &request);
+    bench.turn(Event::Decided(request.id, decision.clone()));
+    let told = bench.told.len();
+    bench.turn(Event::Decided(request.id, decision));
+    assert_eq!(bench.told.len(), told);
+}
+
+#[test]
+fn a_refused_write_is_a_failed_step() {
+    let mut bench = Bench::new();
+    bench.plan();
+    bench.turn(Event::Refused("the graph says no".to_owned()));
+    assert_eq!(bench.count(|n| matches!(n, Narration::Refused { .. })), 1);
+    assert_eq!(bench.count(|n| matches!(n, Narration::Failed { .. })), 1);
+}
+
+#[test]
+fn the_same_events_give_the_same_story() {
+    let run = || {
+        let mut bench = Bench::new();
+        bench.plan();
+        bench.write("lighter", "a", "lit");
+        bench.write("lighter", "b", "lit");
+        serde_json::to_string(&bench.told).unwrap()
+    };
+    assert_eq!(run(), run());
+}
