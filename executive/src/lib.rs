@@ -1,1 +1,45 @@
-//! PELEA: High Level Executive, Monitoring and Decision Support.
+//! PELEA: the High Level Executive, Monitoring and Decision Support.
+//!
+//! The [`Wheel`] turns on events (the graph changed, a deadline passed, a plan came back) and answers with
+//! effects (write intentions, plan, wake me, tell). It is pure; [`Shell`] carries its effects out on tokio.
+//!
+//! ```
+//! use executive::{Decision, Model, Request, RequestId, decide};
+//! use pddl::{Source, model::Name, parse_domain, parse_problem};
+//!
+//! let domain = Source::new("d", "(define (domain d) (:predicates (lit) (dark))
+//!     (:action light :parameters () :precondition (dark) :effect (lit)))");
+//! let domain = parse_domain(&domain, &[]).model.unwrap();
+//! let problem = Source::new("p", "(define (problem p) (:domain d) (:init) (:goal (lit)))");
+//! let problem = parse_problem(&problem, &domain).model.unwrap();
+//!
+//! // `lit` and `dark` are sensed: no plan from what the problem says, one from what is seen now.
+//! let model = Model::new(domain, problem, &[Name::new("lit"), Name::new("dark")]).unwrap();
+//! let dark = low_to_high::Fact { predicate: Name::new("dark"), arguments: Vec::new() };
+//! let state = model.state([&dark]);
+//! let request = Request { id: RequestId(0), state, barred: Vec::new(), expansions: 100 };
+//! assert!(matches!(decide(&model, &request), Decision::Plan { operators, .. } if operators.len() == 1));
+//! ```
+//!
+//! | module | PELEA's module (paper §4.2) |
+//! |---|---|
+//! | `wheel` | High Level Executive |
+//! | `monitoring` | Monitoring |
+//! | `decision_support` | Decision Support |
+//! | `model` | the high-level model that they share |
+//! | `narration` | the story: every decision with its reason |
+//! | `shell` | where the pure wheel meets graph, clock and threads |
+
+mod decision_support;
+mod model;
+mod monitoring;
+mod narration;
+mod shell;
+mod wheel;
+
+pub use decision_support::{Decision, Request, RequestId, decide};
+pub use model::{Model, ModelError, Step};
+pub use monitoring::{BrokenLiteral, Deviation, Monitor};
+pub use narration::Narration;
+pub use shell::Shell;
+pub use wheel::{Effect, Ending, Event, Policy, Wheel};
