@@ -2,7 +2,7 @@
 
 use crate::console::{Console, Form};
 use crate::exit::Exit;
-use crate::{check, plan, validate};
+use crate::{check, plan, run as mission, validate};
 use clap::{Parser, Subcommand};
 use std::ffi::OsString;
 
@@ -24,6 +24,8 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Carry a mission out, on simulated devices.
+    Run(mission::Arguments),
     /// Find a plan.
     Plan(plan::Arguments),
     /// Check plans.
@@ -55,6 +57,7 @@ where
         console.set_form(Form::Json);
     }
     match arguments.command {
+        Command::Run(arguments) => mission::run(&arguments, console),
         Command::Plan(arguments) => plan::run(&arguments, console),
         Command::Validate(arguments) => validate::run(&arguments, console),
         Command::Check(arguments) => check::run(&arguments, console),

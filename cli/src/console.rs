@@ -21,22 +21,24 @@ pub struct Console<'a> {
     err: Box<dyn Write + 'a>,
     form: Form,
     colour: bool,
+    result_colour: bool,
 }
 
 impl<'a> Console<'a> {
     /// Writes to `out` and `err`, without colours.
     pub fn new(out: &'a mut dyn Write, err: &'a mut dyn Write) -> Self {
-        Self { out: Box::new(out), err: Box::new(err), form: Form::Text, colour: false }
+        Self { out: Box::new(out), err: Box::new(err), form: Form::Text, colour: false, result_colour: false }
     }
 
     /// The process's own.
     pub fn of_process() -> Console<'static> {
-        let colour = io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+        let wanted = std::env::var_os("NO_COLOR").is_none();
         Console {
             out: Box::new(io::BufWriter::new(io::stdout())),
             err: Box::new(io::stderr()),
             form: Form::Text,
-            colour,
+            colour: wanted && io::stderr().is_terminal(),
+            result_colour: wanted && io::stdout().is_terminal(),
         }
     }
 
@@ -48,6 +50,16 @@ impl<'a> Console<'a> {
     /// Whether standard error shows colours.
     pub fn colour(&self) -> bool {
         self.colour
+    }
+
+    /// Whether standard output shows colours.
+    pub fn result_colour(&self) -> bool {
+        self.result_colour
+    }
+
+    /// Lets whoever watches see what was written so far.
+    pub fn flush(&mut self) {
+        dropped(self.out.flush());
     }
 
     pub(crate) fn set_form(&mut self, form: Form) {

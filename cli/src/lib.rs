@@ -15,20 +15,22 @@
 //! assert!(String::from_utf8(err).unwrap().contains("no/such/file.pddl"));
 //! ```
 //!
-//! Members: `arguments` (the tree of commands), `plan`, `validate`, `check` (one each), `task` (a domain
-//! with its problem, read from files), `header` (which file needs which), `files`, `memory`, `clock`,
+//! Members: `arguments` (the tree of commands), `run`, `plan`, `validate`, `check` (one each), `task` (a domain
+//! with its problem, read from files), `header` (which file needs which), `files`, `disk` (mission folders), `memory`, `clock`,
 //! `render` (diagnostics as text with excerpts, or as JSON), `console` and `exit`.
 
 mod arguments;
 mod check;
 mod clock;
 mod console;
+mod disk;
 mod exit;
 mod files;
 mod header;
 mod memory;
 mod plan;
 mod render;
+mod run;
 mod task;
 mod validate;
 
@@ -38,8 +40,11 @@ pub use exit::Exit;
 
 use std::process::ExitCode;
 
-/// The whole program.
+/// The whole program. `PELEA_LOG=debug` writes what its parts do to standard error.
 pub fn main() -> ExitCode {
+    if let Ok(filter) = tracing_subscriber::EnvFilter::try_from_env("PELEA_LOG") {
+        tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr).init();
+    }
     let mut console = Console::of_process();
     ExitCode::from(run(std::env::args_os(), &mut console))
 }

@@ -55,7 +55,7 @@ pub struct Finding {
 
 impl Finding {
     /// An error.
-    pub(crate) fn error(code: &'static str, place: Place, message: impl Into<String>) -> Self {
+    pub fn error(code: &'static str, place: Place, message: impl Into<String>) -> Self {
         let message = message.into();
         Self { code, severity: Severity::Error, message, place, related: Vec::new(), help: None }
     }
