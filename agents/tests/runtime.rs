@@ -249,7 +249,8 @@ fn an_agent_that_was_declared_dead_and_is_not_starts_again() {
         talker: stop say person hello
         v5 talker: no longer: robot is not speaking, robot is speaking, robot says hello
         talker: launch say person hello
-    "#]].assert_eq(&bench.log());
+    "#]]
+    .assert_eq(&bench.log());
 }
 
 #[test]
