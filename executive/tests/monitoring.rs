@@ -1,0 +1,113 @@
+//! Suffix monitoring against its definition: a suffix holds exactly where carrying it out reaches the goal.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use executive::{Decision, Model, Monitor, Request, RequestId, decide};
+use pddl::model::Name;
+use pddl::{Source, parse_domain, parse_problem};
+use planner::{FactId, OperatorId, State};
+use proptest::prelude::*;
+
+/// Rooms in a row, doors that can be shut, a lamp that must be out before one may leave.
+const ROOMS: &str = "(define (domain rooms) (:requirements :strips :typing :negative-preconditions)
+  (:types room)
+  (:predicates (in ?r - room) (shut ?r - room) (lit ?r - room) (clean ?r - room) (next ?a ?b - room))
+  (:action go :parameters (?a ?b - room)
+    :precondition (and (in ?a) (next ?a ?b) (not (shut ?b)) (not (lit ?a)))
+    :effect (and (not (in ?a)) (in ?b)))
+  (:action open :parameters (?a ?b - room)
+    :precondition (and (in ?a) (next ?a ?b) (shut ?b)) :effect (not (shut ?b)))
+  (:action switch-on :parameters (?r - room)
+    :precondition (and (in ?r) (not (lit ?r))) :effect (lit ?r))
+  (:action switch-off :parameters (?r - room)
+    :precondition (and (in ?r) (lit ?r)) :effect (not (lit ?r)))
+  (:action sweep :parameters (?r - room)
+    :precondition (and (in ?r) (lit ?r)) :effect (clean ?r)))";
+
+const PROBLEM: &str = "(define (problem three) (:domain rooms) (:objects a b c - room)
+  (:init (in a) (next a b) (next b c) (shut b) (shut c))
+  (:goal (and (clean a) (clean b) (clean c) (in c) (not (lit c)))))";
+
+/// The same with a conditional effect, which kernels do not regress.
+fn with_draught() -> String {
+    ROOMS.replace(
+        "(and (not (in ?a)) (in ?b))",
+        "(and (not (in ?a)) (in ?b) (when (clean ?b) (not (clean ?b))))",
+    )
+}
+
+fn model(rooms: &str) -> Model {
+    let domain = parse_domain(&Source::new("d", rooms), &[]).model.unwrap();
+    let problem = parse_problem(&Source::new("p", PROBLEM), &domain).model.unwrap();
+    Model::new(domain, problem, &["in", "shut", "lit", "clean"].map(Name::new)).unwrap()
+}
+
+fn plan(model: &Model) -> Vec<OperatorId> {
+    let state = model.task().initial_state().clone();
+    let request = Request { id: RequestId(0), state, barred: Vec::new(), expansions: 10_000 };
+    match decide(model, &request) {
+        Decision::Plan { operators, .. } => operators,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// Whether the plan can be carried out from here and reaches the goal.
+fn reaches(model: &Model, plan: &[OperatorId], state: &State) -> bool {
+    let task = model.task();
+    let mut state = state.clone();
+    for &operator in plan {
+        if !task.is_applicable(&state, operator) {
+            return false;
+        }
+        state = task.successor(&state, operator);
+    }
+    task.satisfies(&state, task.goal())
+}
+
+/// By definition: the last suffix that does.
+fn furthest(model: &Model, plan: &[OperatorId], state: &State) -> Option<usize> {
+    (0..=plan.len()).rev().find(|&start| reaches(model, &plan[start..], state))
+}
+
+/// A state on or beside the plan's way: after `steps` of it, with some facts turned round.
+fn beside(model: &Model, plan: &[OperatorId], steps: usize, flips: &[usize]) -> State {
+    let task = model.task();
+    let mut state = task.initial_state().clone();
+    for &operator in &plan[..steps.min(plan.len())] {
+        state = task.successor(&state, operator);
+    }
+    let all: Vec<FactId> = task.facts().ids().collect();
+    let flipped: Vec<FactId> = flips.iter().map(|&i| all[i % all.len()]).collect();
+    let holds = |f: &FactId| state.contains(*f) != flipped.contains(f);
+    task.state(all.iter().copied().filter(holds))
+}
+
+fn changes(model: &Model, from: &State, to: &State) -> Vec<(FactId, bool)> {
+    let differs = |&f: &FactId| from.contains(f) != to.contains(f);
+    model.task().facts().ids().filter(differs).map(|f| (f, to.contains(f))).collect()
+}
+
+proptest! {
+    #[test]
+    fn kernels_say_what_carrying_the_suffix_out_says(
+        draught: bool,
+        path in prop::collection::vec((0_usize..20, prop::collection::vec(0_usize..40, 0..4)), 1..8),
+    ) {
+        let model = if draught { model(&with_draught()) } else { model(ROOMS) };
+        let plan = plan(&model);
+        let mut state = model.task().initial_state().clone();
+        let mut monitor = Monitor::new(model.task(), plan.clone(), model.task().goal().clone(), &state);
+        for (steps, flips) in path {
+            let next = beside(&model, &plan, steps, &flips);
+            monitor.change(&changes(&model, &state, &next));
+            state = next;
+            let expected = furthest(&model, &plan, &state);
+            prop_assert_eq!(monitor.furthest(model.task(), &state), expected);
+            for current in 0..=plan.len() {
+                let deviation = monitor.deviation(&model, &state, current);
+                let fits = reaches(&model, &plan[current..], &state);
+                prop_assert_eq!(deviation.broken.is_empty(), fits, "the reason of a deviation is never empty");
+            }
+        }
+    }
+}
