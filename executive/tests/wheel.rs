@@ -94,7 +94,17 @@ impl Bench {
     /// The lighter, or whoever, makes a token true.
     fn write(&mut self, agent: &str, lamp: &str, state: &str) {
         let is = self.graph.dictionary().label("is").unwrap();
-        self.commit(agent, vec![Edit::AddEdge { from: lamp.into(), label: is, to: state.into() }]);
+        self.edit(agent, Edit::AddEdge { from: lamp.into(), label: is, to: state.into() });
+    }
+
+    /// Or false.
+    fn take(&mut self, agent: &str, lamp: &str, state: &str) {
+        let is = self.graph.dictionary().label("is").unwrap();
+        self.edit(agent, Edit::RemoveEdge { from: lamp.into(), label: is, to: state.into() });
+    }
+
+    fn edit(&mut self, agent: &str, edit: Edit) {
+        self.commit(agent, vec![edit]);
         while let Some(dsr::Event::Committed(c)) = self.deltas.try_recv() {
             self.turn(Event::Changed { snapshot: c.snapshot, delta: c.delta });
         }
@@ -193,6 +203,23 @@ fn a_decision_for_a_state_that_has_moved_on_is_held_against_the_present() {
     bench.turn(Event::Decided(request.id, decision));
     assert!(bench.wants("b") && !bench.wants("a"), "the first step is skipped");
     assert!(bench.requests.is_empty());
+}
+
+#[test]
+fn that_there_was_no_plan_is_not_believed_of_a_state_that_has_moved_on() {
+    let mut bench = Bench::new();
+    bench.plan();
+    bench.write("lighter", "b", "broken");
+    let request = bench.requests.pop_front().unwrap();
+    let decision = decide(bench.wheel.model(), &request);
+    assert!(matches!(decision, Decision::NoPlan(_)));
+    bench.take("lighter", "b", "broken");
+    bench.turn(Event::Decided(request.id, decision));
+    assert_eq!(bench.ending, None);
+    bench.plan();
+    bench.write("lighter", "a", "lit");
+    bench.write("lighter", "b", "lit");
+    assert_eq!(bench.ending, Some(Ending::Accomplished));
 }
 
 #[test]

@@ -77,8 +77,8 @@ struct Sight {
 enum Phase {
     /// Nothing has been seen yet.
     Waiting,
-    /// A plan has been asked for; what was running waits to see whether it survives.
-    Deciding { request: RequestId, running: Option<Course> },
+    /// A plan has been asked for, from this state; what was running waits to see whether it survives.
+    Deciding { request: RequestId, from: State, running: Option<Course> },
     /// A plan is being carried out.
     Acting(Course),
     /// There is no plan.
@@ -191,12 +191,13 @@ impl Wheel {
         if !matches!(self.phase, Phase::FallingBack { .. }) && task.satisfies(&sight.state, task.goal()) {
             return self.accomplished(effects);
         }
-        if let Some((id, decision)) = self.deferred.take() {
-            return self.decided(id, decision, now, effects);
-        }
+        let deferred = self.deferred.take();
         match std::mem::replace(&mut self.phase, Phase::Ended) {
             Phase::Waiting => self.ask(None, effects),
-            Phase::Deciding { request, running } => self.phase = Phase::Deciding { request, running },
+            Phase::Deciding { request, from, running } => match deferred {
+                Some((id, decision)) if id == request => self.decided(decision, &from, running, now, effects),
+                _ => self.phase = Phase::Deciding { request, from, running },
+            },
             Phase::Acting(course) => self.act(course, now, effects),
             Phase::FallingBack { refinement, why } => self.fall(refinement, why, now, effects),
             Phase::Ended => {}
@@ -258,24 +259,24 @@ impl Wheel {
             barred: self.failures.barred(&sight.state),
             expansions: self.policy.expansions,
         }));
-        self.phase = Phase::Deciding { request: id, running };
+        self.phase = Phase::Deciding { request: id, from: sight.state.clone(), running };
     }
 
-    /// Holds a decision against the present.
-    fn decided(&mut self, id: RequestId, decision: Decision, now: Time, effects: &mut Vec<Effect>) {
-        let running = match std::mem::replace(&mut self.phase, Phase::Ended) {
-            Phase::Deciding { request, running } if request == id => running,
-            other => {
-                self.phase = other;
-                return;
-            }
-        };
+    /// Holds a decision, which was made for the state `from`, against the present.
+    fn decided(
+        &mut self,
+        decision: Decision,
+        from: &State,
+        running: Option<Course>,
+        now: Time,
+        effects: &mut Vec<Effect>,
+    ) {
         let Some(sight) = &self.sight else { return };
+        let moved_on = sight.state != *from;
         match decision {
             Decision::Plan { operators, expanded } => {
                 let mut course = Course::new(&self.model, operators, &sight.state);
                 if course.monitor.furthest(self.model.task(), &sight.state).is_none() {
-                    // The state has moved on since it was asked for.
                     return self.ask(running, effects);
                 }
                 let survives = running.is_some_and(|old| course.take_over(old, &sight.snapshot, effects));
@@ -285,6 +286,8 @@ impl Wheel {
                 effects.push(Effect::Tell(Narration::Planned { plan, expanded, survives, count }));
                 self.act(course, now, effects);
             }
+            // That there was none from there says nothing about here.
+            _ if moved_on => self.ask(running, effects),
             Decision::NoPlan(why) => self.fall_back(running, why, now, effects),
             Decision::LimitReached(most) => {
                 self.fall_back(running, format!("no plan within {most} expansions"), now, effects);
