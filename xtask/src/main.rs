@@ -5,6 +5,7 @@
 
 mod arrows;
 mod cargo;
+mod dependencies;
 mod record;
 mod sources;
 
@@ -14,7 +15,8 @@ const HELP: &str = "cargo xtask COMMAND
 
   test   every test of the workspace, by nextest where it is installed, and the documentation's examples
   lint   rustfmt --check, clippy and rustdoc, without a warning
-  tidy   the arrows of ARCHITECTURE.md equal those of cargo, and every source keeps the house rules
+  tidy   the arrows of ARCHITECTURE.md equal those of cargo, no dependency is idle, every source keeps the
+         house rules
   ci     test, lint, tidy
   record draws docs/figure-8.svg, the README's picture, from a run
 ";
@@ -74,6 +76,7 @@ fn lint() -> Result<(), Failure> {
 fn tidy() -> Result<(), Failure> {
     let root = cargo::root();
     let mut findings = arrows::check(&root)?;
+    findings.extend(dependencies::check(&root)?);
     findings.extend(sources::check(&root)?);
     for finding in &findings {
         eprintln!("tidy: {finding}");

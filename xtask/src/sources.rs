@@ -38,7 +38,7 @@ fn findings_in(text: &str) -> Vec<String> {
     findings
 }
 
-fn rust_files(root: &Path) -> Result<Vec<PathBuf>, Failure> {
+pub(crate) fn rust_files(root: &Path) -> Result<Vec<PathBuf>, Failure> {
     let mut files = Vec::new();
     let mut folders = vec![root.to_path_buf()];
     while let Some(folder) = folders.pop() {
@@ -57,7 +57,7 @@ fn rust_files(root: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(files)
 }
 
-fn read(path: &Path) -> Result<String, Failure> {
+pub(crate) fn read(path: &Path) -> Result<String, Failure> {
     std::fs::read_to_string(path).map_err(|error| Failure::File(path.display().to_string(), error))
 }
 
