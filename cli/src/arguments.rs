@@ -30,7 +30,7 @@ enum Command {
     Plan(plan::Arguments),
     /// Check plans.
     Validate(validate::Arguments),
-    /// Report every error of domains, problems and methods.
+    /// Report every error of missions, domains, problems and methods.
     Check(check::Arguments),
 }
 

@@ -2,7 +2,9 @@
 //!
 //! `cmd` holds the arguments, one command a file; the binary runs in a copy of the folder, and its
 //! standard output, standard error and exit code must be what `stdout`, `stderr` and `exit` hold (no file
-//! means nothing). What is measured is written as `#`. `UPDATE_EXPECT=1 cargo test -p pelea` writes them anew.
+//! means nothing). A case about a mission says only what differs: `mission` names a folder of `missions` that is
+//! copied too, and in `edits` each block `edit PATH` replaces the one text between `<<<<` and `====` by the text
+//! between `====` and `>>>>`. What is measured is written as `#`. `UPDATE_EXPECT=1 cargo test -p pelea` writes them anew.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -28,6 +30,33 @@ fn copy(from: &Path, to: &Path) {
         } else {
             fs::copy(&path, &target).unwrap();
         }
+    }
+}
+
+/// The folder of a case, ready to run in.
+fn prepare(case: &Path, folder: &Path) {
+    if let Ok(mission) = fs::read_to_string(case.join("mission")) {
+        let missions = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/missions");
+        fs::create_dir(folder.join(mission.trim())).unwrap();
+        copy(&missions.join(mission.trim()), &folder.join(mission.trim()));
+    }
+    copy(case, folder);
+    if let Ok(edits) = fs::read_to_string(case.join("edits")) {
+        apply(&edits, folder);
+    }
+}
+
+fn apply(edits: &str, folder: &Path) {
+    let mut lines = edits.lines();
+    while let Some(line) = lines.next() {
+        let Some(path) = line.strip_prefix("edit ") else { continue };
+        let path = folder.join(path);
+        assert_eq!(lines.next(), Some("<<<<"), "{line}");
+        let mut block = |end: &str| lines.by_ref().take_while(|l| *l != end).collect::<Vec<_>>().join("\n");
+        let (old, new) = (block("===="), block(">>>>"));
+        let text = fs::read_to_string(&path).unwrap();
+        assert_eq!(text.matches(&old).count(), 1, "{line}: {old}");
+        fs::write(path, text.replace(&old, &new)).unwrap();
     }
 }
 
@@ -65,7 +94,7 @@ fn every_case() {
     assert!(cases.len() >= 20, "only {} cases", cases.len());
     for case in cases {
         let folder = tempfile::tempdir().unwrap();
-        copy(&case, folder.path());
+        prepare(&case, folder.path());
         let arguments = fs::read_to_string(case.join("cmd")).unwrap();
         let output = Command::new(env!("CARGO_BIN_EXE_pelea"))
             .args(arguments.split_whitespace())

@@ -3,24 +3,17 @@
 //! A trigger is a time, a condition on the graph, or a step of the plan; whatever it is, the director then
 //! waits `after` seconds and does it to the room, which knows nothing of scenarios.
 
+use crate::scenario::{Cue, Watch};
 use dsr::Graph;
 use executive::Step;
 use futures::future::join_all;
 use hal::Device;
 use hal::sim::SimRoom;
-use mission::scenario::{self, Act, Disruption, Trigger};
+use mission::scenario::{self, Act, Trigger};
 use std::future::pending;
 use std::sync::Arc;
 use tokio::sync::{Notify, broadcast};
 use tokio::time::{Instant, sleep, sleep_until};
-use vocabulary::{Binding, Condition};
-
-/// A disruption with its condition compiled.
-pub(super) struct Cue {
-    pub(super) disruption: Disruption,
-    /// For a `when`: the condition over the graph.
-    pub(super) condition: Option<(Condition, Binding)>,
-}
 
 /// Where the director works.
 pub(super) struct Stage {
@@ -38,8 +31,8 @@ async fn follow(cue: Cue, steps: broadcast::Receiver<Step>, stage: &Stage) {
     match &cue.disruption.trigger {
         Trigger::At(time) => sleep_until(stage.epoch + *time).await,
         Trigger::When { occurrence, .. } => {
-            let (condition, binding) = cue.condition.as_ref().expect("a `when` is compiled");
-            appears(condition, binding, *occurrence, &stage.graph).await;
+            let condition = cue.condition.as_ref().expect("a `when` is compiled");
+            appears(condition, *occurrence, &stage.graph).await;
         }
         Trigger::Step { step, occurrence } => starts(step, *occurrence, steps).await,
     }
@@ -48,7 +41,7 @@ async fn follow(cue: Cue, steps: broadcast::Receiver<Step>, stage: &Stage) {
 }
 
 /// Waits until the condition has become true for the nth time.
-async fn appears(condition: &Condition, binding: &Binding, occurrence: u32, graph: &Graph) {
+async fn appears(condition: &Watch, occurrence: u32, graph: &Graph) {
     let news = Arc::new(Notify::new());
     let deltas = graph.subscribe_deltas();
     let wake = news.clone();
@@ -56,7 +49,7 @@ async fn appears(condition: &Condition, binding: &Binding, occurrence: u32, grap
     let mut left = occurrence;
     let mut held = false;
     let mut look = |snapshot: &dsr::Snapshot| {
-        let holds = condition.holds(snapshot, binding);
+        let holds = condition.holds(snapshot);
         left -= u32::from(holds && !held);
         held = holds;
         left == 0

@@ -5,12 +5,13 @@
 use super::content::Content;
 use super::script::questions;
 use super::story::{Commit, Entry, What};
+use crate::scenario::Staged;
+use dsr::Snapshot;
 use executive::Narration;
 use mission::Mission;
-use mission::scenario::{Outcome, Replan, Scenario, Violation};
+use mission::scenario::{Outcome, Replan, Violation};
 use pddl::model::{Condition, ConditionKind, Domain, Name};
 use std::collections::BTreeSet;
-use vocabulary::{Binding, Vocabulary};
 
 /// Collects what expectations are about.
 pub(super) struct Record<'a> {
@@ -77,20 +78,15 @@ impl<'a> Record<'a> {
     /// What of the scenario's expectations was not met.
     pub(super) fn judge(
         &self,
-        scenario: &Scenario,
+        staged: &Staged,
         accomplished: bool,
         content: &Content,
-        vocabulary: &Vocabulary,
-        snapshot: &dsr::Snapshot,
+        snapshot: &Snapshot,
     ) -> Vec<Violation> {
         let report = content.report(snapshot);
         let outcome =
             Outcome { accomplished, report: &report, replans: &self.replans, asked_again: &self.asked_again };
-        let link = vocabulary.link(&self.mission.layers.nodes);
-        scenario.expect.judge(&outcome, |condition| {
-            link.condition(&condition.variables, [&condition.condition])
-                .is_ok_and(|c| c.holds(snapshot, &Binding::of(&condition.variables)))
-        })
+        staged.scenario.expect.judge(&outcome, |condition| staged.holds(condition, snapshot))
     }
 }
 

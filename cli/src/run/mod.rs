@@ -4,7 +4,6 @@
 //! the story take their turns in a fixed order. With `--speed max` tokio's clock is paused and jumps to the
 //! next thing that happens, so the same mission, scenario and seed give the same bytes.
 
-mod assemble;
 mod content;
 mod director;
 mod judge;
@@ -12,19 +11,20 @@ mod script;
 mod story;
 mod terminal;
 
+use crate::assemble::{Assembly, assemble, load};
 use crate::console::{Console, Form};
-use crate::disk::{Disk, show};
+use crate::disk::show;
 use crate::exit::Exit;
 use crate::files;
-use assemble::{Assembly, assemble};
+use crate::render::Message;
+use crate::scenario::{self, Staged};
 use clap::{Args, ValueEnum};
 use content::Content;
 use dsr::{AgentId, Graph};
 use executive::{Ending, Narration, Shell, Step, Wheel};
 use hal::sim::{ClinicianScript, PatientScript, SimRoom};
 use judge::Record;
-use mission::Mission;
-use mission::scenario::{Scenario, Trigger};
+use mission::scenario::Scenario;
 use serde::Serialize;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -33,7 +33,6 @@ use story::{Entry, Story, What, seconds};
 use terminal::Terminal;
 use tokio::sync::{broadcast, mpsc};
 use tokio::time::Instant;
-use vocabulary::Binding;
 
 /// Arguments of `pelea run`.
 #[derive(Debug, Args)]
@@ -86,28 +85,29 @@ struct Result<'a> {
 
 /// Runs a mission.
 pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
-    let path = arguments.mission.to_string_lossy();
-    let mission = match Mission::load(&Disk, &path) {
+    let mission = match load(&arguments.mission) {
         Ok(mission) => mission,
-        Err(errors) => return show(&errors.sources, &errors.findings, console),
+        Err(error) => return error.show(console),
     };
-    let scenario = match load_scenario(&mission, arguments.scenario.as_deref()) {
-        Ok(scenario) => scenario,
-        Err(errors) => return show(&errors.sources, &errors.findings, console),
+    let (assembly, findings) = assemble(&mission);
+    let Some(assembly) = assembly else { return show(&mission.sources, &findings, console) };
+    let staged = arguments.scenario.as_deref().map(|name| {
+        let scenario = scenario::read(&mission, name)?;
+        scenario::stage(scenario, &mission, &assembly.vocabulary)
+    });
+    let staged = match staged.transpose() {
+        Ok(staged) => staged,
+        Err(error) => return error.show(console),
     };
     let language = arguments.lang.clone().unwrap_or_else(|| mission.manifest.language.clone());
     if mission.words(&language).is_none() {
+        let text = format!("`{}` has no words in `{language}`", arguments.mission.display());
+        let mut message = Message::error(text);
         let known: Vec<_> = mission.languages().collect();
-        console.complain(&format!(
-            "error: `{path}` has no words in `{language}`; it has: {}\n",
-            known.join(", ")
-        ));
+        message.help = Some(format!("its languages are: {}", known.join(", ")));
+        message.show(console);
         return Exit::Unreadable;
     }
-    let assembly = match assemble(&mission) {
-        Ok(assembly) => assembly,
-        Err(findings) => return show(&mission.sources, &findings, console),
-    };
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_time()
         .start_paused(arguments.speed == Speed::Max)
@@ -118,7 +118,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     };
     let play = Play {
         content: Content { mission: Arc::new(mission), language },
-        scenario,
+        staged,
         seed: arguments.seed,
         verbose: arguments.verbose,
     };
@@ -128,39 +128,22 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     exit
 }
 
-fn load_scenario(
-    mission: &Mission,
-    name: Option<&str>,
-) -> std::result::Result<Option<Scenario>, mission::MissionErrors> {
-    let Some(name) = name else { return Ok(None) };
-    let path = PathBuf::from(name);
-    let scenario = if path.extension().is_some() && path.is_file() {
-        match files::read(&path) {
-            Ok(source) => mission.read_scenario(source),
-            Err(_) => mission.scenario(&Disk, name),
-        }
-    } else {
-        mission.scenario(&Disk, name)
-    };
-    scenario.map(Some)
-}
-
 /// A mission about to be played.
 struct Play {
     content: Content,
-    scenario: Option<Scenario>,
+    staged: Option<Staged>,
     seed: u64,
     verbose: bool,
 }
 
 impl Play {
     async fn play(
-        self,
+        mut self,
         assembly: Assembly,
         report_file: Option<&std::path::Path>,
         console: &mut Console<'_>,
     ) -> Exit {
-        let Assembly { vocabulary, graph, agents, wheel } = assembly;
+        let Assembly { graph, agents, wheel, .. } = assembly;
         let epoch = Instant::now();
         let room = self.room();
         let (reader, mut entries) = mpsc::unbounded_channel();
@@ -169,10 +152,9 @@ impl Play {
         room.observe(move |moment| observed.tell(seconds(moment.at), What::Room(moment.event.clone())));
 
         let (steps, _) = broadcast::channel(64);
-        let cues = match self.cues(&vocabulary, &steps) {
-            Ok(cues) => cues,
-            Err(findings) => return show(&self.content.mission.sources, &findings, console),
-        };
+        // Each disruption has ears for the steps of the plan before the first one starts.
+        let cues = self.staged.as_mut().map(|staged| std::mem::take(&mut staged.cues)).unwrap_or_default();
+        let cues = cues.into_iter().map(|cue| (cue, steps.subscribe())).collect();
         let stage = director::Stage { graph: graph.clone(), room: room.clone(), epoch };
         let environment = agents::Environment {
             graph: graph.clone(),
@@ -210,52 +192,19 @@ impl Play {
         while let Ok(entry) = entries.try_recv() {
             teller.tell(&entry);
         }
-        teller.end(&self, &ending, &vocabulary, &graph, epoch.elapsed(), report_file)
+        teller.end(&self, &ending, &graph, epoch.elapsed(), report_file)
     }
 
     /// The room, as the scenario has it.
     fn room(&self) -> SimRoom {
         let mission = &self.content.mission;
-        match &self.scenario {
-            Some(scenario) => SimRoom::new(
+        match &self.staged {
+            Some(Staged { scenario, .. }) => SimRoom::new(
                 script::patient(mission, &scenario.patient, self.seed),
                 script::clinician(&scenario.clinician),
             ),
             None => SimRoom::new(PatientScript::default(), ClinicianScript::default()),
         }
-    }
-
-    /// The disruptions, with their conditions compiled, each with ears for the steps of the plan.
-    fn cues(
-        &self,
-        vocabulary: &vocabulary::Vocabulary,
-        steps: &broadcast::Sender<Step>,
-    ) -> std::result::Result<Vec<(director::Cue, broadcast::Receiver<Step>)>, Vec<mission::Finding>> {
-        let Some(scenario) = &self.scenario else { return Ok(Vec::new()) };
-        let layers = &self.content.mission.layers;
-        let link = vocabulary.link(&layers.nodes);
-        let mut cues = Vec::new();
-        let mut findings = Vec::new();
-        for disruption in &scenario.disruptions {
-            let condition = match &disruption.trigger {
-                Trigger::When { condition, .. } => {
-                    match link.condition(&condition.variables, [&condition.condition]) {
-                        Ok(compiled) => Some((compiled, Binding::of(&condition.variables))),
-                        Err(errors) => {
-                            let place = mission::Place { source: layers.graph.source, span: condition.span };
-                            findings.extend(errors.iter().map(|error| {
-                                let message = format!("scenario `{}`: {error}", scenario.name);
-                                mission::Finding::error("E0902", place, message)
-                            }));
-                            continue;
-                        }
-                    }
-                }
-                Trigger::At(_) | Trigger::Step { .. } => None,
-            };
-            cues.push((director::Cue { disruption: disruption.clone(), condition }, steps.subscribe()));
-        }
-        if findings.is_empty() { Ok(cues) } else { Err(findings) }
     }
 }
 
@@ -293,7 +242,7 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
 
     fn heading(&mut self, play: &Play) {
         let title = &play.content.mission.manifest.title;
-        let scenario = play.scenario.as_ref().map_or("a person who answers", |s| &s.title);
+        let scenario = play.staged.as_ref().map_or("a person who answers", |s| &s.scenario.title);
         self.console.result(&format!("{title} · {scenario}"));
     }
 
@@ -314,7 +263,6 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
         self,
         play: &Play,
         ending: &Ending,
-        vocabulary: &vocabulary::Vocabulary,
         graph: &Graph,
         elapsed: Duration,
         report_file: Option<&std::path::Path>,
@@ -322,9 +270,9 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
         let snapshot = graph.snapshot();
         let report = play.content.report(&snapshot);
         let accomplished = *ending == Ending::Accomplished;
-        let violations = play.scenario.as_ref().map_or_else(Vec::new, |scenario| {
-            let judged = self.record.judge(scenario, accomplished, &play.content, vocabulary, &snapshot);
-            judged.iter().map(|v| format!("{}: {v}", place(scenario, v.span()))).collect()
+        let violations = play.staged.as_ref().map_or_else(Vec::new, |staged| {
+            let judged = self.record.judge(staged, accomplished, &play.content, &snapshot);
+            judged.iter().map(|v| format!("{}: {v}", place(&staged.scenario, v.span()))).collect()
         });
         self.console.result("");
         self.console.result(report.to_string().trim_end());

@@ -1,6 +1,7 @@
-//! `pelea check PATH...`: every error of every file given, at its place.
+//! `pelea check PATH...`: every error of every file and mission given, at its place.
 //!
-//! Folders stand for all `.pddl` and `.hddl` files below them. Domains are read before the problems and
+//! Folders stand for all `.pddl` and `.hddl` files below them, but a folder with a `mission.toml` is a mission
+//! and checked as a whole (`mission`). Domains are read before the problems and
 //! domains that need them, found by name: among the files given, then beside the file that needs them,
 //! then in the robots' folders (`robots/*/` of a folder above). As JSON there is, after its diagnostics, a
 //! line per file:
@@ -9,6 +10,8 @@
 //! {"kind": "checked", "file": "p.pddl", "errors": 0, "warnings": 1, "unsupported": 0,
 //!  "checked": true}
 //! ```
+
+mod mission;
 
 use crate::console::Console;
 use crate::exit::Exit;
@@ -24,23 +27,31 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use validator::{Validator, Verdict, explain};
 
+/// What makes a folder a mission.
+const MANIFEST: &str = "mission.toml";
+
 /// What to check.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Files and folders.
+    /// Mission folders, other folders, and files.
     #[arg(required = true)]
     paths: Vec<PathBuf>,
 }
 
 pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     let mut exit = Exit::Yes;
-    let mut paths = Vec::new();
+    let (mut paths, mut missions) = (Vec::new(), Vec::new());
     for path in &arguments.paths {
         if path.is_dir() {
-            sources_below(path, &mut paths);
+            sources_below(path, &mut paths, &mut missions);
+        } else if path.file_name().is_some_and(|name| name == MANIFEST) {
+            missions.push(path.clone());
         } else {
             paths.push(path.clone());
         }
+    }
+    for mission in missions {
+        exit = exit.and(mission::check(&mission, console));
     }
     let mut files: Vec<Candidate> = Vec::new();
     for path in paths {
@@ -81,12 +92,16 @@ impl Candidate {
     }
 }
 
-/// All sources in a folder and its folders, in order.
-fn sources_below(folder: &Path, found: &mut Vec<PathBuf>) {
+/// All sources in a folder and its folders, in order; folders that are missions apart.
+fn sources_below(folder: &Path, found: &mut Vec<PathBuf>, missions: &mut Vec<PathBuf>) {
+    if folder.join(MANIFEST).is_file() {
+        missions.push(folder.to_owned());
+        return;
+    }
     let (folders, files): (Vec<_>, Vec<_>) = entries(folder).into_iter().partition(|path| path.is_dir());
     found.extend(files.into_iter().filter(|path| is_source(path)));
     for folder in folders.iter().filter(|folder| !folder.is_symlink()) {
-        sources_below(folder, found);
+        sources_below(folder, found, missions);
     }
 }
 
@@ -149,20 +164,27 @@ struct Tally {
 }
 
 impl Tally {
-    fn of(diagnostics: &[Diagnostic]) -> Self {
-        let count = |severity| diagnostics.iter().filter(|d| d.severity == severity).count();
-        Self {
-            checked: true,
-            errors: count(Severity::Error),
-            warnings: count(Severity::Warning),
-            unsupported: count(Severity::Unsupported),
+    fn of(severities: impl Iterator<Item = Severity>) -> Self {
+        let mut tally = Self { checked: true, ..Self::default() };
+        for severity in severities {
+            match severity {
+                Severity::Error => tally.errors += 1,
+                Severity::Warning => tally.warnings += 1,
+                Severity::Unsupported => tally.unsupported += 1,
+            }
         }
+        tally
     }
 
     fn line(&self, file: &str) -> String {
         if !self.checked {
             return format!("{file}: not checked, since its domain has errors");
         }
+        format!("{file}: {}", self.verdict())
+    }
+
+    /// `2 errors, 1 warning`.
+    fn verdict(&self) -> String {
         let parts = [
             (self.errors, "error", "errors"),
             (self.warnings, "warning", "warnings"),
@@ -171,10 +193,15 @@ impl Tally {
         let parts: Vec<String> = parts
             .iter()
             .filter(|(count, ..)| *count > 0)
-            .map(|(count, one, more)| format!("{count} {}", if *count == 1 { one } else { more }))
+            .map(|&(count, one, more)| counted(count, one, more))
             .collect();
-        format!("{file}: {}", if parts.is_empty() { "no errors".to_owned() } else { parts.join(", ") })
+        if parts.is_empty() { "no errors".to_owned() } else { parts.join(", ") }
     }
+}
+
+/// `1 error`, `2 errors`.
+fn counted(count: usize, one: &str, more: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { more })
 }
 
 /// The models read so far.
@@ -241,7 +268,7 @@ impl<'a> Checked<'a> {
     }
 
     fn show(&mut self, index: usize, diagnostics: &[Diagnostic], console: &mut Console<'_>) {
-        self.tallies[index] = Tally::of(diagnostics);
+        self.tallies[index] = Tally::of(diagnostics.iter().map(|d| d.severity));
         // A file that was not given speaks up if it keeps a given one from being checked.
         if self.files[index].given || self.tallies[index].errors > 0 {
             show_all(&self.files[index].source, diagnostics, console);

@@ -1,0 +1,114 @@
+//! A mission checked as a whole: its files, what the layers do to each other, what they compile to, and all its
+//! scenarios.
+//!
+//! It is the road of `pelea run` up to the point where something would move. As JSON there is, after its
+//! diagnostics, a line:
+//!
+//! ```json
+//! {"kind": "checked", "mission": "domains/tea", "files": 12, "agents": 1, "rules": 2, "methods": 2,
+//!  "languages": ["en", "fr"], "scenarios": ["plain"], "errors": 0, "warnings": 0, "unsupported": 0,
+//!  "checked": true}
+//! ```
+//!
+//! `checked` is false, and the counts of what is in it are missing, where a file keeps the rest from being read.
+
+use super::{Tally, counted};
+use crate::assemble::{LoadError, assemble, load};
+use crate::console::Console;
+use crate::disk::show;
+use crate::exit::Exit;
+use crate::scenario::{self, ScenarioError};
+use mission::{Finding, Mission};
+use serde::Serialize;
+use std::path::Path;
+
+/// Checks the mission in a folder, or of the `mission.toml` at that path.
+pub(super) fn check(path: &Path, console: &mut Console<'_>) -> Exit {
+    let folder = path.to_string_lossy();
+    let mission = match load(path) {
+        Ok(mission) => mission,
+        Err(error) => {
+            let shown = error.show(console);
+            let LoadError::Wrong(errors) = error else { return shown };
+            let tally = Tally { checked: false, ..tally(&errors.findings) };
+            console.result(&format!("{folder}: {}; the rest was not checked", tally.verdict()));
+            console.record(&Record { kind: "checked", mission: &folder, content: None, tally });
+            return Exit::No;
+        }
+    };
+    let (assembly, mut findings) = assemble(&mission);
+    show(&mission.sources, &findings, console);
+    for name in mission.scenarios() {
+        let read = scenario::read(&mission, name);
+        let error = match &assembly {
+            Some(assembly) => {
+                read.and_then(|read| scenario::stage(read, &mission, &assembly.vocabulary)).err()
+            }
+            None => read.err(),
+        };
+        if let Some(error) = error {
+            error.show(console);
+            if let ScenarioError::Wrong(errors) = error {
+                findings.extend(errors.findings);
+            }
+        }
+    }
+    let tally = tally(&findings);
+    let content = Content::of(&mission);
+    console.result(&format!("{folder}: {} in {}", tally.verdict(), content.sentence()));
+    console.record(&Record { kind: "checked", mission: &folder, content: Some(content), tally });
+    if tally.errors == 0 { Exit::Yes } else { Exit::No }
+}
+
+fn tally(findings: &[Finding]) -> Tally {
+    Tally::of(findings.iter().map(|f| f.severity))
+}
+
+/// What was checked.
+#[derive(Serialize)]
+struct Content<'a> {
+    files: usize,
+    agents: usize,
+    rules: usize,
+    methods: usize,
+    languages: Vec<&'a str>,
+    scenarios: Vec<&'a str>,
+}
+
+impl<'a> Content<'a> {
+    fn of(mission: &'a Mission) -> Self {
+        let layers = &mission.layers;
+        let scenarios: Vec<_> = mission.scenarios().collect();
+        Self {
+            files: mission.sources.iter().count() + scenarios.len(),
+            agents: layers.agents.len(),
+            rules: layers.agents.iter().map(|agent| agent.model.durative_actions.len()).sum(),
+            methods: layers.methods.model.methods.len(),
+            languages: mission.languages().collect(),
+            scenarios,
+        }
+    }
+
+    fn sentence(&self) -> String {
+        format!(
+            "{}: {} of {}, {}, {} ({}), {}",
+            counted(self.files, "file", "files"),
+            counted(self.rules, "rule", "rules"),
+            counted(self.agents, "agent", "agents"),
+            counted(self.methods, "method", "methods"),
+            counted(self.languages.len(), "language", "languages"),
+            self.languages.join(", "),
+            counted(self.scenarios.len(), "scenario", "scenarios"),
+        )
+    }
+}
+
+#[derive(Serialize)]
+struct Record<'a> {
+    kind: &'static str,
+    mission: &'a str,
+    #[serde(flatten)]
+    content: Option<Content<'a>>,
+    #[serde(flatten)]
+    tally: Tally,
+}

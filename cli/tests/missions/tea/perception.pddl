@@ -1,0 +1,5 @@
+(define (domain tea-perception)
+  (:requirements :typing :existential-preconditions :derived-predicates)
+  (:import waiter tea)
+  (:derived (greeted ?p - person) (exists (?h - part) (was_said_in welcome ?h)))
+  (:derived (ordered ?i - item) (exists (?o - option) (was_chosen_in ?o ?i))))

@@ -1,0 +1,4 @@
+(define (problem one-tea)
+  (:domain tea)
+  (:objects guest - person drink - item)
+  (:goal (ordered drink)))
