@@ -72,7 +72,7 @@ enum Speed {
 
 /// The last line of a run in JSON.
 #[derive(Serialize)]
-struct Result<'a> {
+struct Summary<'a> {
     source: &'static str,
     time: f64,
     #[serde(flatten)]
@@ -286,7 +286,7 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
         }
         let failed = !violations.is_empty();
         let source = "result";
-        self.console.record(&Result {
+        self.console.record(&Summary {
             source,
             time,
             ending,
