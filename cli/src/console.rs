@@ -22,12 +22,20 @@ pub struct Console<'a> {
     form: Form,
     colour: bool,
     result_colour: bool,
+    result_width: Option<usize>,
 }
 
 impl<'a> Console<'a> {
     /// Writes to `out` and `err`, without colours.
     pub fn new(out: &'a mut dyn Write, err: &'a mut dyn Write) -> Self {
-        Self { out: Box::new(out), err: Box::new(err), form: Form::Text, colour: false, result_colour: false }
+        Self {
+            out: Box::new(out),
+            err: Box::new(err),
+            form: Form::Text,
+            colour: false,
+            result_colour: false,
+            result_width: None,
+        }
     }
 
     /// The process's own.
@@ -39,6 +47,7 @@ impl<'a> Console<'a> {
             form: Form::Text,
             colour: wanted && io::stderr().is_terminal(),
             result_colour: wanted && io::stdout().is_terminal(),
+            result_width: terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| width.0.into()),
         }
     }
 
@@ -55,6 +64,11 @@ impl<'a> Console<'a> {
     /// Whether standard output shows colours.
     pub fn result_colour(&self) -> bool {
         self.result_colour
+    }
+
+    /// How many columns the terminal on standard output has; `None` if it is no terminal.
+    pub fn result_width(&self) -> Option<usize> {
+        self.result_width
     }
 
     /// Lets whoever watches see what was written so far.

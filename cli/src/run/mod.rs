@@ -236,7 +236,7 @@ struct Teller<'m, 'c, 'o> {
 
 impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
     fn new(play: &'m Play, console: &'c mut Console<'o>) -> Self {
-        let terminal = Terminal::new(console.result_colour(), play.verbose);
+        let terminal = Terminal::new(console.result_colour(), console.result_width(), play.verbose);
         Self { console, terminal, record: Record::new(&play.content.mission) }
     }
 
@@ -275,11 +275,17 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
             judged.iter().map(|v| format!("{}: {v}", place(&staged.scenario, v.span()))).collect()
         });
         self.console.result("");
-        self.console.result(report.to_string().trim_end());
+        let width = self.console.result_width().unwrap_or(usize::MAX);
+        for line in report.to_string().lines() {
+            // A rule that is wider than the terminal would be two.
+            let rule = line.starts_with('─');
+            let line: String = line.chars().take(if rule { width } else { usize::MAX }).collect();
+            self.console.result(&line);
+        }
         let replans = self.record.replans();
         let time = seconds(elapsed);
         let word = if accomplished { "accomplished" } else { "not accomplished" };
-        self.console.result(&format!("\nmission {word} after {time:.1} s, {replans} replan(s)"));
+        self.console.result(&format!("\nmission {word} after {time:.1} s, {}", counted(replans)));
         let asked_again = self.record.asked_again().iter().map(ToString::to_string).collect();
         for violation in &violations {
             self.console.note(&format!("expectation not met: {violation}"));
@@ -303,6 +309,14 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
             }
         }
         if accomplished && !failed { Exit::Yes } else { Exit::No }
+    }
+}
+
+fn counted(replans: u32) -> String {
+    match replans {
+        0 => "no replans".to_owned(),
+        1 => "1 replan".to_owned(),
+        more => format!("{more} replans"),
     }
 }
 

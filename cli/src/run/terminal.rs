@@ -1,4 +1,7 @@
 //! The story for people: dialogue, the state in the paper's sentences, the plan, each replan's reason.
+//!
+//! On a terminal what matters to whoever stands beside the robot is wrapped to its width (what is said, why a plan
+//! is changed), and the rest is cut, a line a thing. In a pipe every line is whole, for whoever searches it.
 
 use super::story::{Commit, Entry, What};
 use executive::{Ending, Narration};
@@ -8,6 +11,11 @@ use hal::sim::RoomEvent;
 pub(super) struct Terminal {
     lines: Vec<String>,
     colour: bool,
+    /// Columns, if it is a terminal.
+    width: Option<usize>,
+    /// What the robot said last, and which page it showed: nobody reads the same twice.
+    said: String,
+    options: Vec<String>,
     /// How many steps the current plan has.
     steps: usize,
     /// Show HighToLow's choices too.
@@ -18,6 +26,7 @@ pub(super) struct Terminal {
 #[derive(Clone, Copy)]
 enum Tone {
     Robot,
+    Screen,
     Person,
     Graph,
     Plan,
@@ -28,7 +37,7 @@ enum Tone {
 impl Tone {
     fn code(self) -> &'static str {
         match self {
-            Self::Robot => "36",
+            Self::Robot | Self::Screen => "36",
             Self::Person => "32",
             Self::Graph => "2",
             Self::Plan => "33",
@@ -36,11 +45,17 @@ impl Tone {
             Self::Plain => "0",
         }
     }
+
+    /// Whether all of it must be read.
+    fn matters(self) -> bool {
+        matches!(self, Self::Robot | Self::Person | Self::Trouble)
+    }
 }
 
 impl Terminal {
-    pub(super) fn new(colour: bool, verbose: bool) -> Self {
-        Self { lines: Vec::new(), colour, steps: 0, verbose }
+    pub(super) fn new(colour: bool, width: Option<usize>, verbose: bool) -> Self {
+        let (said, options) = (String::new(), Vec::new());
+        Self { lines: Vec::new(), colour, width, said, options, steps: 0, verbose }
     }
 
     /// What to print of an entry.
@@ -54,8 +69,17 @@ impl Terminal {
     }
 
     fn line(&mut self, time: f64, tone: Tone, head: &str, text: &str) {
-        let line = format!("{time:>8.2}  {head:<8} {text}");
-        self.lines.push(if self.colour { format!("\x1b[{}m{line}\x1b[0m", tone.code()) } else { line });
+        let rows = match self.width {
+            None => vec![text.to_owned()],
+            Some(width) => fit(text, width.saturating_sub(INDENT).max(NARROWEST), tone.matters()),
+        };
+        for (i, row) in rows.iter().enumerate() {
+            let line = match i {
+                0 => format!("{time:>8.2}  {head:<8} {row}"),
+                _ => format!("{:INDENT$}{row}", ""),
+            };
+            self.lines.push(if self.colour { format!("\x1b[{}m{line}\x1b[0m", tone.code()) } else { line });
+        }
     }
 
     fn graph(&mut self, time: f64, commit: &Commit) {
@@ -70,18 +94,21 @@ impl Terminal {
         if parts.is_empty() {
             return;
         }
-        let tone = if reflex { Tone::Trouble } else { Tone::Graph };
-        let reflex = if reflex { "   (a reflex, in the same commit)" } else { "" };
-        self.line(time, tone, "", &format!("{}{reflex}", parts.join(" · ")));
+        // What a reflex wrote stands in the same commit as what it answers to.
+        let (tone, head) = if reflex { (Tone::Trouble, "reflex") } else { (Tone::Graph, "") };
+        self.line(time, tone, head, &parts.join(" · "));
     }
 
     fn room(&mut self, time: f64, event: &RoomEvent) {
         use RoomEvent as E;
         let (tone, head, text) = match event {
-            E::RobotSays { text } => (Tone::Robot, "robot:", format!("“{text}”")),
+            E::RobotSays { text } => {
+                self.said.clone_from(text);
+                (Tone::Robot, "robot:", format!("“{text}”"))
+            }
             E::RobotStops { said } if said.is_empty() => return,
             E::RobotStops { said } => (Tone::Trouble, "robot:", format!("stops after “{said}”")),
-            E::ScreenShows { page } => (Tone::Robot, "screen:", page_line(page)),
+            E::ScreenShows { page } => (Tone::Screen, "screen:", self.page(page)),
             E::ScreenClears => return,
             E::PersonSays { words } => (Tone::Person, "person:", format!("“{words}”")),
             E::PersonTouches { words, .. } => (Tone::Person, "person:", format!("touches “{words}”")),
@@ -104,6 +131,24 @@ impl Terminal {
             E::DeviceRecovers { device } => (Tone::Plain, "room", format!("{device} works again")),
         };
         self.line(time, tone, head, &text);
+    }
+
+    /// A page without what was just said, and with its options when they are new.
+    fn page(&mut self, page: &hal::Page) -> String {
+        let text = if page.text == self.said { "" } else { page.text.as_str() };
+        let parts = [page.title.as_str(), text];
+        let mut parts: Vec<_> = parts.into_iter().filter(|p| !p.is_empty()).map(str::to_owned).collect();
+        let options: Vec<_> = page.options.iter().map(|o| o.words.clone()).collect();
+        if !options.is_empty() {
+            let same = options == self.options && self.width.is_some();
+            parts.push(if same {
+                "[the same options]".to_owned()
+            } else {
+                format!("[{}]", options.join(" | "))
+            });
+        }
+        self.options = options;
+        parts.join(" · ")
     }
 
     fn pelea(&mut self, time: f64, narration: &Narration) {
@@ -150,12 +195,51 @@ impl Terminal {
     }
 }
 
-fn page_line(page: &hal::Page) -> String {
-    let options: Vec<_> = page.options.iter().map(|o| o.words.as_str()).collect();
-    let parts = [page.title.as_str(), page.text.as_str()];
-    let mut text: Vec<_> = parts.into_iter().filter(|part| !part.is_empty()).map(str::to_owned).collect();
-    if !options.is_empty() {
-        text.push(format!("[{}]", options.join(" | ")));
+/// Where the text of a line starts.
+const INDENT: usize = 19;
+/// No terminal is so narrow that nothing can be told.
+const NARROWEST: usize = 20;
+
+/// The text in rows of a width: wrapped between words, or one row that is cut.
+fn fit(text: &str, width: usize, wrap: bool) -> Vec<String> {
+    if text.chars().count() <= width {
+        return vec![text.to_owned()];
     }
-    text.join(" · ")
+    if !wrap {
+        let kept: String = text.chars().take(width - 1).collect();
+        return vec![format!("{}…", kept.trim_end())];
+    }
+    let mut rows = vec![String::new()];
+    let mut used = 0;
+    for word in text.split(' ') {
+        let length = word.chars().count();
+        let row = rows.last_mut().expect("there is a first row");
+        if used > 0 && used + 1 + length > width {
+            rows.push(word.to_owned());
+            used = length;
+        } else {
+            if used > 0 {
+                row.push(' ');
+                used += 1;
+            }
+            row.push_str(word);
+            used += length;
+        }
+    }
+    rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::fit;
+
+    #[test]
+    fn what_matters_is_wrapped_and_the_rest_is_cut() {
+        assert_eq!(fit("one two", 7, true), ["one two"]);
+        assert_eq!(fit("one two", 7, false), ["one two"]);
+        assert_eq!(fit("one two three", 8, true), ["one two", "three"]);
+        assert_eq!(fit("one two three", 9, false), ["one two…"]);
+        assert_eq!(fit("ñandúes todos", 8, true), ["ñandúes", "todos"]);
+        assert_eq!(fit("incomprehensible", 8, true), ["incomprehensible"]);
+    }
 }

@@ -23,10 +23,11 @@ impl fmt::Display for Report {
 
         let width = |column: usize| rows.iter().map(|r| r[column].chars().count()).max().unwrap_or(0);
         let (name, score) = (width(0), width(1));
+        let rule = "─".repeat(name + 2 + score + 2 + width(2));
         writeln!(f, "{}", labels.heading)?;
         for (i, row) in rows.iter().enumerate() {
             if i == 1 || i + 1 == rows.len() {
-                writeln!(f, "{}", "─".repeat(name + 2 + score))?;
+                writeln!(f, "{rule}")?;
             }
             let line = format!("{:<name$}  {:>score$}  {}", row[0], row[1], row[2]);
             writeln!(f, "{}", line.trim_end())?;

@@ -57,9 +57,9 @@ fn an_answer_scores() {
     expect![[r#"
         Bill
         Item   Price  Order
-        ────────────
+        ──────────────────────
         thé      2/2  Thé vert
-        ────────────
+        ──────────────────────
         Total    2/2
         All ordered.
     "#]]
