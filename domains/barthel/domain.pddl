@@ -92,27 +92,31 @@
     :effect (reported ?p))
 
   ; ---- what may happen at any moment -------------------------------------------------------
+  ; Whoever asks for help gets it first: before they are called back, fetched or asked about a silence,
+  ; and even while the test is paused.
+  (:action get-help
+    :parameters (?p - person)
+    :precondition (and (wants-help ?p) (not (aborted ?p)))
+    :effect (not (wants-help ?p)))
+
   (:action call-back
     :parameters (?p - person)
-    :precondition (and (not (present ?p)) (not (away ?p)) (not (paused ?p)) (not (aborted ?p)))
+    :precondition (and (not (present ?p)) (not (away ?p)) (not (wants-help ?p)) (not (paused ?p))
+                       (not (aborted ?p)))
     :effect (present ?p))
 
   (:action have-fetched
     :parameters (?p - person)
-    :precondition (and (not (present ?p)) (away ?p) (not (paused ?p)) (not (aborted ?p)))
+    :precondition (and (not (present ?p)) (away ?p) (not (wants-help ?p)) (not (paused ?p))
+                       (not (aborted ?p)))
     :effect (and (present ?p) (not (away ?p))))
-
-  (:action get-help
-    :parameters (?p - person)
-    :precondition (and (wants-help ?p) (not (paused ?p)) (not (aborted ?p)))
-    :effect (not (wants-help ?p)))
 
   (:action call-clinician
     :parameters (?p - person)
-    :precondition (and (clinician-needed ?p) (not (paused ?p)) (not (aborted ?p)))
+    :precondition (and (clinician-needed ?p) (not (wants-help ?p)) (not (paused ?p)) (not (aborted ?p)))
     :effect (not (clinician-needed ?p)))
 
   (:action await-resumption
     :parameters (?p - person)
-    :precondition (and (paused ?p) (not (aborted ?p)))
+    :precondition (and (paused ?p) (not (wants-help ?p)) (not (aborted ?p)))
     :effect (not (paused ?p))))

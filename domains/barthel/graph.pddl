@@ -8,9 +8,9 @@
     opening closing - phase
     feeding bathing grooming dressing bowels bladder toilet-use transfers mobility stairs - item
     option-1 option-2 option-3 option-4 - option
-    greeting explanation introduction all-options moving-on farewell help-is-coming - remark
+    greeting explanation introduction all-options moving-on farewell please-touch - remark
     first-question second-question - question
-    sit-down stay-calm - summons)
+    sit-down stay-calm help-is-coming - summons)
   (:init
     (is_in barthel opening)
     (precedes option-1 option-2) (precedes option-2 option-3) (precedes option-3 option-4)

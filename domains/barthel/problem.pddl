@@ -1,4 +1,4 @@
-; The mission: a report that is complete, delivered, after a proper goodbye.
+; The mission: a report that is complete, delivered, after a proper goodbye, and nobody left calling.
 (define (problem barthel-test)
   (:domain barthel)
   (:objects
@@ -18,4 +18,4 @@
     (next transfers mobility)
     (next mobility stairs)
     (next stairs closing))
-  (:goal (reported person)))
+  (:goal (and (reported person) (not (wants-help person)))))

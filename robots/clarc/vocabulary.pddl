@@ -18,7 +18,7 @@
   (:constants
     pelea speech panel person-agent cgamed - agent
     loudspeaker display - resource
-    speaker screen - device
+    speaker screen microphone - device
     speaking showing paused aborted broken doubted - state
     pause resume abort - command
     help - request
@@ -68,14 +68,14 @@
     is_in label view question (can _ answer) (got _ answer)
     (is _ doubted) (is_needed_for _ _) (attended _ _) (is_due_to _ _))
   (:writes speech
-    (is _ speaking) (is_not _ speaking) (finish _ speaking) (is speaker broken)
+    (is _ speaking) (is_not _ speaking) (finish _ speaking) (is speaker broken) (is microphone broken)
     label was_said_in
     can waiting got was_chosen_in was_unanswered_in was_misheard_in
     (asks _ help))
   (:writes panel
     (is _ showing) (is_not _ showing) (finish _ showing) (is screen broken)
     view was_shown_in
-    waiting got was_chosen_in)
+    can waiting got was_chosen_in was_unanswered_in)
   (:writes person-agent is_with has_left rt)
   (:writes cgamed
     (is _ paused) (is _ aborted)

@@ -13,5 +13,6 @@
     (is_not robot showing)
     (= (rt_x world robot) 0)
     (= (rt_x robot speaker) 0.1) (= (rt_z robot speaker) 1.1)
+    (= (rt_x robot microphone) 0.2) (= (rt_z robot microphone) 1.4)
     (= (rt_x robot screen) 0.2) (= (rt_z robot screen) 1.2))
   (:goal (and)))

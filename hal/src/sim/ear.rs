@@ -40,10 +40,10 @@ struct Listening<'a> {
 impl Activity<Heard> for Listening<'_> {
     fn step(&mut self, state: &mut State, now: Instant) -> Step<Result<Heard, DeviceError>> {
         if !std::mem::replace(&mut self.open, true) {
-            state.open(self.question, now);
+            state.open(self.question, By::Voice, now);
         }
         if let Err(error) = state.check(Device::SpeechIn) {
-            state.close(self.question);
+            state.close(self.question, By::Voice);
             return Step::Done(Err(error));
         }
         let Some((at, reply)) = state.reply(self.question) else { return Step::Idle };
@@ -56,12 +56,12 @@ impl Activity<Heard> for Listening<'_> {
         if !state.works(Device::SpeechIn) {
             return Step::Idle;
         }
-        state.close(self.question);
+        state.close(self.question, By::Voice);
         Step::Done(Ok(heard))
     }
 
     fn stop(&mut self, state: &mut State, _: Instant) {
-        state.close(self.question);
+        state.close(self.question, By::Voice);
     }
 }
 

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum By {
-    /// Said aloud.
+    /// Said aloud; touched where only the screen takes the answer and offers it.
     #[default]
     Voice,
     /// Touched where the screen offers it, otherwise said aloud.

@@ -7,7 +7,7 @@ use std::time::Duration;
 use tokio::time::Instant;
 
 use super::event::{Moment, RoomEvent};
-use super::script::{ClinicianScript, PatientScript, Reply};
+use super::script::{By, ClinicianScript, PatientScript, Reply};
 use crate::{Device, DeviceError, Page, PageId, Question};
 
 /// How a device behaves.
@@ -33,6 +33,8 @@ pub(super) struct Window {
     /// What the person had perceived when the last window opened.
     perceived_before: u64,
     devices: usize,
+    /// How many of the devices are ears.
+    ears: usize,
 }
 
 impl Window {
@@ -154,9 +156,11 @@ impl State {
     }
 
     /// A device begins to wait for an answer: to the question that is open, if it is the same, or to another.
-    pub(super) fn open(&mut self, question: &Question, now: Instant) {
+    pub(super) fn open(&mut self, question: &Question, by: By, now: Instant) {
+        let ears = usize::from(by == By::Voice);
         if let Some(window) = self.window_of(question) {
             window.devices += 1;
+            window.ears += ears;
             return;
         }
         let key = (question.topic.clone(), question.name.clone());
@@ -169,6 +173,7 @@ impl State {
             asked_before: self.asked.contains(&key),
             perceived_before: self.perceived_at_last_window,
             devices: 1,
+            ears,
         });
     }
 
@@ -178,10 +183,11 @@ impl State {
     }
 
     /// A device no longer waits for an answer.
-    pub(super) fn close(&mut self, question: &Question) {
+    pub(super) fn close(&mut self, question: &Question, by: By) {
         let perceived = self.perceived;
         let Some(window) = self.window_of(question) else { return };
         window.devices -= 1;
+        window.ears -= usize::from(by == By::Voice);
         if window.devices > 0 {
             return;
         }
@@ -199,6 +205,11 @@ impl State {
         }
         let from = window.opened.max(self.view_changed);
         Some((from + seconds(window.reply.delay()?), window.reply.clone()))
+    }
+
+    /// Whether somebody listens for the answer.
+    pub(super) fn is_listened_for(&self, question: &Question) -> bool {
+        self.window.as_ref().is_some_and(|window| window.is_of(question) && window.ears > 0)
     }
 
     pub(super) fn answered(&mut self) {

@@ -75,15 +75,18 @@ struct Touching<'a> {
 impl Activity<String> for Touching<'_> {
     fn step(&mut self, state: &mut State, now: Instant) -> Step<Result<String, DeviceError>> {
         if !std::mem::replace(&mut self.open, true) {
-            state.open(self.question, now);
+            state.open(self.question, By::Touch, now);
         }
         if let Err(error) = state.check(Device::Buttons) {
-            state.close(self.question);
+            state.close(self.question, By::Touch);
             return Step::Done(Err(error));
         }
-        let Some((at, Reply::Answer { option, by: By::Touch, .. })) = state.reply(self.question) else {
+        let Some((at, Reply::Answer { option, by, .. })) = state.reply(self.question) else {
             return Step::Idle;
         };
+        if by == By::Voice && state.is_listened_for(self.question) {
+            return Step::Idle;
+        }
         let Some(phrase) = chosen(&self.question.options, option) else { return Step::Idle };
         if !state.offers(&phrase.id) {
             return Step::Idle;
@@ -94,11 +97,11 @@ impl Activity<String> for Touching<'_> {
         let (option, words) = (phrase.id.clone(), phrase.words.clone());
         state.answered();
         state.happens(now, RoomEvent::PersonTouches { option: option.clone(), words });
-        state.close(self.question);
+        state.close(self.question, By::Touch);
         Step::Done(Ok(option))
     }
 
     fn stop(&mut self, state: &mut State, _: Instant) {
-        state.close(self.question);
+        state.close(self.question, By::Touch);
     }
 }

@@ -70,6 +70,7 @@
   (:durative-action touch
     :parameters (?r - robot ?p - person ?t - test ?i - item ?a - answer ?q - question)
     :condition (and
+      (at start (not (is microphone broken)))
       (over all (waiting ?p ?a))
       (over all (is_in ?t ?i))
       (over all (= (question ?t ?i) ?q))
@@ -79,4 +80,32 @@
       (at end (not (waiting ?p ?a)))
       (at end (got ?p ?a))
       (at end (was_chosen_in ?o ?i)))
+    :skill (await-touch ?i ?q))
+
+  ; With a broken ear the screen takes the answer alone, and tells a silence.
+  (:durative-action touch-alone
+    :parameters (?r - robot ?p - person ?t - test ?i - item ?a - answer ?q - question)
+    :duration (<= ?duration 20)
+    :condition (and
+      (at start (can ?p ?a))
+      (at start (is microphone broken))
+      (over all (not (is screen broken)))
+      (over all (is_in ?t ?i))
+      (over all (= (question ?t ?i) ?q))
+      (over all (is_with ?p ?r))
+      (over all (not (is ?t paused)))
+      (over all (not (is ?t aborted)))
+      (over all (waiting ?p ?a)))
+    :results (?o - option)
+    :effect (and
+      (at start (not (can ?p ?a)))
+      (at start (waiting ?p ?a))
+      (at end (not (waiting ?p ?a)))
+      (at end (got ?p ?a))
+      (at end (was_chosen_in ?o ?i))
+      (at abort (not (waiting ?p ?a)))
+      (at timeout (not (waiting ?p ?a)))
+      (at timeout (was_unanswered_in ?q ?i))
+      (at failure (not (waiting ?p ?a)))
+      (at failure (is screen broken)))
     :skill (await-touch ?i ?q)))

@@ -69,12 +69,14 @@
     :priority 70)
 
   ; An answer may be spoken or touched: this rule opens the ear, the panel's rule `touch` follows
-  ; the same `waiting`; whoever ends it first stops the other.
+  ; the same `waiting`; whoever ends it first stops the other. An ear that breaks says so, and not that
+  ; the person was silent.
   (:durative-action hear
     :parameters (?r - robot ?p - person ?t - test ?i - item ?a - answer ?q - question)
     :duration (<= ?duration 15)
     :condition (and
       (at start (can ?p ?a))
+      (at start (not (is microphone broken)))
       (over all (is_in ?t ?i))
       (over all (= (question ?t ?i) ?q))
       (over all (is_with ?p ?r))
@@ -93,13 +95,18 @@
       (at timeout (was_unanswered_in ?q ?i))
       (at misheard (not (waiting ?p ?a)))
       (at misheard (was_misheard_in ?q ?i))
-      (at misheard (was_unanswered_in ?q ?i)))
+      (at misheard (was_unanswered_in ?q ?i))
+      (at failure (not (waiting ?p ?a)))
+      (at failure (is microphone broken)))
     :skill (listen ?i ?q))
 
   (:durative-action hear-request
     :parameters (?r - robot ?p - person ?q - request)
     :condition (and
       (at start (not (asks ?p ?q)))
+      (at start (not (is microphone broken)))
       (over all (is_with ?p ?r)))
-    :effect (at end (asks ?p ?q))
+    :effect (and
+      (at end (asks ?p ?q))
+      (at failure (is microphone broken)))
     :skill (spot ?q)))
