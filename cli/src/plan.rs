@@ -34,6 +34,8 @@ use validator::{Number, Valid, Verdict, explain};
 
 /// What to plan.
 #[derive(Debug, Args)]
+#[command(after_help = format!("Searches:{}\n\nWithout --search and --optimal: {}.",
+    searches(), SearchConfiguration::portfolio().name))]
 pub(crate) struct Arguments {
     /// The domain file.
     domain: PathBuf,
@@ -54,13 +56,17 @@ pub(crate) struct Arguments {
 }
 
 fn search(name: &str) -> Result<SearchConfiguration, String> {
-    SearchConfiguration::named(name).ok_or_else(|| {
-        let mut text = "there is no such search; there are".to_owned();
-        for known in SearchConfiguration::ALL {
-            write!(text, "\n  {:12} {}", known.name, known.summary).expect("a string takes all");
-        }
-        text
-    })
+    SearchConfiguration::named(name)
+        .ok_or_else(|| format!("there is no such search; there are{}", searches()))
+}
+
+/// A line per search.
+fn searches() -> String {
+    let mut text = String::new();
+    for known in SearchConfiguration::ALL {
+        write!(text, "\n  {:12} {}", known.name, known.summary).expect("a string takes all");
+    }
+    text
 }
 
 pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {

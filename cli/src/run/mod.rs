@@ -72,6 +72,7 @@ enum Speed {
 
 /// The last line of a run in JSON.
 #[derive(Serialize)]
+#[serde(tag = "kind", rename = "result")]
 struct Summary<'a> {
     source: &'static str,
     time: f64,

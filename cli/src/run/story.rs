@@ -13,6 +13,7 @@ use tokio::sync::mpsc::UnboundedSender;
 
 /// An entry: when, in which version, what.
 #[derive(Clone, Debug, Serialize)]
+#[serde(tag = "kind", rename = "event")]
 pub(super) struct Entry {
     /// Seconds since the mission started, to the millisecond.
     pub(super) time: f64,
