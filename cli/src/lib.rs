@@ -17,7 +17,8 @@
 //!
 //! Members: `arguments` (the tree of commands), `run`, `plan`, `validate`, `check` (one each), `task` (a domain
 //! with its problem, read from files), `assemble` (a mission, from its folder to what runs it), `scenario`,
-//! `header` (which file needs which), `files`, `disk` (mission folders), `memory`, `clock`, `render` (diagnostics as text with excerpts, or as JSON), `console` and `exit`.
+//! `header` (which file needs which), `files`, `disk` (mission folders), `memory`, `clock`, `render` (diagnostics
+//! as text with excerpts, or as JSON), `console` and `exit`.
 
 mod arguments;
 mod assemble;

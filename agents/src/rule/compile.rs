@@ -114,7 +114,8 @@ impl Compiler<'_> {
 
     fn skill(&mut self, call: &SkillCall) -> Option<(Arc<dyn Skill>, Vec<Argument>)> {
         let Some(skill) = self.skills.get(&call.name) else {
-            self.report(call.span, RuleErrorKind::UnknownSkill { skill: call.name.clone() });
+            let known = self.skills.signatures().map(|signature| signature.name).collect();
+            self.report(call.span, RuleErrorKind::UnknownSkill { skill: call.name.clone(), known });
             return None;
         };
         let Signature { arity, results: yields, .. } = skill.signature();

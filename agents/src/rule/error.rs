@@ -27,8 +27,8 @@ pub enum RuleErrorKind {
     #[error("'{agent}' writes nothing in the vocabulary, so it is no agent")]
     UnknownAgent { agent: Name },
     /// There is no such skill.
-    #[error("there is no skill '{skill}'")]
-    UnknownSkill { skill: Name },
+    #[error("there is no skill '{skill}'; there are: {}", known.join(", "))]
+    UnknownSkill { skill: Name, known: Vec<&'static str> },
     /// The skill takes another number of arguments.
     #[error("skill '{skill}' takes {} arguments, not {found}", range(expected))]
     SkillArity { skill: Name, expected: RangeInclusive<usize>, found: usize },
