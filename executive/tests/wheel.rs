@@ -32,6 +32,10 @@ fn domain(name: &str, text: &str, imports: &[&Domain]) -> Domain {
 
 impl Bench {
     fn new() -> Self {
+        Self::with_fallback("give-up")
+    }
+
+    fn with_fallback(fallback: &str) -> Self {
         let lab = domain("vocabulary", include_str!("../test_data/lamps/vocabulary.pddl"), &[]);
         let lamps = domain("domain", include_str!("../test_data/lamps/domain.pddl"), &[]);
         let perception =
@@ -48,7 +52,7 @@ impl Bench {
         let model = Arc::new(Model::new(lamps, problem, &perceived).unwrap());
         let perception = Arc::new(Perception::new(&perception, &vocabulary).unwrap());
         let methods = Arc::new(Methods::new(&methods, &vocabulary).unwrap());
-        let fallback = Step { action: Name::new("give-up"), arguments: vec![Name::new("a")] };
+        let fallback = Step { action: Name::new(fallback), arguments: vec![Name::new("a")] };
         let wheel =
             Wheel::new(model, perception, methods, Policy { fallback, expansions: 1_000, attempts: 2 });
         let deltas = graph.subscribe_deltas();
@@ -240,6 +244,67 @@ fn a_refused_write_is_a_failed_step() {
     bench.turn(Event::Refused("the graph says no".to_owned()));
     assert_eq!(bench.count(|n| matches!(n, Narration::Refused { .. })), 1);
     assert_eq!(bench.count(|n| matches!(n, Narration::Failed { .. })), 1);
+}
+
+#[test]
+fn a_goal_that_holds_before_there_is_a_plan_needs_none() {
+    let mut bench = Bench::new();
+    for lamp in ["a", "b"] {
+        bench.write("lighter", lamp, "lit");
+    }
+    assert_eq!(bench.ending, Some(Ending::Accomplished));
+    assert!(!bench.wants("a"));
+}
+
+#[test]
+fn a_planner_that_stops_is_followed_by_the_fallback() {
+    let mut bench = Bench::with_fallback("light-first");
+    let request = bench.requests.pop_front().unwrap();
+    bench.turn(Event::Decided(request.id, Decision::Rejected("the planner stopped".to_owned())));
+    assert!(bench.wants("a"));
+    bench.write("lighter", "a", "lit");
+    assert!(matches!(bench.ending, Some(Ending::NotAccomplished { fallback: true, .. })));
+}
+
+#[test]
+fn a_fallback_that_the_graph_refuses_once_is_not_given_up() {
+    let mut bench = Bench::with_fallback("light-first");
+    let request = bench.requests.pop_front().unwrap();
+    bench.turn(Event::Decided(request.id, Decision::NoPlan("nothing helps".to_owned())));
+    bench.turn(Event::Refused("the graph says no".to_owned()));
+    assert_eq!(bench.ending, None);
+    bench.write("lighter", "a", "lit");
+    assert!(matches!(bench.ending, Some(Ending::NotAccomplished { fallback: true, .. })));
+}
+
+#[test]
+fn a_fallback_that_is_refused_for_good_ends_at_its_deadline() {
+    let mut bench = Bench::with_fallback("light-first");
+    let request = bench.requests.pop_front().unwrap();
+    bench.wheel.step(Event::Decided(request.id, Decision::NoPlan("nothing helps".to_owned())), bench.now);
+    bench.turn(Event::Refused("the graph says no".to_owned()));
+    assert_eq!(bench.ending, None);
+    bench.pass(6);
+    assert!(matches!(bench.ending, Some(Ending::NotAccomplished { fallback: false, .. })));
+}
+
+#[test]
+fn a_deadline_that_passes_while_a_plan_is_made_stops_nothing() {
+    let mut bench = Bench::new();
+    bench.pass(60);
+    bench.plan();
+    assert!(bench.wants("a"), "{:?}", bench.told);
+}
+
+#[test]
+fn missed_changes_are_made_up_for_by_one_look() {
+    let mut bench = Bench::new();
+    bench.plan();
+    let is = bench.graph.dictionary().label("is").unwrap();
+    bench.commit("lighter", vec![Edit::AddEdge { from: "a".into(), label: is, to: "lit".into() }]);
+    while bench.deltas.try_recv().is_some() {}
+    bench.turn(Event::Seen(bench.graph.snapshot()));
+    assert!(bench.wants("b") && bench.requests.is_empty(), "{:?}", bench.told);
 }
 
 #[test]

@@ -303,7 +303,8 @@ impl Wheel {
         effects.push(Effect::Tell(Narration::Refused { why: why.clone() }));
         match std::mem::replace(&mut self.phase, Phase::Ended) {
             Phase::Acting(course) => self.failed(course, why, effects),
-            Phase::FallingBack { why: reason, .. } => self.end_without(reason, false, effects),
+            // A fallback under way goes on too: what was not written is missed at its deadline, and the next
+            // method is tried. To end here would leave the person with nobody called.
             other => {
                 self.phase = other;
                 self.advance(now, effects);
