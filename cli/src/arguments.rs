@@ -2,7 +2,7 @@
 
 use crate::console::{Console, Form};
 use crate::exit::Exit;
-use crate::{check, plan, run as mission, validate};
+use crate::{check, explain, fmt, plan, run as mission, validate};
 use clap::{Parser, Subcommand};
 use std::ffi::OsString;
 
@@ -32,6 +32,10 @@ enum Command {
     Validate(validate::Arguments),
     /// Report every error of missions, domains, problems and methods.
     Check(check::Arguments),
+    /// Lay files out, changing white space only.
+    Fmt(fmt::Arguments),
+    /// Say what a diagnostic's code means, with examples.
+    Explain(explain::Arguments),
 }
 
 /// Reads the arguments (the first is the program's name) and does what they say.
@@ -61,5 +65,7 @@ where
         Command::Plan(arguments) => plan::run(&arguments, console),
         Command::Validate(arguments) => validate::run(&arguments, console),
         Command::Check(arguments) => check::run(&arguments, console),
+        Command::Fmt(arguments) => fmt::run(&arguments, console),
+        Command::Explain(arguments) => explain::run(&arguments, console),
     }
 }

@@ -36,20 +36,28 @@ fn plainly(error: &io::Error) -> String {
 
 /// Reads a text; `-` is standard input.
 pub(crate) fn read(path: &Path) -> Result<Source, FileError> {
+    source(path, read_bytes(path)?)
+}
+
+/// Reads a file as it is; `-` is standard input.
+pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
     let failed = |source| FileError::Read { path: path.to_owned(), source };
     let mut bytes = Vec::new();
     if path == Path::new("-") {
         io::stdin().lock().read_to_end(&mut bytes).map_err(failed)?;
-        return source("<standard input>".to_owned(), bytes, path);
+        return Ok(bytes);
     }
     if path.is_dir() {
         return Err(failed(io::ErrorKind::IsADirectory.into()));
     }
     File::open(path).and_then(|mut file| file.read_to_end(&mut bytes)).map_err(failed)?;
-    source(path.display().to_string(), bytes, path)
+    Ok(bytes)
 }
 
-fn source(name: String, bytes: Vec<u8>, path: &Path) -> Result<Source, FileError> {
+/// The text in a file's bytes.
+pub(crate) fn source(path: &Path, bytes: Vec<u8>) -> Result<Source, FileError> {
+    let name =
+        if path == Path::new("-") { "<standard input>".to_owned() } else { path.display().to_string() };
     let text = decode(bytes);
     if text.len() > Source::MAX_BYTES {
         return Err(FileError::TooLarge { path: path.to_owned() });
@@ -70,21 +78,29 @@ fn decode(bytes: Vec<u8>) -> String {
 
 /// Writes all of `text`, or nothing.
 pub(crate) fn write(path: &Path, text: &str) -> Result<(), FileError> {
+    write_bytes(path, text.as_bytes())
+}
+
+/// Writes all of `bytes`, or nothing. A link stays one, and a file keeps its permissions.
+pub(crate) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let failed = |source| FileError::Write { path: path.to_owned(), source };
-    if fs::metadata(path).is_ok_and(|m| !m.is_file()) {
+    let existing = fs::metadata(path).ok();
+    if existing.as_ref().is_some_and(|m| !m.is_file()) {
         // A device or a pipe stays what it is.
         return OpenOptions::new()
             .write(true)
             .open(path)
-            .and_then(|mut file| file.write_all(text.as_bytes()))
+            .and_then(|mut file| file.write_all(bytes))
             .map_err(failed);
     }
-    let mut name = path.file_name().unwrap_or_default().to_owned();
+    let target = if path.is_symlink() { fs::canonicalize(path).map_err(failed)? } else { path.to_owned() };
+    let mut name = target.file_name().unwrap_or_default().to_owned();
     name.push(format!(".{}.tmp", std::process::id()));
-    let beside = path.with_file_name(name);
+    let beside = target.with_file_name(name);
     let written = File::create(&beside)
-        .and_then(|mut file| file.write_all(text.as_bytes()))
-        .and_then(|()| fs::rename(&beside, path));
+        .and_then(|mut file| file.write_all(bytes))
+        .and_then(|()| existing.map_or(Ok(()), |m| fs::set_permissions(&beside, m.permissions())))
+        .and_then(|()| fs::rename(&beside, &target));
     written.map_err(|source| {
         // The write failed already; a remainder that cannot be removed adds nothing to that.
         let _ = fs::remove_file(&beside);

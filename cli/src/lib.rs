@@ -15,10 +15,10 @@
 //! assert!(String::from_utf8(err).unwrap().contains("no/such/file.pddl"));
 //! ```
 //!
-//! Members: `arguments` (the tree of commands), `run`, `plan`, `validate`, `check` (one each), `task` (a domain
-//! with its problem, read from files), `assemble` (a mission, from its folder to what runs it), `scenario`,
-//! `header` (which file needs which), `files`, `disk` (mission folders), `memory`, `clock`, `render` (diagnostics
-//! as text with excerpts, or as JSON), `console` and `exit`.
+//! Members: `arguments` (the tree of commands), `run`, `plan`, `validate`, `check`, `fmt`, `explain` (one each),
+//! `task` (a domain with its problem, read from files), `assemble` (a mission, from its folder to what runs it),
+//! `scenario`, `header` (which file needs which), `files`, `disk` (mission folders), `memory`, `clock`, `render`
+//! (diagnostics as text with excerpts, or as JSON), `console` and `exit`.
 
 mod arguments;
 mod assemble;
@@ -27,7 +27,9 @@ mod clock;
 mod console;
 mod disk;
 mod exit;
+mod explain;
 mod files;
+mod fmt;
 mod header;
 mod memory;
 mod plan;

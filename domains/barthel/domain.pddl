@@ -113,7 +113,8 @@
 
   (:action call-clinician
     :parameters (?p - person)
-    :precondition (and (clinician-needed ?p) (not (wants-help ?p)) (not (paused ?p)) (not (aborted ?p)))
+    :precondition (and (clinician-needed ?p) (not (wants-help ?p)) (not (paused ?p))
+                       (not (aborted ?p)))
     :effect (not (clinician-needed ?p)))
 
   (:action await-resumption

@@ -28,10 +28,12 @@
 //! | [`syntax`] | tokens that tile the text, the tree over them, recovery at parentheses |
 //! | `lower` | tree to model: names, arities, types; a file for each part of the language |
 //! | [`model`] | what a file means |
-//! | `diagnostic` | what can be wrong, with stable codes |
+//! | `diagnostic` | what can be wrong, with stable codes, each explained |
 //! | `print` | model to text |
+//! | `format` | text to text: the same tokens and comments, laid out anew |
 
 mod diagnostic;
+mod format;
 mod lower;
 pub mod model;
 mod parse;
@@ -40,7 +42,11 @@ mod print;
 mod source;
 pub mod syntax;
 
-pub use diagnostic::{Diagnostic, DiagnosticKind, FileKind, Label, Severity, SymbolKind, UnsupportedFeature};
+pub use diagnostic::{
+    Diagnostic, DiagnosticKind, Explanation, FileKind, Label, Severity, SymbolKind, UnknownCode,
+    UnsupportedFeature, explain, explanations,
+};
+pub use format::format;
 pub use parse::{Parsed, parse_domain, parse_plan, parse_problem};
 pub use plan::{Plan, PlanStep};
 pub use print::{print_domain, print_plan, print_problem};

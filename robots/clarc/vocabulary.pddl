@@ -68,7 +68,8 @@
     is_in label view question (can _ answer) (got _ answer)
     (is _ doubted) (is_needed_for _ _) (attended _ _) (is_due_to _ _))
   (:writes speech
-    (is _ speaking) (is_not _ speaking) (finish _ speaking) (is speaker broken) (is microphone broken)
+    (is _ speaking) (is_not _ speaking) (finish _ speaking) (is speaker broken)
+    (is microphone broken)
     label was_said_in
     can waiting got was_chosen_in was_unanswered_in was_misheard_in
     (asks _ help))

@@ -105,12 +105,12 @@ fn sources_below(folder: &Path, found: &mut Vec<PathBuf>, missions: &mut Vec<Pat
     }
 }
 
-fn is_source(path: &Path) -> bool {
+pub(crate) fn is_source(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("pddl") || e.eq_ignore_ascii_case("hddl"))
 }
 
 /// What is in a folder, in order; nothing if it cannot be read.
-fn entries(folder: &Path) -> Vec<PathBuf> {
+pub(crate) fn entries(folder: &Path) -> Vec<PathBuf> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let mut paths: Vec<PathBuf> =
         fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).collect();

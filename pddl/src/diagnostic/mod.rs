@@ -2,12 +2,14 @@
 //!
 //! A diagnostic is data: a [`DiagnosticKind`] with its fields, a span, and secondary spans. Codes are
 //! stable: E for errors, W for warnings, U for language features that no model holds. Rendering
-//! (colours, JSON) is the edge's work; [`Diagnostic::describe`] is the plain text that needs nothing.
+//! (colours, JSON) is the edge's work; `explain` says of each code what it means; [`Diagnostic::describe`] is the plain text that needs nothing.
 
 mod describe;
+mod explain;
 mod kind;
 mod suggest;
 
+pub use explain::{Explanation, UnknownCode, explain, explanations};
 pub use kind::{DiagnosticKind, FileKind, SymbolKind, UnsupportedFeature};
 pub(crate) use suggest::nearest;
 

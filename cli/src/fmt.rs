@@ -1,0 +1,125 @@
+//! `pelea fmt PATH...`: every file as the formatter lays it out.
+//!
+//! Folders stand for all `.pddl` and `.hddl` files below them, `-` for standard input, which goes to standard
+//! output. Only files that change are written, each whole or not at all, in the encoding that they had; a file
+//! whose parentheses do not match is reported and left alone. As JSON there is a line per file:
+//!
+//! ```json
+//! {"kind": "formatted", "file": "p.pddl", "changed": true, "written": true}
+//! ```
+//!
+//! With `--stdout`, and for standard input, it has the field `text` as well.
+
+use crate::check::{entries, is_source};
+use crate::console::{Console, Form};
+use crate::exit::Exit;
+use crate::files::{self, FileError};
+use crate::render::{Message, show_all};
+use clap::Args;
+use pddl::Source;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+/// What to format.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Files and folders; `-` is standard input.
+    #[arg(required = true)]
+    paths: Vec<PathBuf>,
+    /// Write nothing; name the files that would change, and exit with 1 if there are any.
+    #[arg(long)]
+    check: bool,
+    /// Write to standard output instead of into the files.
+    #[arg(long, conflicts_with = "check")]
+    stdout: bool,
+}
+
+pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
+    let mut paths: Vec<PathBuf> = Vec::new();
+    for given in &arguments.paths {
+        let mut found = Vec::new();
+        if given.is_dir() {
+            sources_below(given, &mut found);
+        } else {
+            found.push(given.clone());
+        }
+        found.retain(|path| !paths.contains(path));
+        paths.extend(found);
+    }
+    paths.iter().fold(Exit::Yes, |exit, path| exit.and(file(path, arguments, console)))
+}
+
+/// All sources in a folder and its folders, in order.
+fn sources_below(folder: &Path, found: &mut Vec<PathBuf>) {
+    for path in entries(folder) {
+        if path.is_dir() && !path.is_symlink() {
+            sources_below(&path, found);
+        } else if path.is_file() && is_source(&path) {
+            found.push(path);
+        }
+    }
+}
+
+/// Formats a file.
+fn file(path: &Path, arguments: &Arguments, console: &mut Console<'_>) -> Exit {
+    let before = match files::read_bytes(path) {
+        Ok(bytes) => bytes,
+        Err(error) => return failed(&error, Exit::Unreadable, console),
+    };
+    let source = match files::source(path, before.clone()) {
+        Ok(source) => source,
+        Err(error) => return failed(&error, Exit::Unreadable, console),
+    };
+    let text = match pddl::format(&source) {
+        Ok(text) => text,
+        Err(diagnostics) => {
+            show_all(&source, &diagnostics, console);
+            console.note(&format!("{} is left as it is", source.name()));
+            return Exit::Unreadable;
+        }
+    };
+    let after = encode(&before, &text);
+    let changed = before != after;
+    let to_stdout = arguments.stdout || (path == Path::new("-") && !arguments.check);
+    let written = changed && !to_stdout && !arguments.check;
+    if written && let Err(error) = files::write_bytes(path, &after) {
+        return failed(&error, Exit::Unwritable, console);
+    }
+    if to_stdout && console.form() == Form::Text {
+        console.print(&text);
+    } else if changed {
+        console.result(&said(&source, written));
+    }
+    let text = to_stdout.then_some(&*text);
+    console.record(&FormattedRecord { kind: "formatted", file: source.name(), changed, written, text });
+    if arguments.check && changed { Exit::No } else { Exit::Yes }
+}
+
+fn said(source: &Source, written: bool) -> String {
+    let done = if written { "formatted" } else { "would change" };
+    format!("{}: {done}", source.name())
+}
+
+fn failed(error: &FileError, exit: Exit, console: &mut Console<'_>) -> Exit {
+    Message::error(error.to_string()).show(console);
+    exit
+}
+
+/// The text in the encoding of the file it came from: a file that is not UTF-8 was read as Latin-1.
+fn encode(before: &[u8], text: &str) -> Vec<u8> {
+    if std::str::from_utf8(before).is_ok() {
+        return text.as_bytes().to_vec();
+    }
+    let latin_1: Result<Vec<u8>, _> = text.chars().map(u8::try_from).collect();
+    latin_1.unwrap_or_else(|_| text.as_bytes().to_vec())
+}
+
+#[derive(Serialize)]
+struct FormattedRecord<'a> {
+    kind: &'static str,
+    file: &'a str,
+    changed: bool,
+    written: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    text: Option<&'a str>,
+}

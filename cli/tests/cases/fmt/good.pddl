@@ -1,0 +1,2 @@
+(define (domain hall)
+  (:predicates (lit)))
