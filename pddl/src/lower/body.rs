@@ -88,18 +88,19 @@ impl<'a> Body<'a> {
             terms.extend(term);
             count += 1;
         }
-        if count != of.parameters.len() {
-            let kind = DiagnosticKind::WrongArity {
-                symbol: of.symbol,
-                name: of.name.clone(),
-                expected: of.parameters.len(),
-                found: count,
-                signature: self.world.signature(of.name, of.parameters),
-            };
+        (self.count_fits(whole, of, count) && sound).then_some(terms)
+    }
+
+    /// Whether a symbol is applied to as many arguments as it takes.
+    pub(super) fn count_fits(&mut self, whole: Node<'_>, of: &Applied<'_>, found: usize) -> bool {
+        let expected = of.parameters.len();
+        if found != expected {
+            let signature = self.world.signature(of.name, of.parameters);
+            let (symbol, name) = (of.symbol, of.name.clone());
+            let kind = DiagnosticKind::WrongArity { symbol, name, expected, found, signature };
             self.sink.report(whole.span(), kind);
-            return None;
         }
-        sound.then_some(terms)
+        found == expected
     }
 
     /// Whether the term can stand for a parameter of those types; reports it if not. A variable of a

@@ -5,7 +5,7 @@
 //! its sides are.
 
 use super::body::{Applied, Body};
-use crate::diagnostic::{DiagnosticKind, SymbolKind, UnsupportedFeature};
+use crate::diagnostic::{SymbolKind, UnsupportedFeature};
 use crate::model::{
     Atom, Comparison, Condition, ConditionKind, FunctionValue, ObjectId, PredicateId, Term, TypeSet,
 };
@@ -204,18 +204,7 @@ impl Body<'_> {
             objects.push(object);
             count += 1;
         }
-        if count != of.parameters.len() {
-            let kind = DiagnosticKind::WrongArity {
-                symbol: of.symbol,
-                name: of.name.clone(),
-                expected: of.parameters.len(),
-                found: count,
-                signature: self.world.signature(of.name, of.parameters),
-            };
-            self.sink.report(whole.span(), kind);
-            return None;
-        }
-        sound.then_some(objects)
+        (self.count_fits(whole, of, count) && sound).then_some(objects)
     }
 
     fn ground_term(&mut self, node: Node<'_>) -> Option<ObjectId> {

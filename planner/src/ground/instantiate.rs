@@ -50,8 +50,12 @@ impl<'a> Instantiator<'a> {
 
     pub(crate) fn fold(&self, formula: &Formula, slots: &[Arc<Range>], binding: &mut [u32]) -> Ground {
         match formula {
-            Formula::And(parts) => fold_and(parts.iter(), |f, b| self.fold(f, slots, b), binding),
-            Formula::Or(parts) => fold_or(parts.iter(), |f, b| self.fold(f, slots, b), binding),
+            Formula::And(parts) => {
+                fold_parts(Connective::And, parts.iter(), |f, b| self.fold(f, slots, b), binding)
+            }
+            Formula::Or(parts) => {
+                fold_parts(Connective::Or, parts.iter(), |f, b| self.fold(f, slots, b), binding)
+            }
             Formula::Exists(vs, inner) => self.quantified(vs, inner, slots, binding, false),
             Formula::Forall(vs, inner) => self.quantified(vs, inner, slots, binding, true),
             Formula::Literal(literal) => self.literal(literal, binding),
@@ -99,9 +103,9 @@ impl<'a> Instantiator<'a> {
             self.quantified(rest, inner, slots, b, universal)
         };
         if universal {
-            fold_and(slots[slot].objects.iter(), each, binding)
+            fold_parts(Connective::And, slots[slot].objects.iter(), each, binding)
         } else {
-            fold_or(slots[slot].objects.iter(), each, binding)
+            fold_parts(Connective::Or, slots[slot].objects.iter(), each, binding)
         }
     }
 
@@ -176,45 +180,37 @@ impl<'a> Instantiator<'a> {
     }
 }
 
-fn fold_and<T>(
-    parts: impl Iterator<Item = T>,
-    fold: impl Fn(T, &mut [u32]) -> Ground,
-    binding: &mut [u32],
-) -> Ground {
-    let mut kept = Vec::new();
-    for part in parts {
-        match fold(part, binding) {
-            Ground::True => {}
-            Ground::False => return Ground::False,
-            Ground::And(inner) => kept.extend(inner),
-            other => kept.push(other),
-        }
-    }
-    match kept.len() {
-        0 => Ground::True,
-        1 => kept.remove(0),
-        _ => Ground::And(kept),
-    }
+/// What joins the parts of a formula.
+#[derive(Clone, Copy)]
+enum Connective {
+    And,
+    Or,
 }
 
-fn fold_or<T>(
+/// Folds the parts: what is neutral is left out, what absorbs ends it, and like nests into like.
+fn fold_parts<T>(
+    connective: Connective,
     parts: impl Iterator<Item = T>,
     fold: impl Fn(T, &mut [u32]) -> Ground,
     binding: &mut [u32],
 ) -> Ground {
+    use Connective::{And, Or};
     let mut kept = Vec::new();
     for part in parts {
-        match fold(part, binding) {
-            Ground::False => {}
-            Ground::True => return Ground::True,
-            Ground::Or(inner) => kept.extend(inner),
-            other => kept.push(other),
+        match (connective, fold(part, binding)) {
+            (And, Ground::True) | (Or, Ground::False) => {}
+            (And, Ground::False) => return Ground::False,
+            (Or, Ground::True) => return Ground::True,
+            (And, Ground::And(inner)) | (Or, Ground::Or(inner)) => kept.extend(inner),
+            (_, other) => kept.push(other),
         }
     }
-    match kept.len() {
-        0 => Ground::False,
-        1 => kept.remove(0),
-        _ => Ground::Or(kept),
+    match (connective, kept.len()) {
+        (And, 0) => Ground::True,
+        (Or, 0) => Ground::False,
+        (_, 1) => kept.remove(0),
+        (And, _) => Ground::And(kept),
+        (Or, _) => Ground::Or(kept),
     }
 }
 
