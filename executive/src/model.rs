@@ -148,20 +148,4 @@ impl Model {
         }
         problem
     }
-
-    /// The first object of each parameter's type: the arguments of a task that nobody instantiates,
-    /// such as the fallback. `None` if a type has no object.
-    pub fn default_arguments(&self, types: &[Name]) -> Option<Vec<Name>> {
-        types
-            .iter()
-            .map(|name| {
-                let wanted = self.domain.types.find(name)?;
-                let found =
-                    self.problem.objects.iter().find(|object| {
-                        object.types.0.iter().any(|&t| self.domain.types.is_subtype(t, wanted))
-                    })?;
-                Some(found.name.clone())
-            })
-            .collect()
-    }
 }
