@@ -82,16 +82,8 @@ pub enum DictionaryError {
 /// Declares tokens one by one.
 #[derive(Debug)]
 pub struct DictionaryBuilder {
-    types: Vec<NodeType>,
-    labels: Vec<Label>,
-    attributes: Vec<Attribute>,
-    agents: Vec<Arc<str>>,
-    resources: Vec<Arc<str>>,
-    type_names: FxHashMap<Arc<str>, TypeId>,
-    label_names: FxHashMap<Arc<str>, LabelId>,
-    attribute_names: FxHashMap<Arc<str>, AttributeId>,
-    agent_names: FxHashMap<Arc<str>, AgentId>,
-    resource_names: FxHashMap<Arc<str>, ResourceId>,
+    /// What will be the dictionary; its permissions are spelled out at the end.
+    made: Dictionary,
     permissions: Vec<(AgentId, Permission)>,
 }
 
@@ -105,16 +97,19 @@ impl DictionaryBuilder {
     /// A dictionary with what is built into every one.
     pub fn new() -> Self {
         let mut new = Self {
-            types: Vec::new(),
-            labels: Vec::new(),
-            attributes: Vec::new(),
-            agents: Vec::new(),
-            resources: Vec::new(),
-            type_names: FxHashMap::default(),
-            label_names: FxHashMap::default(),
-            attribute_names: FxHashMap::default(),
-            agent_names: FxHashMap::default(),
-            resource_names: FxHashMap::default(),
+            made: Dictionary {
+                types: Vec::new(),
+                labels: Vec::new(),
+                attributes: Vec::new(),
+                agents: Vec::new(),
+                resources: Vec::new(),
+                type_names: FxHashMap::default(),
+                label_names: FxHashMap::default(),
+                attribute_names: FxHashMap::default(),
+                agent_names: FxHashMap::default(),
+                resource_names: FxHashMap::default(),
+                permissions: FxHashMap::default(),
+            },
             permissions: Vec::new(),
         };
         for (name, parent) in
@@ -123,14 +118,14 @@ impl DictionaryBuilder {
             new.add_type(name.into(), parent, Nature::Symbolic);
         }
         let holds = Signature { from: TypeId::AGENT, to: TypeId::RESOURCE };
-        new.labels.push(Label { name: "holds".into(), signatures: vec![holds] });
-        new.label_names.insert("holds".into(), LabelId::HOLDS);
+        new.made.labels.push(Label { name: "holds".into(), signatures: vec![holds] });
+        new.made.label_names.insert("holds".into(), LabelId::HOLDS);
         let holder = HolderType::Edge { label: LabelId::HOLDS, signature: holds };
         for (name, kind) in [("priority", Kind::Number), ("yields", Kind::Bool), ("claim", Kind::Number)] {
             new.add_attribute(name.into(), holder, kind);
         }
-        new.agents.push("dsr".into());
-        new.agent_names.insert("dsr".into(), AgentId::DSR);
+        new.made.agents.push("dsr".into());
+        new.made.agent_names.insert("dsr".into(), AgentId::DSR);
         new
     }
 
@@ -142,13 +137,16 @@ impl DictionaryBuilder {
         nature: Nature,
     ) -> Result<TypeId, DictionaryError> {
         let name = named(name)?;
-        if self.type_names.contains_key(&name) {
+        if self.made.type_names.contains_key(&name) {
             return Err(DictionaryError::DuplicateType { name });
         }
         let parent = parent.unwrap_or(TypeId::OBJECT);
         self.known_type(parent)?;
-        let nature =
-            if self.types[parent.index()].nature == Nature::Geometric { Nature::Geometric } else { nature };
+        let nature = if self.made.types[parent.index()].nature == Nature::Geometric {
+            Nature::Geometric
+        } else {
+            nature
+        };
         Ok(self.add_type(name, Some(parent), nature))
     }
 
@@ -157,18 +155,18 @@ impl DictionaryBuilder {
         let name = named(name)?;
         self.known_type(from)?;
         self.known_type(to)?;
-        let id = match self.label_names.get(&name) {
+        let id = match self.made.label_names.get(&name) {
             Some(&LabelId::HOLDS) => return Err(DictionaryError::Reserved { name }),
             Some(&id) => id,
             None => {
-                let id = LabelId::at(self.labels.len());
-                self.labels.push(Label { name: name.clone(), signatures: Vec::new() });
-                self.label_names.insert(name, id);
+                let id = LabelId::at(self.made.labels.len());
+                self.made.labels.push(Label { name: name.clone(), signatures: Vec::new() });
+                self.made.label_names.insert(name, id);
                 id
             }
         };
         let signature = Signature { from, to };
-        let signatures = &mut self.labels[id.index()].signatures;
+        let signatures = &mut self.made.labels[id.index()].signatures;
         if !signatures.contains(&signature) {
             signatures.push(signature);
         }
@@ -197,7 +195,7 @@ impl DictionaryBuilder {
         let name = named(name)?;
         self.known_type(from)?;
         self.known_type(to)?;
-        let entry = self.labels.get(label.index()).ok_or(DictionaryError::UnknownLabel { id: label })?;
+        let entry = self.made.labels.get(label.index()).ok_or(DictionaryError::UnknownLabel { id: label })?;
         if label == LabelId::HOLDS {
             return Err(DictionaryError::Reserved { name });
         }
@@ -206,8 +204,8 @@ impl DictionaryBuilder {
             return Err(DictionaryError::NoSuchSignature {
                 attribute: name,
                 label: entry.name.clone(),
-                from: self.types[from.index()].name.clone(),
-                to: self.types[to.index()].name.clone(),
+                from: self.made.types[from.index()].name.clone(),
+                to: self.made.types[to.index()].name.clone(),
             });
         }
         self.attribute(&name, HolderType::Edge { label, signature: Signature { from, to } }, kind)
@@ -216,32 +214,32 @@ impl DictionaryBuilder {
     /// Declares a writer. It becomes a node of type `agent` in every graph.
     pub fn agent(&mut self, name: &str) -> Result<AgentId, DictionaryError> {
         let name = self.free_node(name)?;
-        let id = AgentId::at(self.agents.len());
-        self.agents.push(name.clone());
-        self.agent_names.insert(name, id);
+        let id = AgentId::at(self.made.agents.len());
+        self.made.agents.push(name.clone());
+        self.made.agent_names.insert(name, id);
         Ok(id)
     }
 
     /// Declares an exclusive resource. It becomes a node of type `resource` in every graph.
     pub fn resource(&mut self, name: &str) -> Result<ResourceId, DictionaryError> {
         let name = self.free_node(name)?;
-        let id = ResourceId::at(self.resources.len());
-        self.resources.push(name.clone());
-        self.resource_names.insert(name, id);
+        let id = ResourceId::at(self.made.resources.len());
+        self.made.resources.push(name.clone());
+        self.made.resource_names.insert(name, id);
         Ok(id)
     }
 
     /// Lets an agent write a token. Without any permission an agent may only claim and release.
     pub fn permit(&mut self, agent: AgentId, permission: Permission) -> Result<(), DictionaryError> {
-        if agent.index() >= self.agents.len() {
+        if agent.index() >= self.made.agents.len() {
             return Err(DictionaryError::UnknownAgent { id: agent });
         }
         match permission.token {
             Token::Label(LabelId::HOLDS) => return Err(DictionaryError::Reserved { name: "holds".into() }),
-            Token::Label(id) if id.index() >= self.labels.len() => {
+            Token::Label(id) if id.index() >= self.made.labels.len() => {
                 return Err(DictionaryError::UnknownLabel { id });
             }
-            Token::Attribute(id) => match self.attributes.get(id.index()) {
+            Token::Attribute(id) => match self.made.attributes.get(id.index()) {
                 None => return Err(DictionaryError::UnknownAttribute { id }),
                 Some(entry) if id.index() <= AttributeId::CLAIM.index() => {
                     return Err(DictionaryError::Reserved { name: entry.name.clone() });
@@ -263,7 +261,7 @@ impl DictionaryBuilder {
             let tokens = match *token {
                 // Whoever may make nodes of a type may make nodes of its subtypes: spelled out here, so that a
                 // check is one look-up.
-                Token::Node(id) => (0..self.types.len())
+                Token::Node(id) => (0..self.made.types.len())
                     .map(TypeId::at)
                     .filter(|&sub| self.descends(sub, id))
                     .map(Token::Node)
@@ -274,25 +272,13 @@ impl DictionaryBuilder {
                 permissions.entry((*agent, token)).or_default().push((from.clone(), to.clone()));
             }
         }
-        Arc::new(Dictionary {
-            types: self.types,
-            labels: self.labels,
-            attributes: self.attributes,
-            agents: self.agents,
-            resources: self.resources,
-            type_names: self.type_names,
-            label_names: self.label_names,
-            attribute_names: self.attribute_names,
-            agent_names: self.agent_names,
-            resource_names: self.resource_names,
-            permissions,
-        })
+        Arc::new(Dictionary { permissions, ..self.made })
     }
 
     fn add_type(&mut self, name: Arc<str>, parent: Option<TypeId>, nature: Nature) -> TypeId {
-        let id = TypeId::at(self.types.len());
-        self.type_names.insert(name.clone(), id);
-        self.types.push(NodeType { name, parent, nature, enter: 0, size: 1 });
+        let id = TypeId::at(self.made.types.len());
+        self.made.type_names.insert(name.clone(), id);
+        self.made.types.push(NodeType { name, parent, nature, enter: 0, size: 1 });
         id
     }
 
@@ -303,7 +289,7 @@ impl DictionaryBuilder {
         kind: Kind,
     ) -> Result<AttributeId, DictionaryError> {
         let name = named(name)?;
-        if self.attribute_names.contains_key(&name) {
+        if self.made.attribute_names.contains_key(&name) {
             return Err(DictionaryError::DuplicateAttribute { name });
         }
         if let Kind::Node(target) = kind {
@@ -313,19 +299,19 @@ impl DictionaryBuilder {
     }
 
     fn add_attribute(&mut self, name: Arc<str>, holder: HolderType, kind: Kind) -> AttributeId {
-        let id = AttributeId::at(self.attributes.len());
-        self.attribute_names.insert(name.clone(), id);
-        self.attributes.push(Attribute { name, holder, kind });
+        let id = AttributeId::at(self.made.attributes.len());
+        self.made.attribute_names.insert(name.clone(), id);
+        self.made.attributes.push(Attribute { name, holder, kind });
         id
     }
 
     fn known_type(&self, id: TypeId) -> Result<(), DictionaryError> {
-        if id.index() < self.types.len() { Ok(()) } else { Err(DictionaryError::UnknownType { id }) }
+        if id.index() < self.made.types.len() { Ok(()) } else { Err(DictionaryError::UnknownType { id }) }
     }
 
     fn free_node(&self, name: &str) -> Result<Arc<str>, DictionaryError> {
         let name = named(name)?;
-        if self.agent_names.contains_key(&name) || self.resource_names.contains_key(&name) {
+        if self.made.agent_names.contains_key(&name) || self.made.resource_names.contains_key(&name) {
             return Err(DictionaryError::DuplicateNode { name });
         }
         Ok(name)
@@ -337,7 +323,7 @@ impl DictionaryBuilder {
             if id == sup {
                 return true;
             }
-            at = self.types[id.index()].parent;
+            at = self.made.types[id.index()].parent;
         }
         false
     }
@@ -345,17 +331,17 @@ impl DictionaryBuilder {
     /// Numbers the types depth first: parents precede children in the table, so one pass up sums the sizes and
     /// one pass down hands each child the next free interval of its parent.
     fn number_types(&mut self) {
-        for index in (1..self.types.len()).rev() {
-            if let Some(parent) = self.types[index].parent {
-                self.types[parent.index()].size += self.types[index].size;
+        for index in (1..self.made.types.len()).rev() {
+            if let Some(parent) = self.made.types[index].parent {
+                self.made.types[parent.index()].size += self.made.types[index].size;
             }
         }
-        let mut free = vec![1; self.types.len()];
-        for index in 1..self.types.len() {
-            if let Some(parent) = self.types[index].parent {
+        let mut free = vec![1; self.made.types.len()];
+        for index in 1..self.made.types.len() {
+            if let Some(parent) = self.made.types[index].parent {
                 let enter = free[parent.index()];
-                free[parent.index()] += self.types[index].size;
-                self.types[index].enter = enter;
+                free[parent.index()] += self.made.types[index].size;
+                self.made.types[index].enter = enter;
                 free[index] = enter + 1;
             }
         }
