@@ -20,9 +20,9 @@ impl Diagnostic {
         };
         let (file, code, kind) = (source.name(), self.code(), &self.kind);
         let _ = writeln!(text, "{file}:{}:{}: {severity}[{code}]: {kind}", place.line, place.column);
-        excerpt(&mut text, source, self.span, "");
+        text += &source.excerpt(self.span, "");
         for (span, label) in &self.labels {
-            excerpt(&mut text, source, *span, &label.to_string());
+            text += &source.excerpt(*span, &label.to_string());
         }
         if let Some(help) = self.help() {
             let _ = writeln!(text, "  = {help}");
@@ -31,21 +31,26 @@ impl Diagnostic {
     }
 }
 
-/// The line where `span` starts, and carets under its part on that line.
-fn excerpt(text: &mut String, source: &Source, span: Span, note: &str) {
-    let place = source.line_column(span.start);
-    let line = source.line(place.line);
-    let column = place.column as usize - 1;
-    // A line of a generated file may be megabytes: the window moves to where the span is.
-    let fits = line.len() <= WIDTH;
-    let skip = if fits { 0 } else { column.saturating_sub(WIDTH / 2) };
-    let shown: String =
-        line.chars().skip(skip).take(WIDTH).map(|c| if c.is_control() { ' ' } else { c }).collect();
-    let width = source.slice(span).lines().next().map_or(1, |part| part.chars().count());
-    let room = shown.chars().count().saturating_sub(column - skip).max(1);
-    let number = place.line.to_string();
-    let margin = " ".repeat(number.len());
-    let (indent, carets) = (" ".repeat(column - skip), "^".repeat(width.clamp(1, room)));
-    let _ = writeln!(text, "{number} | {}", shown.trim_end());
-    let _ = writeln!(text, "{}", format!("{margin} | {indent}{carets} {note}").trim_end());
+impl Source {
+    /// The line where `span` starts, and carets under its part on that line, with a note beside them. As plain
+    /// text of two lines; the last one ends with a line end.
+    pub fn excerpt(&self, span: Span, note: &str) -> String {
+        let place = self.line_column(span.start);
+        let line = self.line(place.line);
+        let column = place.column as usize - 1;
+        // A line of a generated file may be megabytes: the window moves to where the span is.
+        let fits = line.len() <= WIDTH;
+        let skip = if fits { 0 } else { column.saturating_sub(WIDTH / 2) };
+        let shown: String =
+            line.chars().skip(skip).take(WIDTH).map(|c| if c.is_control() { ' ' } else { c }).collect();
+        let width = self.slice(span).lines().next().map_or(1, |part| part.chars().count());
+        let room = shown.chars().count().saturating_sub(column - skip).max(1);
+        let number = place.line.to_string();
+        let margin = " ".repeat(number.len());
+        let (indent, carets) = (" ".repeat(column - skip), "^".repeat(width.clamp(1, room)));
+        let mut text = String::new();
+        let _ = writeln!(text, "{number} | {}", shown.trim_end());
+        let _ = writeln!(text, "{}", format!("{margin} | {indent}{carets} {note}").trim_end());
+        text
+    }
 }

@@ -56,7 +56,7 @@ impl std::fmt::Display for SymbolKind {
 }
 
 /// What a source is read as.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum FileKind {
     /// `(define (domain …) …)`
     Domain,

@@ -1,0 +1,49 @@
+//! Warnings that catch modelling mistakes: a domain can be right PDDL and still not say what was meant.
+//!
+//! Each lint is a file: its code, its name, its explanation with a wrong and a right example, and the function that
+//! looks for it. [`all`] is the registry. A [`Linter`] looks at a domain and, one after the other, at its problems;
+//! what they say is data ([`Finding`]) with places, and with edits where a machine can mend it. A comment
+//! `; allow(unused-parameter)` on the same line or on a line of its own before it silences a lint there.
+//!
+//! ```
+//! use lints::{File, Level, Linter};
+//! use pddl::{Source, parse_domain};
+//!
+//! let source = Source::new("hall.pddl", "(define (domain hall) (:predicates (lit ?x))
+//!   (:action switch :parameters (?x ?y) :precondition (not (lit ?x)) :effect (lit ?x)))");
+//! let domain = parse_domain(&source, &[]).model.expect("no errors");
+//! let findings = Linter::new(File { source: &source, model: &domain }, Level::Default).finish();
+//! assert!(findings.iter().any(|f| f.lint.name == "unused-parameter" && f.message.contains("`?y`")));
+//! ```
+//!
+//! | module | holds |
+//! |---|---|
+//! | `lint` | what a lint is |
+//! | `registry` | all of them |
+//! | `linter` | which of them run, and what is left after the comments |
+//! | `finding` | what they say |
+//! | `allow` | the comments that silence them |
+//! | `view` | what a lint sees of a domain and a problem |
+//! | `schema`, `walk` | what bodies say, part by part, whatever they belong to |
+//! | `declarations` | W07: declarations, requirements, names |
+//! | `logic` | W08: conditions, effects, initial states, goals |
+//! | `hierarchy` | W09: tasks and methods |
+//!
+//! Codes W0850 to W0899 are for lints that need reachability or invariants.
+
+mod allow;
+mod declarations;
+mod finding;
+mod hierarchy;
+mod lint;
+mod linter;
+mod logic;
+mod registry;
+mod schema;
+mod view;
+mod walk;
+
+pub use finding::{Edit, Finding, Fix, Place};
+pub use lint::{Level, Lint};
+pub use linter::{File, Linter};
+pub use registry::{all, find};

@@ -1,0 +1,69 @@
+//! What a lint sees of a domain and a problem. What several lints need is made once, when the first one asks.
+
+use std::cell::OnceCell;
+
+use pddl::model::{Domain, Problem};
+use pddl::syntax::{self, Tree};
+use pddl::{Source, Span};
+
+use crate::allow::Allows;
+use crate::linter::File;
+use crate::schema::Schema;
+
+/// A domain.
+pub(crate) struct DomainView<'a> {
+    pub(crate) source: &'a Source,
+    pub(crate) domain: &'a Domain,
+    pub(crate) allows: Allows,
+    tree: OnceCell<Tree<'a>>,
+}
+
+impl<'a> DomainView<'a> {
+    pub(crate) fn new(file: File<'a, Domain>) -> Self {
+        let allows = Allows::of(file.source);
+        Self { source: file.source, domain: file.model, allows, tree: OnceCell::new() }
+    }
+
+    /// The text's structure, for lints about how something is written.
+    #[allow(dead_code, reason = "the first lint that needs it comes next")]
+    pub(crate) fn tree(&self) -> &Tree<'a> {
+        self.tree.get_or_init(|| syntax::parse(self.source).0)
+    }
+
+    /// Whether the model holds all that the text says: only then is what nobody names unused.
+    #[allow(dead_code, reason = "the first lint that needs it comes next")]
+    pub(crate) fn is_complete(&self) -> bool {
+        self.domain.unsupported.is_empty()
+    }
+
+    /// Everything with a body, in the order of the kinds.
+    pub(crate) fn schemas(&self) -> impl Iterator<Item = Schema<'a>> + use<'a> {
+        let domain = self.domain;
+        let actions = domain.actions.iter().map(Schema::Action);
+        let durative = domain.durative_actions.iter().map(Schema::Durative);
+        let axioms = domain.axioms.iter().map(Schema::Axiom);
+        let methods = domain.methods.iter().map(Schema::Method);
+        actions.chain(durative).chain(axioms).chain(methods)
+    }
+}
+
+/// A problem with its domain.
+#[allow(dead_code, reason = "the first lint that needs it comes next")]
+pub(crate) struct ProblemView<'a, 'd> {
+    pub(crate) domain: &'a DomainView<'d>,
+    pub(crate) source: &'a Source,
+    pub(crate) problem: &'a Problem,
+    pub(crate) allows: Allows,
+}
+
+impl<'a, 'd> ProblemView<'a, 'd> {
+    pub(crate) fn new(domain: &'a DomainView<'d>, file: File<'a, Problem>) -> Self {
+        Self { domain, source: file.source, problem: file.model, allows: Allows::of(file.source) }
+    }
+}
+
+/// Whether a declaration stands in this very file: what is imported has no place in it.
+#[allow(dead_code, reason = "the first lint that needs it comes next")]
+pub(crate) fn is_here(span: Span) -> bool {
+    span != Span::default()
+}

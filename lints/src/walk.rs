@@ -1,0 +1,124 @@
+//! Conditions, effects and expressions, part by part, from left to right.
+//!
+//! Lints match on [`Part`] instead of on the model's forms, so that a new form is added here once.
+
+use pddl::model::{
+    Application, AssignOperator, AssignedValue, Atom, Condition, ConditionKind, Effect, EffectKind,
+    Expression, ExpressionKind, PredicateId, SubtaskHead, Term, VariableId,
+};
+
+/// Whether something must be true or must be false for the whole to hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Polarity {
+    /// Under an even number of negations.
+    Positive,
+    /// Under an odd number.
+    Negative,
+}
+
+impl Polarity {
+    pub(crate) fn opposite(self) -> Self {
+        match self {
+            Self::Positive => Self::Negative,
+            Self::Negative => Self::Positive,
+        }
+    }
+}
+
+/// Something that a body says.
+#[derive(Clone, Copy, Debug)]
+#[allow(dead_code, reason = "the first lint that needs it comes next")]
+pub(crate) enum Part<'a> {
+    /// A condition asks for an atom.
+    Needs(&'a Atom, Polarity),
+    /// An effect makes it true.
+    Adds(&'a Atom),
+    /// An effect makes it false.
+    Deletes(&'a Atom),
+    /// An axiom derives a predicate.
+    Derives(PredicateId),
+    /// A fluent's value is asked for.
+    Reads(&'a Application),
+    /// An effect changes a fluent.
+    Writes(AssignOperator, &'a Application),
+    /// A quantifier binds slots.
+    Binds(&'a [VariableId]),
+    /// A term that stands anywhere else: beside `=`, as a value, as an argument of a task or a skill.
+    Term(Term),
+    /// A network has a subtask.
+    Subtask(SubtaskHead),
+}
+
+impl Part<'_> {
+    /// The terms that it holds.
+    pub(crate) fn terms(&self) -> &[Term] {
+        match self {
+            Self::Needs(atom, _) | Self::Adds(atom) | Self::Deletes(atom) => &atom.arguments,
+            Self::Reads(application) | Self::Writes(_, application) => &application.arguments,
+            Self::Term(term) => std::slice::from_ref(term),
+            Self::Binds(_) | Self::Derives(_) | Self::Subtask(_) => &[],
+        }
+    }
+}
+
+pub(crate) fn condition<'a>(of: &'a Condition, polarity: Polarity, f: &mut dyn FnMut(Part<'a>)) {
+    match &of.kind {
+        ConditionKind::And(parts) | ConditionKind::Or(parts) => {
+            parts.iter().for_each(|part| condition(part, polarity, f));
+        }
+        ConditionKind::Not(inner) => condition(inner, polarity.opposite(), f),
+        ConditionKind::Imply(left, right) => {
+            condition(left, polarity.opposite(), f);
+            condition(right, polarity, f);
+        }
+        ConditionKind::Exists(bound, inner) | ConditionKind::Forall(bound, inner) => {
+            f(Part::Binds(bound));
+            condition(inner, polarity, f);
+        }
+        ConditionKind::Atom(atom) => f(Part::Needs(atom, polarity)),
+        ConditionKind::Same(left, right) => {
+            f(Part::Term(*left));
+            f(Part::Term(*right));
+        }
+        ConditionKind::Compare(_, left, right) => {
+            expression(left, f);
+            expression(right, f);
+        }
+        ConditionKind::FluentIs(application, value) => {
+            f(Part::Reads(application));
+            f(Part::Term(*value));
+        }
+    }
+}
+
+pub(crate) fn effect<'a>(of: &'a Effect, f: &mut dyn FnMut(Part<'a>)) {
+    match &of.kind {
+        EffectKind::And(parts) => parts.iter().for_each(|part| effect(part, f)),
+        EffectKind::Add(atom) => f(Part::Adds(atom)),
+        EffectKind::Delete(atom) => f(Part::Deletes(atom)),
+        EffectKind::Assign(operator, application, value) => {
+            f(Part::Writes(*operator, application));
+            match value {
+                AssignedValue::Number(value) => expression(value, f),
+                AssignedValue::Object(value) => f(Part::Term(*value)),
+                AssignedValue::Undefined => {}
+            }
+        }
+        EffectKind::Forall(bound, inner) => {
+            f(Part::Binds(bound));
+            effect(inner, f);
+        }
+        EffectKind::When(when, inner) => {
+            condition(when, Polarity::Positive, f);
+            effect(inner, f);
+        }
+    }
+}
+
+pub(crate) fn expression<'a>(of: &'a Expression, f: &mut dyn FnMut(Part<'a>)) {
+    match &of.kind {
+        ExpressionKind::Fluent(application) => f(Part::Reads(application)),
+        ExpressionKind::Arithmetic(_, operands) => operands.iter().for_each(|operand| expression(operand, f)),
+        ExpressionKind::Number(_) | ExpressionKind::Duration | ExpressionKind::TotalTime => {}
+    }
+}
