@@ -4,7 +4,8 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::files;
 use crate::render::{At, Message};
-use mission::{FileError, Files, Finding, Sources};
+use mission::{FileError, Files};
+use project::{Finding, Place, Sources};
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
@@ -40,7 +41,7 @@ impl Files for Disk {
 /// Shows findings at their places. [`Exit::Unreadable`] if there is an error among them.
 pub(crate) fn show(sources: &Sources, findings: &[Finding], console: &mut Console<'_>) -> Exit {
     for finding in findings {
-        let place = |place: mission::Place| At { source: &sources[place.source], span: place.span };
+        let place = |place: Place| At { source: &sources[place.source], span: place.span };
         let message = Message {
             severity: finding.severity,
             code: Some(finding.code),

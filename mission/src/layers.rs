@@ -7,7 +7,7 @@
 
 use pddl::model::{Domain, FunctionId, Idx, ObjectId, PredicateId, Problem, TypeId};
 
-use crate::finding::{Place, SourceId};
+use project::{Place, SourceId};
 
 /// A model and the source it came from.
 #[derive(Clone, Debug)]

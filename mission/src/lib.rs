@@ -18,14 +18,14 @@
 //! assert!(lines.contains("tea/mission.toml:1:8: error[E0703]: `name` is an integer"));
 //! ```
 //!
-//! Map, from the ground up: `files` (paths), `finding` (what is wrong, where), `reader` (TOML with
+//! Map, from the ground up: `files` (paths), `errors` (why there is none; findings are [`project::Finding`]), `reader` (TOML with
 //! places) → `manifest` (`mission.toml`), `layers` (the PDDL) → `content` (words) → `load` → `mission` →
 //! [`scenario`], [`report`], `check` (between the layers).
 
 mod check;
 mod content;
+mod errors;
 mod files;
-mod finding;
 mod layers;
 mod load;
 mod manifest;
@@ -35,8 +35,8 @@ pub mod report;
 pub mod scenario;
 
 pub use content::{OptionWords, ReportLabels, Words};
+pub use errors::MissionErrors;
 pub use files::{FileError, Files, MemoryFiles};
-pub use finding::{Finding, MissionErrors, Place, SourceId, Sources};
 pub use layers::{Layer, Layers, Tokens};
 pub use manifest::{Budget, Manifest, Mention, Paths, ReportTokens, WordTypes};
 pub use mission::{Fallback, Mission};

@@ -13,11 +13,12 @@ use pddl::model::ObjectId;
 use pddl::{Source, Span};
 
 use crate::content::Words;
+use crate::errors::MissionErrors;
 use crate::files::{FileError, Files, join};
-use crate::finding::{Finding, MissionErrors, Place, SourceId, Sources};
 use crate::manifest::{self, Manifest};
 use crate::mission::{Fallback, Mission};
 use crate::reader::Reader;
+use project::{Finding, Place, SourceId, Sources};
 
 /// What a loader carries from file to file.
 pub(crate) struct Loader<'f> {

@@ -6,11 +6,12 @@ use pddl::Source;
 use pddl::model::{Name, TaskId};
 
 use crate::content::Words;
+use crate::errors::{MissionErrors, did_you_mean};
 use crate::files::{Files, join};
-use crate::finding::{Finding, MissionErrors, Place, SourceId, Sources, did_you_mean};
 use crate::layers::Layers;
 use crate::manifest::Manifest;
 use crate::scenario::{self, Scenario};
+use project::{Finding, Place, SourceId, Sources};
 
 /// What to do when there is no plan.
 #[derive(Clone, Debug)]

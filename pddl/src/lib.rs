@@ -28,10 +28,12 @@
 //! | [`syntax`] | tokens that tile the text, the tree over them, recovery at parentheses |
 //! | `lower` | tree to model: names, arities, types; a file for each part of the language |
 //! | [`model`] | what a file means |
+//! | `analysis` | for editors: a draft of the model whatever is wrong, and where each name occurs |
 //! | `diagnostic` | what can be wrong, with stable codes, each explained |
 //! | `print` | model to text |
 //! | `format` | text to text: the same tokens and comments, laid out anew |
 
+mod analysis;
 mod diagnostic;
 mod format;
 mod lower;
@@ -42,6 +44,9 @@ mod print;
 mod source;
 pub mod syntax;
 
+pub use analysis::{
+    Analysis, NameKind, Occurrence, Role, Symbol, analyze_domain, analyze_plan, analyze_problem,
+};
 pub use diagnostic::{
     Diagnostic, DiagnosticKind, Explanation, FileKind, Label, Severity, SymbolKind, UnknownCode,
     UnsupportedFeature, explain, explanations,

@@ -25,17 +25,17 @@ impl<M> Parsed<M> {
 /// `(:import …)` may name.
 pub fn parse_domain(source: &Source, imports: &[&Domain]) -> Parsed<Domain> {
     let (tree, diagnostics) = syntax::parse(source);
-    lower::domain(Sink::new(diagnostics), &tree, imports)
+    lower::domain(Sink::new(diagnostics), &tree, imports).parsed()
 }
 
 /// Reads a problem of `domain`.
 pub fn parse_problem(source: &Source, domain: &Domain) -> Parsed<Problem> {
     let (tree, diagnostics) = syntax::parse(source);
-    lower::problem(Sink::new(diagnostics), &tree, domain)
+    lower::problem(Sink::new(diagnostics), &tree, domain).parsed()
 }
 
 /// Reads a classical plan for `problem`. Temporal and hierarchical plans are read but have no model.
 pub fn parse_plan(source: &Source, domain: &Domain, problem: &Problem) -> Parsed<Plan> {
     let (tree, diagnostics) = syntax::parse(source);
-    lower::plan(Sink::new(diagnostics), &tree, domain, problem)
+    lower::plan(Sink::new(diagnostics), &tree, domain, problem).parsed()
 }

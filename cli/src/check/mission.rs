@@ -18,7 +18,8 @@ use crate::console::Console;
 use crate::disk::show;
 use crate::exit::Exit;
 use crate::scenario::{self, ScenarioError};
-use mission::{Finding, Mission};
+use mission::Mission;
+use project::Finding;
 use serde::Serialize;
 use std::path::Path;
 

@@ -10,8 +10,8 @@ use std::collections::BTreeMap;
 
 use pddl::model::{Name, Term};
 
-use crate::finding::{Finding, Place};
 use crate::mission::Mission;
+use project::{Finding, Place};
 
 pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
     let mut claimed: BTreeMap<(Name, i32), (Name, Place)> = BTreeMap::new();

@@ -10,9 +10,9 @@ use pddl::model::{
     Domain, DurativeAction, Effect, EffectKind, Name, Permission, Term, TimeSpecifier, TokenSymbol, TypeSet,
 };
 
-use crate::finding::{Finding, Place};
 use crate::layers::Layers;
 use crate::mission::Mission;
+use project::{Finding, Place};
 
 /// A token with the nodes that each of its arguments may be.
 struct Written {

@@ -8,8 +8,8 @@
 use std::collections::BTreeSet;
 
 use super::tokens::Tokens;
-use crate::finding::{Finding, Place};
 use crate::mission::Mission;
+use project::{Finding, Place};
 
 pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
     let (domain, perception) = (&mission.layers.domain, &mission.layers.perception.model);

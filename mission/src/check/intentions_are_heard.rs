@@ -10,8 +10,8 @@ use std::collections::BTreeSet;
 use pddl::model::{Name, TimeSpecifier};
 
 use super::tokens::{Tokens, written_by_rules};
-use crate::finding::{Finding, Place};
 use crate::mission::Mission;
+use project::{Finding, Place};
 
 pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
     let methods = &mission.layers.methods;

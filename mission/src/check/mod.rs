@@ -14,8 +14,8 @@ mod perception_is_written;
 mod tasks_of_actions;
 mod tokens;
 
-use crate::finding::Finding;
 use crate::mission::Mission;
+use project::Finding;
 
 /// A check: looks at a mission and adds what it finds.
 pub(crate) type Check = fn(&Mission, &mut Vec<Finding>);

@@ -7,8 +7,9 @@
 
 use pddl::model::{Domain, Object};
 
-use crate::finding::{Finding, Place, SourceId, did_you_mean};
+use crate::errors::did_you_mean;
 use crate::mission::Mission;
+use project::{Finding, Place, SourceId};
 
 pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
     let layers = &mission.layers;

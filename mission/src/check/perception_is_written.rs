@@ -7,8 +7,8 @@
 //! **Example** `(:derived (present ?p) (exists (?r - robot) (is_wth ?p ?r)))` after renaming a token.
 
 use super::tokens::{Tokens, written_by_intentions, written_by_rules};
-use crate::finding::{Finding, Place};
 use crate::mission::Mission;
+use project::{Finding, Place};
 
 pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
     let layers = &mission.layers;

@@ -8,8 +8,8 @@
 
 use pddl::model::{TypeSet, TypeTable};
 
-use crate::finding::{Finding, Place};
 use crate::mission::Mission;
+use project::{Finding, Place};
 
 pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
     let (domain, methods) = (&mission.layers.domain, &mission.layers.methods);

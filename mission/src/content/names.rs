@@ -10,7 +10,8 @@ use super::file::LanguageFile;
 use super::grammar::normalise;
 use super::required::{Said, place};
 use super::words::unknown_placeholders;
-use crate::finding::{Finding, Place, Sources, did_you_mean};
+use crate::errors::did_you_mean;
+use project::{Finding, Place, Sources};
 
 /// Reports every key that does not name a node of the right kind.
 pub(crate) fn check(file: &LanguageFile, said: &Said, findings: &mut Vec<Finding>) {

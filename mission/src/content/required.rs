@@ -14,8 +14,8 @@ use pddl::model::{Name, ObjectId, Term};
 
 use super::file::LanguageFile;
 use super::words::template;
-use crate::finding::{Finding, Place, Sources};
 use crate::layers::Layers;
+use project::{Finding, Place, Sources};
 
 /// What is said in one part.
 #[derive(Clone, Debug)]

@@ -5,10 +5,10 @@ use pddl::Span;
 use super::Loader;
 use crate::content::{Words, file, names, required};
 use crate::files::{join, stem};
-use crate::finding::{Finding, Place, SourceId};
 use crate::layers::Layers;
 use crate::manifest::Manifest;
 use crate::reader::Reader;
+use project::{Finding, Place, SourceId};
 
 /// The words of every language, by tag.
 pub(super) fn read(

@@ -16,7 +16,7 @@ use pddl::{Source, Span};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::finding::{Finding, Place, SourceId};
+use project::{Finding, Place, SourceId};
 
 /// What a reader of one TOML file carries along.
 pub(crate) struct Reader<'a> {

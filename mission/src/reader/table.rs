@@ -5,7 +5,8 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::{Reader, Text, span};
-use crate::finding::{Finding, did_you_mean};
+use crate::errors::did_you_mean;
+use project::Finding;
 
 /// An entry and whether it was asked for.
 struct Entry<'d> {

@@ -8,9 +8,9 @@
 use pddl::model::{Condition, Variables};
 use pddl::{Source, Span};
 
-use crate::finding::Finding;
 use crate::layers::Layers;
 use crate::reader::{Reader, Text};
+use project::Finding;
 
 /// A condition over the graph.
 #[derive(Clone, Debug)]

@@ -10,9 +10,10 @@ use pddl::model::Name;
 pub use self::step::Step;
 use super::GraphCondition;
 use super::read::node;
-use crate::finding::{Finding, did_you_mean};
+use crate::errors::did_you_mean;
 use crate::layers::Layers;
 use crate::reader::{Reader, Table};
+use project::Finding;
 
 /// A device that can be disturbed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

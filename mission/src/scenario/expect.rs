@@ -5,9 +5,10 @@ use pddl::model::Name;
 
 use super::GraphCondition;
 use super::read::node;
-use crate::finding::{Finding, did_you_mean};
+use crate::errors::did_you_mean;
 use crate::layers::Layers;
 use crate::reader::{Reader, Table, Text};
+use project::Finding;
 
 /// An expected value and where it is written.
 #[derive(Clone, Debug)]

@@ -1,5 +1,6 @@
 //! Every kind of diagnostic with its fields, its code, its sentence and its help.
 
+use crate::analysis::NameKind;
 use crate::model::Name;
 
 use super::Severity;
@@ -62,6 +63,16 @@ pub enum FileKind {
     Domain,
     /// `(define (problem …) …)`
     Problem,
+}
+
+impl FileKind {
+    /// What the name of such a file's definition is.
+    pub(crate) fn name_kind(self) -> NameKind {
+        match self {
+            Self::Domain => NameKind::Domain,
+            Self::Problem => NameKind::Problem,
+        }
+    }
 }
 
 impl std::fmt::Display for FileKind {

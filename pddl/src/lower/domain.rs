@@ -14,14 +14,14 @@ use super::htn::{method, task};
 use super::permissions::permission;
 use super::predicates::predicates;
 use super::requirements::requirements;
-use super::sink::Sink;
+use super::sink::{Lowered, Sink};
 use super::types::types;
 use super::world::World;
 use super::{imports, sink};
+use crate::Span;
 use crate::diagnostic::{DiagnosticKind, FileKind, Label, SymbolKind, UnsupportedFeature};
 use crate::model::{Domain, IndexVec, Name, SubtaskHead};
 use crate::syntax::Tree;
-use crate::{Parsed, Span};
 
 const SECTIONS: &[&str] = &[
     ":requirements",
@@ -41,14 +41,14 @@ const SECTIONS: &[&str] = &[
     ":event",
 ];
 
-pub(crate) fn domain(mut sink: Sink, tree: &Tree<'_>, given: &[&Domain]) -> Parsed<Domain> {
+pub(crate) fn domain(mut sink: Sink, tree: &Tree<'_>, given: &[&Domain]) -> Lowered<Domain> {
     let domain = header(&mut sink, tree, FileKind::Domain, SECTIONS).map(|h| read(&mut sink, &h, given));
-    let finished = sink.finish();
-    let model = domain.filter(|_| finished.sound).map(|mut domain| {
-        domain.unsupported = finished.unsupported;
+    let mut finished = sink.finish();
+    let draft = domain.map(|mut domain| {
+        domain.unsupported = std::mem::take(&mut finished.unsupported);
         domain
     });
-    Parsed { model, diagnostics: finished.diagnostics }
+    Lowered::new(draft, finished)
 }
 
 fn read(sink: &mut Sink, header: &Header<'_>, given: &[&Domain]) -> Domain {

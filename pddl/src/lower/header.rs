@@ -54,6 +54,11 @@ pub(crate) fn header<'t>(
     }
     let mut parts = define.children().skip(1);
     let title: Vec<Node<'t>> = parts.next().map(|h| h.children().collect()).unwrap_or_default();
+    if let [_, name, ..] = title.as_slice()
+        && name.is_name()
+    {
+        sink.declare(kind.name_kind(), *name, None);
+    }
     let name = match title.as_slice() {
         [_, name] if name.is_name() => Name::new(name.text()),
         [_, name, rest, ..] if name.is_name() => {

@@ -37,4 +37,4 @@ mod world;
 pub(crate) use domain::domain;
 pub(crate) use plan::plan;
 pub(crate) use problem::problem;
-pub(crate) use sink::Sink;
+pub(crate) use sink::{Lowered, Sink};

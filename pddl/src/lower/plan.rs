@@ -4,14 +4,14 @@
 //! with durations and hierarchical plans are named as unsupported.
 
 use super::body::{Applied, Body};
-use super::sink::Sink;
+use super::sink::{Lowered, Sink};
 use super::world::World;
 use crate::diagnostic::{SymbolKind, UnsupportedFeature};
 use crate::model::{ActionId, Domain, Problem, SubtaskHead};
 use crate::syntax::{Node, Tree};
-use crate::{Parsed, Plan, PlanStep};
+use crate::{Plan, PlanStep};
 
-pub(crate) fn plan(mut sink: Sink, tree: &Tree<'_>, domain: &Domain, problem: &Problem) -> Parsed<Plan> {
+pub(crate) fn plan(mut sink: Sink, tree: &Tree<'_>, domain: &Domain, problem: &Problem) -> Lowered<Plan> {
     let mut world = World::of(domain);
     for object in problem.objects.iter().skip(domain.constants.len()) {
         world.add_object(object.clone());
@@ -39,10 +39,10 @@ pub(crate) fn plan(mut sink: Sink, tree: &Tree<'_>, domain: &Domain, problem: &P
     if let Some(span) = temporal {
         sink.unsupported(span, UnsupportedFeature::TemporalPlans);
     }
-    let finished = sink.finish();
+    let mut finished = sink.finish();
     // A plan has nowhere to keep what it does not hold: without its times it is not this plan.
-    let sound = finished.sound && finished.unsupported.is_empty();
-    Parsed { model: sound.then_some(plan), diagnostics: finished.diagnostics }
+    finished.sound &= finished.unsupported.is_empty();
+    Lowered::new(Some(plan), finished)
 }
 
 fn is_step_number(node: Node<'_>) -> bool {

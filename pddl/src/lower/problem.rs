@@ -6,9 +6,8 @@ use super::header::{Header, header};
 use super::htn::initial_network;
 use super::init::Init;
 use super::requirements::requirements;
-use super::sink::{Sink, first_word};
+use super::sink::{Lowered, Sink, first_word};
 use super::world::World;
-use crate::Parsed;
 use crate::diagnostic::{DiagnosticKind, FileKind, UnsupportedFeature};
 use crate::model::{Condition, Domain, Name, Problem, Variables};
 use crate::syntax::{Node, Tree};
@@ -26,14 +25,14 @@ const SECTIONS: &[&str] = &[
     ":length",
 ];
 
-pub(crate) fn problem(mut sink: Sink, tree: &Tree<'_>, domain: &Domain) -> Parsed<Problem> {
+pub(crate) fn problem(mut sink: Sink, tree: &Tree<'_>, domain: &Domain) -> Lowered<Problem> {
     let problem = header(&mut sink, tree, FileKind::Problem, SECTIONS).map(|h| read(&mut sink, &h, domain));
-    let finished = sink.finish();
-    let model = problem.filter(|_| finished.sound).map(|mut problem| {
-        problem.unsupported = finished.unsupported;
+    let mut finished = sink.finish();
+    let draft = problem.map(|mut problem| {
+        problem.unsupported = std::mem::take(&mut finished.unsupported);
         problem
     });
-    Parsed { model, diagnostics: finished.diagnostics }
+    Lowered::new(draft, finished)
 }
 
 fn read(sink: &mut Sink, header: &Header<'_>, domain: &Domain) -> Problem {

@@ -1,8 +1,10 @@
 //! Where diagnostics go while a model is made.
 
+use crate::analysis::{NameKind, Occurrence, Role, Symbol};
 use crate::diagnostic::{Diagnostic, DiagnosticKind, Label, UnsupportedFeature, nearest};
+use crate::model::Name;
 use crate::syntax::Node;
-use crate::{Severity, Span};
+use crate::{Parsed, Severity, Span};
 
 /// Most searches for a similar name in one run: each looks at every declared name.
 const MAX_SUGGESTIONS: usize = 64;
@@ -10,16 +12,40 @@ const MAX_SUGGESTIONS: usize = 64;
 /// Longest excerpt of what was found instead, in characters.
 const MAX_FOUND: usize = 40;
 
-/// Collects diagnostics.
+/// Collects diagnostics and, if they are wanted, occurrences of names.
 #[derive(Default)]
 pub(crate) struct Sink {
     diagnostics: Vec<Diagnostic>,
     suggestions: usize,
+    occurrences: Option<Vec<Occurrence>>,
 }
 
 impl Sink {
     pub(crate) fn new(diagnostics: Vec<Diagnostic>) -> Self {
-        Self { diagnostics, suggestions: 0 }
+        Self { diagnostics, suggestions: 0, occurrences: None }
+    }
+
+    /// A sink that keeps every occurrence of a name as well.
+    pub(crate) fn recording(diagnostics: Vec<Diagnostic>) -> Self {
+        Self { occurrences: Some(Vec::new()), ..Self::new(diagnostics) }
+    }
+
+    /// `node` declares that name; of no cost unless occurrences are wanted.
+    pub(crate) fn declare(&mut self, kind: NameKind, node: Node<'_>, scope: Option<Span>) {
+        self.record(kind, node, scope, Role::Declaration);
+    }
+
+    /// `node` is a use of that name.
+    pub(crate) fn mention(&mut self, kind: NameKind, node: Node<'_>, scope: Option<Span>) {
+        self.record(kind, node, scope, Role::Use);
+    }
+
+    fn record(&mut self, kind: NameKind, node: Node<'_>, scope: Option<Span>, role: Role) {
+        if let Some(occurrences) = &mut self.occurrences {
+            let text = node.text();
+            let name = Name::new(text.strip_prefix('?').unwrap_or(text));
+            occurrences.push(Occurrence { span: node.span(), symbol: Symbol { kind, name, scope }, role });
+        }
     }
 
     pub(crate) fn report(&mut self, span: Span, kind: DiagnosticKind) {
@@ -71,7 +97,11 @@ impl Sink {
         let unsupported =
             self.diagnostics.iter().filter(|d| d.severity == Severity::Unsupported).cloned().collect();
         let sound = self.diagnostics.iter().all(|d| d.severity != Severity::Error);
-        Finished { diagnostics: self.diagnostics, unsupported, sound }
+        let mut occurrences = self.occurrences.unwrap_or_default();
+        // What stands in a `forall` around several times is read once for each.
+        occurrences.sort_by_key(|o| (o.span.start, o.span.end));
+        occurrences.dedup();
+        Finished { diagnostics: self.diagnostics, unsupported, sound, occurrences }
     }
 }
 
@@ -80,6 +110,29 @@ pub(crate) struct Finished {
     pub(crate) diagnostics: Vec<Diagnostic>,
     pub(crate) unsupported: Vec<Diagnostic>,
     pub(crate) sound: bool,
+    pub(crate) occurrences: Vec<Occurrence>,
+}
+
+/// A model as far as it could be read, with all that a sink has collected on the way.
+pub(crate) struct Lowered<M> {
+    /// `None` if there is nothing to read in the file.
+    pub(crate) draft: Option<M>,
+    /// Whether the draft is the whole meaning of the file.
+    pub(crate) sound: bool,
+    pub(crate) diagnostics: Vec<Diagnostic>,
+    pub(crate) occurrences: Vec<Occurrence>,
+}
+
+impl<M> Lowered<M> {
+    pub(crate) fn new(draft: Option<M>, finished: Finished) -> Self {
+        let Finished { diagnostics, sound, occurrences, .. } = finished;
+        Self { draft, sound, diagnostics, occurrences }
+    }
+
+    /// The model only if nothing is wrong.
+    pub(crate) fn parsed(self) -> Parsed<M> {
+        Parsed { model: self.draft.filter(|_| self.sound), diagnostics: self.diagnostics }
+    }
 }
 
 /// The node's text, short enough for a sentence.

@@ -1,0 +1,29 @@
+//! Where a name is used, over all files of the project.
+
+use pddl::Role;
+use project::{Place, Project};
+
+use crate::Position;
+
+/// Whether declarations count as references.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Declarations {
+    /// They do.
+    Included,
+    /// They do not.
+    Excluded,
+}
+
+/// A name where it stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Reference {
+    /// Where.
+    pub place: Place,
+    /// Whether it declares or uses.
+    pub role: Role,
+}
+
+/// Every place of the project at which the name at a position stands; `None` if there is no name.
+pub fn references(_project: &Project, _at: Position, _declarations: Declarations) -> Option<Vec<Reference>> {
+    None
+}

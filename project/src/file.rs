@@ -1,0 +1,77 @@
+//! A file as it was read.
+
+use pddl::model::{Domain, Problem};
+use pddl::{Analysis, Diagnostic, Occurrence, Plan};
+use serde::Serialize;
+
+/// What a file is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum FileKind {
+    /// `(define (domain …`, or anything that is nothing else.
+    Domain,
+    /// `(define (problem …`
+    Problem,
+    /// A plan, known by the file's name.
+    Plan,
+}
+
+impl FileKind {
+    /// Whether a file of that path holds a plan: `*.plan`, `*.soln`, `plan`, and `sas_plan` with or without a
+    /// number behind it.
+    pub fn is_plan(path: &str) -> bool {
+        let name = path.rsplit('/').next().unwrap_or(path).to_ascii_lowercase();
+        let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
+        matches!(extension, "plan" | "soln")
+            || matches!(name.as_str(), "plan" | "sas_plan")
+            || name.starts_with("sas_plan.")
+    }
+
+    /// Whether a file of that path belongs into a project at all: a plan, `*.pddl` or `*.hddl`.
+    pub fn is_source(path: &str) -> bool {
+        let extension = path.rsplit_once('.').map_or("", |(_, extension)| extension);
+        extension.eq_ignore_ascii_case("pddl")
+            || extension.eq_ignore_ascii_case("hddl")
+            || Self::is_plan(path)
+    }
+}
+
+/// The model of a file as far as it could be read, with what was said and which names stand where.
+#[derive(Clone, Debug)]
+pub enum Reading {
+    /// A domain, vocabulary, rules, perception or methods.
+    Domain(Analysis<Domain>),
+    /// A problem.
+    Problem(Analysis<Problem>),
+    /// A plan.
+    Plan(Analysis<Plan>),
+}
+
+impl Reading {
+    /// Where names stand, in order of place.
+    pub fn occurrences(&self) -> &[Occurrence] {
+        match self {
+            Self::Domain(a) => &a.occurrences,
+            Self::Problem(a) => &a.occurrences,
+            Self::Plan(a) => &a.occurrences,
+        }
+    }
+
+    /// What the language has to say about the file.
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        match self {
+            Self::Domain(a) => &a.diagnostics,
+            Self::Problem(a) => &a.diagnostics,
+            Self::Plan(a) => &a.diagnostics,
+        }
+    }
+
+    /// Whether the draft is the whole meaning of the file.
+    pub fn is_sound(&self) -> bool {
+        match self {
+            Self::Domain(a) => a.sound,
+            Self::Problem(a) => a.sound,
+            Self::Plan(a) => a.sound,
+        }
+    }
+}
