@@ -8,6 +8,7 @@ use super::init::Init;
 use super::requirements::requirements;
 use super::sink::{Lowered, Sink, first_word};
 use super::world::World;
+use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, FileKind, UnsupportedFeature};
 use crate::model::{Condition, Domain, Name, Problem, Variables};
 use crate::syntax::{Node, Tree};
@@ -73,7 +74,11 @@ fn check_domain(sink: &mut Sink, header: &Header<'_>, domain: &Domain) {
     let Some(section) = header.one(sink, ":domain") else {
         return sink.missing(header.define, "the problem", "`(:domain NAME)`");
     };
-    match section.children().nth(1) {
+    let name = section.children().nth(1);
+    if let Some(name) = name.filter(|n| n.is_name()) {
+        sink.mention(NameKind::Domain, name, None);
+    }
+    match name {
         Some(name) if name.is(&domain.name) => {}
         Some(name) if name.is_name() => {
             let (found, expected) = (Name::new(name.text()), domain.name.clone());
