@@ -6,45 +6,13 @@ mod support;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-use pddl::syntax::{self, TokenKind};
 use pddl::{Source, parse_domain, parse_problem};
 use proptest::prelude::*;
+use support::properties::check_formatted as check;
 
 fn read(path: &Path) -> Source {
     let bytes = std::fs::read(path).expect("the file can be read");
     Source::from_bytes(path.display().to_string(), bytes)
-}
-
-/// Everything but white space; of comments all but the blanks at their end.
-fn words(source: &Source) -> Vec<(TokenKind, &str)> {
-    let (tree, _) = syntax::parse(source);
-    let tokens = tree.tokens().iter().filter(|(kind, _)| *kind != TokenKind::Whitespace);
-    tokens.map(|(kind, span)| (kind, source.slice(span).trim_end())).collect()
-}
-
-/// Whether it could be formatted; panics if an invariant does not hold.
-fn check(source: &Source) -> bool {
-    let text = match pddl::format(source) {
-        Ok(text) => text,
-        Err(diagnostics) => {
-            assert!(!diagnostics.is_empty());
-            return false;
-        }
-    };
-    let formatted = Source::new(source.name(), text);
-    assert!(words(source) == words(&formatted), "{}: other tokens\n{}", source.name(), formatted.text());
-    let again = pddl::format(&formatted).expect("it is as balanced as before");
-    if formatted.text() != again {
-        let (line, (a, b)) = (1..)
-            .zip(formatted.text().lines().zip(again.lines()))
-            .find(|(_, (a, b))| a != b)
-            .expect("they differ in a line");
-        panic!("{}: formatting twice differs in line {line}:\n{a}\n{b}", source.name());
-    }
-    assert!(again.is_empty() || again.ends_with('\n') && !again.ends_with("\n\n"));
-    assert!(again.lines().all(|l| !l.ends_with([' ', '\t', '\r'])), "blanks at a line's end\n{again}");
-    assert!(!again.contains("\n\n\n"));
-    true
 }
 
 /// Comparing models by their text is for files of a size that people write.

@@ -6,9 +6,9 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use pddl::model::Domain;
-use pddl::syntax;
-use pddl::{Source, parse_domain, parse_plan, parse_problem};
+use pddl::{Source, parse_domain};
 use proptest::prelude::*;
+use support::properties::{check_domain, check_plan, check_problem, check_text};
 
 /// The good and bad cases, as material to mutate.
 static TEXTS: LazyLock<Vec<String>> = LazyLock::new(|| {
@@ -25,19 +25,10 @@ static VOCABULARY: LazyLock<Domain> = LazyLock::new(|| {
 /// Reads the text as everything it could be.
 fn read(text: &str) {
     let source = Source::new("text", text);
-    let (tree, _) = syntax::parse(&source);
-    assert_eq!(tree.text(), text);
-    let imports = [&*VOCABULARY];
-    let parsed = parse_domain(&source, &imports);
-    for diagnostic in &parsed.diagnostics {
-        diagnostic.describe(&source);
-    }
-    let Some(domain) = parsed.model else { return };
-    support::check_domain_printed(&domain, &imports);
-    let parsed = parse_problem(&source, &domain);
-    let Some(problem) = parsed.model else { return };
-    support::check_problem_printed(&problem, &domain);
-    parse_plan(&source, &domain, &problem);
+    check_text(&source);
+    let Some(domain) = check_domain(&source, &[&*VOCABULARY]) else { return };
+    let Some(problem) = check_problem(&source, &domain) else { return };
+    check_plan(&source, &domain, &problem);
 }
 
 #[derive(Clone, Debug)]

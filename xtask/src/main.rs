@@ -6,6 +6,7 @@
 mod arrows;
 mod cargo;
 mod dependencies;
+mod fuzz;
 mod record;
 mod sources;
 
@@ -18,15 +19,19 @@ const HELP: &str = "cargo xtask COMMAND
   tidy   the arrows of ARCHITECTURE.md equal those of cargo, no dependency is idle, every source keeps the
          house rules
   ci     test, lint, tidy
+  fuzz [TARGET] [SECONDS]
+         fuzzes the PDDL front end, 600 s a target; needs `cargo install cargo-fuzz`
   record draws docs/figure-8.svg, the README's picture, from a run
 ";
 
 fn main() -> ExitCode {
-    let command = std::env::args().nth(1).unwrap_or_default();
+    let mut arguments = std::env::args().skip(1);
+    let command = arguments.next().unwrap_or_default();
     let done = match command.as_str() {
         "test" => test(),
         "lint" => lint(),
         "tidy" => tidy(),
+        "fuzz" => fuzz::fuzz(&arguments.collect::<Vec<_>>()),
         "record" => record::record(),
         "ci" => test().and_then(|()| lint()).and_then(|()| tidy()),
         _ => {
@@ -54,6 +59,8 @@ enum Failure {
     Metadata(#[from] cargo_metadata::Error),
     #[error("{0}: {1}")]
     File(String, std::io::Error),
+    #[error("there is no file fuzz/targets/{0}.rs")]
+    NoTarget(String),
     #[error("{0} finding(s), listed above")]
     Findings(usize),
 }

@@ -1,6 +1,8 @@
 //! What several test files share: finding files, and comparing models without their spans.
 #![allow(dead_code, reason = "each test file uses a part of it")]
 
+pub(crate) mod properties;
+
 use std::path::{Path, PathBuf};
 
 use pddl::model::{Domain, Problem};

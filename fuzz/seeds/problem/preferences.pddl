@@ -1,0 +1,6 @@
+(define (domain d) (:requirements :preferences :constraints) (:predicates (p) (q ?x)) (:functions (total-cost))
+(:action a :precondition (preference one (p)) :effect (increase (total-cost) 1)))
+(define (problem e) (:domain d) (:objects a b) (:init (p) (at 5 (not (p))) (= (total-cost) 0))
+(:goal (and (preference two (p)) (forall (?x) (preference three (q ?x)))))
+(:constraints (and (always (p)) (preference four (within 5 (q a)))))
+(:metric minimize (+ (* 2 (is-violated two)) (total-cost) total-time)))

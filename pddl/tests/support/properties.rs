@@ -1,0 +1,103 @@
+//! What must hold of every text, good or bad. Tests and fuzz targets call the same checks.
+//!
+//! No reading panics; the tree keeps every byte and its nodes lie within each other; a diagnostic stands inside
+//! the text and cuts no character; formatting keeps the words and is done after one time; a model prints to itself.
+
+use pddl::model::{Domain, Problem};
+use pddl::syntax::{self, Node, TokenKind};
+use pddl::{Diagnostic, Source, Span, parse_domain, parse_plan, parse_problem};
+
+/// What holds of a text whatever it is.
+pub(crate) fn check_text(source: &Source) {
+    let (tree, diagnostics) = syntax::parse(source);
+    assert_eq!(tree.text(), source.text());
+    check_places(source, &diagnostics);
+    let whole = Span::new(0, u32::try_from(source.text().len()).expect("texts of tests are short"));
+    check_nodes(tree.roots(), whole);
+    check_formatted(source);
+}
+
+/// The nodes follow each other inside the span of what holds them.
+fn check_nodes<'t>(nodes: impl Iterator<Item = Node<'t>>, within: Span) {
+    let mut free = within.start;
+    for node in nodes {
+        let span = node.span();
+        assert!(free <= span.start && span.start < span.end && span.end <= within.end, "{node:?}");
+        free = span.end;
+        check_nodes(node.children(), span);
+    }
+}
+
+/// Reads the text as a domain.
+pub(crate) fn check_domain(source: &Source, imports: &[&Domain]) -> Option<Domain> {
+    let parsed = parse_domain(source, imports);
+    check_places(source, &parsed.diagnostics);
+    assert_eq!(parsed.model.is_none(), parsed.errors().next().is_some());
+    let domain = parsed.model?;
+    super::check_domain_printed(&domain, imports);
+    Some(domain)
+}
+
+/// Reads the text as a problem of `domain`.
+pub(crate) fn check_problem(source: &Source, domain: &Domain) -> Option<Problem> {
+    let parsed = parse_problem(source, domain);
+    check_places(source, &parsed.diagnostics);
+    assert_eq!(parsed.model.is_none(), parsed.errors().next().is_some());
+    let problem = parsed.model?;
+    super::check_problem_printed(&problem, domain);
+    Some(problem)
+}
+
+/// Reads the text as a plan for `problem`.
+pub(crate) fn check_plan(source: &Source, domain: &Domain, problem: &Problem) {
+    let parsed = parse_plan(source, domain, problem);
+    check_places(source, &parsed.diagnostics);
+    let Some(plan) = parsed.model else { return };
+    let printed = Source::new("printed", pddl::print_plan(&plan, domain, problem));
+    let again = parse_plan(&printed, domain, problem);
+    let Some(model) = again.model else { panic!("{}", super::describe(&printed, &again.diagnostics)) };
+    super::similar(&super::without_spans(&plan), &super::without_spans(&model), printed.text());
+    assert_eq!(printed.text(), pddl::print_plan(&model, domain, problem));
+}
+
+/// Diagnostics come in order, stand in the text between characters, and can be shown.
+fn check_places(source: &Source, diagnostics: &[Diagnostic]) {
+    for diagnostic in diagnostics {
+        for span in std::iter::once(diagnostic.span).chain(diagnostic.labels.iter().map(|(span, _)| *span)) {
+            assert!(source.text().get(span.range()).is_some(), "{span:?} of {diagnostic:?}");
+        }
+        assert!(!diagnostic.describe(source).is_empty());
+    }
+}
+
+/// Everything but white space; of comments all but the blanks at their end.
+fn words(source: &Source) -> Vec<(TokenKind, &str)> {
+    let (tree, _) = syntax::parse(source);
+    let tokens = tree.tokens().iter().filter(|(kind, _)| *kind != TokenKind::Whitespace);
+    tokens.map(|(kind, span)| (kind, source.slice(span).trim_end())).collect()
+}
+
+/// Whether the text could be formatted; panics if an invariant does not hold.
+pub(crate) fn check_formatted(source: &Source) -> bool {
+    let text = match pddl::format(source) {
+        Ok(text) => text,
+        Err(diagnostics) => {
+            assert!(!diagnostics.is_empty());
+            return false;
+        }
+    };
+    let formatted = Source::new(source.name(), text);
+    assert!(words(source) == words(&formatted), "{}: other tokens\n{}", source.name(), formatted.text());
+    let again = pddl::format(&formatted).expect("it is as balanced as before");
+    if formatted.text() != again {
+        let (line, (a, b)) = (1..)
+            .zip(formatted.text().lines().zip(again.lines()))
+            .find(|(_, (a, b))| a != b)
+            .expect("they differ in a line");
+        panic!("{}: formatting twice differs in line {line}:\n{a}\n{b}", source.name());
+    }
+    assert!(again.is_empty() || again.ends_with('\n') && !again.ends_with("\n\n"));
+    assert!(again.lines().all(|l| !l.ends_with([' ', '\t', '\r'])), "blanks at a line's end\n{again}");
+    assert!(!again.contains("\n\n\n"));
+    true
+}

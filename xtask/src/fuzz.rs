@@ -1,0 +1,49 @@
+//! Fuzzing the PDDL front end: builds the targets of `fuzz/` and runs them one after the other.
+//!
+//! Each starts from its seeds and the cases of `pddl/test_data`; what libFuzzer adds goes to `fuzz/corpus`, a
+//! finding to `fuzz/artifacts` (both outside of git). Without a sanitizer: the crates forbid `unsafe`, so all that
+//! can be found is a panic, an overflow (checked here), a hang or too much memory, and that at twice the speed.
+
+use crate::{Failure, cargo};
+use std::path::Path;
+
+/// Seconds for each target if none are named.
+const SECONDS: &str = "600";
+
+/// Runs one target, or all, for that many seconds each.
+pub(crate) fn fuzz(arguments: &[String]) -> Result<(), Failure> {
+    let is_number = |word: &&String| word.bytes().all(|b| b.is_ascii_digit());
+    let seconds = arguments.iter().find(is_number).map_or(SECONDS, String::as_str);
+    let wanted = arguments.iter().find(|word| !is_number(word));
+    let mut targets = targets(&cargo::root())?;
+    targets.retain(|target| wanted.is_none_or(|wanted| wanted == target));
+    if targets.is_empty() {
+        return Err(Failure::NoTarget(wanted.cloned().unwrap_or_default()));
+    }
+    cargo::run(&["fuzz", "build", "--sanitizer", "none"])?;
+    targets.iter().try_for_each(|target| run(&cargo::root(), target, seconds))
+}
+
+fn run(root: &Path, target: &str, seconds: &str) -> Result<(), Failure> {
+    let corpus = format!("fuzz/corpus/{target}");
+    std::fs::create_dir_all(root.join(&corpus)).map_err(|error| Failure::File(corpus.clone(), error))?;
+    let (seeds, time) = (format!("fuzz/seeds/{target}"), format!("-max_total_time={seconds}"));
+    let cases = ["pddl/test_data/ok", "pddl/test_data/err", "pddl/test_data/format"];
+    let mut command = vec!["fuzz", "run", "--sanitizer", "none", target, &corpus, &seeds];
+    command.extend(cases);
+    command.extend([
+        "--",
+        "-dict=fuzz/pddl.dict",
+        "-max_len=4096",
+        "-timeout=10",
+        "-print_final_stats=1",
+        &time,
+    ]);
+    cargo::run(&command)
+}
+
+/// The names of the files in `fuzz/targets`.
+fn targets(root: &Path) -> Result<Vec<String>, Failure> {
+    let files = crate::sources::rust_files(&root.join("fuzz/targets"))?;
+    Ok(files.iter().filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned())).collect())
+}
