@@ -313,6 +313,7 @@ impl Writer<'_> {
         match frame.style {
             Style::Keys if piece.kind == TokenKind::Keyword => line,
             Style::Keys => match frame.key {
+                None if kept && frame.parts >= frame.beside => line,
                 None => Gap::Blank,
                 Some(0) if self.is_better_below(index, frame.indent + 2) => Gap::Line(frame.indent + 2),
                 Some(0) => Gap::Blank,

@@ -1,0 +1,4 @@
+(defined (omain d)
+ (:types a - b
+         d - d
+         e - :key f))
