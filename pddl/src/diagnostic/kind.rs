@@ -36,6 +36,21 @@ pub enum SymbolKind {
     Requirement,
 }
 
+impl SymbolKind {
+    /// What a name that was to be this would be a name of; `None` where the place says it already.
+    pub(crate) fn name_kind(self) -> Option<NameKind> {
+        Some(match self {
+            Self::Predicate | Self::Token => NameKind::Predicate,
+            Self::Function => NameKind::Function,
+            Self::Object => NameKind::Object,
+            Self::Action => NameKind::Action,
+            Self::Task | Self::TaskOrAction => NameKind::Task,
+            Self::Method => NameKind::Method,
+            Self::Type | Self::Variable | Self::Subtask | Self::Domain | Self::Requirement => return None,
+        })
+    }
+}
+
 impl std::fmt::Display for SymbolKind {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {

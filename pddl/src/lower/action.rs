@@ -5,6 +5,7 @@ use super::keys::Keys;
 use super::sink::{Sink, first_word};
 use super::world::World;
 use crate::Span;
+use crate::analysis::NameKind;
 use crate::diagnostic::UnsupportedFeature;
 use crate::model::{Action, Condition, Effect, Name};
 use crate::syntax::Node;
@@ -13,10 +14,12 @@ use crate::syntax::Node;
 pub(super) fn named<'t>(
     sink: &mut Sink,
     section: Node<'t>,
+    kind: NameKind,
     what: &str,
 ) -> Option<(Name, Span, std::iter::Skip<crate::syntax::Children<'t>>)> {
     match section.children().nth(1) {
         Some(name) if name.is_name() => {
+            sink.declare(kind, name, None);
             Some((Name::new(name.text()), name.span(), section.children().skip(2)))
         }
         Some(other) => {
@@ -50,9 +53,10 @@ impl Body<'_> {
 }
 
 pub(crate) fn action(world: &World, sink: &mut Sink, section: Node<'_>) -> Option<Action> {
-    let (name, name_span, rest) = named(sink, section, "the action")?;
+    let (name, name_span, rest) = named(sink, section, NameKind::Action, "the action")?;
     let keys = Keys::read(sink, rest, "an action", &[":parameters", ":vars", ":precondition", ":effect"]);
     let mut body = Body::new(world, sink);
+    body.schema.scope = section.span();
     body.parameters(&keys);
     if let (Some(key), Some(node)) = (keys.key(":vars"), keys.get(":vars")) {
         body.sink.unsupported(key.span(), UnsupportedFeature::ActionVariables);

@@ -5,6 +5,7 @@
 use super::body::Body;
 use super::sink::Sink;
 use super::world::World;
+use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, SymbolKind};
 use crate::model::{Axiom, PredicateId, TypeTable};
 use crate::syntax::Node;
@@ -16,6 +17,7 @@ pub(crate) fn derived_predicate(world: &World, section: Node<'_>) -> Option<Pred
 
 pub(crate) fn axiom(world: &World, sink: &mut Sink, section: Node<'_>) -> Option<Axiom> {
     let mut body = Body::new(world, sink);
+    body.schema.scope = section.span();
     let [head, condition] = body.parts(section, "`(:derived (PREDICATE ?x …) CONDITION)`")?;
     let Some(symbol) = head.head().filter(|h| h.is_name()) else {
         body.sink.unexpected(head, "a predicate with its variables such as `(p ?x)`");
@@ -25,6 +27,7 @@ pub(crate) fn axiom(world: &World, sink: &mut Sink, section: Node<'_>) -> Option
         world.unknown(body.sink, symbol, SymbolKind::Predicate);
         return None;
     };
+    body.sink.mention(NameKind::Predicate, symbol, None);
     let predicate = &world.predicates[id];
     let parameters = predicate.variables.parameters();
     let faults = body.sink.count();

@@ -7,6 +7,7 @@
 use super::schema::Schema;
 use super::sink::Sink;
 use super::world::World;
+use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, SymbolKind, UnsupportedFeature};
 use crate::model::{Name, ObjectId, Term, TypeSet, Variable, VariableId};
 use crate::syntax::{Node, NodeKind};
@@ -49,6 +50,7 @@ impl<'a> Body<'a> {
     pub(super) fn variable(&mut self, node: Node<'_>) -> Option<VariableId> {
         let name = &node.text()[1..];
         let found = self.schema.find(name);
+        self.sink.mention(NameKind::Variable, node, found.and_then(|v| self.schema.scope_of(v)));
         if found.is_none() {
             let near = self.sink.suggest(name, self.schema.names()).map(|n| format!("?{n}"));
             let kind = DiagnosticKind::Unknown {
@@ -63,6 +65,9 @@ impl<'a> Body<'a> {
 
     pub(super) fn object(&mut self, node: Node<'_>) -> Option<ObjectId> {
         let found = self.world.object(node.text());
+        if found.is_some() {
+            self.sink.mention(NameKind::Object, node, None);
+        }
         if found.is_none() {
             self.world.unknown(self.sink, node, SymbolKind::Object);
         }
@@ -155,15 +160,14 @@ impl<'a> Body<'a> {
         let parts: Vec<Node<'t>> = node.children().skip(1).collect();
         match parts.as_slice() {
             [variables, rest] if variables.is_list() => {
-                let (world, before) = (self.world, self.schema.variables.slots.len());
-                let bound = self.schema.bind(world, self.sink, variables.children());
+                let before = self.schema.variables.slots.len();
+                let bound = self.bind(node, *variables);
                 debug_assert_eq!(bound.len(), self.schema.variables.slots.len() - before);
                 Some((bound, *rest))
             }
             [variables, rest, more, ..] if variables.is_list() => {
                 self.sink.unexpected(*more, "the end of the quantifier");
-                let bound = self.schema.bind(self.world, self.sink, variables.children());
-                Some((bound, *rest))
+                Some((self.bind(node, *variables), *rest))
             }
             [variables, ..] if !variables.is_list() => {
                 self.sink.unexpected(*variables, "a list of variables such as `(?x - type)`");
@@ -173,6 +177,21 @@ impl<'a> Body<'a> {
                 self.sink.missing(node, "the quantifier", "body");
                 None
             }
+        }
+    }
+
+    /// Binds the variables of a list; outside of `quantifier` they mean nothing.
+    fn bind(&mut self, quantifier: Node<'_>, variables: Node<'_>) -> Vec<VariableId> {
+        let around = std::mem::replace(&mut self.schema.scope, quantifier.span());
+        let bound = self.schema.bind(self.world, self.sink, variables.children());
+        self.schema.scope = around;
+        bound
+    }
+
+    /// What an unknown symbol is applied to may have errors of its own.
+    pub(super) fn stray_terms(&mut self, node: Node<'_>) {
+        for part in node.children().skip(1).filter(|part| part.kind() == NodeKind::Variable) {
+            self.variable(part);
         }
     }
 

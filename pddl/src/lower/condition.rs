@@ -5,6 +5,7 @@
 //! its sides are.
 
 use super::body::{Applied, Body};
+use crate::analysis::NameKind;
 use crate::diagnostic::{SymbolKind, UnsupportedFeature};
 use crate::model::{
     Atom, Comparison, Condition, ConditionKind, FunctionValue, ObjectId, PredicateId, Term, TypeSet,
@@ -99,6 +100,7 @@ impl Body<'_> {
             self.sink.unsupported(node.span(), UnsupportedFeature::TrajectoryConstraints);
         } else {
             self.world.unknown(self.sink, head, SymbolKind::Predicate);
+            self.stray_terms(node);
         }
         None
     }
@@ -113,6 +115,9 @@ impl Body<'_> {
 
     /// `(p t …)` with a predicate that is known.
     pub(super) fn atom(&mut self, node: Node<'_>, id: PredicateId) -> Option<Atom> {
+        if let Some(head) = node.head() {
+            self.sink.mention(NameKind::Predicate, head, None);
+        }
         let predicate = &self.world.predicates[id];
         let of = Applied {
             symbol: SymbolKind::Predicate,

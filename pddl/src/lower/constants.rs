@@ -7,6 +7,7 @@
 use super::sink::Sink;
 use super::typed_list::typed_list;
 use super::world::World;
+use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, Label, SymbolKind};
 use crate::model::{Domain, IndexVec, Name, Object, ObjectId, TypeSet};
 use crate::syntax::Node;
@@ -48,6 +49,7 @@ pub(crate) fn objects<'t>(
 
 fn declare(world: &mut World, sink: &mut Sink, item: Node<'_>, types: TypeSet, foreign: Foreign<'_>) {
     let name = Name::new(item.text());
+    sink.declare(NameKind::Object, item, None);
     let symbol = SymbolKind::Object;
     let Some(first) = world.object(&name) else {
         world.add_object(Object { name, types, span: item.span() });

@@ -8,6 +8,7 @@ use super::body::Body;
 use super::keys::Keys;
 use super::sink::Sink;
 use super::world::World;
+use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, UnsupportedFeature};
 use crate::model::{
     Comparison, DurationConstraint, DurativeAction, Name, Requirement, Rule, SkillCall, Term, VariableId,
@@ -20,9 +21,10 @@ const KEYS: &[&str] =
     &[":parameters", ":duration", ":condition", ":effect", ":skill", ":results", ":claims", ":priority"];
 
 pub(crate) fn durative_action(world: &World, sink: &mut Sink, section: Node<'_>) -> Option<DurativeAction> {
-    let (name, name_span, rest) = named(sink, section, "the durative action")?;
+    let (name, name_span, rest) = named(sink, section, NameKind::Action, "the durative action")?;
     let keys = Keys::read(sink, rest, "a durative action", KEYS);
     let mut body = Body::new(world, sink);
+    body.schema.scope = section.span();
     body.parameters(&keys);
     body.schema.durative = true;
     let results = body.results(&keys);
@@ -121,6 +123,7 @@ impl Body<'_> {
             self.sink.unexpected(node, "a skill and what it is given, such as `(say ?text)`");
             return None;
         };
+        self.sink.mention(NameKind::Skill, name, None);
         let arguments = self.terms(node.children().skip(1));
         Some(SkillCall { name: Name::new(name.text()), arguments, span: node.span() })
     }

@@ -85,6 +85,7 @@ impl Body<'_> {
         }
         let Some(id) = self.world.predicate(head.text()) else {
             self.world.unknown(self.sink, head, SymbolKind::Predicate);
+            self.stray_terms(node);
             return None;
         };
         let predicate = &self.world.predicates[id];

@@ -1,6 +1,7 @@
 //! Numeric expressions and applications of functions.
 
 use super::body::{Applied, Body};
+use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, SymbolKind, UnsupportedFeature};
 use crate::model::{Application, ArithmeticOperator, Expression, ExpressionKind, FunctionValue};
 use crate::syntax::{Node, NodeKind};
@@ -107,8 +108,10 @@ impl Body<'_> {
         };
         let Some(id) = self.world.function(head.text()) else {
             self.world.unknown(self.sink, head, SymbolKind::Function);
+            self.stray_terms(node);
             return None;
         };
+        self.sink.mention(NameKind::Function, head, None);
         let function = &self.world.functions[id];
         let of = Applied {
             symbol: SymbolKind::Function,

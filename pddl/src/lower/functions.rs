@@ -4,6 +4,7 @@ use super::predicates::{Earlier, parameters, repeated, same_parameters};
 use super::sink::Sink;
 use super::typed_list::typed_list;
 use super::world::World;
+use crate::analysis::NameKind;
 use crate::diagnostic::SymbolKind;
 use crate::model::{Domain, Function, FunctionValue, Name};
 use crate::syntax::Node;
@@ -28,6 +29,7 @@ pub(crate) fn functions<'t>(
                 Some(t) => FunctionValue::Object(world.type_set(sink, Some(t))),
             };
             let name = Name::new(head.text());
+            sink.declare(NameKind::Function, head, None);
             let variables = parameters(world, sink, node);
             if let Some(first) = world.function(&name) {
                 let declared = &world.functions[first];

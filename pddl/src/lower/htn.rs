@@ -12,6 +12,7 @@ use super::body::{Applied, Body};
 use super::keys::Keys;
 use super::sink::{Sink, first_word};
 use super::world::{Signature, World, fold};
+use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, Label, SymbolKind, UnsupportedFeature};
 use crate::model::{
     CompoundTask, Condition, ConditionKind, Method, Name, Ordering, Subtask, SubtaskHead, TaskId,
@@ -45,18 +46,20 @@ const NETWORK_KEYS: &[&str] = &[
 ];
 
 pub(crate) fn task(world: &World, sink: &mut Sink, section: Node<'_>) -> Option<CompoundTask> {
-    let (name, _, rest) = named(sink, section, "the task")?;
+    let (name, _, rest) = named(sink, section, NameKind::Task, "the task")?;
     // HDDL's grammar allows a task conditions and effects that no planner reads.
     let keys = Keys::read(sink, rest, "a task", &[":parameters", ":precondition", ":effect"]);
     let mut body = Body::new(world, sink);
+    body.schema.scope = section.span();
     body.parameters(&keys);
     Some(CompoundTask { name, variables: body.schema.variables, span: section.span() })
 }
 
 pub(crate) fn method(world: &World, sink: &mut Sink, section: Node<'_>) -> Option<Method> {
-    let (name, _, rest) = named(sink, section, "the method")?;
+    let (name, _, rest) = named(sink, section, NameKind::Method, "the method")?;
     let keys = Keys::read(sink, rest, "a method", METHOD_KEYS);
     let mut body = Body::new(world, sink);
+    body.schema.scope = section.span();
     body.parameters(&keys);
     let task = match keys.get(":task") {
         Some(node) => body.decomposed(node),
@@ -78,6 +81,7 @@ pub(crate) fn method(world: &World, sink: &mut Sink, section: Node<'_>) -> Optio
 pub(crate) fn initial_network(world: &World, sink: &mut Sink, section: Node<'_>) -> (Variables, TaskNetwork) {
     let keys = Keys::read(sink, section.children().skip(1), "a task network", NETWORK_KEYS);
     let mut body = Body::new(world, sink);
+    body.schema.scope = section.span();
     body.parameters(&keys);
     if let Some(node) = keys.get(":constraints")
         && !body.condition(node).is_always()
@@ -109,8 +113,10 @@ impl Body<'_> {
         let signature = world.task_or_action(head.text());
         let Some((signature, SubtaskHead::Task(task))) = signature.map(|s| (s, s.head)) else {
             world.unknown(self.sink, head, SymbolKind::Task);
+            self.stray_terms(node);
             return None;
         };
+        self.sink.mention(NameKind::Task, head, None);
         let arguments = self.signature_arguments(node, SymbolKind::Task, signature)?;
         Some((task, arguments))
     }
@@ -192,6 +198,9 @@ impl Body<'_> {
             }
             _ => (None, node),
         };
+        if let Some(id) = id {
+            self.sink.declare(NameKind::Subtask, id, Some(self.schema.scope));
+        }
         if let Some(id) = id
             && let Some(first) = network.subtasks.iter().find(|s| s.id.as_deref() == Some(&*fold(id.text())))
         {
@@ -205,12 +214,14 @@ impl Body<'_> {
         let world = self.world;
         let Some(signature) = world.task_or_action(name.text()) else {
             world.unknown(self.sink, name, SymbolKind::TaskOrAction);
+            self.stray_terms(call);
             return None;
         };
-        let symbol = match signature.head {
-            SubtaskHead::Task(_) => SymbolKind::Task,
-            SubtaskHead::Action(_) | SubtaskHead::DurativeAction(_) => SymbolKind::Action,
+        let (symbol, kind) = match signature.head {
+            SubtaskHead::Task(_) => (SymbolKind::Task, NameKind::Task),
+            SubtaskHead::Action(_) | SubtaskHead::DurativeAction(_) => (SymbolKind::Action, NameKind::Action),
         };
+        self.sink.mention(kind, name, None);
         let arguments = self.signature_arguments(call, symbol, signature)?;
         let id = id.map(|n| Name::new(n.text()));
         Some(Subtask { id, head: signature.head, arguments, span: node.span() })
@@ -250,6 +261,9 @@ impl Body<'_> {
         subtasks: Option<Node<'_>>,
         network: &TaskNetwork,
     ) -> Option<u32> {
+        if !node.is_list() {
+            self.sink.mention(NameKind::Subtask, node, Some(self.schema.scope));
+        }
         let wanted = fold(node.text());
         let ids = || network.subtasks.iter().filter_map(|s| s.id.as_deref());
         let found = network.subtasks.iter().position(|s| s.id.as_deref() == Some(&*wanted));

@@ -10,6 +10,7 @@ use super::predicates::same_parameters;
 use super::sink::Sink;
 use super::world::World;
 use crate::Span;
+use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, SymbolKind};
 use crate::model::{Domain, Function, FunctionValue, Name, Object, Predicate, TypeSet, Variable, Variables};
 
@@ -26,6 +27,7 @@ pub(crate) fn imports<'d>(
                 sink.unexpected(node, "the name of a domain");
                 continue;
             }
+            sink.mention(NameKind::Domain, node, None);
             match given.iter().find(|d| node.is(&d.name)) {
                 Some(domain) if found.iter().any(|(d, _)| d.name == domain.name) => {
                     sink.report(node.span(), DiagnosticKind::Repeated { name: node.text().to_owned() });

@@ -3,6 +3,7 @@
 //! This is where files are long, so a fact costs one lookup a word and one vector, and no schema.
 
 use super::body::{Applied, Body};
+use crate::analysis::NameKind;
 use crate::diagnostic::{SymbolKind, UnsupportedFeature};
 use crate::model::{
     Fact, FluentFact, FluentValue, FunctionValue, GroundApplication, ObjectId, PredicateId, Term,
@@ -54,6 +55,9 @@ impl Body<'_> {
     }
 
     fn fact(&mut self, node: Node<'_>, id: PredicateId) -> Option<Vec<ObjectId>> {
+        if let Some(head) = node.head() {
+            self.sink.mention(NameKind::Predicate, head, None);
+        }
         let predicate = &self.world.predicates[id];
         let of = Applied {
             symbol: SymbolKind::Predicate,
@@ -84,6 +88,7 @@ impl Body<'_> {
         let Some(id) = self.world.function(head.text()) else {
             return self.world.unknown(self.sink, head, SymbolKind::Function);
         };
+        self.sink.mention(NameKind::Function, head, None);
         let function = &self.world.functions[id];
         let of = Applied {
             symbol: SymbolKind::Function,

@@ -6,6 +6,7 @@
 use super::body::{Applied, Body};
 use super::sink::{Sink, first_word};
 use super::world::World;
+use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, SymbolKind};
 use crate::model::{
     Name, ObjectId, Permission, Requirement, Term, TokenPattern, TokenSymbol, TypeSet, Variable,
@@ -22,7 +23,10 @@ pub(crate) fn permission(world: &World, sink: &mut Sink, section: Node<'_>) -> O
     }
     let mut parts = section.children().skip(1);
     let agent = match parts.next() {
-        Some(agent) if agent.is_name() => Name::new(agent.text()),
+        Some(agent) if agent.is_name() => {
+            sink.mention(NameKind::Agent, agent, None);
+            Name::new(agent.text())
+        }
         Some(other) => {
             sink.unexpected(other, "the name of an agent");
             return None;
@@ -66,6 +70,12 @@ impl Body<'_> {
             world.unknown(self.sink, head, SymbolKind::Token);
             return None;
         };
+        let named = match symbol {
+            TokenSymbol::Predicate(_) => NameKind::Predicate,
+            TokenSymbol::Function(_) => NameKind::Function,
+            TokenSymbol::Type(_) => NameKind::Type,
+        };
+        self.sink.mention(named, head, None);
         let mut arguments = Vec::new();
         if node.is_list() {
             arguments = self.token_arguments(node, &Applied { symbol: kind, name, parameters })?;

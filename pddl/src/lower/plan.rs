@@ -6,6 +6,7 @@
 use super::body::{Applied, Body};
 use super::sink::{Lowered, Sink};
 use super::world::World;
+use crate::analysis::NameKind;
 use crate::diagnostic::{SymbolKind, UnsupportedFeature};
 use crate::model::{ActionId, Domain, Problem, SubtaskHead};
 use crate::syntax::{Node, Tree};
@@ -67,6 +68,7 @@ impl Body<'_> {
                 return None;
             }
         };
+        self.sink.mention(NameKind::Action, head, None);
         let schema = &domain.actions[action];
         let of = Applied {
             symbol: SymbolKind::Action,

@@ -4,6 +4,7 @@ use super::schema::Schema;
 use super::sink::Sink;
 use super::world::World;
 use crate::Span;
+use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, Label, SymbolKind};
 use crate::model::{Domain, Name, Predicate, Variables};
 use crate::syntax::Node;
@@ -26,6 +27,7 @@ pub(crate) fn predicates<'t>(
                 continue;
             }
             let name = Name::new(head.text());
+            sink.declare(NameKind::Predicate, head, None);
             let variables = parameters(world, sink, node);
             if let Some(first) = world.predicate(&name) {
                 let declared = &world.predicates[first];
@@ -43,6 +45,7 @@ pub(crate) fn predicates<'t>(
 /// The parameters of `(name ?x - t …)`.
 pub(super) fn parameters(world: &World, sink: &mut Sink, node: Node<'_>) -> Variables {
     let mut schema = Schema::default();
+    schema.scope = node.span();
     schema.parameters(world, sink, node.children().skip(1));
     schema.variables
 }

@@ -104,6 +104,7 @@ fn goal(
         return (Condition::always(span), Variables::default(), span);
     };
     let mut body = Body::new(world, sink);
+    body.schema.scope = section.span();
     let goal = match body.parts(section, "`(:goal CONDITION)`") {
         Some([node]) => body.condition(node),
         None => Condition::always(section.span()),

@@ -2,6 +2,7 @@
 
 use super::header::Header;
 use super::sink::Sink;
+use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, SymbolKind};
 use crate::model::{Requirement, Requirements};
 
@@ -18,6 +19,9 @@ pub(crate) fn requirements(sink: &mut Sink, header: &Header<'_>) -> Requirements
     let mut flags = Requirements::default();
     for section in header.all(":requirements") {
         for node in section.children().skip(1) {
+            if !node.is_list() {
+                sink.mention(NameKind::Requirement, node, None);
+            }
             let known = Requirement::ALL.iter().copied().find(|r| node.is(r.as_str()));
             let synonym = || SYNONYMS.iter().find(|(text, _)| node.is(text)).map(|(_, r)| *r);
             match known.or_else(synonym) {

@@ -3,8 +3,10 @@
 use super::sink::Sink;
 use super::typed_list::typed_list;
 use super::world::{World, fold};
+use crate::Span;
+use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, Label, SymbolKind};
-use crate::model::{Name, Variable, VariableId, Variables};
+use crate::model::{Idx, Name, Variable, VariableId, Variables};
 use crate::syntax::{Node, NodeKind};
 
 /// Variables with their scopes.
@@ -13,6 +15,10 @@ pub(crate) struct Schema {
     pub(crate) variables: Variables,
     /// In sight, outermost first; the last of a name hides the others.
     visible: Vec<VariableId>,
+    /// The list outside of which what is bound next means nothing.
+    pub(crate) scope: Span,
+    /// That list of each slot that a text binds.
+    scopes: Vec<Span>,
     /// Whether `?duration` has a meaning.
     pub(crate) durative: bool,
 }
@@ -22,6 +28,11 @@ impl Schema {
     pub(crate) fn find(&self, name: &str) -> Option<VariableId> {
         let name = fold(name);
         self.visible.iter().rev().copied().find(|&v| *self.variables[v].name == *name)
+    }
+
+    /// The list outside of which a slot means nothing.
+    pub(crate) fn scope_of(&self, variable: VariableId) -> Option<Span> {
+        self.scopes.get(variable.index()).copied()
     }
 
     /// Names in sight.
@@ -53,6 +64,7 @@ impl Schema {
                 sink.unexpected(item, "a variable such as `?x`");
                 continue;
             }
+            sink.declare(NameKind::Variable, item, Some(self.scope));
             let name = Name::new(&item.text()[1..]);
             if let Some(&first) = bound.iter().find(|&&v| self.variables[v].name == name) {
                 let kind = DiagnosticKind::Duplicate { symbol: SymbolKind::Variable, name };
@@ -60,6 +72,8 @@ impl Schema {
                 continue;
             }
             let types = world.type_set(sink, types);
+            self.scopes.resize(self.variables.slots.len(), self.scope);
+            self.scopes.push(self.scope);
             bound.push(self.variables.slots.push(Variable { name, types, span: item.span() }));
         }
         self.visible.extend(&bound);

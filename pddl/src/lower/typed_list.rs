@@ -2,6 +2,7 @@
 
 use super::sink::Sink;
 use super::world::World;
+use crate::analysis::NameKind;
 use crate::diagnostic::SymbolKind;
 use crate::model::{TypeId, TypeSet};
 use crate::syntax::Node;
@@ -53,17 +54,27 @@ pub(crate) fn type_names<'t>(sink: &mut Sink, node: Node<'t>) -> Vec<Node<'t>> {
 }
 
 impl World {
-    /// The union that a type's node stands for; `object` where there is none or an unknown one.
+    /// The union that a type's node stands for; `object` where there is none.
     pub(crate) fn type_set(&self, sink: &mut Sink, node: Option<Node<'_>>) -> TypeSet {
         let Some(node) = node else { return TypeSet::any() };
         let mut types: Vec<TypeId> = Vec::new();
+        let mut unknown = false;
         for name in type_names(sink, node) {
+            sink.mention(NameKind::Type, name, None);
             match self.type_id(name.text()) {
                 Some(id) if !types.contains(&id) => types.push(id),
                 Some(_) => {}
-                None => self.unknown(sink, name, SymbolKind::Type),
+                None => {
+                    unknown = true;
+                    self.unknown(sink, name, SymbolKind::Type);
+                }
             }
         }
-        if types.is_empty() { TypeSet::any() } else { TypeSet(types) }
+        match types {
+            // One mistake, one message: what has an unknown type fits everywhere.
+            _ if unknown => TypeSet::unknown(),
+            types if types.is_empty() => TypeSet::any(),
+            types => TypeSet(types),
+        }
     }
 }

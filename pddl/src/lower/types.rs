@@ -12,6 +12,7 @@ use super::sink::Sink;
 use super::typed_list::{type_names, typed_list};
 use super::world::fold;
 use crate::Span;
+use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, SymbolKind};
 use crate::model::{Domain, Idx, Name, Type, TypeId, TypeTable};
 
@@ -37,7 +38,10 @@ pub(crate) fn types(sink: &mut Sink, header: &Header<'_>, imports: &[&Domain]) -
     for (item, _) in &declared {
         if !item.is_name() {
             sink.unexpected(*item, "the name of a type");
-        } else if table.get(&*fold(item.text())).is_some_and(|e| e.imported.is_some()) {
+            continue;
+        }
+        sink.declare(NameKind::Type, *item, None);
+        if table.get(&*fold(item.text())).is_some_and(|e| e.imported.is_some()) {
             redeclared.insert(Name::new(item.text()), (item.span(), Vec::new()));
         } else {
             let entry = || Entry { span: item.span(), parents: Vec::new(), imported: None };
@@ -48,6 +52,12 @@ pub(crate) fn types(sink: &mut Sink, header: &Header<'_>, imports: &[&Domain]) -
         let (true, Some(types)) = (item.is_name(), types) else { continue };
         for parent in type_names(sink, types) {
             let name = Name::new(parent.text());
+            // What stands only here is declared here.
+            if table.contains_key(&name) {
+                sink.mention(NameKind::Type, parent, None);
+            } else {
+                sink.declare(NameKind::Type, parent, None);
+            }
             let entry = || Entry { span: parent.span(), parents: Vec::new(), imported: None };
             table.entry(name.clone()).or_insert_with(entry);
             if let Some((_, parents)) = redeclared.get_mut(&*fold(item.text())) {

@@ -138,6 +138,9 @@ impl World {
 
     /// Whether something can be an instance of both.
     pub(crate) fn meet(&self, a: &TypeSet, b: &TypeSet) -> bool {
+        if a.is_unknown() || b.is_unknown() {
+            return true;
+        }
         let related = |&x: &TypeId, &y: &TypeId| self.types.is_subtype(x, y) || self.types.is_subtype(y, x);
         a.0.iter().any(|x| b.0.iter().any(|y| related(x, y)))
             || self.types.enumerate().any(|(t, _)| self.types.is_in(t, a) && self.types.is_in(t, b))
@@ -145,12 +148,14 @@ impl World {
 
     /// Whether the object can be one of `types`: its own type, or one of the `either`s, is in.
     pub(crate) fn fits(&self, object: ObjectId, types: &TypeSet) -> bool {
-        self.objects[object].types.0.iter().any(|&t| self.types.is_in(t, types))
+        let own = &self.objects[object].types;
+        own.is_unknown() || types.is_unknown() || own.0.iter().any(|&t| self.types.is_in(t, types))
     }
 
     /// `truck`, or `(either truck plane)`.
     pub(crate) fn type_text(&self, types: &TypeSet) -> String {
         match types.0.as_slice() {
+            [] => "`object`".to_owned(),
             [one] => format!("`{}`", self.types[*one].name),
             many => {
                 let names: Vec<&str> = many.iter().map(|&t| self.types[t].name.as_str()).collect();
@@ -171,6 +176,9 @@ impl World {
 
     /// Reports a name that nothing declares.
     pub(crate) fn unknown(&self, sink: &mut Sink, node: Node<'_>, symbol: SymbolKind) {
+        if let Some(kind) = symbol.name_kind() {
+            sink.mention(kind, node, None);
+        }
         let name = node.text();
         let types = || self.types.enumerate().map(|(_, t)| t.name.as_str());
         let predicates = || self.predicates.iter().map(|p| p.name.as_str());

@@ -26,6 +26,16 @@ impl TypeSet {
     pub fn any() -> Self {
         Self(vec![TypeTable::OBJECT])
     }
+
+    /// Where a type stands that nothing declares. Only drafts have it (see `analyze_domain`).
+    pub(crate) fn unknown() -> Self {
+        Self(Vec::new())
+    }
+
+    /// Whether it names a type that nothing declares, so that nothing can be said about it.
+    pub fn is_unknown(&self) -> bool {
+        self.0.is_empty()
+    }
 }
 
 /// All types of a domain with the closure of "is a".
