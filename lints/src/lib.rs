@@ -24,6 +24,8 @@
 //! | `finding` | what they say |
 //! | `allow` | the comments that silence them |
 //! | `view` | what a lint sees of a domain and a problem |
+//! | `text` | the sections and keys of a file, for lints about how something is written |
+//! | `usage` | what names what |
 //! | `schema`, `walk` | what bodies say, part by part, whatever they belong to |
 //! | `declarations` | W07: declarations, requirements, names |
 //! | `logic` | W08: conditions, effects, initial states, goals |
@@ -40,6 +42,8 @@ mod linter;
 mod logic;
 mod registry;
 mod schema;
+mod text;
+mod usage;
 mod view;
 mod walk;
 

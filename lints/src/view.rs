@@ -9,6 +9,7 @@ use pddl::{Source, Span};
 use crate::allow::Allows;
 use crate::linter::File;
 use crate::schema::Schema;
+use crate::usage::Usage;
 
 /// A domain.
 pub(crate) struct DomainView<'a> {
@@ -16,24 +17,34 @@ pub(crate) struct DomainView<'a> {
     pub(crate) domain: &'a Domain,
     pub(crate) allows: Allows,
     tree: OnceCell<Tree<'a>>,
+    usage: OnceCell<Usage>,
 }
 
 impl<'a> DomainView<'a> {
     pub(crate) fn new(file: File<'a, Domain>) -> Self {
         let allows = Allows::of(file.source);
-        Self { source: file.source, domain: file.model, allows, tree: OnceCell::new() }
+        let (tree, usage) = (OnceCell::new(), OnceCell::new());
+        Self { source: file.source, domain: file.model, allows, tree, usage }
     }
 
     /// The text's structure, for lints about how something is written.
-    #[allow(dead_code, reason = "the first lint that needs it comes next")]
     pub(crate) fn tree(&self) -> &Tree<'a> {
         self.tree.get_or_init(|| syntax::parse(self.source).0)
     }
 
+    /// Who names whom.
+    pub(crate) fn usage(&self) -> &Usage {
+        self.usage.get_or_init(|| Usage::of_domain(self.domain, self.schemas()))
+    }
+
     /// Whether the model holds all that the text says: only then is what nobody names unused.
-    #[allow(dead_code, reason = "the first lint that needs it comes next")]
     pub(crate) fn is_complete(&self) -> bool {
         self.domain.unsupported.is_empty()
+    }
+
+    /// Whether it only declares: for others that import it.
+    pub(crate) fn is_dictionary(&self) -> bool {
+        self.schemas().next().is_none()
     }
 
     /// Everything with a body, in the order of the kinds.
@@ -48,22 +59,39 @@ impl<'a> DomainView<'a> {
 }
 
 /// A problem with its domain.
-#[allow(dead_code, reason = "the first lint that needs it comes next")]
 pub(crate) struct ProblemView<'a, 'd> {
     pub(crate) domain: &'a DomainView<'d>,
     pub(crate) source: &'a Source,
     pub(crate) problem: &'a Problem,
     pub(crate) allows: Allows,
+    tree: OnceCell<Tree<'a>>,
+    usage: OnceCell<Usage>,
 }
 
 impl<'a, 'd> ProblemView<'a, 'd> {
     pub(crate) fn new(domain: &'a DomainView<'d>, file: File<'a, Problem>) -> Self {
-        Self { domain, source: file.source, problem: file.model, allows: Allows::of(file.source) }
+        let allows = Allows::of(file.source);
+        let (tree, usage) = (OnceCell::new(), OnceCell::new());
+        Self { domain, source: file.source, problem: file.model, allows, tree, usage }
+    }
+
+    /// The text's structure, for lints about how something is written.
+    pub(crate) fn tree(&self) -> &Tree<'a> {
+        self.tree.get_or_init(|| syntax::parse(self.source).0)
+    }
+
+    /// Who names whom, in the problem alone.
+    pub(crate) fn usage(&self) -> &Usage {
+        self.usage.get_or_init(|| Usage::of_problem(self.domain.domain, self.problem))
+    }
+
+    /// Whether both models hold all that their texts say.
+    pub(crate) fn is_complete(&self) -> bool {
+        self.domain.is_complete() && self.problem.unsupported.is_empty()
     }
 }
 
 /// Whether a declaration stands in this very file: what is imported has no place in it.
-#[allow(dead_code, reason = "the first lint that needs it comes next")]
 pub(crate) fn is_here(span: Span) -> bool {
     span != Span::default()
 }

@@ -27,7 +27,6 @@ impl Polarity {
 
 /// Something that a body says.
 #[derive(Clone, Copy, Debug)]
-#[allow(dead_code, reason = "the first lint that needs it comes next")]
 pub(crate) enum Part<'a> {
     /// A condition asks for an atom.
     Needs(&'a Atom, Polarity),

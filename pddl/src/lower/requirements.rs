@@ -6,15 +6,6 @@ use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, SymbolKind};
 use crate::model::{Requirement, Requirements};
 
-/// Flags of other tools that say nothing which we do not know.
-const SYNONYMS: &[(&str, Requirement)] = &[
-    (":htn", Requirement::Hierarchy),
-    (":hierachy", Requirement::Hierarchy),
-    (":htn-method-prec", Requirement::MethodPreconditions),
-    (":equality-preconditions", Requirement::Equality),
-    (":domain-axioms", Requirement::DerivedPredicates),
-];
-
 pub(crate) fn requirements(sink: &mut Sink, header: &Header<'_>) -> Requirements {
     let mut flags = Requirements::default();
     for section in header.all(":requirements") {
@@ -23,7 +14,7 @@ pub(crate) fn requirements(sink: &mut Sink, header: &Header<'_>) -> Requirements
                 sink.mention(NameKind::Requirement, node, None);
             }
             let known = Requirement::ALL.iter().copied().find(|r| node.is(r.as_str()));
-            let synonym = || SYNONYMS.iter().find(|(text, _)| node.is(text)).map(|(_, r)| *r);
+            let synonym = || Requirement::SYNONYMS.iter().find(|(text, _)| node.is(text)).map(|(_, r)| *r);
             match known.or_else(synonym) {
                 Some(flag) => {
                     flags.0.insert(flag);

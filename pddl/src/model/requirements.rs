@@ -79,6 +79,17 @@ requirements! {
     Vocabulary = ":vocabulary",
 }
 
+impl Requirement {
+    /// Flags of other tools that say nothing which we do not know.
+    pub const SYNONYMS: &'static [(&'static str, Self)] = &[
+        (":htn", Self::Hierarchy),
+        (":hierachy", Self::Hierarchy),
+        (":htn-method-prec", Self::MethodPreconditions),
+        (":equality-preconditions", Self::Equality),
+        (":domain-axioms", Self::DerivedPredicates),
+    ];
+}
+
 /// A set of requirement flags, as written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Requirements(pub BTreeSet<Requirement>);

@@ -1,0 +1,91 @@
+//! `(exists (?x) …)` inside of something that has `?x` already.
+
+use pddl::syntax::{Node, NodeKind};
+use pddl::{Explanation, FileKind};
+
+use crate::finding::Findings;
+use crate::lint::Check;
+use crate::view::{DomainView, ProblemView};
+use crate::{Finding, Level, Lint, Place, text};
+
+pub(crate) static LINT: Lint = Lint {
+    name: "shadowed-variable",
+    level: Level::Default,
+    explanation: Explanation {
+        code: "W0714",
+        title: "shadowed variable",
+        meaning: "A quantifier binds a variable of the same name as a parameter, or as a variable of a quantifier \
+         around it.",
+        why: "Inside, the name means the inner one; the outer one cannot be named. Whoever reads `?x` may \
+         take it for the parameter.",
+        wrong: &["\
+(define (domain hall)
+  (:requirements :adl)
+  (:types lamp)
+  (:predicates (lit ?x - lamp))
+  (:action switch
+    :parameters (?x - lamp)
+    :precondition (not (exists (?x - lamp) (lit ?x)))
+    :effect (lit ?x)))"],
+        right: &["\
+(define (domain hall)
+  (:requirements :adl)
+  (:types lamp)
+  (:predicates (lit ?x - lamp))
+  (:action switch
+    :parameters (?x - lamp)
+    :precondition (not (exists (?y - lamp) (lit ?y)))
+    :effect (lit ?x)))"],
+    },
+    checks: &[Check::Domain(in_domain), Check::Problem(in_problem)],
+};
+
+fn in_domain(view: &DomainView<'_>, found: &mut Findings) {
+    for section in text::sections(view.tree(), FileKind::Domain) {
+        visit(section, &mut parameters(section), Place::domain, found);
+    }
+}
+
+fn in_problem(view: &ProblemView<'_, '_>, found: &mut Findings) {
+    // A large initial state is not walked for nothing: it binds no variables.
+    let sections = text::sections(view.tree(), FileKind::Problem).filter(|s| !s.is_headed(":init"));
+    for section in sections {
+        visit(section, &mut parameters(section), Place::problem, found);
+    }
+}
+
+/// The parameters of an action, method or axiom, and the results of a rule.
+fn parameters(section: Node<'_>) -> Vec<Node<'_>> {
+    let head = if section.is_headed(":derived") { section.children().nth(1) } else { None };
+    let lists = [text::value(section, ":parameters"), text::value(section, ":results"), head];
+    lists.into_iter().flatten().flat_map(variables).collect()
+}
+
+fn variables(list: Node<'_>) -> impl Iterator<Item = Node<'_>> {
+    list.children().filter(|child| child.kind() == NodeKind::Variable)
+}
+
+fn visit<'t>(
+    node: Node<'t>,
+    visible: &mut Vec<Node<'t>>,
+    place: fn(pddl::Span) -> Place,
+    found: &mut Findings,
+) {
+    let outside = visible.len();
+    let binds = (node.is_headed("forall") || node.is_headed("exists"))
+        && node.children().nth(1).is_some_and(Node::is_list);
+    if binds {
+        for variable in node.children().nth(1).into_iter().flat_map(variables) {
+            if let Some(outer) = visible[..outside].iter().rev().find(|v| variable.is(v.text())) {
+                let message = format!("`{}` hides the variable of that name around it", variable.text());
+                let finding = Finding::new(&LINT, place(variable.span()), message);
+                found.report(finding.label(place(outer.span()), "the one that it hides"));
+            }
+            visible.push(variable);
+        }
+    }
+    for child in node.children().filter(|child| child.is_list()) {
+        visit(child, visible, place, found);
+    }
+    visible.truncate(outside);
+}

@@ -1,0 +1,60 @@
+//! `:htn` for `:hierarchy`.
+
+use pddl::model::Requirement;
+use pddl::{Explanation, FileKind};
+
+use crate::finding::{Edit, Findings};
+use crate::lint::Check;
+use crate::view::{DomainView, ProblemView};
+use crate::{Finding, Level, Lint, Place, text};
+
+pub(crate) static LINT: Lint = Lint {
+    name: "synonym-requirement",
+    level: Level::Default,
+    explanation: Explanation {
+        code: "W0717",
+        title: "requirement that no standard knows",
+        meaning: "A requirement is written in a way that some tool understands and no standard of PDDL or HDDL \
+         has.",
+        why: "Other tools refuse it, or ignore it. There is a standard name for it.",
+        wrong: &["\
+(define (domain hall)
+  (:requirements :domain-axioms :existential-preconditions)
+  (:predicates (lit) (dark) (broken ?x))
+  (:derived (dark) (exists (?x) (broken ?x)))
+  (:action switch
+    :precondition (dark)
+    :effect (lit)))"],
+        right: &["\
+(define (domain hall)
+  (:requirements :derived-predicates :existential-preconditions)
+  (:predicates (lit) (dark) (broken ?x))
+  (:derived (dark) (exists (?x) (broken ?x)))
+  (:action switch
+    :precondition (dark)
+    :effect (lit)))"],
+    },
+    checks: &[Check::Domain(in_domain), Check::Problem(in_problem)],
+};
+
+fn in_domain(view: &DomainView<'_>, found: &mut Findings) {
+    check(view.tree(), FileKind::Domain, found);
+}
+
+fn in_problem(view: &ProblemView<'_, '_>, found: &mut Findings) {
+    check(view.tree(), FileKind::Problem, found);
+}
+
+fn check(tree: &pddl::syntax::Tree<'_>, file: FileKind, found: &mut Findings) {
+    let sections = text::sections(tree, file).filter(|section| section.is_headed(":requirements"));
+    for node in sections.flat_map(|section| section.children().skip(1)) {
+        let Some((_, standard)) = Requirement::SYNONYMS.iter().find(|(text, _)| node.is(text)) else {
+            continue;
+        };
+        let place = Place { file, span: node.span() };
+        let standard = standard.as_str();
+        let message = format!("`{}` is no requirement of any standard", node.text());
+        let edit = Edit { place, text: standard.to_owned() };
+        found.report(Finding::new(&LINT, place, message).fix(format!("write `{standard}`"), vec![edit]));
+    }
+}

@@ -1,0 +1,90 @@
+//! A parameter that may be anything.
+
+use pddl::Explanation;
+use pddl::model::{Domain, Idx, Term, TypeTable};
+
+use crate::finding::Findings;
+use crate::lint::Check;
+use crate::schema::Schema;
+use crate::view::DomainView;
+use crate::walk::Part;
+use crate::{Finding, Level, Lint, Place};
+
+pub(crate) static LINT: Lint = Lint {
+    name: "unconstrained-parameter",
+    level: Level::Default,
+    explanation: Explanation {
+        code: "W0711",
+        title: "unconstrained parameter",
+        meaning: "An effect names a parameter that no condition names and whose type is `object`, in a domain \
+         that tells its objects apart.",
+        why: "The action applies to everything: lamps are switched on, and so are rooms. Without types a \
+         condition such as `(lamp ?x)` is missing, with types a type.",
+        wrong: &["\
+(define (domain hall)
+  (:predicates (lamp ?x) (room ?x) (lit ?x) (in ?x ?r))
+  (:action switch
+    :parameters (?x ?r)
+    :precondition (and (room ?r) (in ?x ?r))
+    :effect (lit ?x))
+  (:action carry
+    :parameters (?x ?from ?to)
+    :precondition (and (lamp ?x) (room ?from) (in ?x ?from))
+    :effect (and (in ?x ?to) (not (in ?x ?from)))))"],
+        right: &["\
+(define (domain hall)
+  (:predicates (lamp ?x) (room ?x) (lit ?x) (in ?x ?r))
+  (:action switch
+    :parameters (?x ?r)
+    :precondition (and (room ?r) (in ?x ?r))
+    :effect (lit ?x))
+  (:action carry
+    :parameters (?x ?from ?to)
+    :precondition (and (lamp ?x) (room ?from) (room ?to) (in ?x ?from))
+    :effect (and (in ?x ?to) (not (in ?x ?from)))))"],
+    },
+    checks: &[Check::Domain(check)],
+};
+
+fn check(view: &DomainView<'_>, found: &mut Findings) {
+    if !view.is_complete() || !tells_objects_apart(view) {
+        return;
+    }
+    let actions = view.schemas().filter(|s| matches!(s, Schema::Action(_) | Schema::Durative(_)));
+    for schema in actions {
+        let variables = schema.variables();
+        let (mut asked, mut changed) =
+            (vec![false; variables.slots.len()], vec![false; variables.slots.len()]);
+        schema.parts(&mut |part| {
+            let marks = match part {
+                Part::Adds(_) | Part::Deletes(_) | Part::Writes(..) => &mut changed,
+                _ => &mut asked,
+            };
+            for term in part.terms() {
+                if let Term::Variable(variable) = term {
+                    marks[variable.index()] = true;
+                }
+            }
+        });
+        for id in variables.parameter_ids().filter(|id| changed[id.index()] && !asked[id.index()]) {
+            let variable = &variables[id];
+            if variable.types.0.contains(&TypeTable::OBJECT) {
+                let title = schema.title(view.domain);
+                let message =
+                    format!("the parameter `?{}` of {title} may be any object at all", variable.name);
+                let help = "name it in a condition, or give it a type";
+                found.report(Finding::new(&LINT, Place::domain(variable.span), message).help(help));
+            }
+        }
+    }
+}
+
+/// Whether there are types, or predicates of one argument that nothing changes and conditions ask for.
+fn tells_objects_apart(view: &DomainView<'_>) -> bool {
+    let Domain { types, predicates, .. } = view.domain;
+    types.len() > 1
+        || predicates.enumerate().any(|(id, predicate)| {
+            let used = view.usage().predicates[id];
+            predicate.variables.parameters == 1 && used.needed_true && !used.fluent()
+        })
+}

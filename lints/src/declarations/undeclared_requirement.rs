@@ -1,0 +1,86 @@
+//! A feature without its requirement.
+
+use pddl::model::Requirements;
+use pddl::syntax::Tree;
+use pddl::{Explanation, FileKind, Span};
+
+use super::features::{Need, is_granted, of_domain, of_problem};
+use crate::finding::{Edit, Findings};
+use crate::lint::Check;
+use crate::view::{DomainView, ProblemView};
+use crate::{Finding, Level, Lint, Place, text};
+
+pub(crate) static LINT: Lint = Lint {
+    name: "undeclared-requirement",
+    level: Level::Default,
+    explanation: Explanation {
+        code: "W0701",
+        title: "undeclared requirement",
+        meaning: "The file uses a part of the language that `:requirements` does not announce.",
+        why: "Tools may refuse the file, or worse, read it as if that part were not there. pelea reads it all \
+         the same.",
+        wrong: &["\
+(define (domain hall)
+  (:requirements :typing)
+  (:types lamp)
+  (:predicates (lit ?x - lamp) (broken ?x - lamp))
+  (:action switch
+    :parameters (?x - lamp)
+    :precondition (not (broken ?x))
+    :effect (lit ?x)))"],
+        right: &["\
+(define (domain hall)
+  (:requirements :typing :negative-preconditions)
+  (:types lamp)
+  (:predicates (lit ?x - lamp) (broken ?x - lamp))
+  (:action switch
+    :parameters (?x - lamp)
+    :precondition (not (broken ?x))
+    :effect (lit ?x)))"],
+    },
+    checks: &[Check::Domain(in_domain), Check::Problem(in_problem)],
+};
+
+fn in_domain(view: &DomainView<'_>, found: &mut Findings) {
+    check(&of_domain(view), &view.domain.requirements, view.tree(), FileKind::Domain, found);
+}
+
+fn in_problem(view: &ProblemView<'_, '_>, found: &mut Findings) {
+    // What the domain lacks for itself is said there, and the domain's requirements hold here.
+    let lacking = of_domain(view.domain);
+    let mut needs = of_problem(view);
+    needs.retain(|need| lacking.iter().all(|n| n.requirement != need.requirement));
+    let mut declared = view.domain.domain.requirements.clone();
+    declared.0.extend(&view.problem.requirements.0);
+    check(&needs, &declared, view.tree(), FileKind::Problem, found);
+}
+
+fn check(needs: &[Need], declared: &Requirements, tree: &Tree<'_>, file: FileKind, found: &mut Findings) {
+    for need in needs.iter().filter(|need| !is_granted(need, declared)) {
+        let flag = need.requirement.as_str();
+        let message = format!("{} needs the requirement `{flag}`", need.what);
+        let mut finding = Finding::new(&LINT, Place { file, span: need.span }, message);
+        if let Some(edit) = declare(tree, file, flag) {
+            finding = finding.fix(format!("declare `{flag}`"), vec![edit]);
+        }
+        found.report(finding);
+    }
+}
+
+/// Adds a flag to the requirements; writes the section if there is none.
+fn declare(tree: &Tree<'_>, file: FileKind, flag: &str) -> Option<Edit> {
+    let section = text::sections(tree, file).find(|section| section.is_headed(":requirements"));
+    if let Some(last) = section.and_then(|section| section.children().last()) {
+        return Some(Edit { place: after(file, last.span()), text: format!(" {flag}") });
+    }
+    let mut sections = text::definition(tree, file)?.children().skip(1);
+    // Behind `(domain NAME)`, or behind the problem's `(:domain NAME)`, which stands first by custom.
+    let name = sections.next()?;
+    let before =
+        sections.next().filter(|s| file == FileKind::Problem && s.is_headed(":domain")).unwrap_or(name);
+    Some(Edit { place: after(file, before.span()), text: format!("\n  (:requirements {flag})") })
+}
+
+fn after(file: FileKind, span: Span) -> Place {
+    Place { file, span: Span::new(span.end, span.end) }
+}

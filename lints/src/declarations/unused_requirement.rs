@@ -1,0 +1,101 @@
+//! A requirement without its feature.
+
+use pddl::model::Requirement;
+use pddl::{Explanation, FileKind, Span};
+
+use super::features::{Need, grants, of_domain, of_problem};
+use crate::finding::{Edit, Findings};
+use crate::lint::Check;
+use crate::view::{DomainView, ProblemView};
+use crate::{Finding, Level, Lint, Place, text};
+
+pub(crate) static LINT: Lint = Lint {
+    name: "unused-requirement",
+    level: Level::Pedantic,
+    explanation: Explanation {
+        code: "W0702",
+        title: "unused requirement",
+        meaning: "A requirement is declared, but neither the domain nor a problem that was looked at uses what it \
+         announces. A requirement for several features is used if one of them is.",
+        why: "A tool that lacks the feature refuses the domain for nothing.",
+        wrong: &["\
+(define (domain hall)
+  (:requirements :typing :negative-preconditions :conditional-effects)
+  (:types lamp)
+  (:predicates (lit ?x - lamp))
+  (:action switch
+    :parameters (?x - lamp)
+    :precondition (not (lit ?x))
+    :effect (lit ?x)))"],
+        right: &["\
+(define (domain hall)
+  (:requirements :typing :negative-preconditions)
+  (:types lamp)
+  (:predicates (lit ?x - lamp))
+  (:action switch
+    :parameters (?x - lamp)
+    :precondition (not (lit ?x))
+    :effect (lit ?x)))"],
+    },
+    checks: &[Check::Domain(in_domain), Check::Problem(with_problem)],
+};
+
+/// What only a domain can use.
+const OF_DOMAINS: &[Requirement] = &[
+    Requirement::Typing,
+    Requirement::ConditionalEffects,
+    Requirement::Fluents,
+    Requirement::NumericFluents,
+    Requirement::ObjectFluents,
+    Requirement::DurationInequalities,
+    Requirement::ContinuousEffects,
+    Requirement::DerivedPredicates,
+    Requirement::Time,
+    Requirement::MethodPreconditions,
+];
+
+/// What a problem can use, too.
+const OF_BOTH: &[Requirement] = &[
+    Requirement::NegativePreconditions,
+    Requirement::DisjunctivePreconditions,
+    Requirement::Equality,
+    Requirement::ExistentialPreconditions,
+    Requirement::UniversalPreconditions,
+    Requirement::QuantifiedPreconditions,
+    Requirement::Adl,
+    Requirement::DurativeActions,
+    Requirement::TimedInitialLiterals,
+    Requirement::TimedInitialFluents,
+    Requirement::Preferences,
+    Requirement::Constraints,
+    Requirement::Hierarchy,
+    Requirement::ActionCosts,
+];
+
+fn in_domain(view: &DomainView<'_>, found: &mut Findings) {
+    check(view, OF_DOMAINS, &of_domain(view), found);
+}
+
+fn with_problem(view: &ProblemView<'_, '_>, found: &mut Findings) {
+    let mut needs = of_domain(view.domain);
+    needs.extend(of_problem(view));
+    check(view.domain, OF_BOTH, &needs, found);
+}
+
+fn check(view: &DomainView<'_>, of: &[Requirement], needs: &[Need], found: &mut Findings) {
+    let sections = text::sections(view.tree(), FileKind::Domain).filter(|s| s.is_headed(":requirements"));
+    for section in sections {
+        let mut end = section.span().start + 1;
+        for node in section.children() {
+            let (before, span) = (end, node.span());
+            end = span.end;
+            let Some(&flag) = of.iter().find(|flag| node.is(flag.as_str())) else { continue };
+            if !needs.iter().any(|need| grants(flag, need)) {
+                let message = format!("nothing here needs the requirement `{}`", flag.as_str());
+                let edit = Edit { place: Place::domain(Span::new(before, end)), text: String::new() };
+                let finding = Finding::new(&LINT, Place::domain(span), message);
+                found.report(finding.fix(format!("remove `{}`", flag.as_str()), vec![edit]));
+            }
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! A variable of a wider type than what it is an argument of.
+
+use pddl::Explanation;
+use pddl::model::{Domain, Name, Term, Variables};
+
+use crate::finding::Findings;
+use crate::lint::Check;
+use crate::view::DomainView;
+use crate::walk::Part;
+use crate::{Finding, Level, Lint, Place};
+
+pub(crate) static LINT: Lint = Lint {
+    name: "wide-argument",
+    level: Level::Default,
+    explanation: Explanation {
+        code: "W0716",
+        title: "argument of a wider type",
+        meaning: "A variable is an argument of a predicate, function, task or action whose parameter has a \
+         narrower type.",
+        why: "It can then stand only for objects of the narrower type: the declared type says more than is \
+         true. Some tools refuse it. Give the variable the narrower type.",
+        wrong: &["\
+(define (domain hall)
+  (:requirements :typing)
+  (:types lamp - thing)
+  (:predicates (lit ?x - lamp) (here ?x - thing))
+  (:action switch
+    :parameters (?x - thing)
+    :precondition (here ?x)
+    :effect (lit ?x)))"],
+        right: &["\
+(define (domain hall)
+  (:requirements :typing)
+  (:types lamp - thing)
+  (:predicates (lit ?x - lamp) (here ?x - thing))
+  (:action switch
+    :parameters (?x - lamp)
+    :precondition (here ?x)
+    :effect (lit ?x)))"],
+    },
+    checks: &[Check::Domain(check)],
+};
+
+fn check(view: &DomainView<'_>, found: &mut Findings) {
+    let domain = view.domain;
+    for schema in view.schemas() {
+        let variables = schema.variables();
+        schema.parts(&mut |part| {
+            let (name, parameters, span): (&Name, &Variables, _) = match part {
+                Part::Needs(atom, _) | Part::Adds(atom) | Part::Deletes(atom) => {
+                    let predicate = &domain.predicates[atom.predicate];
+                    (&predicate.name, &predicate.variables, atom.span)
+                }
+                Part::Reads(application) | Part::Writes(_, application) => {
+                    let function = &domain.functions[application.function];
+                    (&function.name, &function.variables, application.span)
+                }
+                _ => return,
+            };
+            for (term, parameter) in part.terms().iter().zip(parameters.parameters()) {
+                let Term::Variable(variable) = *term else { continue };
+                let given = &variables[variable];
+                if !domain.types.is_subset(&given.types, &parameter.types) {
+                    let (of, needed) = (type_text(domain, &given.types), type_text(domain, &parameter.types));
+                    let message =
+                        format!("`?{}` is of type {of}, but `{name}` is about {needed} only", given.name);
+                    let finding = Finding::new(&LINT, Place::domain(span), message);
+                    found.report(finding.label(Place::domain(given.span), "declared here"));
+                }
+            }
+        });
+    }
+}
+
+/// `truck`, or `(either truck plane)`, in quotes.
+pub(crate) fn type_text(domain: &Domain, types: &pddl::model::TypeSet) -> String {
+    match types.0.as_slice() {
+        [one] => format!("`{}`", domain.types[*one].name),
+        many => {
+            let names: Vec<&str> = many.iter().map(|&t| domain.types[t].name.as_str()).collect();
+            format!("`(either {})`", names.join(" "))
+        }
+    }
+}

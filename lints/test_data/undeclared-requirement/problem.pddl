@@ -1,0 +1,10 @@
+(define (domain hall)
+  (:requirements :strips)
+  (:predicates (lit ?x))
+  (:action switch :parameters (?x) :effect (lit ?x)))
+
+(define (problem evening)
+  (:domain hall)
+  (:objects left right)
+  (:init)
+  (:goal (or (lit left) (not (lit right)))))

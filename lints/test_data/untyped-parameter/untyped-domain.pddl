@@ -1,0 +1,3 @@
+(define (domain hall)
+  (:predicates (lit ?x))
+  (:action switch :parameters (?x) :effect (lit ?x)))
