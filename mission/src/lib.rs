@@ -18,8 +18,8 @@
 //! assert!(lines.contains("tea/mission.toml:1:8: error[E0703]: `name` is an integer"));
 //! ```
 //!
-//! Map, from the ground up: `files` (paths), `errors` (why there is none; findings are [`project::Finding`]), `reader` (TOML with
-//! places) → `manifest` (`mission.toml`), `layers` (the PDDL) → `content` (words) → `load` → `mission` →
+//! Map, from the ground up: `files` (paths), `errors` (why there is none; findings are [`project::Finding`])) →
+//! `manifest` (`mission.toml`), `layers` (the PDDL) → `content` (words) → `load` → `mission` →
 //! [`scenario`], [`report`], `check` (between the layers).
 
 mod check;
@@ -30,7 +30,6 @@ mod layers;
 mod load;
 mod manifest;
 mod mission;
-mod reader;
 pub mod report;
 pub mod scenario;
 

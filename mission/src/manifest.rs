@@ -7,7 +7,7 @@ use pddl::Span;
 use pddl::model::Name;
 
 use crate::files::join;
-use crate::reader::{Reader, Table, Text};
+use tables::{Reader, Table, Text};
 
 /// A name that the manifest mentions, with its place.
 #[derive(Clone, Debug)]

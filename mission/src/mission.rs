@@ -6,12 +6,13 @@ use pddl::Source;
 use pddl::model::{Name, TaskId};
 
 use crate::content::Words;
-use crate::errors::{MissionErrors, did_you_mean};
+use crate::errors::MissionErrors;
 use crate::files::{Files, join};
 use crate::layers::Layers;
 use crate::manifest::Manifest;
 use crate::scenario::{self, Scenario};
 use project::{Finding, Place, SourceId, Sources};
+use tables::did_you_mean;
 
 /// What to do when there is no plan.
 #[derive(Clone, Debug)]

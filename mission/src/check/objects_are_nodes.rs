@@ -7,9 +7,9 @@
 
 use pddl::model::{Domain, Object};
 
-use crate::errors::did_you_mean;
 use crate::mission::Mission;
 use project::{Finding, Place, SourceId};
+use tables::did_you_mean;
 
 pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
     let layers = &mission.layers;

@@ -5,8 +5,8 @@ use pddl::Span;
 use pddl::model::Name;
 
 use super::ReportLabels;
-use crate::reader::{Reader, Table, Text};
 use project::SourceId;
+use tables::{Reader, Table, Text};
 
 /// A key with its sentence.
 #[derive(Clone, Debug)]

@@ -4,11 +4,11 @@ use pddl::model::{Domain, Problem};
 use pddl::{Parsed, Source, Span};
 
 use super::Loader;
-use crate::errors::did_you_mean;
 use crate::files::join;
 use crate::layers::{Layer, Layers, Tokens};
 use crate::manifest::{Manifest, Mention};
 use project::{Finding, Place, SourceId};
+use tables::did_you_mean;
 
 /// All layers; `None` if one is not there, and then the loader knows why.
 pub(super) fn read(loader: &mut Loader<'_>, from: SourceId, manifest: &Manifest) -> Option<Layers> {

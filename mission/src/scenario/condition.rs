@@ -9,8 +9,8 @@ use pddl::model::{Condition, Variables};
 use pddl::{Source, Span};
 
 use crate::layers::Layers;
-use crate::reader::{Reader, Text};
 use project::Finding;
+use tables::{Reader, Text};
 
 /// A condition over the graph.
 #[derive(Clone, Debug)]

@@ -10,10 +10,10 @@ use pddl::model::Name;
 pub use self::step::Step;
 use super::GraphCondition;
 use super::read::node;
-use crate::errors::did_you_mean;
 use crate::layers::Layers;
-use crate::reader::{Reader, Table};
 use project::Finding;
+use tables::did_you_mean;
+use tables::{Reader, Table};
 
 /// A device that can be disturbed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -5,10 +5,10 @@ use pddl::model::Name;
 
 use super::GraphCondition;
 use super::read::node;
-use crate::errors::did_you_mean;
 use crate::layers::Layers;
-use crate::reader::{Reader, Table, Text};
 use project::Finding;
+use tables::did_you_mean;
+use tables::{Reader, Table, Text};
 
 /// An expected value and where it is written.
 #[derive(Clone, Debug)]

@@ -6,7 +6,7 @@ use pddl::model::{Name, ObjectId};
 
 use super::read::{argument, node};
 use crate::mission::Mission;
-use crate::reader::{Reader, Table};
+use tables::{Reader, Table};
 
 /// How an answer is given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -7,12 +7,13 @@ use pddl::Source;
 use pddl::model::{ObjectId, PredicateId, TypeId};
 
 use super::{Clinician, Scenario, disruption, expect, patient};
-use crate::errors::{MissionErrors, did_you_mean};
+use crate::errors::MissionErrors;
 use crate::files::stem;
 use crate::layers::Layers;
 use crate::mission::Mission;
-use crate::reader::{Reader, Table, Text};
 use project::Finding;
+use tables::did_you_mean;
+use tables::{Reader, Table, Text};
 
 /// Reads `source` as a scenario of `mission`.
 pub(crate) fn read(mission: &Mission, source: Source) -> Result<Scenario, MissionErrors> {

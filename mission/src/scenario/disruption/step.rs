@@ -2,11 +2,11 @@
 
 use pddl::model::{ActionId, Name, ObjectId};
 
-use crate::errors::did_you_mean;
 use crate::layers::Layers;
 use crate::manifest::{Mention, symbols};
-use crate::reader::{Reader, Text};
 use project::Finding;
+use tables::did_you_mean;
+use tables::{Reader, Text};
 
 /// An action of the plan with its arguments.
 #[derive(Clone, Debug, PartialEq, Eq)]

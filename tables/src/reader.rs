@@ -1,37 +1,26 @@
-//! Reading TOML so that every value, good or bad, has its place.
-//!
-//! Problem: `serde` stops at the first mistake and forgets where the good values stood, yet a
-//! scenario's PDDL condition must be reported at its own line and column, and all mistakes at once.
-//! Idea: `toml`'s spanned tree, walked by hand. A [`Table`] hands out its entries by key and counts
-//! what was never asked for as an unknown key. Invariant: after [`Table::finish`], each entry was
-//! either read or reported. Entries keep the order of the file.
-
-mod table;
-mod text;
-
-pub(crate) use table::Table;
-pub(crate) use text::Text;
+//! One TOML file: its syntax, and what is wrong with it.
 
 use pddl::{Source, Span};
+use project::{Finding, Place, SourceId};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use project::{Finding, Place, SourceId};
+use crate::Table;
 
 /// What a reader of one TOML file carries along.
-pub(crate) struct Reader<'a> {
+pub struct Reader<'a> {
     /// Which source it reads.
-    pub(crate) source: SourceId,
+    pub source: SourceId,
     /// Its text.
-    pub(crate) text: &'a str,
+    pub text: &'a str,
     /// What it found.
-    pub(crate) findings: Vec<Finding>,
+    pub findings: Vec<Finding>,
 }
 
 impl<'a> Reader<'a> {
     /// Parses `source` and hands its root table to `read`; syntax errors become findings, and what
     /// could be read is read all the same.
-    pub(crate) fn read<T>(
+    pub fn read<T>(
         id: SourceId,
         source: &'a Source,
         read: impl FnOnce(&mut Self, Table<'_>) -> T,
@@ -52,17 +41,17 @@ impl<'a> Reader<'a> {
     }
 
     /// The place of a span of this file.
-    pub(crate) fn place(&self, span: Span) -> Place {
+    pub fn place(&self, span: Span) -> Place {
         Place { source: self.source, span }
     }
 
     /// Reports an error.
-    pub(crate) fn error(&mut self, code: &'static str, span: Span, message: impl Into<String>) {
+    pub fn error(&mut self, code: &'static str, span: Span, message: impl Into<String>) {
         self.findings.push(Finding::error(code, self.place(span), message));
     }
 
     /// Reports that a value has the wrong kind.
-    fn wrong_kind(&mut self, value: &Spanned<DeValue<'_>>, path: &str, expected: &str) {
+    pub(crate) fn wrong_kind(&mut self, value: &Spanned<DeValue<'_>>, path: &str, expected: &str) {
         let found = match value.get_ref() {
             DeValue::String(_) => "a string",
             DeValue::Integer(_) => "an integer",
@@ -77,7 +66,7 @@ impl<'a> Reader<'a> {
 }
 
 /// A byte range of `toml` as a span of ours.
-fn span(range: std::ops::Range<usize>) -> Span {
+pub(crate) fn span(range: std::ops::Range<usize>) -> Span {
     // A `Source` is shorter than 4 GiB, so the ranges of its tree fit.
     let at = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);
     Span::new(at(range.start), at(range.end))

@@ -4,18 +4,18 @@ use pddl::Span;
 
 /// A string value and its place.
 #[derive(Clone, Debug)]
-pub(crate) struct Text {
+pub struct Text {
     /// The value, escapes resolved.
-    pub(crate) value: String,
+    pub value: String,
     /// The literal in the file, quotes included.
-    pub(crate) span: Span,
+    pub span: Span,
     /// Where the value's first byte stands, if the literal is the value letter by letter.
     inner: Option<u32>,
 }
 
 impl Text {
     /// The string `value`, written at `span` of `file`.
-    pub(crate) fn new(value: &str, span: Span, file: &str) -> Self {
+    pub fn new(value: &str, span: Span, file: &str) -> Self {
         let literal = file.get(span.range()).unwrap_or("");
         let quote = literal.chars().next().unwrap_or('"');
         let body = literal.trim_start_matches(quote);
@@ -33,7 +33,7 @@ impl Text {
     }
 
     /// The place of a byte range of the value; the whole literal where escapes hide it.
-    pub(crate) fn within(&self, range: Span) -> Span {
+    pub fn within(&self, range: Span) -> Span {
         let Some(inner) = self.inner else { return self.span };
         let length = u32::try_from(self.value.len()).unwrap_or(u32::MAX);
         let (start, end) = (range.start.min(length), range.end.min(length));

@@ -1,12 +1,12 @@
 //! One table of a TOML file, read key by key.
 
 use pddl::Span;
+use project::Finding;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::{Reader, Text, span};
-use crate::errors::did_you_mean;
-use project::Finding;
+use crate::reader::span;
+use crate::{Reader, Text, did_you_mean};
 
 /// An entry and whether it was asked for.
 struct Entry<'d> {
@@ -17,16 +17,16 @@ struct Entry<'d> {
 }
 
 /// A table with its dotted path, in the order of the file.
-pub(crate) struct Table<'d> {
+pub struct Table<'d> {
     path: String,
     /// Where it stands: its key, or its braces.
-    pub(crate) span: Span,
+    pub span: Span,
     entries: Vec<Entry<'d>>,
     asked: Vec<String>,
 }
 
 impl<'d> Table<'d> {
-    pub(super) fn new(path: impl Into<String>, at: Span, table: &'d DeTable<'d>) -> Self {
+    pub(crate) fn new(path: impl Into<String>, at: Span, table: &'d DeTable<'d>) -> Self {
         let mut entries: Vec<Entry<'d>> = table
             .iter()
             .map(|(key, value)| Entry { key: key.get_ref(), key_span: span(key.span()), value, read: false })
@@ -47,41 +47,41 @@ impl<'d> Table<'d> {
     }
 
     /// Where a key stands, or else the table.
-    pub(crate) fn key_span(&self, key: &str) -> Span {
+    pub fn key_span(&self, key: &str) -> Span {
         self.entries.iter().find(|e| e.key == key).map_or(self.span, |e| e.key_span)
     }
 
     /// The keys that nobody asked for yet, with their places.
-    pub(crate) fn rest(&self) -> Vec<(String, Span)> {
+    pub fn rest(&self) -> Vec<(String, Span)> {
         self.entries.iter().filter(|e| !e.read).map(|e| (e.key.to_owned(), e.key_span)).collect()
     }
 
     /// Whether the key is there; asking does not read it.
-    pub(crate) fn has(&self, key: &str) -> bool {
+    pub fn has(&self, key: &str) -> bool {
         self.entries.iter().any(|e| e.key == key)
     }
 
     /// A string.
-    pub(crate) fn text(&mut self, reader: &mut Reader<'_>, key: &str) -> Option<Text> {
+    pub fn text(&mut self, reader: &mut Reader<'_>, key: &str) -> Option<Text> {
         let value = self.take(key)?;
         text_of(reader, value, &self.path_of(key))
     }
 
     /// A string that must be there.
-    pub(crate) fn required_text(&mut self, reader: &mut Reader<'_>, key: &str) -> Option<Text> {
+    pub fn required_text(&mut self, reader: &mut Reader<'_>, key: &str) -> Option<Text> {
         self.require(reader, key);
         self.text(reader, key)
     }
 
     /// Reports the key if it is not there.
-    pub(crate) fn require(&self, reader: &mut Reader<'_>, key: &str) {
+    pub fn require(&self, reader: &mut Reader<'_>, key: &str) {
         if !self.has(key) {
             reader.error("E0704", self.span, format!("the key `{}` is missing", self.path_of(key)));
         }
     }
 
     /// A list of strings.
-    pub(crate) fn texts(&mut self, reader: &mut Reader<'_>, key: &str) -> Option<Vec<Text>> {
+    pub fn texts(&mut self, reader: &mut Reader<'_>, key: &str) -> Option<Vec<Text>> {
         let value = self.take(key)?;
         let path = self.path_of(key);
         let Some(array) = value.get_ref().as_array() else {
@@ -92,7 +92,7 @@ impl<'d> Table<'d> {
     }
 
     /// A boolean.
-    pub(crate) fn boolean(&mut self, reader: &mut Reader<'_>, key: &str) -> Option<bool> {
+    pub fn boolean(&mut self, reader: &mut Reader<'_>, key: &str) -> Option<bool> {
         let value = self.take(key)?;
         let boolean = value.get_ref().as_bool();
         if boolean.is_none() {
@@ -102,7 +102,7 @@ impl<'d> Table<'d> {
     }
 
     /// A whole number from `least` to `u32::MAX`, with its place.
-    pub(crate) fn count(&mut self, reader: &mut Reader<'_>, key: &str, least: u32) -> Option<(u32, Span)> {
+    pub fn count(&mut self, reader: &mut Reader<'_>, key: &str, least: u32) -> Option<(u32, Span)> {
         let value = self.take(key)?;
         let at = span(value.span());
         let Some(integer) = value.get_ref().as_integer() else {
@@ -118,7 +118,7 @@ impl<'d> Table<'d> {
     }
 
     /// A number of seconds, not negative.
-    pub(crate) fn seconds(&mut self, reader: &mut Reader<'_>, key: &str) -> Option<std::time::Duration> {
+    pub fn seconds(&mut self, reader: &mut Reader<'_>, key: &str) -> Option<std::time::Duration> {
         let value = self.take(key)?;
         let path = self.path_of(key);
         let number: Option<f64> = match value.get_ref() {
@@ -141,7 +141,7 @@ impl<'d> Table<'d> {
     }
 
     /// A table.
-    pub(crate) fn table(&mut self, reader: &mut Reader<'_>, key: &str) -> Option<Table<'d>> {
+    pub fn table(&mut self, reader: &mut Reader<'_>, key: &str) -> Option<Table<'d>> {
         let at = self.key_span(key);
         let value = self.take(key)?;
         let path = self.path_of(key);
@@ -155,7 +155,7 @@ impl<'d> Table<'d> {
     }
 
     /// A list of tables, `[[key]]` or inline; empty if the key is not there.
-    pub(crate) fn tables(&mut self, reader: &mut Reader<'_>, key: &str) -> Vec<Table<'d>> {
+    pub fn tables(&mut self, reader: &mut Reader<'_>, key: &str) -> Vec<Table<'d>> {
         let Some(value) = self.take(key) else { return Vec::new() };
         let path = self.path_of(key);
         let Some(array) = value.get_ref().as_array() else {
@@ -173,7 +173,7 @@ impl<'d> Table<'d> {
     }
 
     /// Reports every key that was not asked for.
-    pub(crate) fn finish(self, reader: &mut Reader<'_>) {
+    pub fn finish(self, reader: &mut Reader<'_>) {
         for entry in self.entries.iter().filter(|e| !e.read) {
             let path = self.path_of(entry.key);
             let help = did_you_mean(entry.key, self.asked.iter().map(String::as_str));
