@@ -163,7 +163,7 @@ fn solved(
     console: &mut Console<'_>,
 ) -> Exit {
     let mut text = String::new();
-    let mut plan = pddl::Plan::default();
+    let mut plan = pddl::SequentialPlan::default();
     for &id in &found.operators {
         let line = task.operator_name(id);
         let start = u32::try_from(text.len()).unwrap_or(u32::MAX);
@@ -206,7 +206,7 @@ fn solved(
 /// Never seen, we hope. The plan is shown as it is, since whoever repairs this needs it.
 fn bug(
     verdict: &Verdict,
-    plan: &pddl::Plan,
+    plan: &pddl::SequentialPlan,
     text: &str,
     files: &TaskFiles,
     console: &mut Console<'_>,

@@ -18,7 +18,7 @@ use crate::render::{At, Message, show_all};
 use crate::task::{TaskFiles, read_source};
 use clap::Args;
 use pddl::model::Objective;
-use pddl::{Plan, Severity, Source, parse_plan};
+use pddl::{Plan, SequentialPlan, Severity, Source, parse_plan};
 use serde::Serialize;
 use std::path::PathBuf;
 use validator::{
@@ -85,6 +85,10 @@ impl Judge<'_> {
             say(console, &record);
             return exit;
         };
+        let plan = match plan {
+            Plan::Sequential(plan) => plan,
+            Plan::Temporal(_) | Plan::Hierarchical(_) => return refuse(&plan, source, console),
+        };
         let (verdict, trace) = match self.validator {
             Ok(validator) if self.verbose => {
                 let (verdict, trace) = validator.trace(&plan);
@@ -126,7 +130,7 @@ impl Judge<'_> {
         exit
     }
 
-    fn show_trace(&self, plan: &Plan, trace: &Trace, console: &mut Console<'_>) {
+    fn show_trace(&self, plan: &SequentialPlan, trace: &Trace, console: &mut Console<'_>) {
         if console.form() == Form::Json {
             return;
         }
@@ -137,6 +141,18 @@ impl Judge<'_> {
             }
         }
     }
+}
+
+/// A plan of a kind that no verdict is given on.
+fn refuse(plan: &Plan, source: &Source, console: &mut Console<'_>) -> Exit {
+    let sentence = format!("{} plans are read but not validated", plan.kind());
+    let mut message = Message::error(sentence.clone()).at(source, plan.first_span());
+    message.severity = Severity::Unsupported;
+    message.show(console);
+    let mut record = VerdictRecord::of(source.name(), "unsupported");
+    record.message = Some(sentence);
+    say(console, &record);
+    Exit::Unsupported
 }
 
 /// Whether reading the files has said the same already.

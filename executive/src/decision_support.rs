@@ -76,7 +76,7 @@ fn objection(model: &Model, state: &State, plan: &[OperatorId]) -> Option<String
             pddl::PlanStep { action: operator.action, arguments, span: pddl::Span::default() }
         })
         .collect();
-    let (problem, plan) = (model.problem_in(state), pddl::Plan { steps });
+    let (problem, plan) = (model.problem_in(state), pddl::SequentialPlan::new(steps));
     let verdict = validator::validate(model.domain(), &problem, &plan);
     validator::explain(model.domain(), &problem, &plan, &verdict).map(|finding| finding.sentence)
 }

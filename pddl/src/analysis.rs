@@ -135,7 +135,7 @@ pub fn analyze_problem(source: &Source, domain: &Domain) -> Analysis<Problem> {
 /// Reads a plan for `problem`; both models may be drafts.
 pub fn analyze_plan(source: &Source, domain: &Domain, problem: &Problem) -> Analysis<Plan> {
     let (tree, diagnostics) = syntax::parse(source);
-    finish(lower::plan(Sink::recording(diagnostics), &tree, domain, problem), Plan::default)
+    finish(lower::plan(Sink::recording(diagnostics), source, &tree, domain, problem), Plan::default)
 }
 
 fn finish<M>(lowered: Lowered<M>, empty: impl FnOnce() -> M) -> Analysis<M> {

@@ -30,10 +30,12 @@
 //! | [`model`] | what a file means |
 //! | `analysis` | for editors: a draft of the model whatever is wrong, and where each name occurs |
 //! | `diagnostic` | what can be wrong, with stable codes, each explained |
+//! | `plan` | what a plan file means: sequential, temporal, hierarchical |
 //! | `print` | model to text |
 //! | `format` | text to text: the same tokens and comments, laid out anew |
 
 mod analysis;
+mod decimal;
 mod diagnostic;
 mod format;
 mod lower;
@@ -47,12 +49,17 @@ pub mod syntax;
 pub use analysis::{
     Analysis, NameKind, Occurrence, Role, Symbol, analyze_domain, analyze_plan, analyze_problem,
 };
+pub use decimal::{Decimal, NotADecimal};
 pub use diagnostic::{
     Diagnostic, DiagnosticKind, Explanation, FileKind, Label, Severity, SymbolKind, UnknownCode,
     UnsupportedFeature, explain, explanations,
 };
 pub use format::format;
 pub use parse::{Parsed, parse_domain, parse_plan, parse_problem};
-pub use plan::{Plan, PlanStep};
+pub use plan::{
+    ClaimedCost, Decomposition, DecompositionId, HierarchicalPlan, LabelledStep, LabelledStepId, Plan,
+    PlanKind, PlanLabel, PlanNode, PlanReference, PlanStep, SequentialPlan, StepHead, TemporalPlan,
+    TemporalStep,
+};
 pub use print::{print_domain, print_plan, print_problem};
 pub use source::{LineColumn, Source, Span};

@@ -34,8 +34,8 @@ pub fn parse_problem(source: &Source, domain: &Domain) -> Parsed<Problem> {
     lower::problem(Sink::new(diagnostics), &tree, domain).parsed()
 }
 
-/// Reads a classical plan for `problem`. Temporal and hierarchical plans are read but have no model.
+/// Reads a plan for `problem`: sequential, temporal or hierarchical, whichever the file holds.
 pub fn parse_plan(source: &Source, domain: &Domain, problem: &Problem) -> Parsed<Plan> {
     let (tree, diagnostics) = syntax::parse(source);
-    lower::plan(Sink::new(diagnostics), &tree, domain, problem).parsed()
+    lower::plan(Sink::new(diagnostics), source, &tree, domain, problem).parsed()
 }

@@ -1,9 +1,85 @@
-//! Classical plan files: one ground action a line, `;` comments, an optional `; cost = N`.
+//! Plans as files hold them: sequential, temporal, hierarchical.
+//!
+//! Problem: three formats, and a file does not say which one it is in. Idea: one model for each, and an enum
+//! of them; whoever makes or takes one kind only names that kind. Invariant: names, arities and types fit the
+//! domain and ids are in range. Whether the plan works, whether subtasks are those of the method, and whether
+//! the decomposition is a tree is the validator's to say: an invalid plan can be read.
+//!
+//! Source: Fox & Long, "PDDL2.1", JAIR 2003, §5 (temporal plans); Höller et al., "Format of hierarchical
+//! plans for IPC 2020". Deviation: times are exact decimals ([`Decimal`]).
 
-use crate::Span;
-use crate::model::{ActionId, ObjectId};
+use crate::model::{ActionId, DurativeActionId, Idx, IndexVec, MethodId, ObjectId, TaskId};
+use crate::{Decimal, Span};
 
-/// A step of a plan; name, arity and types fit the domain.
+/// A plan of any kind.
+#[derive(Clone, Debug)]
+pub enum Plan {
+    /// One action after the other.
+    Sequential(SequentialPlan),
+    /// Actions with times.
+    Temporal(TemporalPlan),
+    /// Actions, and the tasks that they carry out.
+    Hierarchical(HierarchicalPlan),
+}
+
+/// Which kind a plan is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum PlanKind {
+    /// [`Plan::Sequential`]
+    Sequential,
+    /// [`Plan::Temporal`]
+    Temporal,
+    /// [`Plan::Hierarchical`]
+    Hierarchical,
+}
+
+impl std::fmt::Display for PlanKind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Sequential => "sequential",
+            Self::Temporal => "temporal",
+            Self::Hierarchical => "hierarchical",
+        })
+    }
+}
+
+impl Default for Plan {
+    /// The sequential plan without steps.
+    fn default() -> Self {
+        Self::Sequential(SequentialPlan::default())
+    }
+}
+
+impl Plan {
+    /// Of which kind it is.
+    pub fn kind(&self) -> PlanKind {
+        match self {
+            Self::Sequential(_) => PlanKind::Sequential,
+            Self::Temporal(_) => PlanKind::Temporal,
+            Self::Hierarchical(_) => PlanKind::Hierarchical,
+        }
+    }
+
+    /// Where its first action stands; the beginning of the file if there is none.
+    pub fn first_span(&self) -> Span {
+        let span = match self {
+            Self::Sequential(plan) => plan.steps.first().map(|s| s.span),
+            Self::Temporal(plan) => plan.steps.first().map(|s| s.span),
+            Self::Hierarchical(plan) => plan.steps.iter().next().map(|s| s.step.span),
+        };
+        span.unwrap_or_default()
+    }
+
+    /// The plan, if it is sequential.
+    pub fn into_sequential(self) -> Option<SequentialPlan> {
+        match self {
+            Self::Sequential(plan) => Some(plan),
+            Self::Temporal(_) | Self::Hierarchical(_) => None,
+        }
+    }
+}
+
+/// A ground instantaneous action; name, arity and types fit the domain.
 #[derive(Clone, Debug)]
 pub struct PlanStep {
     /// Which action.
@@ -14,9 +90,164 @@ pub struct PlanStep {
     pub span: Span,
 }
 
-/// A sequential plan.
+/// `(a b) (c)`: one action after the other.
 #[derive(Clone, Debug, Default)]
-pub struct Plan {
+pub struct SequentialPlan {
     /// The steps in order.
     pub steps: Vec<PlanStep>,
+    /// What the file says that it costs.
+    pub cost: Option<ClaimedCost>,
+}
+
+impl SequentialPlan {
+    /// A plan that says nothing of its cost.
+    pub fn new(steps: Vec<PlanStep>) -> Self {
+        Self { steps, cost: None }
+    }
+}
+
+/// `; cost = 5`: nobody has checked it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ClaimedCost {
+    /// The cost.
+    pub value: Decimal,
+    /// The comment.
+    pub span: Span,
+}
+
+/// What a step of a temporal plan is an instance of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum StepHead {
+    /// An instantaneous action.
+    Action(ActionId),
+    /// A durative action.
+    DurativeAction(DurativeActionId),
+}
+
+/// `0.003: (a b) [4.000]`
+#[derive(Clone, Debug)]
+pub struct TemporalStep {
+    /// When it starts; never negative.
+    pub start: Decimal,
+    /// Which action.
+    pub head: StepHead,
+    /// Its arguments.
+    pub arguments: Vec<ObjectId>,
+    /// How long it takes, if the file says so; never negative. Some planners write one behind instantaneous
+    /// actions too, where it means nothing.
+    pub duration: Option<Decimal>,
+    /// Where the action stands.
+    pub span: Span,
+    /// Where its start stands.
+    pub start_span: Span,
+    /// Where its duration stands, brackets included.
+    pub duration_span: Option<Span>,
+}
+
+/// Actions with times.
+#[derive(Clone, Debug, Default)]
+pub struct TemporalPlan {
+    /// The steps in the order of the file, which need not be that of their times.
+    pub steps: Vec<TemporalStep>,
+    /// What the file says that it costs.
+    pub cost: Option<ClaimedCost>,
+}
+
+/// The number by which a hierarchical plan names one of its actions or tasks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct PlanLabel(pub u64);
+
+impl std::fmt::Display for PlanLabel {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+/// The position of an action in [`HierarchicalPlan::steps`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct LabelledStepId(pub u32);
+
+/// The position of a task in [`HierarchicalPlan::decompositions`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct DecompositionId(pub u32);
+
+impl Idx for LabelledStepId {
+    fn from_index(index: usize) -> Self {
+        Self(u32::try_from(index).expect("a source of less than 4 GiB has less than 2^32 steps"))
+    }
+    fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+impl Idx for DecompositionId {
+    fn from_index(index: usize) -> Self {
+        Self(u32::try_from(index).expect("a source of less than 4 GiB has less than 2^32 tasks"))
+    }
+    fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// `0 action a b`
+#[derive(Clone, Debug)]
+pub struct LabelledStep {
+    /// Its number.
+    pub label: PlanLabel,
+    /// Where the number stands.
+    pub label_span: Span,
+    /// The action.
+    pub step: PlanStep,
+}
+
+/// A node of the decomposition.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum PlanNode {
+    /// An action.
+    Step(LabelledStepId),
+    /// A task.
+    Decomposition(DecompositionId),
+}
+
+/// A number that names a node, where it is used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PlanReference {
+    /// What it names.
+    pub node: PlanNode,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// `5 task a b -> method 6 7`
+#[derive(Clone, Debug)]
+pub struct Decomposition {
+    /// Its number.
+    pub label: PlanLabel,
+    /// Where the number stands.
+    pub label_span: Span,
+    /// Which task.
+    pub task: TaskId,
+    /// The task's arguments.
+    pub arguments: Vec<ObjectId>,
+    /// By which method it is carried out. Whether the method is one of that task is not checked here.
+    pub method: MethodId,
+    /// Where the method's name stands.
+    pub method_span: Span,
+    /// What it becomes, in the order of the file.
+    pub subtasks: Vec<PlanReference>,
+    /// The task with its arguments.
+    pub span: Span,
+}
+
+/// Actions, and how they come out of the tasks of the problem.
+#[derive(Clone, Debug, Default)]
+pub struct HierarchicalPlan {
+    /// The actions in the order in which they are taken.
+    pub steps: IndexVec<LabelledStepId, LabelledStep>,
+    /// The tasks in the order of the file.
+    pub decompositions: IndexVec<DecompositionId, Decomposition>,
+    /// What the problem's initial task network became.
+    pub roots: Vec<PlanReference>,
+    /// The word `root`.
+    pub root_span: Span,
 }

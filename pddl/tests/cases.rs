@@ -2,14 +2,15 @@
 //! exactly what stands in the `.expected` file (`.plan.expected` for a plan) beside it (`UPDATE_EXPECT=1` writes it anew).
 //!
 //! A file holds a domain, a problem for it, or both. A comment `; with FILE` names another file of
-//! the folder: a domain to import, or the domain of the problem.
+//! the folder: a domain to import, or the domain of the problem. A plan is for what stands in the `.pddl` file of
+//! its name, or in the one that a comment `; of FILE` names.
 
 mod support;
 
 use std::path::{Path, PathBuf};
 
 use pddl::model::{Domain, Problem};
-use pddl::{Diagnostic, Severity, Source, parse_domain, parse_plan, parse_problem};
+use pddl::{Diagnostic, Plan, Severity, Source, parse_domain, parse_plan, parse_problem};
 
 fn test_data(folder: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("test_data").join(folder)
@@ -21,6 +22,7 @@ struct Case {
     imports: Vec<Domain>,
     domain: Option<Domain>,
     problem: Option<Problem>,
+    plan: Option<Plan>,
     diagnostics: Vec<Diagnostic>,
 }
 
@@ -35,13 +37,19 @@ fn read(path: &Path) -> Case {
         imports: Vec::new(),
         domain: None,
         problem: None,
+        plan: None,
         diagnostics: Vec::new(),
     };
     let is_problem = source.text().contains("(problem");
     if path.extension().is_some_and(|e| e == "plan") {
-        let beside = read(&path.with_extension("pddl"));
+        let mut of =
+            source.text().lines().filter_map(|l| l.trim_start_matches('\u{feff}').strip_prefix("; of "));
+        let of = of.next().map_or_else(|| path.with_extension("pddl"), |f| path.with_file_name(f.trim()));
+        let beside = read(&of);
         let (domain, problem) = (beside.domain.expect("a domain"), beside.problem.expect("a problem"));
-        case.diagnostics = parse_plan(&source, &domain, &problem).diagnostics;
+        let parsed = parse_plan(&source, &domain, &problem);
+        case.diagnostics = parsed.diagnostics;
+        (case.domain, case.problem, case.plan) = (Some(domain), Some(problem), parsed.model);
         return case;
     }
     if source.text().contains("(domain") || !is_problem {
@@ -79,6 +87,9 @@ fn good_files_are_read_and_printed() {
             support::check_domain_printed(domain, &case.imports.iter().collect::<Vec<_>>());
             if let Some(problem) = &case.problem {
                 support::check_problem_printed(problem, domain);
+                if path.extension().is_some_and(|e| e == "plan") {
+                    support::check_plan_printed(case.plan.as_ref().expect("a plan"), domain, problem);
+                }
             }
         }
     }

@@ -86,6 +86,9 @@ fn every_file_is_read_and_printed() {
             let parsed = parse_plan(&source, domain, &problem);
             failed.extend(errors(&source, &parsed.diagnostics));
             read += usize::from(parsed.model.is_some());
+            if let Some(plan) = &parsed.model {
+                support::check_plan_printed(plan, domain, &problem);
+            }
             continue;
         }
         failed.extend(errors(&text, &parsed.diagnostics));

@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         pddl::PlanStep { action: o.action, arguments: o.arguments.to_vec(), span: pddl::Span::default() }
     });
     eprintln!("solved     {:9.3} s {:?}", start.elapsed().as_secs_f64(), report.statistics);
-    let verdict = validator::validate(&domain, &problem, &pddl::Plan { steps: steps.collect() });
+    let verdict = validator::validate(&domain, &problem, &pddl::SequentialPlan::new(steps.collect()));
     if !verdict.is_valid() {
         return Err(format!("INVALID {verdict:?}").into());
     }

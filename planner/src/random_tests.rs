@@ -182,7 +182,7 @@ proptest! {
                         arguments: o.arguments.to_vec(),
                         span: pddl::Span::default(),
                     });
-                    let steps = pddl::Plan { steps: steps.collect() };
+                    let steps = pddl::SequentialPlan::new(steps.collect());
                     let verdict = validator::validate(&domain, &problem, &steps);
                     prop_assert!(verdict.is_valid(), "{name}: {verdict:?}");
                     let best = optimum.expect("brute force finds what the search finds");

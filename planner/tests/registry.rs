@@ -89,7 +89,7 @@ fn check(case: &Case, task: &Task, configuration: &SearchConfiguration, outcome:
                     span: pddl::Span::default(),
                 }
             });
-            let steps = pddl::Plan { steps: steps.collect() };
+            let steps = pddl::SequentialPlan::new(steps.collect());
             let verdict = validator::validate(&case.domain, &case.problem, &steps);
             assert!(verdict.is_valid(), "{place}: {verdict:?}");
             let replayed =

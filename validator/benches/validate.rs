@@ -36,6 +36,7 @@ fn walk(criterion: &mut Criterion, name: &str, guard: &str, extra: &str, axiom: 
     );
     let problem = parse_problem(&Source::new("problem", problem), &domain).model.unwrap();
     let plan = parse_plan(&Source::new("plan", plan), &domain, &problem).model.unwrap();
+    let plan = plan.into_sequential().unwrap();
     let validator = Validator::new(&domain, &problem).unwrap();
     assert!(validator.validate(&plan).is_valid(), "{name}: {:?}", validator.validate(&plan));
     let mut group = criterion.benchmark_group("validate");

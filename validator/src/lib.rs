@@ -13,6 +13,7 @@
 //! let problem = Source::new("p.pddl", "(define (problem p) (:domain d) (:init) (:goal (lit)))");
 //! let problem = parse_problem(&problem, &domain).model.expect("a problem");
 //! let plan = parse_plan(&Source::new("plan", "(light)"), &domain, &problem).model.expect("a plan");
+//! let plan = plan.into_sequential().expect("no times and no tasks");
 //!
 //! let verdict = validator::validate(&domain, &problem, &plan);
 //! assert!(verdict.is_valid());

@@ -19,10 +19,10 @@ use pddl::model::{
     Action, ActionId, Condition, ConditionKind, Domain, Effect, EffectKind, FluentValue, GroundApplication,
     Idx, IndexVec, Problem, Variables,
 };
-use pddl::{Plan, PlanStep};
+use pddl::{PlanStep, SequentialPlan};
 
 /// Judges one plan.
-pub fn validate(domain: &Domain, problem: &Problem, plan: &Plan) -> Verdict {
+pub fn validate(domain: &Domain, problem: &Problem, plan: &SequentialPlan) -> Verdict {
     match Validator::new(domain, problem) {
         Ok(validator) => validator.validate(plan),
         Err(refusal) => *refusal,
@@ -70,18 +70,18 @@ impl<'a> Validator<'a> {
     }
 
     /// Judges a plan.
-    pub fn validate(&self, plan: &Plan) -> Verdict {
+    pub fn validate(&self, plan: &SequentialPlan) -> Verdict {
         self.run(plan, None)
     }
 
     /// Judges a plan, and answers what each step changed.
-    pub fn trace(&self, plan: &Plan) -> (Verdict, Trace) {
+    pub fn trace(&self, plan: &SequentialPlan) -> (Verdict, Trace) {
         let mut trace = Trace::default();
         let verdict = self.run(plan, Some(&mut trace));
         (verdict, trace)
     }
 
-    fn run(&self, plan: &Plan, mut trace: Option<&mut Trace>) -> Verdict {
+    fn run(&self, plan: &SequentialPlan, mut trace: Option<&mut Trace>) -> Verdict {
         let mut state = self.initial.clone();
         let mut changes = Changes::default();
         let mut binding = Binding::default();

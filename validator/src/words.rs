@@ -11,7 +11,7 @@ use crate::verdict::{
     EffectFault, Failure, Feature, IllFormed, Operand, StepFault, StepIndex, Unsatisfied, Verdict,
 };
 use pddl::model::{Comparison, Domain, GroundApplication, Name, ObjectId, Problem};
-use pddl::{Plan, PlanStep, Span};
+use pddl::{PlanStep, SequentialPlan, Span};
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -48,7 +48,12 @@ pub struct Finding {
 }
 
 /// What to say about a verdict; nothing about a valid plan.
-pub fn explain(domain: &Domain, problem: &Problem, plan: &Plan, verdict: &Verdict) -> Option<Finding> {
+pub fn explain(
+    domain: &Domain,
+    problem: &Problem,
+    plan: &SequentialPlan,
+    verdict: &Verdict,
+) -> Option<Finding> {
     let words = Words { domain, problem, plan };
     match verdict {
         Verdict::Valid(_) => None,
@@ -128,7 +133,7 @@ const fn symbol(comparison: Comparison) -> &'static str {
 struct Words<'a> {
     domain: &'a Domain,
     problem: &'a Problem,
-    plan: &'a Plan,
+    plan: &'a SequentialPlan,
 }
 
 impl Words<'_> {

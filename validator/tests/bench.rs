@@ -26,6 +26,8 @@ fn word(folder: &Path, plan: &str) -> String {
     let source = read(&folder.join(plan));
     let parsed = parse_plan(&source, &domain, &problem);
     let Some(plan) = parsed.model else { return format!("unreadable plan: {:?}", parsed.diagnostics) };
+    let kind = plan.kind();
+    let Some(plan) = plan.into_sequential() else { return format!("refused: a {kind} plan") };
     let verdict = validate(&domain, &problem, &plan);
     match &verdict {
         Verdict::Valid(_) => "valid".to_owned(),

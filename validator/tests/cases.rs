@@ -44,6 +44,7 @@ fn judge(folder: &Path, plan: &Path) -> String {
     let plan_source = source(plan);
     let parsed = parse_plan(&plan_source, &domain, &problem);
     let Some(plan) = parsed.model else { return unreadable(&plan_source, &parsed.diagnostics) };
+    let plan = plan.into_sequential().unwrap();
     let place = |place: Place| match place.file {
         File::Domain => at(&domain_source, place.span),
         File::Problem => at(&problem_source, place.span),

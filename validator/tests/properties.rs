@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use pddl::model::{ActionId, Domain, ObjectId, Problem};
-use pddl::{Plan, PlanStep, Source, Span, parse_domain, parse_plan, parse_problem};
+use pddl::{PlanStep, SequentialPlan, Source, Span, parse_domain, parse_plan, parse_problem};
 use proptest::prelude::*;
 use validator::{Failure, Validator, Verdict, explain, validate};
 
@@ -66,8 +66,8 @@ fn task(problem: &str) -> (Domain, Problem) {
     (domain, problem)
 }
 
-fn read(text: &str, domain: &Domain, problem: &Problem) -> Plan {
-    parse_plan(&Source::new("plan", text), domain, problem).model.unwrap()
+fn read(text: &str, domain: &Domain, problem: &Problem) -> SequentialPlan {
+    parse_plan(&Source::new("plan", text), domain, problem).model.unwrap().into_sequential().unwrap()
 }
 
 fn judged(problem: &str, plan: &str) -> Verdict {
@@ -116,7 +116,7 @@ proptest! {
             arguments: arguments.into_iter().map(ObjectId).collect(),
             span: Span::default(),
         });
-        let plan = Plan { steps: steps.collect() };
+        let plan = SequentialPlan::new(steps.collect());
         let verdict = validate(&domain, &problem, &plan);
         prop_assert_eq!(verdict.is_valid(), explain(&domain, &problem, &plan, &verdict).is_none());
     }

@@ -20,7 +20,7 @@ use crate::render::{Message, show_all};
 use crate::task::read_source;
 use clap::Args;
 use pddl::model::Domain;
-use pddl::{Diagnostic, Plan, Severity, Source, parse_domain, parse_problem};
+use pddl::{Diagnostic, SequentialPlan, Severity, Source, parse_domain, parse_problem};
 use serde::Serialize;
 use std::collections::BTreeSet;
 use std::fs;
@@ -309,7 +309,7 @@ impl<'a> Checked<'a> {
             && let Err(refusal) = Validator::new(&domain, problem)
             && matches!(*refusal, Verdict::IllFormed(_))
             && self.ill_formed.insert(provider)
-            && let Some(finding) = explain(&domain, problem, &Plan::default(), &refusal)
+            && let Some(finding) = explain(&domain, problem, &SequentialPlan::default(), &refusal)
         {
             self.tallies[provider].errors += 1;
             Message::error(finding.sentence)

@@ -34,6 +34,8 @@ pub enum SymbolKind {
     Domain,
     /// A requirement flag.
     Requirement,
+    /// An action or a task of a hierarchical plan, by its number.
+    PlanStep,
 }
 
 impl SymbolKind {
@@ -46,7 +48,12 @@ impl SymbolKind {
             Self::Action => NameKind::Action,
             Self::Task | Self::TaskOrAction => NameKind::Task,
             Self::Method => NameKind::Method,
-            Self::Type | Self::Variable | Self::Subtask | Self::Domain | Self::Requirement => return None,
+            Self::Type
+            | Self::Variable
+            | Self::Subtask
+            | Self::Domain
+            | Self::Requirement
+            | Self::PlanStep => return None,
         })
     }
 }
@@ -67,6 +74,7 @@ impl std::fmt::Display for SymbolKind {
             Self::Token => "token",
             Self::Domain => "domain",
             Self::Requirement => "requirement",
+            Self::PlanStep => "number",
         })
     }
 }
@@ -126,10 +134,6 @@ pub enum UnsupportedFeature {
     NetworkConstraints,
     /// `:vars` of actions (PDDL 1.2)
     ActionVariables,
-    /// `0.0: (a) [2.0]`
-    TemporalPlans,
-    /// `==> … <==`
-    HierarchicalPlans,
 }
 
 impl std::fmt::Display for UnsupportedFeature {
@@ -147,8 +151,6 @@ impl std::fmt::Display for UnsupportedFeature {
             Self::DurationAtEnd => "duration constraints at the end",
             Self::NetworkConstraints => "constraints of task networks",
             Self::ActionVariables => "variables of actions that are no parameters (`:vars`)",
-            Self::TemporalPlans => "temporal plans",
-            Self::HierarchicalPlans => "hierarchical plans",
         })
     }
 }
@@ -174,6 +176,9 @@ pub enum DiagnosticKind {
         /// What was to be read.
         expected: FileKind,
     },
+    /// A plan file with other text than steps.
+    #[error("this is not a plan")]
+    NotAPlan,
     /// Something else should stand here.
     #[error("expected {expected}, found {found}")]
     Unexpected {
@@ -214,9 +219,12 @@ pub enum DiagnosticKind {
         /// Which.
         name: String,
     },
-    /// Text behind the definition.
-    #[error("this stands behind the end of the definition and is not read")]
+    /// Text behind the definition or the plan.
+    #[error("this stands behind the end and is not read")]
     TrailingText,
+    /// A plan file without anything in it.
+    #[error("there is nothing in this file: it is read as the plan without steps")]
+    EmptyPlan,
 
     /// A name that nothing declares.
     #[error("unknown {symbol} `{name}`")]
@@ -364,6 +372,23 @@ pub enum DiagnosticKind {
         requirement: &'static str,
     },
 
+    /// `-1: (a)`, `0: (a) [-1]`
+    #[error("a {what} cannot be negative: {value}")]
+    NegativeTime {
+        /// Time or duration.
+        what: &'static str,
+        /// As written.
+        value: crate::Decimal,
+    },
+    /// `2: (a)` and then `1: (b)`
+    #[error("step {number} stands behind step {before}: steps are taken in the order of the file")]
+    StepOutOfOrder {
+        /// The later one's number.
+        number: crate::Decimal,
+        /// The earlier one's.
+        before: crate::Decimal,
+    },
+
     /// A part of the language that no model holds.
     #[error("{feature} are read but not supported")]
     Unsupported {
@@ -384,13 +409,14 @@ impl DiagnosticKind {
             Self::UnclosedParenthesis => "E0101",
             Self::UnmatchedParenthesis => "E0102",
             Self::NestingTooDeep { .. } => "E0103",
-            Self::NotADefinition { .. } => "E0104",
+            Self::NotADefinition { .. } | Self::NotAPlan => "E0104",
             Self::Unexpected { .. } => "E0105",
             Self::Missing { .. } => "E0106",
             Self::UnknownSection { .. } => "E0107",
             Self::UnknownKey { .. } => "E0108",
             Self::Repeated { .. } => "E0109",
             Self::TrailingText => "W0110",
+            Self::EmptyPlan => "W0111",
             Self::Unknown { symbol, .. } => match symbol {
                 SymbolKind::Type => "E0201",
                 SymbolKind::Predicate => "E0202",
@@ -405,6 +431,7 @@ impl DiagnosticKind {
                 SymbolKind::Token => "E0211",
                 SymbolKind::Domain => "E0212",
                 SymbolKind::Requirement => "W0213",
+                SymbolKind::PlanStep => "E0214",
             },
             Self::Duplicate { .. } => "E0220",
             Self::ImportConflict { .. } => "E0221",
@@ -421,6 +448,8 @@ impl DiagnosticKind {
             Self::UnknownTime { .. } => "E0501",
             Self::OutcomeInCondition { .. } => "E0502",
             Self::NeedsRequirement { .. } => "E0503",
+            Self::NegativeTime { .. } => "E0504",
+            Self::StepOutOfOrder { .. } => "E0505",
             Self::Unsupported { .. } => "U0601",
         }
     }
@@ -440,6 +469,7 @@ impl DiagnosticKind {
             Self::Unknown { suggestion: Some(name), .. }
             | Self::UnknownSection { suggestion: Some(name), .. }
             | Self::UnknownKey { suggestion: Some(name), .. } => Some(format!("did you mean `{name}`?")),
+            Self::NotAPlan => Some("a plan is a list of steps such as `(action object)`".into()),
             Self::NotADefinition { expected } => {
                 Some(format!("a file of this kind is `(define ({expected} NAME) …)`"))
             }

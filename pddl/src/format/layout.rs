@@ -348,7 +348,10 @@ impl Writer<'_> {
             Gap::None
         } else if piece.lines > 0 || frame.tall || defines {
             Gap::Line(0)
-        } else if piece.glued && piece.kind != TokenKind::Open {
+        } else if piece.glued
+            && piece.kind != TokenKind::Open
+            && self.measured.pieces[index - 1].kind != TokenKind::Close
+        {
             Gap::None
         } else {
             Gap::Blank

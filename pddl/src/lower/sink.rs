@@ -137,7 +137,11 @@ impl<M> Lowered<M> {
 
 /// The node's text, short enough for a sentence.
 pub(super) fn found(node: Node<'_>) -> String {
-    let text = node.text();
+    found_text(node.text())
+}
+
+/// A text, short enough for a sentence.
+pub(super) fn found_text(text: &str) -> String {
     if text == "()" {
         return "`()`".into();
     }

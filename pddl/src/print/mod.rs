@@ -11,12 +11,12 @@ mod body;
 mod declarations;
 mod domain;
 mod htn;
+mod plan;
 mod problem;
 mod schemas;
 
-use std::fmt::Write as _;
+pub use plan::print_plan;
 
-use crate::Plan;
 use crate::model::{Domain, IndexVec, Name, Object, ObjectId, Problem};
 
 /// The text of a domain.
@@ -31,19 +31,6 @@ pub fn print_problem(problem: &Problem, domain: &Domain) -> String {
     let mut printer = Printer::new(domain, &problem.objects);
     printer.problem(problem);
     printer.out
-}
-
-/// The text of a plan: a step a line.
-pub fn print_plan(plan: &Plan, domain: &Domain, problem: &Problem) -> String {
-    let mut text = String::new();
-    for step in &plan.steps {
-        let _ = write!(text, "({}", domain.actions[step.action].name);
-        for &argument in &step.arguments {
-            let _ = write!(text, " {}", problem.objects[argument].name);
-        }
-        text.push_str(")\n");
-    }
-    text
 }
 
 /// What a name prints.

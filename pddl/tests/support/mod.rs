@@ -6,7 +6,10 @@ pub(crate) mod properties;
 use std::path::{Path, PathBuf};
 
 use pddl::model::{Domain, Problem};
-use pddl::{Diagnostic, Source, parse_domain, parse_problem, print_domain, print_problem};
+use pddl::{
+    Diagnostic, Plan, Source, parse_domain, parse_plan, parse_problem, print_domain, print_plan,
+    print_problem,
+};
 
 /// All PDDL, HDDL and plan files below a folder, in order of their paths.
 pub(crate) fn files(folder: &Path) -> Vec<PathBuf> {
@@ -58,6 +61,15 @@ pub(crate) fn check_problem_printed(problem: &Problem, domain: &Domain) {
         similar(&without_spans(problem), &without_spans(&model), source.text());
         assert_eq!(source.text(), print_problem(&model, domain));
     }
+}
+
+/// Reading what is printed gives the same plan.
+pub(crate) fn check_plan_printed(plan: &Plan, domain: &Domain, problem: &Problem) {
+    let source = Source::new("printed", print_plan(plan, domain, problem));
+    let again = parse_plan(&source, domain, problem);
+    let Some(model) = again.model else { panic!("{}", describe(&source, &again.diagnostics)) };
+    similar(&without_spans(plan), &without_spans(&model), source.text());
+    assert_eq!(source.text(), print_plan(&model, domain, problem));
 }
 
 /// Models are long: of two that differ it shows where.

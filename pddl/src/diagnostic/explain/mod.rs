@@ -26,7 +26,6 @@ pub struct Explanation {
     /// Why it is wrong, and what to do.
     pub why: &'static str,
     /// The texts of files that give it, the domain before its problem; `…` stands for a thousand times the same.
-    /// Empty for a code that is kept for what is not read yet.
     pub wrong: &'static [&'static str],
     /// The same without the mistake.
     pub right: &'static [&'static str],

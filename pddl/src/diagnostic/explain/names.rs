@@ -209,12 +209,54 @@ pub(super) const EXPLANATIONS: &[Explanation] = &[
     Explanation {
         code: "E0209",
         title: "unknown method",
-        meaning: "A method is named that the domain does not have. The code is kept for hierarchical plans, \
-         which name the methods they use; they are read without a model yet, so it is never \
-         reported.",
+        meaning: "A hierarchical plan names a method that the domain does not have.",
         why: "A plan that uses a method which does not exist is not a plan for this domain.",
-        wrong: &[],
-        right: &[],
+        wrong: &[
+            "\
+(define (domain hall)
+  (:requirements :hierarchy)
+  (:predicates (lit))
+  (:task brighten :parameters ())
+  (:action switch :effect (lit))
+  (:method by-hand
+    :parameters ()
+    :task (brighten)
+    :subtasks (switch)))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:htn :subtasks (brighten))
+  (:init))",
+            "\
+==>
+0 switch
+root 1
+1 brighten -> by-foot 0
+<==",
+        ],
+        right: &[
+            "\
+(define (domain hall)
+  (:requirements :hierarchy)
+  (:predicates (lit))
+  (:task brighten :parameters ())
+  (:action switch :effect (lit))
+  (:method by-hand
+    :parameters ()
+    :task (brighten)
+    :subtasks (switch)))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:htn :subtasks (brighten))
+  (:init))",
+            "\
+==>
+0 switch
+root 1
+1 brighten -> by-hand 0
+<==",
+        ],
     },
     Explanation {
         code: "E0210",
@@ -314,5 +356,58 @@ pub(super) const EXPLANATIONS: &[Explanation] = &[
   (:types lamp)
   (:predicates (lit ?x - lamp))
   (:action switch :parameters (?x - lamp) :effect (lit ?x)))"],
+    },
+    Explanation {
+        code: "E0214",
+        title: "unknown number in a plan",
+        meaning: "The root or a task of a hierarchical plan names an action or a task by a number that no line \
+         of the plan has.",
+        why: "What is missing may have been what carries the task out, so the plan cannot be checked.",
+        wrong: &[
+            "\
+(define (domain hall)
+  (:requirements :hierarchy)
+  (:predicates (lit))
+  (:task brighten :parameters ())
+  (:action switch :effect (lit))
+  (:method by-hand
+    :parameters ()
+    :task (brighten)
+    :subtasks (switch)))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:htn :subtasks (brighten))
+  (:init))",
+            "\
+==>
+0 switch
+root 2
+1 brighten -> by-hand 0
+<==",
+        ],
+        right: &[
+            "\
+(define (domain hall)
+  (:requirements :hierarchy)
+  (:predicates (lit))
+  (:task brighten :parameters ())
+  (:action switch :effect (lit))
+  (:method by-hand
+    :parameters ()
+    :task (brighten)
+    :subtasks (switch)))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:htn :subtasks (brighten))
+  (:init))",
+            "\
+==>
+0 switch
+root 1
+1 brighten -> by-hand 0
+<==",
+        ],
     },
 ];

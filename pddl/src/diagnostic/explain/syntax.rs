@@ -56,9 +56,10 @@ pub(super) const EXPLANATIONS: &[Explanation] = &[
         code: "E0104",
         title: "this is not a definition",
         meaning: "The file holds no `(define (domain …) …)` where a domain is to be read, or no `(define \
-         (problem …) …)` where a problem is.",
+         (problem …) …)` where a problem is. Or it \
+         should be a plan and holds no step.",
         why: "Either the wrong file was given, for instance the problem in the place of the domain, or \
-         the first line is misspelled.",
+         the first line is misspelled. A text that is no plan must not pass for the empty one.",
         wrong: &["\
 (define (domian hall)
   (:predicates (lit ?x)))"],
@@ -153,9 +154,9 @@ pub(super) const EXPLANATIONS: &[Explanation] = &[
     },
     Explanation {
         code: "W0110",
-        title: "text behind the definition",
-        meaning: "Something that is no definition stands behind the end of the domain or the problem. It is \
-         not read.",
+        title: "text behind the end",
+        meaning: "Something that is no definition stands behind the end of the domain or the problem, or \
+         something behind the `<==` of a hierarchical plan. It is not read.",
         why: "Often a parenthesis too many ended the definition early, or two files were joined.",
         wrong: &["\
 (define (domain hall)
@@ -164,5 +165,36 @@ pub(super) const EXPLANATIONS: &[Explanation] = &[
         right: &["\
 (define (domain hall)
   (:predicates (lit)))"],
+    },
+    Explanation {
+        code: "W0111",
+        title: "an empty plan",
+        meaning: "A plan file holds nothing, or nothing but comments.",
+        why: "It is the plan without steps, which is right where the goal holds already. More often a \
+         planner found nothing or was stopped.",
+        wrong: &[
+            "\
+(define (domain hall)
+  (:predicates (lit))
+  (:action switch :effect (lit)))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:init)
+  (:goal (lit)))",
+            "; nothing found",
+        ],
+        right: &[
+            "\
+(define (domain hall)
+  (:predicates (lit))
+  (:action switch :effect (lit)))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:init)
+  (:goal (lit)))",
+            "(switch)",
+        ],
     },
 ];

@@ -78,4 +78,79 @@ pub(super) const EXPLANATIONS: &[Explanation] = &[
     :effect (at abort (not (speaking)))
     :skill (say)))"],
     },
+    Explanation {
+        code: "E0504",
+        title: "a negative time",
+        meaning: "A step of a plan starts before the time 0, or takes less than no time.",
+        why: "The initial state holds at time 0, and there is nothing before it.",
+        wrong: &[
+            "\
+(define (domain hall)
+  (:requirements :durative-actions)
+  (:predicates (lit))
+  (:durative-action switch
+    :parameters ()
+    :duration (= ?duration 5)
+    :condition (and)
+    :effect (at end (lit))))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:init)
+  (:goal (lit)))",
+            "-1: (switch) [5]",
+        ],
+        right: &[
+            "\
+(define (domain hall)
+  (:requirements :durative-actions)
+  (:predicates (lit))
+  (:durative-action switch
+    :parameters ()
+    :duration (= ?duration 5)
+    :condition (and)
+    :effect (at end (lit))))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:init)
+  (:goal (lit)))",
+            "1: (switch) [5]",
+        ],
+    },
+    Explanation {
+        code: "E0505",
+        title: "steps out of order",
+        meaning: "The steps of a sequential plan are numbered, and a lower number stands behind a higher one.",
+        why: "Steps are taken in the order of the file. Numbers that say otherwise leave open which of the two \
+         is meant.",
+        wrong: &[
+            "\
+(define (domain hall)
+  (:predicates (lit))
+  (:action switch :effect (lit))
+  (:action leave :effect (not (lit))))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:init)
+  (:goal (lit)))",
+            "1: (switch)
+0: (leave)",
+        ],
+        right: &[
+            "\
+(define (domain hall)
+  (:predicates (lit))
+  (:action switch :effect (lit))
+  (:action leave :effect (not (lit))))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:init)
+  (:goal (lit)))",
+            "0: (leave)
+1: (switch)",
+        ],
+    },
 ];

@@ -1,0 +1,3 @@
+(define (domain hall)
+  (:predicates (lit))
+  (:action light :effect (lit)))

@@ -1,0 +1,4 @@
+(define (problem evening)
+  (:domain hall)
+  (:init)
+  (:goal (lit)))
