@@ -23,17 +23,20 @@
 //! ```
 //!
 //! Map, from the ground up: `sources` (texts by number), `finding` (what is wrong, where), `header` (the names
-//! in a file's head), `links` (which file needs which), `file` (a file as it was read), `project`.
+//! in a file's head), `links` (which file needs which), `file` (a file as it was read),
+//! `project`, `lint` (a domain with all its problems, looked at by lints).
 
 mod file;
 mod finding;
 mod header;
 mod links;
+mod lint;
 mod project;
 mod sources;
 
 pub use file::{FileKind, Reading};
 pub use finding::{Finding, Place};
 pub use header::{Header, Need};
+pub use lint::{Fix, Linted};
 pub use project::Project;
 pub use sources::{SourceId, Sources};
