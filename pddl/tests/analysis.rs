@@ -221,8 +221,8 @@ fn a_problem_is_read_with_the_draft_of_its_domain() {
     assert_eq!((problem.draft.init.len(), problem.sound), (1, false));
     let source = Source::new("x.plan", "(go a) (go b)\n(come a)");
     let plan = analyze_plan(&source, &domain.draft, &problem.draft);
-    let plan = plan.draft.into_sequential().expect("no times");
-    assert_eq!(plan.steps.len(), 1);
+    let sequential = plan.draft.clone().into_sequential().expect("no times");
+    assert_eq!(sequential.steps.len(), 1);
     expect![[r#"
         1:2 action go
         1:5 object a
