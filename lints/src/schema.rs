@@ -50,11 +50,13 @@ impl<'a> Schema<'a> {
         match self {
             Self::Action(action) => {
                 walk::condition(&action.precondition, Polarity::Positive, f);
+                action.preferences.iter().for_each(|p| walk::preference(p, &p.body, f));
                 walk::effect(&action.effect, f);
             }
             Self::Durative(action) => {
                 action.duration.iter().for_each(|d| walk::expression(&d.bound, f));
                 action.conditions.iter().for_each(|c| walk::condition(&c.condition, Polarity::Positive, f));
+                action.preferences.iter().for_each(|p| walk::preference(p, &p.body.condition, f));
                 action.effects.iter().for_each(|e| walk::effect(&e.effect, f));
                 if let Some(rule) = &action.rule {
                     let arguments = rule.skill.iter().flat_map(|skill| &skill.arguments);

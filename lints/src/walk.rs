@@ -4,7 +4,7 @@
 
 use pddl::model::{
     Application, AssignOperator, AssignedValue, Atom, Condition, ConditionKind, Effect, EffectKind,
-    Expression, ExpressionKind, PredicateId, SubtaskHead, Term, VariableId,
+    Expression, ExpressionKind, PredicateId, Preference, SubtaskHead, Term, VariableId,
 };
 
 /// Whether something must be true or must be false for the whole to hold.
@@ -90,6 +90,14 @@ pub(crate) fn condition<'a>(of: &'a Condition, polarity: Polarity, f: &mut dyn F
     }
 }
 
+/// A preference whose body holds `what`.
+pub(crate) fn preference<'a, T>(of: &'a Preference<T>, what: &'a Condition, f: &mut dyn FnMut(Part<'a>)) {
+    if !of.forall.is_empty() {
+        f(Part::Binds(&of.forall));
+    }
+    condition(what, Polarity::Positive, f);
+}
+
 pub(crate) fn effect<'a>(of: &'a Effect, f: &mut dyn FnMut(Part<'a>)) {
     match &of.kind {
         EffectKind::And(parts) => parts.iter().for_each(|part| effect(part, f)),
@@ -118,6 +126,9 @@ pub(crate) fn expression<'a>(of: &'a Expression, f: &mut dyn FnMut(Part<'a>)) {
     match &of.kind {
         ExpressionKind::Fluent(application) => f(Part::Reads(application)),
         ExpressionKind::Arithmetic(_, operands) => operands.iter().for_each(|operand| expression(operand, f)),
-        ExpressionKind::Number(_) | ExpressionKind::Duration | ExpressionKind::TotalTime => {}
+        ExpressionKind::Number(_)
+        | ExpressionKind::Duration
+        | ExpressionKind::TotalTime
+        | ExpressionKind::IsViolated(_) => {}
     }
 }

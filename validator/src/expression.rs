@@ -81,6 +81,8 @@ impl Scene<'_> {
                 self.arithmetic(*operator, operands, span, binding)
             }
             ExpressionKind::Duration => Err(NumericFault::Duration { span }),
+            // Preferences are refused before anything is evaluated.
+            ExpressionKind::IsViolated(_) => Ok(Number::ZERO),
             ExpressionKind::TotalTime => Ok(Number::integer(i64::from(self.elapsed))),
         }
     }

@@ -177,6 +177,12 @@ fn unsupported(domain: &Domain, problem: &Problem) -> Option<Unsupported> {
         let feature = Feature::InProblem(diagnostic.message());
         return Some(Unsupported { feature, span: diagnostic.span });
     }
+    if let Some(&(feature, span)) = domain.features().first() {
+        return Some(Unsupported { feature: Feature::LanguageOfDomain(feature), span });
+    }
+    if let Some(&(feature, span)) = problem.features().first() {
+        return Some(Unsupported { feature: Feature::LanguageOfProblem(feature), span });
+    }
     problem.htn.as_ref().map(|(_, network)| {
         let span = network.subtasks.first().map_or(problem.goal_span, |subtask| subtask.span);
         Unsupported { feature: Feature::TaskNetwork, span }

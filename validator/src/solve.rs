@@ -85,7 +85,10 @@ fn each_expression_variable(expression: &Expression, visit: &mut dyn FnMut(Varia
                 each_expression_variable(operand, visit);
             }
         }
-        ExpressionKind::Number(_) | ExpressionKind::Duration | ExpressionKind::TotalTime => {}
+        ExpressionKind::Number(_)
+        | ExpressionKind::Duration
+        | ExpressionKind::TotalTime
+        | ExpressionKind::IsViolated(_) => {}
     }
 }
 

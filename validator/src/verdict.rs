@@ -275,6 +275,10 @@ pub enum Feature {
     InDomain(String),
     /// Something that the problem's model does not hold, in the parser's words.
     InProblem(String),
+    /// A part of the language that the domain uses.
+    LanguageOfDomain(pddl::model::Feature),
+    /// A part of the language that the problem uses.
+    LanguageOfProblem(pddl::model::Feature),
     /// A plan for a task network must come with its decomposition.
     TaskNetwork,
 }

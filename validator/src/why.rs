@@ -134,7 +134,10 @@ impl Why<'_> {
                     self.fluents(operand, binding, into);
                 }
             }
-            ExpressionKind::Number(_) | ExpressionKind::Duration | ExpressionKind::TotalTime => {}
+            ExpressionKind::Number(_)
+            | ExpressionKind::Duration
+            | ExpressionKind::TotalTime
+            | ExpressionKind::IsViolated(_) => {}
         }
     }
 

@@ -62,6 +62,8 @@ pub fn explain(
             let (file, sentence) = match &unsupported.feature {
                 Feature::InDomain(what) => (File::Domain, what.clone()),
                 Feature::InProblem(what) => (File::Problem, what.clone()),
+                Feature::LanguageOfDomain(what) => (File::Domain, format!("{what} are not supported")),
+                Feature::LanguageOfProblem(what) => (File::Problem, format!("{what} are not supported")),
                 Feature::TaskNetwork => (
                     File::Problem,
                     "not supported: a plan for a task network without its decomposition".into(),

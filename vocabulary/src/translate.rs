@@ -224,7 +224,7 @@ impl<'a> Translator<'a> {
                     None => Some(Number::Arithmetic(*operator, numbers)),
                 }
             }
-            ExpressionKind::Duration | ExpressionKind::TotalTime => {
+            ExpressionKind::Duration | ExpressionKind::TotalTime | ExpressionKind::IsViolated(_) => {
                 self.error(expression.span, LinkErrorKind::NoValue);
                 None
             }

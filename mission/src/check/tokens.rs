@@ -32,7 +32,10 @@ impl<'d> Tokens<'d> {
         match &expression.kind {
             ExpressionKind::Fluent(application) => self.application(application),
             ExpressionKind::Arithmetic(_, operands) => operands.iter().for_each(|e| self.expression(e)),
-            ExpressionKind::Number(_) | ExpressionKind::Duration | ExpressionKind::TotalTime => {}
+            ExpressionKind::Number(_)
+            | ExpressionKind::Duration
+            | ExpressionKind::TotalTime
+            | ExpressionKind::IsViolated(_) => {}
         }
     }
 

@@ -1,6 +1,6 @@
 //! Reading the PDDL layers, and resolving the tokens that the manifest names.
 
-use pddl::model::{Domain, Problem};
+use pddl::model::{Domain, Feature, Problem};
 use pddl::{Parsed, Source, Span};
 
 use super::Loader;
@@ -49,7 +49,24 @@ pub(super) fn read(loader: &mut Loader<'_>, from: SourceId, manifest: &Manifest)
     })
 }
 
-fn parse<M>(
+/// What a layer is read as.
+trait Model {
+    fn features(&self) -> Vec<(Feature, Span)>;
+}
+
+impl Model for Domain {
+    fn features(&self) -> Vec<(Feature, Span)> {
+        Domain::features(self)
+    }
+}
+
+impl Model for Problem {
+    fn features(&self) -> Vec<(Feature, Span)> {
+        Problem::features(self)
+    }
+}
+
+fn parse<M: Model>(
     loader: &mut Loader<'_>,
     path: &str,
     asked_at: Place,
@@ -58,6 +75,11 @@ fn parse<M>(
     let source = loader.source(path, asked_at)?;
     let parsed = parse(&loader.sources[source]);
     loader.findings.extend(parsed.diagnostics.iter().map(|d| Finding::of_pddl(source, d)));
+    let features = parsed.model.iter().flat_map(Model::features);
+    loader.findings.extend(features.map(|(feature, span)| {
+        let message = format!("no part of a mission looks at {feature}");
+        Finding::error("E0709", Place { source, span }, message)
+    }));
     parsed.model.map(|model| Layer { source, model })
 }
 

@@ -34,6 +34,8 @@ pub enum SymbolKind {
     Domain,
     /// A requirement flag.
     Requirement,
+    /// A preference.
+    Preference,
     /// An action or a task of a hierarchical plan, by its number.
     PlanStep,
 }
@@ -53,6 +55,7 @@ impl SymbolKind {
             | Self::Subtask
             | Self::Domain
             | Self::Requirement
+            | Self::Preference
             | Self::PlanStep => return None,
         })
     }
@@ -75,6 +78,7 @@ impl std::fmt::Display for SymbolKind {
             Self::Domain => "domain",
             Self::Requirement => "requirement",
             Self::PlanStep => "number",
+            Self::Preference => "preference",
         })
     }
 }
@@ -110,12 +114,6 @@ impl std::fmt::Display for FileKind {
 /// A language feature that is read but not modelled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum UnsupportedFeature {
-    /// `(preference …)`, `(is-violated …)`
-    Preferences,
-    /// `(:constraints …)`
-    TrajectoryConstraints,
-    /// `(at 5 (p))` in `:init`
-    TimedInitialLiterals,
     /// `#t`
     ContinuousEffects,
     /// `:process`
@@ -139,9 +137,6 @@ pub enum UnsupportedFeature {
 impl std::fmt::Display for UnsupportedFeature {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
-            Self::Preferences => "preferences",
-            Self::TrajectoryConstraints => "trajectory constraints",
-            Self::TimedInitialLiterals => "timed initial literals and fluents",
             Self::ContinuousEffects => "continuous effects (`#t`)",
             Self::Processes => "processes",
             Self::Events => "events",
@@ -388,6 +383,26 @@ pub enum DiagnosticKind {
         /// The earlier one's.
         before: crate::Decimal,
     },
+    /// A preference below `or`, `not`, `when` or another preference, or where there are none.
+    #[error("a preference cannot stand here")]
+    MisplacedPreference,
+    /// `(always (p))` in a precondition.
+    #[error("`{operator}` is about all states of a plan, and this is a condition on one")]
+    MisplacedOperator {
+        /// Which.
+        operator: String,
+    },
+    /// `(:constraints (p))`
+    #[error("this does not say in which states it must hold")]
+    BareCondition,
+    /// `(is-violated p)` in a precondition.
+    #[error("`{name}` has a meaning only in {place}")]
+    OutOfPlace {
+        /// What.
+        name: String,
+        /// Where it has one.
+        place: &'static str,
+    },
 
     /// A part of the language that no model holds.
     #[error("{feature} are read but not supported")]
@@ -432,6 +447,7 @@ impl DiagnosticKind {
                 SymbolKind::Domain => "E0212",
                 SymbolKind::Requirement => "W0213",
                 SymbolKind::PlanStep => "E0214",
+                SymbolKind::Preference => "W0215",
             },
             Self::Duplicate { .. } => "E0220",
             Self::ImportConflict { .. } => "E0221",
@@ -450,6 +466,10 @@ impl DiagnosticKind {
             Self::NeedsRequirement { .. } => "E0503",
             Self::NegativeTime { .. } => "E0504",
             Self::StepOutOfOrder { .. } => "E0505",
+            Self::MisplacedPreference => "E0506",
+            Self::MisplacedOperator { .. } => "E0507",
+            Self::BareCondition => "E0508",
+            Self::OutOfPlace { .. } => "E0509",
             Self::Unsupported { .. } => "U0601",
         }
     }
@@ -477,6 +497,13 @@ impl DiagnosticKind {
                 Some("declare it in `:parameters`, or bind it with `forall` or `exists`".into())
             }
             Self::WrongArity { signature, .. } => Some(format!("declared as `{signature}`")),
+            Self::MisplacedPreference => {
+                Some("preferences stand at the top, below `and` and `forall` only".into())
+            }
+            Self::MisplacedOperator { .. } => Some("put it into `(:constraints …)`".into()),
+            Self::BareCondition => {
+                Some("write `(always …)`, `(sometime …)` or `(at end …)` around it".into())
+            }
             Self::UnknownTime { .. } => {
                 Some("write `(at start …)`, `(over all …)` or `(at end …)` around it".into())
             }

@@ -62,7 +62,10 @@ pub(crate) fn action(world: &World, sink: &mut Sink, section: Node<'_>) -> Optio
         body.sink.unsupported(key.span(), UnsupportedFeature::ActionVariables);
         body.schema.parameters(world, body.sink, node.children());
     }
-    let precondition = body.guard(&keys, ":precondition", section);
+    let (precondition, preferences) = match keys.get(":precondition") {
+        Some(node) => body.soft_condition(node),
+        None => (Condition::always(first_word(section)), Vec::new()),
+    };
     let effect = match keys.get(":effect") {
         Some(node) => body.effect(node),
         None => Effect::nothing(first_word(section)),
@@ -71,6 +74,7 @@ pub(crate) fn action(world: &World, sink: &mut Sink, section: Node<'_>) -> Optio
         name,
         variables: body.schema.variables,
         precondition,
+        preferences,
         effect,
         span: section.span(),
         name_span,

@@ -5,24 +5,14 @@
 //! its sides are.
 
 use super::body::{Applied, Body};
+use super::constraint::is_modal;
+use super::sink::first_word;
 use crate::analysis::NameKind;
-use crate::diagnostic::{SymbolKind, UnsupportedFeature};
+use crate::diagnostic::{DiagnosticKind, SymbolKind, UnsupportedFeature};
 use crate::model::{
     Atom, Comparison, Condition, ConditionKind, FunctionValue, ObjectId, PredicateId, Term, TypeSet,
 };
 use crate::syntax::{Node, NodeKind};
-
-const TRAJECTORY: &[&str] = &[
-    "always",
-    "sometime",
-    "within",
-    "at-most-once",
-    "sometime-after",
-    "sometime-before",
-    "always-within",
-    "hold-during",
-    "hold-after",
-];
 
 impl Body<'_> {
     /// Reads a condition; `()` always holds.
@@ -94,22 +84,20 @@ impl Body<'_> {
         if let Some(predicate) = self.world.predicate(head.text()) {
             return self.atom(node, predicate).map(ConditionKind::Atom);
         }
-        if head.is("preference") {
-            self.preference(node);
-        } else if TRAJECTORY.iter().any(|w| head.is(w)) {
-            self.sink.unsupported(node.span(), UnsupportedFeature::TrajectoryConstraints);
-        } else {
-            self.world.unknown(self.sink, head, SymbolKind::Predicate);
-            self.stray_terms(node);
-        }
+        self.unknown_predicate(node, head);
         None
     }
 
-    /// What a preference holds is checked although it is not kept.
-    pub(super) fn preference(&mut self, node: Node<'_>) {
-        self.sink.unsupported(node.span(), UnsupportedFeature::Preferences);
-        if let Some(inner) = node.children().skip(1).last().filter(|n| n.is_list()) {
-            self.condition(inner);
+    /// Reports a head that is no predicate; some are known from other places.
+    pub(super) fn unknown_predicate(&mut self, node: Node<'_>, head: Node<'_>) {
+        if head.is("preference") {
+            self.misplaced_preference(node);
+        } else if is_modal(head) {
+            let operator = head.text().to_ascii_lowercase();
+            self.sink.report(first_word(node), DiagnosticKind::MisplacedOperator { operator });
+        } else {
+            self.world.unknown(self.sink, head, SymbolKind::Predicate);
+            self.stray_terms(node);
         }
     }
 
@@ -176,7 +164,7 @@ impl Body<'_> {
         match node.kind() {
             NodeKind::List => true,
             NodeKind::Number => self.world.object(node.text()).is_none(),
-            NodeKind::Variable => self.schema.durative && node.is("?duration"),
+            NodeKind::Variable => self.schema.is_durative() && node.is("?duration"),
             NodeKind::Name => self.fluent_value(node) == Some(FunctionValue::Number),
             NodeKind::Keyword => false,
         }

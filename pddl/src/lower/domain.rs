@@ -7,6 +7,7 @@
 use super::action::action;
 use super::axiom::{axiom, derived_predicate};
 use super::constants::{Foreign, objects};
+use super::constraint::constraints;
 use super::durative::durative_action;
 use super::functions::functions;
 use super::header::{Header, header};
@@ -89,6 +90,7 @@ fn read(sink: &mut Sink, header: &Header<'_>, given: &[&Domain]) -> Domain {
             world.add_signature(&name, head, &parameters);
         }
     }
+    let constraints = constraints(&world, sink, header.all(":constraints"));
     let axioms = header.all(":derived").filter_map(|s| axiom(&world, sink, s)).collect();
     for section in header.all(":task") {
         if let Some(task) = task(&world, sink, section) {
@@ -123,6 +125,7 @@ fn read(sink: &mut Sink, header: &Header<'_>, given: &[&Domain]) -> Domain {
         actions,
         durative_actions,
         axioms,
+        constraints,
         tasks,
         methods,
         permissions,
@@ -138,11 +141,9 @@ fn unique(world: &World, sink: &mut Sink, symbol: SymbolKind, name: &Name, span:
 }
 
 fn unsupported(sink: &mut Sink, header: &Header<'_>) {
-    for (keyword, feature) in [
-        (":constraints", UnsupportedFeature::TrajectoryConstraints),
-        (":process", UnsupportedFeature::Processes),
-        (":event", UnsupportedFeature::Events),
-    ] {
+    for (keyword, feature) in
+        [(":process", UnsupportedFeature::Processes), (":event", UnsupportedFeature::Events)]
+    {
         for section in header.all(keyword) {
             sink.unsupported(sink::first_word(section), feature);
         }

@@ -6,6 +6,7 @@
 use super::action::named;
 use super::body::Body;
 use super::keys::Keys;
+use super::schema::Owner;
 use super::sink::Sink;
 use super::world::World;
 use crate::analysis::NameKind;
@@ -26,15 +27,16 @@ pub(crate) fn durative_action(world: &World, sink: &mut Sink, section: Node<'_>)
     let mut body = Body::new(world, sink);
     body.schema.scope = section.span();
     body.parameters(&keys);
-    body.schema.durative = true;
+    body.schema.owner = Owner::Durative;
     let results = body.results(&keys);
     let mut duration = Vec::new();
     if let Some(node) = keys.get(":duration") {
         body.duration(node, &mut duration);
     }
-    let mut conditions = Vec::new();
+    let (mut conditions, mut preferences) = (Vec::new(), Vec::new());
     if let Some(node) = keys.get(":condition") {
         body.timed_conditions(node, None, &mut conditions);
+        preferences = body.timed_preferences(node);
     }
     let mut effects = Vec::new();
     if let Some(node) = keys.get(":effect") {
@@ -42,7 +44,17 @@ pub(crate) fn durative_action(world: &World, sink: &mut Sink, section: Node<'_>)
     }
     let rule = body.rule(&keys, results);
     let (variables, span) = (body.schema.variables, section.span());
-    Some(DurativeAction { name, variables, duration, conditions, effects, rule, span, name_span })
+    Some(DurativeAction {
+        name,
+        variables,
+        duration,
+        conditions,
+        preferences,
+        effects,
+        rule,
+        span,
+        name_span,
+    })
 }
 
 impl Body<'_> {

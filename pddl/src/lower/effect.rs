@@ -1,7 +1,7 @@
 //! Effects: add, delete, assign, `forall`, `when`.
 
 use super::body::Body;
-use crate::diagnostic::{DiagnosticKind, SymbolKind};
+use crate::diagnostic::DiagnosticKind;
 use crate::model::{Application, AssignOperator, AssignedValue, Effect, EffectKind, FunctionValue, TypeSet};
 use crate::syntax::Node;
 
@@ -84,8 +84,7 @@ impl Body<'_> {
             return None;
         }
         let Some(id) = self.world.predicate(head.text()) else {
-            self.world.unknown(self.sink, head, SymbolKind::Predicate);
-            self.stray_terms(node);
+            self.unknown_predicate(node, head);
             return None;
         };
         let predicate = &self.world.predicates[id];

@@ -1,9 +1,10 @@
 //! Numeric expressions and applications of functions.
 
 use super::body::{Applied, Body};
+use super::schema::Owner;
 use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, SymbolKind, UnsupportedFeature};
-use crate::model::{Application, ArithmeticOperator, Expression, ExpressionKind, FunctionValue};
+use crate::model::{Application, ArithmeticOperator, Expression, ExpressionKind, FunctionValue, Name};
 use crate::syntax::{Node, NodeKind};
 
 impl Body<'_> {
@@ -12,12 +13,12 @@ impl Body<'_> {
         let kind = match node.kind() {
             NodeKind::List => self.compound(node),
             NodeKind::Number => self.number(node),
-            NodeKind::Variable if self.schema.durative && node.is("?duration") => {
+            NodeKind::Variable if self.schema.is_durative() && node.is("?duration") => {
                 Some(ExpressionKind::Duration)
             }
             NodeKind::Name if node.is("#t") => self.continuous(node),
             NodeKind::Name if node.is("total-time") && self.world.function("total-time").is_none() => {
-                Some(ExpressionKind::TotalTime)
+                self.of_metric(node, ExpressionKind::TotalTime)
             }
             NodeKind::Name => self.fluent(node),
             NodeKind::Variable | NodeKind::Keyword => {
@@ -74,14 +75,29 @@ impl Body<'_> {
     fn called(&mut self, node: Node<'_>, head: Node<'_>) -> Option<ExpressionKind> {
         if self.world.function(head.text()).is_none() {
             if head.is("total-time") && node.children().count() == 1 {
-                return Some(ExpressionKind::TotalTime);
+                return self.of_metric(node, ExpressionKind::TotalTime);
             }
             if head.is("is-violated") {
-                self.sink.unsupported(node.span(), UnsupportedFeature::Preferences);
-                return Some(ExpressionKind::Number(0.0));
+                let [name] = self.parts(node, "`(is-violated PREFERENCE)`")?;
+                if !name.is_name() {
+                    self.sink.unexpected(name, "the name of a preference");
+                    return None;
+                }
+                self.sink.mention(NameKind::Preference, name, None);
+                return self.of_metric(node, ExpressionKind::IsViolated(Name::new(name.text())));
             }
         }
         self.fluent(node)
+    }
+
+    /// What only metrics can ask for.
+    fn of_metric(&mut self, node: Node<'_>, kind: ExpressionKind) -> Option<ExpressionKind> {
+        if self.schema.owner != Owner::Metric {
+            let name = node.head().unwrap_or(node).text().to_ascii_lowercase();
+            self.sink.report(node.span(), DiagnosticKind::OutOfPlace { name, place: "a metric" });
+            return None;
+        }
+        Some(kind)
     }
 
     fn fluent(&mut self, node: Node<'_>) -> Option<ExpressionKind> {

@@ -4,9 +4,10 @@
 
 use super::body::{Applied, Body};
 use crate::analysis::NameKind;
-use crate::diagnostic::{SymbolKind, UnsupportedFeature};
+use crate::diagnostic::SymbolKind;
 use crate::model::{
     Fact, FluentFact, FluentValue, FunctionValue, GroundApplication, ObjectId, PredicateId, Term,
+    TimedChange, TimedInitial,
 };
 use crate::syntax::{Node, NodeKind};
 
@@ -15,6 +16,13 @@ use crate::syntax::{Node, NodeKind};
 pub(crate) struct Init {
     pub(crate) facts: Vec<Fact>,
     pub(crate) fluents: Vec<FluentFact>,
+    pub(crate) timed: Vec<TimedInitial>,
+}
+
+/// What an equation in `:init` says.
+enum Initial {
+    Value(FluentFact),
+    Undefined(GroundApplication),
 }
 
 impl Body<'_> {
@@ -31,13 +39,17 @@ impl Body<'_> {
                     into.facts.push(Fact { predicate, arguments, span: node.span() });
                 }
             } else if head.is("=") {
-                self.initial_value(node, into);
+                // What is undefined is so without being said.
+                if let Some(Initial::Value(fluent)) = self.initial_value(node) {
+                    into.fluents.push(fluent);
+                }
             } else if head.is("not") {
-                self.initially_false(node);
+                // It says what holds anyway: it is checked and left out.
+                self.negative_fact(node);
             } else if head.is("and") {
                 self.init(node.children().skip(1), into);
             } else if self.is_timed(node) {
-                self.sink.unsupported(node.span(), UnsupportedFeature::TimedInitialLiterals);
+                self.timed_initial(node, into);
             } else if head.is_name() {
                 self.world.unknown(self.sink, head, SymbolKind::Predicate);
             } else {
@@ -67,26 +79,69 @@ impl Body<'_> {
         self.ground_arguments(node, node.children().skip(1), &of)
     }
 
-    /// `(not (p a))` says what holds anyway; it is checked and left out.
-    fn initially_false(&mut self, node: Node<'_>) {
-        let Some([inner]) = self.parts(node, "`(not (PREDICATE …))`") else { return };
+    /// `(not (p a))`
+    fn negative_fact(&mut self, node: Node<'_>) -> Option<Fact> {
+        let [inner] = self.parts(node, "`(not (PREDICATE …))`")?;
         match inner.head().map(|h| (h, self.world.predicate(h.text()))) {
             Some((_, Some(predicate))) => {
-                self.fact(inner, predicate);
+                let arguments = self.fact(inner, predicate)?;
+                return Some(Fact { predicate, arguments, span: inner.span() });
             }
             Some((head, None)) => self.world.unknown(self.sink, head, SymbolKind::Predicate),
             None => self.sink.unexpected(inner, "a fact such as `(p a)`"),
         }
+        None
     }
 
-    fn initial_value(&mut self, node: Node<'_>, into: &mut Init) {
-        let Some([target, value]) = self.parts(node, "`(= (FUNCTION …) VALUE)`") else { return };
+    /// `(at 5 (p a))`
+    fn timed_initial(&mut self, node: Node<'_>, into: &mut Init) {
+        const EXPECTED: &str = "`(at TIME FACT)`";
+        let Some([time, what]) = self.parts(node, EXPECTED) else { return };
+        let time = self.seconds(time);
+        let parts: Vec<Node<'_>> = match what.is_headed("and") && self.world.predicate("and").is_none() {
+            true => what.children().skip(1).collect(),
+            false => vec![what],
+        };
+        for part in parts {
+            let change = self.timed_change(part);
+            if let (Some(time), Some(change)) = (time, change) {
+                into.timed.push(TimedInitial { time, change, span: node.span() });
+            }
+        }
+    }
+
+    fn timed_change(&mut self, node: Node<'_>) -> Option<TimedChange> {
+        let Some(head) = node.head() else {
+            self.sink.unexpected(node, "a fact such as `(p a)` or `(= (f a) 5)`");
+            return None;
+        };
+        if let Some(predicate) = self.world.predicate(head.text()) {
+            let arguments = self.fact(node, predicate)?;
+            return Some(TimedChange::Add(Fact { predicate, arguments, span: node.span() }));
+        }
+        if head.is("=") {
+            return Some(match self.initial_value(node)? {
+                Initial::Value(fluent) => TimedChange::Assign(fluent),
+                Initial::Undefined(application) => TimedChange::Undefine(application),
+            });
+        }
+        if head.is("not") {
+            return self.negative_fact(node).map(TimedChange::Delete);
+        }
+        self.world.unknown(self.sink, head, SymbolKind::Predicate);
+        None
+    }
+
+    fn initial_value(&mut self, node: Node<'_>) -> Option<Initial> {
+        let [target, value] = self.parts(node, "`(= (FUNCTION …) VALUE)`")?;
         let head = if target.is_list() { target.head() } else { Some(target) };
         let Some(head) = head.filter(|h| h.is_name()) else {
-            return self.sink.unexpected(target, "a function such as `(f a)`");
+            self.sink.unexpected(target, "a function such as `(f a)`");
+            return None;
         };
         let Some(id) = self.world.function(head.text()) else {
-            return self.world.unknown(self.sink, head, SymbolKind::Function);
+            self.world.unknown(self.sink, head, SymbolKind::Function);
+            return None;
         };
         self.sink.mention(NameKind::Function, head, None);
         let function = &self.world.functions[id];
@@ -97,7 +152,8 @@ impl Body<'_> {
         };
         let arguments = self.ground_arguments(target, target.children().skip(1), &of);
         if value.is("undefined") && self.world.object("undefined").is_none() {
-            return;
+            let application = GroundApplication { function: id, arguments: arguments? };
+            return Some(Initial::Undefined(application));
         }
         let value = match &function.value {
             FunctionValue::Number if value.kind() == NodeKind::Number => {
@@ -117,9 +173,7 @@ impl Body<'_> {
                 None
             }
         };
-        if let (Some(arguments), Some(value)) = (arguments, value) {
-            let application = GroundApplication { function: id, arguments };
-            into.fluents.push(FluentFact { application, value, span: node.span() });
-        }
+        let application = GroundApplication { function: id, arguments: arguments? };
+        Some(Initial::Value(FluentFact { application, value: value?, span: node.span() }))
     }
 }

@@ -1,13 +1,31 @@
 //! `(:metric minimize EXPRESSION)`.
 
 use super::body::Body;
-use crate::Severity;
-use crate::model::{Metric, Objective};
+use super::schema::Owner;
+use crate::diagnostic::{DiagnosticKind, SymbolKind};
+use crate::model::{Constraints, Domain, ExpressionKind, Metric, Name, Objective, Preference};
 use crate::syntax::Node;
 
+/// The names of the domain's preferences.
+pub(super) fn preference_names(domain: &Domain) -> Vec<Name> {
+    let mut all = Vec::new();
+    domain.actions.iter().for_each(|action| names(&action.preferences, &mut all));
+    domain.durative_actions.iter().for_each(|action| names(&action.preferences, &mut all));
+    constraint_names(&domain.constraints, &mut all);
+    all
+}
+
+pub(super) fn names<T>(preferences: &[Preference<T>], into: &mut Vec<Name>) {
+    into.extend(preferences.iter().filter_map(|preference| preference.name.clone()));
+}
+
+pub(super) fn constraint_names(constraints: &Constraints, into: &mut Vec<Name>) {
+    names(&constraints.preferences, into);
+}
+
 impl Body<'_> {
-    /// Reads a metric; one with parts that no model holds is left out.
-    pub(crate) fn metric(&mut self, section: Node<'_>) -> Option<Metric> {
+    /// Reads a metric; `preferences` are the names that `is-violated` can ask for.
+    pub(crate) fn metric(&mut self, section: Node<'_>, preferences: &[Name]) -> Option<Metric> {
         let [objective, expression] = self.parts(section, "`(:metric minimize EXPRESSION)`")?;
         let objective = if objective.is("minimize") {
             Some(Objective::Minimize)
@@ -17,11 +35,17 @@ impl Body<'_> {
             self.sink.unexpected(objective, "`minimize` or `maximize`");
             None
         };
-        let before = self.sink.count();
+        self.schema.owner = Owner::Metric;
         let expression = self.expression(expression)?;
-        if self.sink.since(before).iter().any(|d| d.severity == Severity::Unsupported) {
-            return None;
-        }
+        expression.each(&mut |part| {
+            if let ExpressionKind::IsViolated(name) = &part.kind
+                && !preferences.contains(name)
+            {
+                let suggestion = self.sink.suggest(name, preferences.iter().map(Name::as_str));
+                let (symbol, name) = (SymbolKind::Preference, name.as_str().to_owned());
+                self.sink.report(part.span, DiagnosticKind::Unknown { symbol, name, suggestion });
+            }
+        });
         Some(Metric { objective: objective?, expression })
     }
 }

@@ -2,15 +2,17 @@
 
 use super::body::Body;
 use super::constants::{Foreign, objects};
+use super::constraint::constraints;
 use super::header::{Header, header};
 use super::htn::initial_network;
 use super::init::Init;
+use super::metric::{constraint_names, names, preference_names};
 use super::requirements::requirements;
 use super::sink::{Lowered, Sink, first_word};
 use super::world::World;
 use crate::analysis::NameKind;
-use crate::diagnostic::{DiagnosticKind, FileKind, UnsupportedFeature};
-use crate::model::{Condition, Domain, Name, Problem, Variables};
+use crate::diagnostic::{DiagnosticKind, FileKind};
+use crate::model::{Condition, Domain, Name, Preference, Problem, Variables};
 use crate::syntax::{Node, Tree};
 
 const SECTIONS: &[&str] = &[
@@ -48,20 +50,26 @@ fn read(sink: &mut Sink, header: &Header<'_>, domain: &Domain) -> Problem {
     if let Some(section) = header.one(body.sink, ":init") {
         body.init(section.children().skip(1), &mut init);
     }
-    let metric = header.one(body.sink, ":metric").and_then(|section| body.metric(section));
-    for section in header.all(":constraints") {
-        body.sink.unsupported(first_word(section), UnsupportedFeature::TrajectoryConstraints);
-    }
+    let constraints = constraints(&world, sink, header.all(":constraints"));
     let network = header.one(sink, ":htn");
     let htn = network.map(|section| initial_network(&world, sink, section));
-    let (goal, goal_variables, goal_span) = goal(&world, sink, header, network);
+    let ((goal, preferences), goal_variables, goal_span) = goal(&world, sink, header, network);
+    let metric = header.one(sink, ":metric").and_then(|section| {
+        let mut known = preference_names(domain);
+        names(&preferences, &mut known);
+        constraint_names(&constraints, &mut known);
+        Body::new(&world, sink).metric(section, &known)
+    });
     Problem {
         name: header.name.clone(),
         requirements,
         init: init.facts,
         fluents: init.fluents,
+        timed: init.timed,
         goal_variables,
         goal,
+        preferences,
+        constraints,
         metric,
         htn,
         unsupported: Vec::new(),
@@ -89,25 +97,28 @@ fn check_domain(sink: &mut Sink, header: &Header<'_>, domain: &Domain) {
     }
 }
 
+/// A condition and the preferences beside it.
+type SoftCondition = (Condition, Vec<Preference<Condition>>);
+
 fn goal(
     world: &World,
     sink: &mut Sink,
     header: &Header<'_>,
     network: Option<Node<'_>>,
-) -> (Condition, Variables, crate::Span) {
+) -> (SoftCondition, Variables, crate::Span) {
     let section = header.one(sink, ":goal");
     let Some(section) = section else {
         if network.is_none() {
             sink.missing(header.define, "the problem", "`(:goal …)`");
         }
         let span = first_word(network.unwrap_or(header.define));
-        return (Condition::always(span), Variables::default(), span);
+        return ((Condition::always(span), Vec::new()), Variables::default(), span);
     };
     let mut body = Body::new(world, sink);
     body.schema.scope = section.span();
     let goal = match body.parts(section, "`(:goal CONDITION)`") {
-        Some([node]) => body.condition(node),
-        None => Condition::always(section.span()),
+        Some([node]) => body.soft_condition(node),
+        None => (Condition::always(section.span()), Vec::new()),
     };
     (goal, body.schema.variables, section.span())
 }

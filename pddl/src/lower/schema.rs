@@ -19,11 +19,27 @@ pub(crate) struct Schema {
     pub(crate) scope: Span,
     /// That list of each slot that a text binds.
     scopes: Vec<Span>,
-    /// Whether `?duration` has a meaning.
-    pub(crate) durative: bool,
+    /// What it is a schema of.
+    pub(crate) owner: Owner,
+}
+
+/// What a schema is read for: it decides which words have a meaning in numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Owner {
+    /// None has.
+    #[default]
+    Other,
+    /// `?duration` has.
+    Durative,
+    /// `total-time` and `is-violated` have.
+    Metric,
 }
 
 impl Schema {
+    pub(crate) fn is_durative(&self) -> bool {
+        self.owner == Owner::Durative
+    }
+
     /// The slot in sight of that name (without the question mark).
     pub(crate) fn find(&self, name: &str) -> Option<VariableId> {
         let name = fold(name);

@@ -80,14 +80,9 @@ impl Sink {
         if self.suggestions > MAX_SUGGESTIONS { None } else { nearest(name, candidates) }
     }
 
-    /// How many so far; with [`Sink::since`] this tells whether a part had something to say.
+    /// How many so far.
     pub(crate) fn count(&self) -> usize {
         self.diagnostics.len()
-    }
-
-    /// What was reported since [`Sink::count`] was `count`.
-    pub(crate) fn since(&self, count: usize) -> &[Diagnostic] {
-        &self.diagnostics[count..]
     }
 
     /// Everything in order of place, each once, and what of it is unsupported; whether a model may be made.

@@ -8,13 +8,13 @@
 use super::body::Body;
 use crate::diagnostic::{DiagnosticKind, UnsupportedFeature};
 use crate::model::{
-    Condition, ConditionKind, Effect, EffectKind, Name, Requirement, TimeSpecifier, TimedCondition,
-    TimedEffect,
+    Condition, ConditionKind, Effect, EffectKind, Name, Preference, Requirement, TimeSpecifier,
+    TimedCondition, TimedEffect,
 };
 use crate::syntax::Node;
 
 /// What a list says about time.
-enum Timed<'t> {
+pub(super) enum Timed<'t> {
     /// A time and what happens then.
     At(TimeSpecifier, Node<'t>),
     /// Like a time, but an unknown one.
@@ -23,7 +23,7 @@ enum Timed<'t> {
     Untimed,
 }
 
-fn timed<'t>(node: Node<'t>, outcomes: bool) -> Timed<'t> {
+pub(super) fn timed<'t>(node: Node<'t>, outcomes: bool) -> Timed<'t> {
     let mut parts = node.children();
     let (Some(head), Some(when), Some(what), None) = (parts.next(), parts.next(), parts.next(), parts.next())
     else {
@@ -46,29 +46,6 @@ fn timed<'t>(node: Node<'t>, outcomes: bool) -> Timed<'t> {
     }
 }
 
-/// Appends the times that stand in `node`, each once, in order.
-fn times_in(node: Node<'_>, outcomes: bool, times: &mut Vec<TimeSpecifier>) {
-    if let Timed::At(time, _) = timed(node, outcomes) {
-        if !times.contains(&time) {
-            times.push(time);
-        }
-    } else if node.is_headed("when") {
-        if let Some(effect) = node.children().nth(2) {
-            times_in(effect, outcomes, times);
-        }
-    } else {
-        for part in node.children().skip(1) {
-            times_in(part, outcomes, times);
-        }
-    }
-}
-
-fn times_of(node: Node<'_>, outcomes: bool) -> Vec<TimeSpecifier> {
-    let mut times = Vec::new();
-    times_in(node, outcomes, &mut times);
-    times
-}
-
 /// Whether a part at `time` is to be read now.
 fn wanted(time: &TimeSpecifier, only: Option<&TimeSpecifier>) -> bool {
     only.is_none_or(|o| o == time)
@@ -79,7 +56,59 @@ impl Body<'_> {
         self.world.has(Requirement::AgentRules)
     }
 
-    /// Reads the conditions at times in `node`, all or those of `only`.
+    /// Appends the times that stand in `node` outside of preferences, each once, in order.
+    fn times_in(&self, node: Node<'_>, times: &mut Vec<TimeSpecifier>) {
+        if let Timed::At(time, what) = timed(node, self.outcomes()) {
+            if !times.contains(&time) && !self.is_soft(what) {
+                times.push(time);
+            }
+        } else if node.is_headed("when") {
+            if let Some(effect) = node.children().nth(2) {
+                self.times_in(effect, times);
+            }
+        } else if !self.is_preference(node) {
+            for part in node.children().skip(1) {
+                self.times_in(part, times);
+            }
+        }
+    }
+
+    fn times_of(&self, node: Node<'_>) -> Vec<TimeSpecifier> {
+        let mut times = Vec::new();
+        self.times_in(node, &mut times);
+        times
+    }
+
+    /// Reads the preferences among the conditions at times in `node`.
+    pub(super) fn timed_preferences(&mut self, node: Node<'_>) -> Vec<Preference<TimedCondition>> {
+        let mut preferences = Vec::new();
+        for found in self.preferences_in(node) {
+            let time = found.time.clone();
+            let read = |body: &mut Self, node| body.preferred(node, time);
+            preferences.extend(self.preference(&found, read));
+        }
+        preferences
+    }
+
+    /// What a preference holds; its time stands in it or around it.
+    fn preferred(&mut self, node: Node<'_>, time: Option<TimeSpecifier>) -> Option<TimedCondition> {
+        if let Some(when) = time {
+            return Some(TimedCondition { when, condition: self.condition(node) });
+        }
+        for inner in self.preferences_in(node) {
+            self.misplaced_preference(inner.node);
+        }
+        let times = self.times_of(node);
+        if times.len() > 1 {
+            self.sink.unexpected(node, "a condition at one time");
+        }
+        let mut parts = Vec::new();
+        self.timed_conditions(node, None, &mut parts);
+        let when = parts.first()?.when.clone();
+        Some(TimedCondition { when, condition: all_conditions(parts, node) })
+    }
+
+    /// Reads the conditions at times in `node`, all or those of `only`, without the preferences.
     pub(super) fn timed_conditions(
         &mut self,
         node: Node<'_>,
@@ -98,17 +127,15 @@ impl Body<'_> {
             }
         } else if head.is("forall") {
             self.forall_conditions(node, only, into);
-        } else if head.is("preference") {
-            self.sink.unsupported(node.span(), UnsupportedFeature::Preferences);
-        } else {
+        } else if !self.is_preference(node) {
             match timed(node, self.outcomes()) {
                 Timed::At(TimeSpecifier::Outcome(name), _) => {
                     let kind = DiagnosticKind::OutcomeInCondition { name: name.as_str().to_owned() };
                     self.sink.report(node.span(), kind);
                 }
                 Timed::At(when, what) => {
-                    if wanted(&when, only) {
-                        let condition = self.condition(what);
+                    if wanted(&when, only) && !self.is_soft(what) {
+                        let condition = self.hard_condition(what);
                         into.push(TimedCondition { when, condition });
                     }
                 }
@@ -126,8 +153,8 @@ impl Body<'_> {
         only: Option<&TimeSpecifier>,
         into: &mut Vec<TimedCondition>,
     ) {
-        let times = times_of(node, self.outcomes());
-        if times.is_empty() {
+        let times = self.times_of(node);
+        if times.is_empty() && !self.is_soft(node) {
             self.sink.unexpected(node, "`(at start …)`, `(over all …)` or `(at end …)`");
         }
         for when in times.into_iter().filter(|t| wanted(t, only)) {
@@ -177,7 +204,7 @@ impl Body<'_> {
     }
 
     fn forall_effects(&mut self, node: Node<'_>, only: Option<&TimeSpecifier>, into: &mut Vec<TimedEffect>) {
-        let times = times_of(node, self.outcomes());
+        let times = self.times_of(node);
         if times.is_empty() {
             self.untimed_effect(node);
         }
@@ -200,9 +227,11 @@ impl Body<'_> {
         into: &mut Vec<TimedEffect>,
     ) {
         let Some([condition, effect]) = self.parts(node, "`(when CONDITION EFFECT)`") else { return };
-        let outcomes = self.outcomes();
-        let condition_times = times_of(condition, outcomes);
-        let times = times_of(effect, outcomes);
+        for found in self.preferences_in(condition) {
+            self.misplaced_preference(found.node);
+        }
+        let condition_times = self.times_of(condition);
+        let times = self.times_of(effect);
         if times.is_empty() {
             self.untimed_effect(effect);
         }

@@ -1,6 +1,6 @@
 //! Instantaneous actions, durative actions, and the agents' rules that durative actions express.
 
-use super::{Comparison, Condition, Effect, Expression, Name, Term, Variables};
+use super::{Comparison, Condition, Effect, Expression, Name, Preference, Term, Variables};
 use crate::Span;
 
 /// An instantaneous action schema.
@@ -12,6 +12,8 @@ pub struct Action {
     pub variables: Variables,
     /// When it may be applied.
     pub precondition: Condition,
+    /// What should hold as well.
+    pub preferences: Vec<Preference<Condition>>,
     /// What it does.
     pub effect: Effect,
     /// The whole definition.
@@ -74,6 +76,8 @@ pub struct DurativeAction {
     pub duration: Vec<DurationConstraint>,
     /// Conditions by time.
     pub conditions: Vec<TimedCondition>,
+    /// What should hold as well, at its time.
+    pub preferences: Vec<Preference<TimedCondition>>,
     /// Effects by time.
     pub effects: Vec<TimedEffect>,
     /// What makes it an agent's rule.

@@ -6,9 +6,9 @@
 //! `(:writes speech (is ?r speaking) (finish ?r speaking) said)`.
 
 use super::{
-    Action, ActionId, CompoundTask, Condition, DurativeAction, DurativeActionId, FunctionId, IndexVec,
-    Method, MethodId, Name, ObjectId, PredicateId, Requirements, TaskId, TypeId, TypeSet, TypeTable,
-    Variables,
+    Action, ActionId, CompoundTask, Condition, Constraints, DurativeAction, DurativeActionId, FunctionId,
+    IndexVec, Method, MethodId, Name, ObjectId, PredicateId, Requirements, TaskId, TypeId, TypeSet,
+    TypeTable, Variables,
 };
 use crate::Span;
 
@@ -127,6 +127,8 @@ pub struct Domain {
     pub durative_actions: IndexVec<DurativeActionId, DurativeAction>,
     /// Its axioms.
     pub axioms: Vec<Axiom>,
+    /// What holds of every plan.
+    pub constraints: Constraints,
     /// Its compound tasks.
     pub tasks: IndexVec<TaskId, CompoundTask>,
     /// Its methods.

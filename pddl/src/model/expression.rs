@@ -1,6 +1,6 @@
 //! Numeric expressions and applications of functions.
 
-use super::{FunctionId, Term};
+use super::{FunctionId, Name, Term};
 use crate::Span;
 
 /// A function applied to terms; arity and types fit.
@@ -49,4 +49,16 @@ pub enum ExpressionKind {
     Duration,
     /// `total-time` in a metric.
     TotalTime,
+    /// `(is-violated name)` in a metric: how many instances of preferences of that name are violated.
+    IsViolated(Name),
+}
+
+impl Expression {
+    /// Visits it and every expression in it.
+    pub fn each<'e>(&'e self, visit: &mut impl FnMut(&'e Expression)) {
+        visit(self);
+        if let ExpressionKind::Arithmetic(_, operands) = &self.kind {
+            operands.iter().for_each(|operand| operand.each(visit));
+        }
+    }
 }

@@ -11,13 +11,16 @@
 
 mod action;
 mod condition;
+mod constraint;
 mod domain;
 mod effect;
 mod expression;
+mod feature;
 mod htn;
 mod ids;
 mod index;
 mod name;
+mod preference;
 mod problem;
 mod requirements;
 mod types;
@@ -27,18 +30,23 @@ pub use action::{
     Action, DurationConstraint, DurativeAction, Rule, SkillCall, TimeSpecifier, TimedCondition, TimedEffect,
 };
 pub use condition::{Atom, Comparison, Condition, ConditionKind, Term};
+pub use constraint::{Constraint, ConstraintKind, Constraints};
 pub use domain::{
     Axiom, Domain, Function, FunctionValue, Object, Permission, Predicate, TokenPattern, TokenSymbol,
 };
 pub use effect::{AssignOperator, AssignedValue, Effect, EffectKind};
 pub use expression::{Application, ArithmeticOperator, Expression, ExpressionKind};
+pub use feature::Feature;
 pub use htn::{CompoundTask, Method, Ordering, Subtask, SubtaskHead, TaskNetwork};
 pub use ids::{
     ActionId, DurativeActionId, FunctionId, MethodId, ObjectId, PredicateId, TaskId, TypeId, VariableId,
 };
 pub use index::{Idx, IndexVec};
 pub use name::Name;
-pub use problem::{Fact, FluentFact, FluentValue, GroundApplication, Metric, Objective, Problem};
+pub use preference::Preference;
+pub use problem::{
+    Fact, FluentFact, FluentValue, GroundApplication, Metric, Objective, Problem, TimedChange, TimedInitial,
+};
 pub use requirements::{Requirement, Requirements};
 pub use types::{Type, TypeSet, TypeTable};
 pub use variables::{Variable, Variables};

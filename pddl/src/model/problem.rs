@@ -1,10 +1,10 @@
 //! Problems.
 
 use super::{
-    Condition, Expression, FunctionId, IndexVec, Name, Object, ObjectId, PredicateId, Requirements,
-    TaskNetwork, Variables,
+    Condition, Constraints, Expression, FunctionId, IndexVec, Name, Object, ObjectId, PredicateId,
+    Preference, Requirements, TaskNetwork, Variables,
 };
-use crate::Span;
+use crate::{Decimal, Span};
 
 /// A ground atom that holds initially.
 #[derive(Clone, Debug)]
@@ -46,6 +46,30 @@ pub struct FluentFact {
     pub span: Span,
 }
 
+/// `(at 5 (p a))` in `:init`: something that happens whatever the plan does.
+#[derive(Clone, Debug)]
+pub struct TimedInitial {
+    /// When, in seconds from the start; not negative.
+    pub time: Decimal,
+    /// What.
+    pub change: TimedChange,
+    /// The whole `(at 5 …)`; several changes may stand in one.
+    pub span: Span,
+}
+
+/// What happens at a time.
+#[derive(Clone, Debug)]
+pub enum TimedChange {
+    /// A fact becomes true.
+    Add(Fact),
+    /// A fact becomes false.
+    Delete(Fact),
+    /// A fluent gets a value.
+    Assign(FluentFact),
+    /// A fluent loses its value: `(at 5 (= (f a) undefined))`.
+    Undefine(GroundApplication),
+}
+
 /// Minimise or maximise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Objective {
@@ -77,10 +101,16 @@ pub struct Problem {
     pub init: Vec<Fact>,
     /// Initial values; the rest is undefined.
     pub fluents: Vec<FluentFact>,
-    /// Quantified variables of the goal (no parameters).
+    /// What happens by itself, in the order of the source.
+    pub timed: Vec<TimedInitial>,
+    /// Quantified variables of the goal and its preferences (no parameters).
     pub goal_variables: Variables,
     /// What shall hold in the end; `always` for an HTN problem without a goal.
     pub goal: Condition,
+    /// What should hold in the end as well.
+    pub preferences: Vec<Preference<Condition>>,
+    /// What holds of every plan, together with the domain's.
+    pub constraints: Constraints,
     /// What to optimise.
     pub metric: Option<Metric>,
     /// The initial task network of an HTN problem, with its parameters.

@@ -122,6 +122,9 @@ impl Printer<'_> {
             }
             ExpressionKind::Duration => self.push("?duration"),
             ExpressionKind::TotalTime => self.push("(total-time)"),
+            ExpressionKind::IsViolated(name) => {
+                let _ = write!(self.out, "(is-violated {name})");
+            }
         }
     }
 

@@ -17,6 +17,7 @@ impl Printer<'_> {
         self.predicate_section();
         self.function_sections();
         self.permission_sections();
+        self.constraint_section(&domain.constraints);
         for axiom in &domain.axioms {
             self.axiom(axiom);
         }

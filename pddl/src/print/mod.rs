@@ -8,6 +8,7 @@
 //! This is no formatter: comments and layout are in [`crate::syntax`], not in a model.
 
 mod body;
+mod constraints;
 mod declarations;
 mod domain;
 mod htn;

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::Printer;
-use crate::model::{FluentValue, ObjectId, Objective, Problem, Variables};
+use crate::model::{FluentFact, FluentValue, ObjectId, Objective, Problem, TimedChange, Variables};
 
 impl Printer<'_> {
     pub(super) fn problem(&mut self, problem: &Problem) {
@@ -24,8 +24,9 @@ impl Printer<'_> {
         }
         self.init(problem);
         self.push("\n  (:goal ");
-        self.condition(&problem.goal_variables, &problem.goal);
+        self.soft(&problem.goal_variables, &problem.goal, &problem.preferences);
         self.push(")");
+        self.constraint_section(&problem.constraints);
         if let Some(metric) = &problem.metric {
             self.push(match metric.objective {
                 Objective::Minimize => "\n  (:metric minimize ",
@@ -45,19 +46,44 @@ impl Printer<'_> {
             self.ground(&domain.predicates[fact.predicate].name, &fact.arguments);
         }
         for fluent in &problem.fluents {
-            self.push("\n    (= ");
-            let application = &fluent.application;
-            self.ground(&domain.functions[application.function].name, &application.arguments);
-            match fluent.value {
-                FluentValue::Number(number) => {
-                    let _ = write!(self.out, " {number})");
+            self.push("\n    ");
+            self.fluent(fluent);
+        }
+        for timed in &problem.timed {
+            let _ = write!(self.out, "\n    (at {} ", timed.time);
+            match &timed.change {
+                TimedChange::Add(fact) => {
+                    self.ground(&domain.predicates[fact.predicate].name, &fact.arguments);
                 }
-                FluentValue::Object(object) => {
-                    let _ = write!(self.out, " {})", problem.objects[object].name);
+                TimedChange::Delete(fact) => {
+                    self.push("(not ");
+                    self.ground(&domain.predicates[fact.predicate].name, &fact.arguments);
+                    self.push(")");
+                }
+                TimedChange::Assign(fluent) => self.fluent(fluent),
+                TimedChange::Undefine(application) => {
+                    self.push("(= ");
+                    self.ground(&domain.functions[application.function].name, &application.arguments);
+                    self.push(" undefined)");
                 }
             }
+            self.push(")");
         }
         self.push(")");
+    }
+
+    fn fluent(&mut self, fluent: &FluentFact) {
+        let (domain, objects) = (self.domain, self.objects);
+        self.push("(= ");
+        self.ground(&domain.functions[fluent.application.function].name, &fluent.application.arguments);
+        match fluent.value {
+            FluentValue::Number(number) => {
+                let _ = write!(self.out, " {number})");
+            }
+            FluentValue::Object(object) => {
+                let _ = write!(self.out, " {})", objects[object].name);
+            }
+        }
     }
 
     fn ground(&mut self, name: &str, arguments: &[ObjectId]) {

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::Printer;
 use super::body::comparison;
-use crate::model::{Action, Axiom, DurativeAction, Rule, TimeSpecifier, Variables};
+use crate::model::{Action, Axiom, DurativeAction, Rule, TimeSpecifier, TimedCondition, Variables};
 
 impl Printer<'_> {
     pub(super) fn parameters(&mut self, v: &Variables) {
@@ -17,7 +17,7 @@ impl Printer<'_> {
         let _ = write!(self.out, "\n  (:action {}", action.name);
         self.parameters(v);
         self.push("\n    :precondition ");
-        self.condition(v, &action.precondition);
+        self.soft(v, &action.precondition, &action.preferences);
         self.push("\n    :effect ");
         self.effect(v, &action.effect);
         self.push(")");
@@ -47,6 +47,12 @@ impl Printer<'_> {
         }
     }
 
+    fn timed(&mut self, v: &Variables, timed: &TimedCondition) {
+        self.time(&timed.when);
+        self.condition(v, &timed.condition);
+        self.push(")");
+    }
+
     pub(super) fn durative_action(&mut self, action: &DurativeAction) {
         let v = &action.variables;
         let _ = write!(self.out, "\n  (:durative-action {}", action.name);
@@ -61,11 +67,16 @@ impl Printer<'_> {
             p.push(")");
         });
         self.push("\n    :condition ");
-        self.lines("(and", &action.conditions, |p, timed| {
-            p.time(&timed.when);
-            p.condition(v, &timed.condition);
-            p.push(")");
-        });
+        self.push("(and");
+        for timed in &action.conditions {
+            self.push("\n      ");
+            self.timed(v, timed);
+        }
+        for preference in &action.preferences {
+            self.push("\n      ");
+            self.preference(v, preference, |p, timed| p.timed(v, timed));
+        }
+        self.push(")");
         self.push("\n    :effect ");
         self.lines("(and", &action.effects, |p, timed| {
             p.time(&timed.when);

@@ -97,7 +97,7 @@ impl<'a> CostModel<'a> {
             ExpressionKind::Number(_) => true,
             ExpressionKind::Fluent(a) => !self.assigned.contains(&a.function),
             ExpressionKind::Arithmetic(_, parts) => parts.iter().all(|p| self.is_static(p)),
-            ExpressionKind::Duration | ExpressionKind::TotalTime => false,
+            ExpressionKind::Duration | ExpressionKind::TotalTime | ExpressionKind::IsViolated(_) => false,
         }
     }
 
@@ -139,7 +139,9 @@ impl<'a> CostModel<'a> {
                     ArithmeticOperator::Divide => rest.iter().fold(first, |a, b| a / b),
                 }
             }
-            ExpressionKind::Duration | ExpressionKind::TotalTime => return None,
+            ExpressionKind::Duration | ExpressionKind::TotalTime | ExpressionKind::IsViolated(_) => {
+                return None;
+            }
         })
     }
 }

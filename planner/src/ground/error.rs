@@ -43,6 +43,8 @@ pub enum Feature {
     UnstratifiedAxioms,
     /// An initial task network.
     TaskNetwork,
+    /// A part of the language.
+    Language(pddl::model::Feature),
     /// What the model itself does not hold; the span tells.
     OutsideTheModel,
 }
@@ -50,6 +52,7 @@ pub enum Feature {
 impl std::fmt::Display for Feature {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
+            Self::Language(feature) => return feature.fmt(f),
             Self::NumericFluents => "numeric fluents",
             Self::ObjectFluents => "object fluents",
             Self::DurativeActions => "durative actions",

@@ -83,6 +83,12 @@ fn refuse(domain: &Domain, problem: &Problem) -> Result<(), GroundError> {
     if let Some(span) = first(&problem.unsupported) {
         return refuse(Feature::OutsideTheModel, Origin::Problem, span);
     }
+    if let Some(&(feature, span)) = domain.features().first() {
+        return refuse(Feature::Language(feature), Origin::Domain, span);
+    }
+    if let Some(&(feature, span)) = problem.features().first() {
+        return refuse(Feature::Language(feature), Origin::Problem, span);
+    }
     if let Some(action) = domain.durative_actions.iter().next() {
         return refuse(Feature::DurativeActions, Origin::Domain, action.span);
     }

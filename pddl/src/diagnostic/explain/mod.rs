@@ -6,6 +6,7 @@
 mod declarations;
 mod names;
 mod networks;
+mod soft;
 mod syntax;
 mod times;
 mod types;
@@ -50,6 +51,7 @@ pub fn explanations() -> impl Iterator<Item = &'static Explanation> {
         types::EXPLANATIONS,
         networks::EXPLANATIONS,
         times::EXPLANATIONS,
+        soft::EXPLANATIONS,
         unsupported::EXPLANATIONS,
     ]
     .into_iter()

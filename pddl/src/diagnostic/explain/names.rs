@@ -410,4 +410,35 @@ root 1
 <==",
         ],
     },
+    Explanation {
+        code: "W0215",
+        title: "unknown preference",
+        meaning: "`(is-violated NAME)` in a metric names a preference that neither the domain nor the problem \
+         has.",
+        why: "No plan can violate what is not there, so this part of the metric is always 0.",
+        wrong: &[
+            "\
+(define (domain hall)
+  (:requirements :preferences)
+  (:predicates (lit)))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:init)
+  (:goal (preference bright (lit)))
+  (:metric minimize (is-violated brigth)))",
+        ],
+        right: &[
+            "\
+(define (domain hall)
+  (:requirements :preferences)
+  (:predicates (lit)))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:init)
+  (:goal (preference bright (lit)))
+  (:metric minimize (is-violated bright)))",
+        ],
+    },
 ];

@@ -81,7 +81,8 @@ pub(super) const EXPLANATIONS: &[Explanation] = &[
     Explanation {
         code: "E0504",
         title: "a negative time",
-        meaning: "A step of a plan starts before the time 0, or takes less than no time.",
+        meaning: "A step of a plan starts before the time 0, or takes less than no time; or the time of a timed initial \
+         literal or of a constraint is negative.",
         why: "The initial state holds at time 0, and there is nothing before it.",
         wrong: &[
             "\

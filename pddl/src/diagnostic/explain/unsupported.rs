@@ -5,28 +5,15 @@ use super::Explanation;
 pub(super) const EXPLANATIONS: &[Explanation] = &[Explanation {
     code: "U0601",
     title: "read but not supported",
-    meaning: "The file uses a part of PDDL or HDDL that is read, and checked as far as that goes, but \
-         that no planner or validator of ours knows: preferences, trajectory constraints, timed \
-         initial literals, continuous effects, processes and events are some. The message names it.",
+    meaning: "The file uses a part of PDDL or HDDL that is read, and checked as far as that goes, but that the \
+         model does not hold, such as the `:vars` of an action in PDDL 1.2. The message names it.",
     why: "It is no mistake. Commands that need the meaning of that part say so and exit with 4.",
-    wrong: &[
-        "\
+    wrong: &["\
 (define (domain hall)
-  (:predicates (lit)))",
-        "\
-(define (problem evening)
-  (:domain hall)
-  (:init (at 5 (lit)))
-  (:goal (lit)))",
-    ],
-    right: &[
-        "\
+  (:predicates (lit ?x))
+  (:action switch :parameters (?x) :vars (?y) :precondition (lit ?y) :effect (lit ?x)))"],
+    right: &["\
 (define (domain hall)
-  (:predicates (lit)))",
-        "\
-(define (problem evening)
-  (:domain hall)
-  (:init (lit))
-  (:goal (lit)))",
-    ],
+  (:predicates (lit ?x))
+  (:action switch :parameters (?x ?y) :precondition (lit ?y) :effect (lit ?x)))"],
 }];

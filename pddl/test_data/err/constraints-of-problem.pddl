@@ -1,0 +1,22 @@
+(define (domain watch)
+  (:requirements :constraints)
+  (:predicates (at ?p) (end)))
+
+(define (problem round)
+  (:domain watch)
+  (:init (end))
+  (:constraints (and
+    (within (end))
+    (within x (end))
+    (within -3 (end))
+    (hold-during 3 (end))
+    (always (end) (end))
+    (sometime-after (end))
+    (or (preference p (always (end))) (sometime (end)))
+    (preference p)
+    (preference p (end))
+    (p (always (end)))
+    (at end)
+    end
+    (always)))
+  (:goal (sometime (end))))

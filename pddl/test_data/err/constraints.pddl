@@ -1,0 +1,5 @@
+(define (domain watch)
+  (:requirements :adl :constraints)
+  (:predicates (at ?p) (end))
+  (:constraints (and (end) (always (att home)) (forall (?p) (at ?p)) (sometime (preference (end)))))
+  (:action go :precondition (always (end)) :effect (sometime (end))))

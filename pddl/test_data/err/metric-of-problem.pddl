@@ -1,0 +1,11 @@
+(define (domain ship)
+  (:requirements :adl :preferences)
+  (:predicates (done))
+  (:functions (f))
+  (:action b :precondition (preference inner (done))))
+
+(define (problem p)
+  (:domain ship)
+  (:init)
+  (:goal (and (preference first (done)) (> total-time 1)))
+  (:metric minimize (+ (is-violated frist) (is-violated inner) (is-violated) (is-violated ?x) (g))))

@@ -1,0 +1,6 @@
+(define (domain boat)
+  (:requirements :adl :preferences)
+  (:predicates (done))
+  (:functions (f))
+  (:action a :precondition (> (is-violated p) 1) :effect (increase (f) (total-time)))
+  (:action b :precondition (preference inner (done))))

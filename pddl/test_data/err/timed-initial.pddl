@@ -1,0 +1,11 @@
+(define (domain shop)
+  (:predicates (open) (here ?t))
+  (:functions (price))
+  (:action buy :parameters (?t) :precondition (open) :effect (here ?t)))
+
+(define (problem day)
+  (:domain shop)
+  (:objects a)
+  (:init (at -5 (open)) (at 5 (opened)) (at 5 (not (opened))) (at 5 (here)) (at 5 (= (price) a))
+         (at 5 ()) (at 5 open) (at 5 (open) (open)) (at 5 (= (prize) 4)) (at x (open)))
+  (:goal (here a)))

@@ -1,0 +1,23 @@
+; a predicate that is called at, too
+(define (domain shop)
+  (:requirements :typing :timed-initial-literals :fluents)
+  (:types thing)
+  (:predicates (at ?a ?b - object) (open) (here ?t - thing))
+  (:functions (price ?t - thing) - number (owner ?t - thing) - thing)
+  (:action buy :parameters (?t - thing) :precondition (open) :effect (here ?t)))
+
+(define (problem day)
+  (:domain shop)
+  (:objects a b - thing 5)
+  (:init
+    (at 5 (not (open)))
+    (at 2.50 (open))
+    (at a b)
+    (at 5 a)
+    (at 3 (at a 5))
+    (at 7 (= (price a) -1e-3))
+    (at 8 (= (owner a) b))
+    (at .5 (= (owner a) undefined))
+    (AT 9 (and (here a) (not (at a b)) (= (price b) +4)))
+    (= (price a) .5))
+  (:goal (here a)))
