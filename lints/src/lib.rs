@@ -29,19 +29,29 @@
 //! | `schema`, `walk` | what bodies say, part by part, whatever they belong to |
 //! | `declarations` | W07: declarations, requirements, names |
 //! | `logic` | W08: conditions, effects, initial states, goals |
+//! | `semantics` | W0850 on: what never happens, and why |
 //! | `hierarchy` | W09: tasks and methods |
-//!
-//! Codes W0850 to W0899 are for lints that need reachability or invariants.
+//! | `happening` | what changes the state, as one list |
+//! | `numbers` | which values fluents may take |
+//! | `reachability` | what can become true, and why something cannot |
+//! | `analysis` | these, computed once for all that ask |
 
 mod allow;
+mod analysis;
 mod declarations;
 mod finding;
+mod happening;
 mod hierarchy;
 mod lint;
 mod linter;
 mod logic;
+mod numbers;
+mod reachability;
 mod registry;
 mod schema;
+mod semantics;
+#[cfg(test)]
+mod test_support;
 mod text;
 mod usage;
 mod view;

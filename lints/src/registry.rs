@@ -1,10 +1,10 @@
 //! All lints, in order of their codes.
 
-use crate::{Lint, declarations, hierarchy, logic};
+use crate::{Lint, declarations, hierarchy, logic, semantics};
 
 /// All lints, in order of their codes.
 pub fn all() -> impl Iterator<Item = &'static Lint> {
-    [declarations::LINTS, logic::LINTS, hierarchy::LINTS].into_iter().flatten().copied()
+    [declarations::LINTS, logic::LINTS, semantics::LINTS, hierarchy::LINTS].into_iter().flatten().copied()
 }
 
 /// The lint of that name or code (in any case).

@@ -7,7 +7,9 @@ use pddl::syntax::{self, Tree};
 use pddl::{Source, Span};
 
 use crate::allow::Allows;
+use crate::analysis::Analysis;
 use crate::linter::File;
+use crate::reachability::Words;
 use crate::schema::Schema;
 use crate::usage::Usage;
 
@@ -18,13 +20,14 @@ pub(crate) struct DomainView<'a> {
     pub(crate) allows: Allows,
     tree: OnceCell<Tree<'a>>,
     usage: OnceCell<Usage>,
+    analysis: OnceCell<Analysis<'a>>,
 }
 
 impl<'a> DomainView<'a> {
     pub(crate) fn new(file: File<'a, Domain>) -> Self {
         let allows = Allows::of(file.source);
-        let (tree, usage) = (OnceCell::new(), OnceCell::new());
-        Self { source: file.source, domain: file.model, allows, tree, usage }
+        let (tree, usage, analysis) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
+        Self { source: file.source, domain: file.model, allows, tree, usage, analysis }
     }
 
     /// The text's structure, for lints about how something is written.
@@ -40,6 +43,16 @@ impl<'a> DomainView<'a> {
     /// Whether the model holds all that the text says: only then is what nobody names unused.
     pub(crate) fn is_complete(&self) -> bool {
         self.domain.unsupported.is_empty()
+    }
+
+    /// What reasons are worded with.
+    pub(crate) fn words(&self) -> Words<'a> {
+        Words { domain: self.domain, problem: None, domain_source: self.source, problem_source: None }
+    }
+
+    /// What can happen in some problem.
+    pub(crate) fn analysis(&self) -> &Analysis<'a> {
+        self.analysis.get_or_init(|| Analysis::new(&self.words()))
     }
 
     /// Whether it only declares: for others that import it.
@@ -66,13 +79,14 @@ pub(crate) struct ProblemView<'a, 'd> {
     pub(crate) allows: Allows,
     tree: OnceCell<Tree<'a>>,
     usage: OnceCell<Usage>,
+    analysis: OnceCell<Analysis<'a>>,
 }
 
 impl<'a, 'd> ProblemView<'a, 'd> {
     pub(crate) fn new(domain: &'a DomainView<'d>, file: File<'a, Problem>) -> Self {
         let allows = Allows::of(file.source);
-        let (tree, usage) = (OnceCell::new(), OnceCell::new());
-        Self { domain, source: file.source, problem: file.model, allows, tree, usage }
+        let (tree, usage, analysis) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
+        Self { domain, source: file.source, problem: file.model, allows, tree, usage, analysis }
     }
 
     /// The text's structure, for lints about how something is written.
@@ -83,6 +97,17 @@ impl<'a, 'd> ProblemView<'a, 'd> {
     /// Who names whom, in the problem alone.
     pub(crate) fn usage(&self) -> &Usage {
         self.usage.get_or_init(|| Usage::of_problem(self.domain.domain, self.problem))
+    }
+
+    /// What reasons are worded with.
+    pub(crate) fn words(&self) -> Words<'a> {
+        let (problem, problem_source) = (Some(self.problem), Some(self.source));
+        Words { domain: self.domain.domain, problem, domain_source: self.domain.source, problem_source }
+    }
+
+    /// What can happen in this problem.
+    pub(crate) fn analysis(&self) -> &Analysis<'a> {
+        self.analysis.get_or_init(|| Analysis::new(&self.words()))
     }
 
     /// Whether both models hold all that their texts say.

@@ -1,0 +1,24 @@
+//! W0850 on: what never happens, what never holds, and why.
+//!
+//! A finding names the root: what is silent only because something else is, is named there.
+
+mod dead;
+mod dead_action;
+mod dead_axiom;
+mod dead_conditional_effect;
+mod dead_method;
+mod idle_schema;
+mod impossible_task;
+mod unreachable_goal;
+
+use crate::Lint;
+
+pub(crate) static LINTS: &[&Lint] = &[
+    &dead_action::LINT,
+    &dead_axiom::LINT,
+    &dead_conditional_effect::LINT,
+    &dead_method::LINT,
+    &impossible_task::LINT,
+    &unreachable_goal::LINT,
+    &idle_schema::LINT,
+];
