@@ -17,7 +17,7 @@
 //!
 //! Members: `arguments` (the tree of commands), `run`, `plan`, `validate`, `check`, `fmt`, `explain` (one each),
 //! `task` (a domain with its problem, read from files), `assemble` (a mission, from its folder to what runs it),
-//! `scenario`, `header` (which file needs which), `files`, `disk` (mission folders), `memory`, `clock`, `render`
+//! `scenario`, `files`, `disk` (mission folders), `memory`, `clock`, `render`
 //! (diagnostics as text with excerpts, or as JSON), `console` and `exit`.
 
 mod arguments;
@@ -30,7 +30,6 @@ mod exit;
 mod explain;
 mod files;
 mod fmt;
-mod header;
 mod memory;
 mod plan;
 mod render;

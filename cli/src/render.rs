@@ -20,7 +20,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 /// More than this for one file would only scroll the first ones away.
-const MOST_PER_FILE: usize = 50;
+pub(crate) const MOST_PER_FILE: usize = 50;
 
 /// A span with its source.
 #[derive(Clone, Copy)]

@@ -118,24 +118,43 @@ pub struct Occurrence {
     pub role: Role,
 }
 
+/// Whether occurrences are kept; a file of a million facts has millions of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Names {
+    /// All of them.
+    #[default]
+    Kept,
+    /// None: [`Analysis::occurrences`] is empty.
+    Skipped,
+}
+
+impl Names {
+    fn sink(self, diagnostics: Vec<Diagnostic>) -> Sink {
+        match self {
+            Self::Kept => Sink::recording(diagnostics),
+            Self::Skipped => Sink::new(diagnostics),
+        }
+    }
+}
+
 /// Reads a domain (or vocabulary, rules, perception, methods), whatever is wrong with it or with the domains
 /// that it imports.
-pub fn analyze_domain(source: &Source, imports: &[&Domain]) -> Analysis<Domain> {
+pub fn analyze_domain(source: &Source, imports: &[&Domain], names: Names) -> Analysis<Domain> {
     let (tree, diagnostics) = syntax::parse(source);
-    finish(lower::domain(Sink::recording(diagnostics), &tree, imports), nothing_declared)
+    finish(lower::domain(names.sink(diagnostics), &tree, imports), nothing_declared)
 }
 
 /// Reads a problem of `domain`, which may be a draft. Without a domain only what the problem itself can tell is
 /// in it.
-pub fn analyze_problem(source: &Source, domain: &Domain) -> Analysis<Problem> {
+pub fn analyze_problem(source: &Source, domain: &Domain, names: Names) -> Analysis<Problem> {
     let (tree, diagnostics) = syntax::parse(source);
-    finish(lower::problem(Sink::recording(diagnostics), &tree, domain), || nothing_to_do(domain))
+    finish(lower::problem(names.sink(diagnostics), &tree, domain), || nothing_to_do(domain))
 }
 
 /// Reads a plan for `problem`; both models may be drafts.
-pub fn analyze_plan(source: &Source, domain: &Domain, problem: &Problem) -> Analysis<Plan> {
+pub fn analyze_plan(source: &Source, domain: &Domain, problem: &Problem, names: Names) -> Analysis<Plan> {
     let (tree, diagnostics) = syntax::parse(source);
-    finish(lower::plan(Sink::recording(diagnostics), source, &tree, domain, problem), Plan::default)
+    finish(lower::plan(names.sink(diagnostics), source, &tree, domain, problem), Plan::default)
 }
 
 fn finish<M>(lowered: Lowered<M>, empty: impl FnOnce() -> M) -> Analysis<M> {

@@ -47,12 +47,12 @@ mod source;
 pub mod syntax;
 
 pub use analysis::{
-    Analysis, NameKind, Occurrence, Role, Symbol, analyze_domain, analyze_plan, analyze_problem,
+    Analysis, NameKind, Names, Occurrence, Role, Symbol, analyze_domain, analyze_plan, analyze_problem,
 };
 pub use decimal::{Decimal, NotADecimal};
 pub use diagnostic::{
     Diagnostic, DiagnosticKind, Explanation, FileKind, Label, Severity, SymbolKind, UnknownCode,
-    UnsupportedFeature, explain, explanations,
+    UnsupportedFeature, explain, explanations, nearest,
 };
 pub use format::format;
 pub use parse::{Parsed, parse_domain, parse_plan, parse_problem};

@@ -2,7 +2,7 @@
 
 use expect_test::{Expect, expect};
 use pddl::{
-    Analysis, Occurrence, Role, Source, analyze_domain, analyze_plan, analyze_problem, parse_domain,
+    Analysis, Names, Occurrence, Role, Source, analyze_domain, analyze_plan, analyze_problem, parse_domain,
     parse_problem,
 };
 
@@ -30,7 +30,7 @@ fn said<M>(source: &Source, analysis: &Analysis<M>) -> String {
 
 fn check_domain(text: &str, expected_names: &Expect, expected_said: &Expect) {
     let source = Source::new("d.pddl", text);
-    let analysis = analyze_domain(&source, &[]);
+    let analysis = analyze_domain(&source, &[], Names::Kept);
     expected_names.assert_eq(&names(&source, &analysis.occurrences));
     expected_said.assert_eq(&said(&source, &analysis));
 }
@@ -210,17 +210,17 @@ fn a_problem_is_read_with_the_draft_of_its_domain() {
         "(define (domain d) (:types t) (:predicates (p ?x - t) (q ?x - typo))
         (:action go :parameters (?x - t) :precondition (nosuch ?x) :effect (p ?x)))",
     );
-    let domain = analyze_domain(&domain, &[]);
+    let domain = analyze_domain(&domain, &[], Names::Kept);
     assert!(!domain.sound);
     let source = Source::new(
         "p.pddl",
         "(define (problem x) (:domain d) (:objects a - t) (:init (q a) (p b)) (:goal (p a)))",
     );
-    let problem = analyze_problem(&source, &domain.draft);
+    let problem = analyze_problem(&source, &domain.draft, Names::Kept);
     expect!["1:66 E0204 unknown object `b`\n"].assert_eq(&said(&source, &problem));
     assert_eq!((problem.draft.init.len(), problem.sound), (1, false));
     let source = Source::new("x.plan", "(go a) (go b)\n(come a)");
-    let plan = analyze_plan(&source, &domain.draft, &problem.draft);
+    let plan = analyze_plan(&source, &domain.draft, &problem.draft, Names::Kept);
     let sequential = plan.draft.clone().into_sequential().expect("no times");
     assert_eq!(sequential.steps.len(), 1);
     expect![[r#"
@@ -238,9 +238,9 @@ fn any_text_has_a_draft() {
     for text in ["", "(", ")", "(define", "(define (domain", "(define (problem p) (:init (p", "hello ; world"]
     {
         let source = Source::new("x.pddl", text);
-        let domain = analyze_domain(&source, &[]);
-        let problem = analyze_problem(&source, &domain.draft);
-        analyze_plan(&source, &domain.draft, &problem.draft);
+        let domain = analyze_domain(&source, &[], Names::Kept);
+        let problem = analyze_problem(&source, &domain.draft, Names::Kept);
+        analyze_plan(&source, &domain.draft, &problem.draft, Names::Kept);
         assert!(!domain.sound && !problem.sound);
         assert!(parse_domain(&source, &[]).model.is_none());
         assert!(parse_problem(&source, &domain.draft).model.is_none());

@@ -23,12 +23,13 @@
 //! ```
 //!
 //! Map, from the ground up: `sources` (texts by number), `finding` (what is wrong, where), `header` (the names
-//! in a file's head), `links` (which file needs which), `file` (a file as it was read),
-//! `project`, `lint` (a domain with all its problems, looked at by lints).
+//! in a file's head), `links` (which file needs which), `file` (a file as it was read), `lint` (a domain with all
+//! its problems, looked at by lints), `judge` (what there is to say about a file), `project`.
 
 mod file;
 mod finding;
 mod header;
+mod judge;
 mod links;
 mod lint;
 mod project;

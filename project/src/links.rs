@@ -82,7 +82,7 @@ fn distance(from: &str, to: &str, order: usize) -> (bool, bool, std::cmp::Revers
 }
 
 fn folder(path: &str) -> &str {
-    path.rsplit_once('/').map_or("", |(folder, _)| folder)
+    path.trim_start_matches("./").rsplit_once('/').map_or("", |(folder, _)| folder)
 }
 
 fn file_name(path: &str) -> &str {

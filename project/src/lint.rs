@@ -2,7 +2,8 @@
 //!
 //! Problem: what is a mistake in a domain often shows only with its problems, and one problem alone proves little.
 //! Idea: a domain is looked at together with all problems of the project that are for it; see [`lints::Linter`].
-//! Invariant: files with errors are not looked at. Nothing is kept: an editor asks when its user rests.
+//! Invariant: files with errors are not looked at. Nothing is kept here; [`Project::lint_findings`]
+//! keeps what everybody wants to read.
 
 use lints::{File, Level, Linter};
 
@@ -42,6 +43,12 @@ impl Project {
         said.extend(linter.finish().iter().map(|f| linted(f, domain, domain)));
         said.sort_by_key(|l| (l.finding.place.source, l.finding.place.span));
         said
+    }
+
+    /// What lints up to `level` say of a domain whatever its problems are.
+    pub fn lint_domain(&self, domain: SourceId, level: Level) -> Vec<Linted> {
+        let linter = self.linter(domain, level);
+        linter.map_or_else(Vec::new, |l| l.finish().iter().map(|f| linted(f, domain, domain)).collect())
     }
 
     /// What lints up to `level` say of a problem alone.

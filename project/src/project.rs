@@ -8,11 +8,12 @@
 use std::sync::{Arc, OnceLock};
 
 use pddl::model::{Domain, IndexVec};
-use pddl::{Source, Span, analyze_domain, analyze_plan, analyze_problem};
+use pddl::{Names, Source, analyze_domain, analyze_plan, analyze_problem};
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use crate::judge;
 use crate::links::links;
-use crate::{FileKind, Finding, Header, Place, Reading, SourceId, Sources};
+use crate::{FileKind, Finding, Header, Linted, Reading, SourceId, Sources};
 
 /// What is known of a file.
 #[derive(Debug)]
@@ -21,12 +22,26 @@ struct File {
     /// What provides each need; see [`links`].
     links: Vec<Option<SourceId>>,
     read: OnceLock<Read>,
+    /// What lints say. Of a domain it depends on its problems too.
+    lints: OnceLock<Vec<Linted>>,
 }
 
-#[derive(Debug)]
+impl File {
+    fn new(header: Header, links: Vec<Option<SourceId>>) -> Arc<Self> {
+        Arc::new(Self { header, links, read: OnceLock::new(), lints: OnceLock::new() })
+    }
+
+    fn unlinted(&self) -> Option<Arc<Self>> {
+        self.lints.get()?;
+        let (header, links, read) = (self.header.clone(), self.links.clone(), self.read.clone());
+        Some(Arc::new(Self { header, links, read, lints: OnceLock::new() }))
+    }
+}
+
+#[derive(Clone, Debug)]
 struct Read {
-    reading: Reading,
-    findings: Vec<Finding>,
+    reading: Arc<Reading>,
+    language: Vec<Finding>,
 }
 
 /// A set of files.
@@ -35,6 +50,7 @@ pub struct Project {
     sources: Sources,
     files: IndexVec<SourceId, Option<Arc<File>>>,
     by_path: FxHashMap<String, SourceId>,
+    names: Names,
 }
 
 impl Project {
@@ -43,29 +59,29 @@ impl Project {
         Self::default()
     }
 
+    /// No files, and of those to come only what is wrong with them is wanted: readings have no occurrences.
+    pub fn without_names() -> Self {
+        Self { names: Names::Skipped, ..Self::default() }
+    }
+
     /// Adds the file at `path` or gives it another text. Paths have `/` between folders; a path keeps its id,
     /// also over [`Project::remove`].
     ///
     /// # Panics
     /// Like [`Source::new`].
     pub fn set(&mut self, path: &str, text: impl Into<String>) -> SourceId {
-        self.set_all([(path, text)])[0]
+        self.set_all([Source::new(path, text)])[0]
     }
 
-    /// Many files at once: links between them are looked for only once.
-    ///
-    /// # Panics
-    /// Like [`Source::new`].
-    pub fn set_all<'a, T: Into<String>>(
-        &mut self,
-        files: impl IntoIterator<Item = (&'a str, T)>,
-    ) -> Vec<SourceId> {
+    /// Many files at once, named by their paths: links between them are looked for only once.
+    pub fn set_all(&mut self, sources: impl IntoIterator<Item = Source>) -> Vec<SourceId> {
         let mut changed = Vec::new();
         let mut relink = false;
-        for (path, text) in files {
-            let source = Source::new(path, text);
-            let header = Header::of(path, source.text());
-            let id = match self.by_path.get(path) {
+        let mut before = Vec::new();
+        for source in sources {
+            let path = source.name().to_owned();
+            let header = Header::of(&path, source.text());
+            let id = match self.by_path.get(&path) {
                 Some(&id) => {
                     self.sources.replace(id, source);
                     id
@@ -73,36 +89,38 @@ impl Project {
                 None => {
                     let id = self.sources.push(source);
                     self.files.push(None);
-                    self.by_path.insert(path.to_owned(), id);
+                    self.by_path.insert(path, id);
                     id
                 }
             };
             let links = match &self.files[id] {
                 Some(old) if old.header.same_names(&header) => old.links.clone(),
-                _ => {
+                old => {
                     relink = true;
+                    before.extend(old.iter().flat_map(|file| file.links.iter().flatten().copied()));
                     Vec::new()
                 }
             };
-            self.files[id] = Some(Arc::new(File { header, links, read: OnceLock::new() }));
+            self.files[id] = Some(File::new(header, links));
             changed.push(id);
         }
-        self.settle(changed.iter().copied().collect(), relink);
+        self.settle(changed.iter().copied().collect(), relink, before);
         changed
     }
 
     /// Takes the file at `path` out. Its id stays its own.
     pub fn remove(&mut self, path: &str) -> Option<SourceId> {
         let id = *self.by_path.get(path)?;
-        self.files[id].take()?;
+        let before = self.files[id].take()?.links.iter().flatten().copied().collect();
         self.sources.replace(id, Source::new(path, ""));
-        self.settle(FxHashSet::from_iter([id]), true);
+        self.settle(FxHashSet::from_iter([id]), true, before);
         Some(id)
     }
 
     /// Makes links anew if `relink`, then forgets what was read of the changed files and of all that depend on
-    /// them.
-    fn settle(&mut self, mut changed: FxHashSet<SourceId>, relink: bool) {
+    /// them, and what lints said of these and of what the changed files needed `before`.
+    fn settle(&mut self, mut changed: FxHashSet<SourceId>, relink: bool, before: Vec<SourceId>) {
+        let mut linted_with = before;
         if relink {
             let entries: Vec<_> = self
                 .ids()
@@ -110,10 +128,11 @@ impl Project {
                 .collect();
             for (id, links) in links(&entries) {
                 if let Some(file) = &self.files[id]
-                    && file.links != links
+                    // What is missing is told with names that are near: those may be others now.
+                    && (file.links != links || links.contains(&None))
                 {
-                    let file = File { header: file.header.clone(), links, read: OnceLock::new() };
-                    self.files[id] = Some(Arc::new(file));
+                    linted_with.extend(file.links.iter().flatten().copied());
+                    self.files[id] = Some(File::new(file.header.clone(), links));
                     changed.insert(id);
                 }
             }
@@ -128,10 +147,30 @@ impl Project {
             }
             for id in next {
                 if let Some(file) = &self.files[id] {
-                    let (header, links) = (file.header.clone(), file.links.clone());
-                    self.files[id] = Some(Arc::new(File { header, links, read: OnceLock::new() }));
+                    self.files[id] = Some(File::new(file.header.clone(), file.links.clone()));
                 }
                 changed.insert(id);
+            }
+        }
+        linted_with.extend(self.linted_with(&changed));
+        self.forget_lints(linted_with);
+    }
+
+    fn linted_with(&self, files: &FxHashSet<SourceId>) -> Vec<SourceId> {
+        files
+            .iter()
+            .filter(|&&id| self.kind(id) == FileKind::Problem)
+            .filter_map(|&id| self.domain_of(id))
+            .collect()
+    }
+
+    /// Domains are linted with their problems: what was said of the domains of changed ones is forgotten.
+    fn forget_lints(&mut self, domains: impl IntoIterator<Item = SourceId>) {
+        for domain in domains {
+            if let Some(file) = &self.files[domain]
+                && let Some(file) = file.unlinted()
+            {
+                self.files[domain] = Some(file);
             }
         }
     }
@@ -208,7 +247,7 @@ impl Project {
 
     /// A file as it was read; `None` if it is none of the project's.
     pub fn reading(&self, id: SourceId) -> Option<&Reading> {
-        self.read(id).map(|read| &read.reading)
+        self.read(id).map(|read| &*read.reading)
     }
 
     /// The model of the domain in a file, whatever is wrong with it; `None` if the file is no domain.
@@ -227,18 +266,43 @@ impl Project {
         }
     }
 
+    /// What the language says about a file, in order of place.
+    pub fn language_findings(&self, id: SourceId) -> &[Finding] {
+        self.read(id).map_or(&[], |read| &read.language)
+    }
+
+    /// What lints say about a file, in order of place; nothing while it or its domain has errors.
+    pub fn lint_findings(&self, id: SourceId) -> &[Linted] {
+        self.file(id).map_or(&[], |file| file.lints.get_or_init(|| judge::lints(self, id)))
+    }
+
     /// Everything to say about a file, in order of place.
-    pub fn findings(&self, id: SourceId) -> &[Finding] {
-        self.read(id).map_or(&[], |read| &read.findings)
+    pub fn findings(&self, id: SourceId) -> Vec<Finding> {
+        let lints = self.lint_findings(id).iter().map(|linted| &linted.finding);
+        let mut all: Vec<Finding> = self.language_findings(id).iter().chain(lints).cloned().collect();
+        all.sort_by_key(|finding| finding.place.span);
+        all
     }
 
     fn file(&self, id: SourceId) -> Option<&File> {
         self.files.get(id)?.as_deref()
     }
 
+    /// Reads a file after all that it needs, which may be a long way: the way is on a stack of our own.
     fn read(&self, id: SourceId) -> Option<&Read> {
-        let file = self.file(id)?;
-        Some(file.read.get_or_init(|| self.read_anew(id, file)))
+        let mut way = vec![id];
+        while let Some(&next) = way.last() {
+            let file = self.file(next)?;
+            let unread = |id: &&SourceId| self.file(**id).is_some_and(|f| f.read.get().is_none());
+            match file.links.iter().flatten().find(unread) {
+                Some(&need) if file.read.get().is_none() => way.push(need),
+                _ => {
+                    file.read.get_or_init(|| self.read_anew(next, file));
+                    way.pop();
+                }
+            }
+        }
+        self.file(id)?.read.get()
     }
 
     fn read_anew(&self, id: SourceId, file: &File) -> Read {
@@ -247,24 +311,24 @@ impl Project {
             FileKind::Domain => {
                 let imports: Vec<&Domain> =
                     file.links.iter().flatten().filter_map(|&import| self.domain(import)).collect();
-                Reading::Domain(analyze_domain(source, &imports))
+                Reading::Domain(analyze_domain(source, &imports, self.names))
             }
             FileKind::Problem => {
                 let nothing;
                 let domain = match self.domain_of(id).and_then(|domain| self.domain(domain)) {
                     Some(domain) => domain,
                     None => {
-                        nothing = analyze_domain(&Source::new("", ""), &[]).draft;
+                        nothing = analyze_domain(&Source::new("", ""), &[], self.names).draft;
                         &nothing
                     }
                 };
-                Reading::Problem(analyze_problem(source, domain))
+                Reading::Problem(analyze_problem(source, domain, self.names))
             }
             FileKind::Plan => {
                 let domain = self.domain_of(id).and_then(|domain| self.domain(domain));
                 let problem = self.problem_of(id).and_then(|problem| self.problem(problem));
                 Reading::Plan(match (domain, problem) {
-                    (Some(domain), Some(problem)) => analyze_plan(source, domain, problem),
+                    (Some(domain), Some(problem)) => analyze_plan(source, domain, problem, self.names),
                     _ => pddl::Analysis {
                         draft: pddl::Plan::default(),
                         sound: false,
@@ -274,35 +338,7 @@ impl Project {
                 })
             }
         };
-        let findings = self.judge(id, file, &reading);
-        Read { reading, findings }
-    }
-
-    fn judge(&self, id: SourceId, file: &File, reading: &Reading) -> Vec<Finding> {
-        let diagnostics = reading.diagnostics().iter();
-        let mut findings: Vec<Finding> = Vec::new();
-        match (file.header.kind, file.links.first()) {
-            (FileKind::Problem, Some(None)) => {
-                // Without its domain every name in it would be unknown: what is said is what is missing, and
-                // what the text alone shows.
-                if let Some(need) = file.header.needs.first() {
-                    let place = Place { source: id, span: need.span };
-                    let message = format!("no file defines the domain `{}`", need.name);
-                    findings.push(Finding::error("E0212", place, message));
-                }
-                findings.extend(diagnostics.filter(|d| d.code() < "E0200").map(|d| Finding::of_pddl(id, d)));
-            }
-            (FileKind::Plan, Some(None)) => {
-                let place = Place { source: id, span: Span::default() };
-                let message = "no problem in this folder belongs to this plan";
-                findings.push(
-                    Finding::warning("W0225", place, message)
-                        .help("a plan has the name of its problem: `p01.plan` for `p01.pddl`"),
-                );
-            }
-            _ => findings.extend(diagnostics.map(|d| Finding::of_pddl(id, d))),
-        }
-        findings.sort_by_key(|finding| finding.place.span);
-        findings
+        let language = judge::language(self, id, &reading);
+        Read { reading: Arc::new(reading), language }
     }
 }

@@ -1,10 +1,9 @@
 //! `pelea check PATH...`: every error of every file and mission given, at its place.
 //!
 //! Folders stand for all `.pddl` and `.hddl` files below them, but a folder with a `mission.toml` is a mission
-//! and checked as a whole (`mission`). Domains are read before the problems and
-//! domains that need them, found by name: among the files given, then beside the file that needs them,
-//! then in the robots' folders (`robots/*/` of a folder above). As JSON there is, after its diagnostics, a
-//! line per file:
+//! and checked as a whole (`mission`). The others are one project (`project`). Domains are found by name: among
+//! the files given, then beside the file that needs them, then in the robots' folders (`robots/*/` of a folder
+//! above); a plan's problem in its folder. As JSON there is, after its diagnostics, a line per file:
 //!
 //! ```json
 //! {"kind": "checked", "file": "p.pddl", "errors": 0, "warnings": 1, "unsupported": 0,
@@ -13,14 +12,14 @@
 
 mod mission;
 
-use crate::console::Console;
+use crate::console::{Console, Form};
+use crate::disk::show;
 use crate::exit::Exit;
-use crate::header::{Header, Kind, Need};
-use crate::render::{Message, show_all};
+use crate::render::{MOST_PER_FILE, Message};
 use crate::task::read_source;
 use clap::Args;
-use pddl::model::Domain;
-use pddl::{Diagnostic, SequentialPlan, Severity, Source, parse_domain, parse_problem};
+use pddl::{SequentialPlan, Severity, Source};
+use project::{FileKind, Header, Need, Project, Reading, SourceId};
 use serde::Serialize;
 use std::collections::BTreeSet;
 use std::fs;
@@ -63,13 +62,40 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         }
     }
     find_needs(&mut files);
-    let tallies = Checked::new(&files).run(console);
+    let mut project = Project::without_names();
+    let given: Vec<bool> = files.iter().map(|file| file.given).collect();
+    let ids = project.set_all(files.into_iter().map(|file| file.source));
+    let files: Vec<File> = ids.into_iter().zip(given).map(|(id, given)| File { id, given }).collect();
+    let wanted = wanted(&project, &files);
+    let files: Vec<File> = files.into_iter().filter(|file| wanted.contains(&file.id)).collect();
+    let tallies = Checked::new(&project, &files).run(console);
     for (file, tally) in files.iter().zip(&tallies).filter(|(file, _)| file.given) {
-        exit = exit.and(if tally.errors == 0 && tally.checked { Exit::Yes } else { Exit::No });
-        console.result(&tally.line(file.source.name()));
-        console.record(&CheckedRecord { kind: "checked", file: file.source.name(), tally: *tally });
+        exit = exit.and(if tally.errors == 0 { Exit::Yes } else { Exit::No });
+        let path = project.path(file.id);
+        console.result(&tally.line(path));
+        console.record(&CheckedRecord { kind: "checked", file: path, tally: *tally });
     }
     exit
+}
+
+/// A file of the project.
+#[derive(Clone, Copy)]
+struct File {
+    id: SourceId,
+    /// Whether it is to be checked itself.
+    given: bool,
+}
+
+/// The files that were given and those that they need.
+fn wanted(project: &Project, files: &[File]) -> BTreeSet<SourceId> {
+    let mut way: Vec<SourceId> = files.iter().filter(|file| file.given).map(|file| file.id).collect();
+    let mut wanted = BTreeSet::new();
+    while let Some(id) = way.pop() {
+        if wanted.insert(id) {
+            way.extend(project.needs(id).iter().flatten());
+        }
+    }
+    wanted
 }
 
 /// A file that is checked, or that one of those needs.
@@ -83,12 +109,12 @@ struct Candidate {
 
 impl Candidate {
     fn new(path: PathBuf, source: Source, given: bool) -> Self {
-        let header = Header::of(source.text());
+        let header = Header::of(source.name(), source.text());
         Self { path, source, header, given }
     }
 
     fn defines(&self, domain: &str) -> bool {
-        self.header.kind == Kind::Domain && self.header.name == domain
+        self.header.defines(domain)
     }
 }
 
@@ -123,8 +149,18 @@ fn find_needs(files: &mut Vec<Candidate>) {
     let mut sought = BTreeSet::new();
     let mut next = 0;
     while let Some(file) = files.get(next) {
-        let (path, needs) = (file.path.clone(), file.header.needs.clone());
+        let (path, needs, kind) = (file.path.clone(), file.header.needs.clone(), file.header.kind);
         next += 1;
+        // A plan says nowhere which problem it is for: its folder may.
+        if kind == FileKind::Plan {
+            for path in beside(&path) {
+                if files.iter().all(|file| file.path != path)
+                    && let Ok(source) = crate::files::read(&path)
+                {
+                    files.push(Candidate::new(path, source, false));
+                }
+            }
+        }
         for Need { name, .. } in needs {
             if files.iter().any(|f| f.defines(&name)) || !sought.insert((path.clone(), name.clone())) {
                 continue;
@@ -140,11 +176,16 @@ fn find_needs(files: &mut Vec<Candidate>) {
     }
 }
 
+/// The sources in a file's folder.
+fn beside(path: &Path) -> Vec<PathBuf> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    entries(folder).into_iter().filter(|p| is_source(p)).collect()
+}
+
 /// The sources beside a file, then those of the robots in the folders above it.
 fn nearby(path: &Path) -> Vec<PathBuf> {
     let absolute = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let mut paths: Vec<PathBuf> = entries(folder).into_iter().filter(|p| is_source(p)).collect();
+    let mut paths = beside(path);
     for above in absolute.ancestors().skip(1) {
         for robot in entries(&above.join("robots")).iter().filter(|p| p.is_dir()) {
             paths.extend(entries(robot).into_iter().filter(|p| is_source(p)));
@@ -159,7 +200,7 @@ struct Tally {
     errors: usize,
     warnings: usize,
     unsupported: usize,
-    /// False for a problem whose domain has errors.
+    /// False where a file keeps the rest of a mission from being read.
     checked: bool,
 }
 
@@ -177,9 +218,6 @@ impl Tally {
     }
 
     fn line(&self, file: &str) -> String {
-        if !self.checked {
-            return format!("{file}: not checked, since its domain has errors");
-        }
         format!("{file}: {}", self.verdict())
     }
 
@@ -204,119 +242,64 @@ fn counted(count: usize, one: &str, more: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { more })
 }
 
-/// The models read so far.
+/// Everything that is wrong with the files, those first that others need.
 struct Checked<'a> {
-    files: &'a [Candidate],
-    domains: Vec<Option<Domain>>,
+    project: &'a Project,
+    files: &'a [File],
     tallies: Vec<Tally>,
     /// Domains whose lack of meaning has been shown.
-    ill_formed: BTreeSet<usize>,
+    ill_formed: BTreeSet<SourceId>,
 }
 
 impl<'a> Checked<'a> {
-    fn new(files: &'a [Candidate]) -> Self {
-        Self {
-            files,
-            domains: files.iter().map(|_| None).collect(),
-            tallies: vec![Tally::default(); files.len()],
-            ill_formed: BTreeSet::new(),
-        }
+    fn new(project: &'a Project, files: &'a [File]) -> Self {
+        let tallies = vec![Tally { checked: true, ..Tally::default() }; files.len()];
+        Self { project, files, tallies, ill_formed: BTreeSet::new() }
     }
 
     fn run(mut self, console: &mut Console<'_>) -> Vec<Tally> {
-        for index in self.order() {
-            self.domain(index, console);
-        }
-        for index in 0..self.files.len() {
-            if self.files[index].header.kind == Kind::Problem {
-                self.problem(index, console);
+        for kind in [FileKind::Domain, FileKind::Problem, FileKind::Plan] {
+            for index in 0..self.files.len() {
+                if self.project.kind(self.files[index].id) == kind {
+                    self.file(index, console);
+                }
             }
         }
         self.tallies
     }
 
-    /// The domains, each after those that it imports; those on a circle last.
-    fn order(&self) -> Vec<usize> {
-        let mut left: Vec<usize> =
-            (0..self.files.len()).filter(|&i| self.files[i].header.kind == Kind::Domain).collect();
-        let mut order = Vec::with_capacity(left.len());
-        while !left.is_empty() {
-            let waits = |index: usize, left: &[usize]| {
-                self.files[index].header.needs.iter().any(|need| {
-                    self.provider(index, &need.name).is_some_and(|p| p != index && left.contains(&p))
-                })
-            };
-            let ready: Vec<usize> = left.iter().copied().filter(|&index| !waits(index, &left)).collect();
-            let next = if ready.is_empty() { left.clone() } else { ready };
-            left.retain(|index| !next.contains(index));
-            order.extend(next);
-        }
-        order
-    }
-
-    /// The file that defines a domain for the file at `index`: one that shares its stem
-    /// (`p01-domain.pddl` for `p01.pddl`), or else its folder, or else the first.
-    fn provider(&self, index: usize, name: &str) -> Option<usize> {
-        let path = &self.files[index].path;
-        let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
-        (0..self.files.len()).filter(|&i| self.files[i].defines(name)).min_by_key(|&i| {
-            let other = &self.files[i].path;
-            let near = other.parent() == path.parent();
-            let alike = other.file_stem().is_some_and(|s| s.to_string_lossy().contains(&stem));
-            (!near, !alike, i)
-        })
-    }
-
-    fn show(&mut self, index: usize, diagnostics: &[Diagnostic], console: &mut Console<'_>) {
-        self.tallies[index] = Tally::of(diagnostics.iter().map(|d| d.severity));
+    fn file(&mut self, index: usize, console: &mut Console<'_>) {
+        let File { id, given } = self.files[index];
+        let findings = self.project.findings(id);
+        self.tallies[index] = Tally::of(findings.iter().map(|finding| finding.severity));
         // A file that was not given speaks up if it keeps a given one from being checked.
-        if self.files[index].given || self.tallies[index].errors > 0 {
-            show_all(&self.files[index].source, diagnostics, console);
+        if given || self.tallies[index].errors > 0 {
+            let shown = if console.form() == Form::Json { findings.len() } else { MOST_PER_FILE };
+            show(self.project.sources(), &findings[..findings.len().min(shown)], console);
+            if findings.len() > shown {
+                console.note(&format!("… and {} more in {}", findings.len() - shown, self.project.path(id)));
+            }
         }
+        self.meaning(id, console);
     }
 
-    fn domain(&mut self, index: usize, console: &mut Console<'_>) {
-        let file = &self.files[index];
-        let imports: Vec<&Domain> = file
-            .header
-            .needs
-            .iter()
-            .filter_map(|need| self.domains[self.provider(index, &need.name)?].as_ref())
-            .collect();
-        let parsed = parse_domain(&file.source, &imports);
-        self.show(index, &parsed.diagnostics, console);
-        self.domains[index] = parsed.model;
-    }
-
-    fn problem(&mut self, index: usize, console: &mut Console<'_>) {
-        let file = &self.files[index];
-        let provider = file.header.needs.first().and_then(|need| self.provider(index, &need.name));
-        let Some(provider) = provider else {
-            self.tallies[index] = Tally { errors: 1, checked: true, ..Tally::default() };
-            let (text, span) = match file.header.needs.first() {
-                Some(need) => (format!("no file defines the domain `{}`", need.name), need.span),
-                None => ("the problem does not name its domain".to_owned(), pddl::Span::default()),
-            };
-            Message::error(text).at(&file.source, span).show(console);
-            return;
-        };
-        let Some(domain) = self.domains[provider].take() else {
-            return;
-        };
-        let parsed = parse_problem(&file.source, &domain);
-        self.show(index, &parsed.diagnostics, console);
-        if let Some(problem) = &parsed.model
-            && let Err(refusal) = Validator::new(&domain, problem)
+    /// A problem that can be read may still have no meaning: its domain's axioms may go round.
+    fn meaning(&mut self, id: SourceId, console: &mut Console<'_>) {
+        let provider = self.project.domain_of(id).filter(|&domain| domain != id);
+        if let Some(provider) = provider
+            && let Some(Reading::Domain(domain)) = self.project.reading(provider).filter(|r| r.is_sound())
+            && let Some(Reading::Problem(problem)) = self.project.reading(id).filter(|r| r.is_sound())
+            && let Err(refusal) = Validator::new(&domain.draft, &problem.draft)
             && matches!(*refusal, Verdict::IllFormed(_))
+            && let Some(finding) =
+                explain(&domain.draft, &problem.draft, &SequentialPlan::default(), &refusal)
+            && let Some(index) = self.files.iter().position(|file| file.id == provider)
             && self.ill_formed.insert(provider)
-            && let Some(finding) = explain(&domain, problem, &SequentialPlan::default(), &refusal)
         {
-            self.tallies[provider].errors += 1;
-            Message::error(finding.sentence)
-                .at(&self.files[provider].source, finding.place.span)
-                .show(console);
+            self.tallies[index].errors += 1;
+            let source = self.project.source(provider);
+            Message::error(finding.sentence).at(source, finding.place.span).show(console);
         }
-        self.domains[provider] = Some(domain);
     }
 }
 

@@ -11,7 +11,7 @@ mod suggest;
 
 pub use explain::{Explanation, UnknownCode, explain, explanations};
 pub use kind::{DiagnosticKind, FileKind, SymbolKind, UnsupportedFeature};
-pub(crate) use suggest::nearest;
+pub use suggest::nearest;
 
 use crate::Span;
 use serde::Serialize;

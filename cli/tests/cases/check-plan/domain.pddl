@@ -1,0 +1,1 @@
+(define (domain hall) (:predicates (lit ?x)) (:action light :parameters (?x) :effect (lit ?x)))
