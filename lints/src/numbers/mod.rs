@@ -14,7 +14,7 @@ mod interval;
 
 use pddl::model::{
     ArithmeticOperator, AssignOperator, AssignedValue, Comparison, Domain, Expression, ExpressionKind,
-    FluentValue, FunctionId, FunctionValue, IndexVec, Problem, Term,
+    FluentValue, FunctionId, FunctionValue, IndexVec, Problem, Term, TimedChange,
 };
 use rustc_hash::FxHashMap;
 
@@ -66,6 +66,19 @@ impl Numbers {
                 let arguments = fact.application.arguments.iter().map(|o| o.0).collect();
                 numbers.values.insert((fact.application.function, arguments), value);
             }
+        }
+        for timed in &problem.timed {
+            let (function, value) = match &timed.change {
+                TimedChange::Assign(fact) => match fact.value {
+                    FluentValue::Number(value) => (fact.application.function, Interval::point(value)),
+                    FluentValue::Object(_) => continue,
+                },
+                TimedChange::Undefine(application) => (application.function, Interval::ALL),
+                TimedChange::Add(_) | TimedChange::Delete(_) => continue,
+            };
+            let own = &mut numbers.functions[function];
+            own.hull = Some(own.hull.map_or(value, |h| h.hull(value)));
+            own.changes = true;
         }
         numbers.close(domain);
         numbers

@@ -8,8 +8,8 @@
 use std::rc::Rc;
 
 use pddl::model::{
-    AssignedValue, Condition, FluentValue, FunctionValue, Idx, ObjectId, PredicateId, SubtaskHead,
-    TaskNetwork, Term, VariableId, Variables,
+    AssignedValue, Condition, FluentFact, FluentValue, FunctionValue, Idx, ObjectId, PredicateId,
+    SubtaskHead, TaskNetwork, Term, TimedChange, VariableId, Variables,
 };
 
 use crate::happening::{Change, Happening, changes, happenings};
@@ -59,6 +59,15 @@ pub(crate) fn compile<'a>(world: &Rc<World<'a>>, numbers: &Rc<Numbers>) -> Compi
             });
         }
     }
+    for timed in world.problem.iter().flat_map(|p| &p.timed) {
+        let relation = match &timed.change {
+            TimedChange::Add(_) => continue,
+            TimedChange::Delete(fact) => predicates[fact.predicate.index()],
+            TimedChange::Assign(fact) => fluents[fact.application.function.index()],
+            TimedChange::Undefine(application) => fluents[application.function.index()],
+        };
+        known[relation.0 as usize] = Knowledge::Deletable;
+    }
     load(world, &predicates, &fluents, &mut rows);
     let (world, numbers) = (Rc::clone(world), Rc::clone(numbers));
     let evaluator = Evaluator { world, numbers, predicates, fluents, known };
@@ -93,6 +102,20 @@ fn load(world: &World<'_>, predicates: &[RelationId], fluents: &[RelationId], ro
         }
     }
     rows.seal();
+    for timed in &problem.timed {
+        row.clear();
+        match &timed.change {
+            TimedChange::Add(fact) => {
+                row.extend(fact.arguments.iter().map(|o| o.0));
+                rows.insert(predicates[fact.predicate.index()], &row);
+            }
+            TimedChange::Assign(FluentFact { application, value: FluentValue::Object(value), .. }) => {
+                row.extend(application.arguments.iter().chain([value]).map(|o| o.0));
+                rows.insert(fluents[application.function.index()], &row);
+            }
+            TimedChange::Assign(_) | TimedChange::Delete(_) | TimedChange::Undefine(_) => {}
+        }
+    }
 }
 
 impl Compiled<'_> {
