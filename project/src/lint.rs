@@ -121,9 +121,12 @@ mod tests {
             let said = project.lint_family(domain, Level::Default);
             said.iter().map(|l| (l.finding.code, l.finding.place.source)).collect::<Vec<_>>()
         };
-        assert_eq!(codes(&project), [("W0705", domain), ("W0701", first)]);
+        assert_eq!(codes(&project), [("W0705", domain), ("W0855", first), ("W0701", first)]);
         let second = project.set("hall/p02.pddl", problem("(ready)"));
-        assert_eq!(codes(&project), [("W0701", first), ("W0701", second)]);
+        assert_eq!(
+            codes(&project),
+            [("W0855", first), ("W0701", first), ("W0701", second), ("W0855", second)]
+        );
         let alone = project.lint_problem(second, Level::Default);
         let fix = alone[0].fix.as_ref().expect("a requirement can be declared");
         assert_eq!(
@@ -131,6 +134,6 @@ mod tests {
             (second, "declare `:negative-preconditions`")
         );
         project.set("hall/p02.pddl", "(define (problem p) (:domain hall) (:goal (dark)))");
-        assert_eq!(codes(&project), [("W0705", domain), ("W0701", first)]);
+        assert_eq!(codes(&project), [("W0705", domain), ("W0855", first), ("W0701", first)]);
     }
 }
