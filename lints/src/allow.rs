@@ -27,7 +27,7 @@ impl Allows {
         let (tree, _) = syntax::parse(source);
         // The lints of comments that wait for the next line with code, and the line of the code before them.
         let (mut waiting, mut line_with_code) = (Vec::new(), 0);
-        for (kind, span) in tree.tokens().iter() {
+        for (kind, span) in tree.tokens() {
             let line = source.line_column(span.start).line;
             match kind {
                 TokenKind::Whitespace => {}

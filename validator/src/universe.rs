@@ -31,16 +31,13 @@ impl Extent {
 #[derive(Clone, Debug)]
 pub(crate) struct Universe {
     types: IndexVec<TypeId, Extent>,
-    unions: FxHashMap<Vec<TypeId>, Extent>,
+    unions: FxHashMap<TypeSet, Extent>,
 }
 
 impl Universe {
     pub(crate) fn new(domain: &Domain, problem: &Problem) -> Self {
-        let types = domain
-            .types
-            .enumerate()
-            .map(|(id, _)| Extent::new(domain, problem, &TypeSet(vec![id])))
-            .collect();
+        let types =
+            domain.types.enumerate().map(|(id, _)| Extent::new(domain, problem, &TypeSet::one(id))).collect();
         let mut universe = Self { types, unions: FxHashMap::default() };
         for action in &domain.actions {
             universe.index(domain, problem, &action.variables);
@@ -56,7 +53,7 @@ impl Universe {
         for variable in &variables.slots {
             if variable.types.0.len() != 1 {
                 self.unions
-                    .entry(variable.types.0.clone())
+                    .entry(variable.types.clone())
                     .or_insert_with(|| Extent::new(domain, problem, &variable.types));
             }
         }
@@ -65,7 +62,7 @@ impl Universe {
     pub(crate) fn extent(&self, types: &TypeSet) -> &Extent {
         match types.0.as_slice() {
             [one] => &self.types[*one],
-            union => self.unions.get(union).expect("every variable's types were indexed"),
+            _ => self.unions.get(types).expect("every variable's types were indexed"),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! `?x` without `- type` where the others have types.
 
-use pddl::model::{TypeTable, Variables};
+use pddl::model::{TypeSet, Variables};
 use pddl::syntax::{Node, NodeKind};
 use pddl::{Explanation, FileKind, Span};
 use rustc_hash::FxHashSet;
@@ -49,7 +49,7 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
     }
     let mut anything: FxHashSet<Span> = FxHashSet::default();
     let mut declared = |variables: &Variables| {
-        let any = variables.slots.iter().filter(|v| v.types.0 == [TypeTable::OBJECT]);
+        let any = variables.slots.iter().filter(|v| v.types == TypeSet::any());
         anything.extend(any.map(|v| v.span));
     };
     view.schemas().for_each(|schema| declared(schema.variables()));

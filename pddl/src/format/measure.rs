@@ -89,12 +89,12 @@ struct Open {
     hyphen: bool,
 }
 
-pub(super) fn measure<'s>(text: &'s str, tokens: &Tokens) -> Measured<'s> {
-    let mut measured = Measured { text, pieces: Vec::with_capacity(tokens.len() / 2), lists: Vec::new() };
+pub(super) fn measure<'s>(text: &'s str, tokens: Tokens<'_>) -> Measured<'s> {
+    let mut measured = Measured { text, pieces: Vec::with_capacity(text.len() / 6), lists: Vec::new() };
     let mut open: Vec<Open> = Vec::new();
     let (mut lines, mut glued, mut end) = (0, true, 0);
     let mut before = TokenKind::Open;
-    for (kind, span) in tokens.iter() {
+    for (kind, span) in tokens {
         if kind == TokenKind::Whitespace {
             lines = (lines + line_ends(&text[span.range()])).min(2);
             glued = false;

@@ -7,7 +7,7 @@ use super::sink::Sink;
 use super::world::World;
 use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, SymbolKind};
-use crate::model::{Axiom, PredicateId, TypeTable};
+use crate::model::{Axiom, PredicateId, TypeSet};
 use crate::syntax::Node;
 
 /// The predicate that an axiom derives, if it is known; silent.
@@ -44,7 +44,7 @@ pub(crate) fn axiom(world: &World, sink: &mut Sink, section: Node<'_>) -> Option
         body.sink.report(head.span(), kind);
     }
     for (slot, parameter) in body.schema.variables.slots.iter_mut().zip(parameters) {
-        if slot.types.0 == [TypeTable::OBJECT] {
+        if slot.types == TypeSet::any() {
             slot.types = parameter.types.clone();
         } else if !world.meet(&slot.types, &parameter.types) {
             let kind = DiagnosticKind::NothingInCommon {

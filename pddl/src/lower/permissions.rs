@@ -63,7 +63,7 @@ impl Body<'_> {
             (TokenSymbol::Function(id), SymbolKind::Function, &f.name, f.variables.parameters())
         } else if let Some(id) = world.type_id(text) {
             let name = &world.types[id].name;
-            let variable = Variable { name: Name::new("node"), types: TypeSet(vec![id]), span: node.span() };
+            let variable = Variable { name: Name::new("node"), types: TypeSet::one(id), span: node.span() };
             itself = [variable];
             (TokenSymbol::Type(id), SymbolKind::Type, name, &itself)
         } else {

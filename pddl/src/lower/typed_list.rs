@@ -6,6 +6,7 @@ use crate::analysis::NameKind;
 use crate::diagnostic::SymbolKind;
 use crate::model::{TypeId, TypeSet};
 use crate::syntax::Node;
+use smallvec::SmallVec;
 
 /// An item and the node of its type, if it has one.
 pub(crate) type Typed<'t> = (Node<'t>, Option<Node<'t>>);
@@ -57,7 +58,7 @@ impl World {
     /// The union that a type's node stands for; `object` where there is none.
     pub(crate) fn type_set(&self, sink: &mut Sink, node: Option<Node<'_>>) -> TypeSet {
         let Some(node) = node else { return TypeSet::any() };
-        let mut types: Vec<TypeId> = Vec::new();
+        let mut types: SmallVec<[TypeId; 4]> = SmallVec::new();
         let mut unknown = false;
         for name in type_names(sink, node) {
             sink.mention(NameKind::Type, name, None);

@@ -4,8 +4,10 @@
 //! Invariant: each map's ids are positions in the vector beside it.
 
 use std::borrow::Cow;
+use std::hash::BuildHasher;
 
-use rustc_hash::FxHashMap;
+use hashbrown::HashTable;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 
 use super::sink::Sink;
 use crate::diagnostic::{DiagnosticKind, SymbolKind};
@@ -28,7 +30,9 @@ pub(crate) struct World {
     pub(crate) types: TypeTable,
     pub(crate) type_ids: FxHashMap<Name, TypeId>,
     pub(crate) objects: IndexVec<ObjectId, Object>,
-    pub(crate) object_ids: FxHashMap<Name, ObjectId>,
+    /// By the names of `objects`, which it does not repeat: a problem can have so many that a lookup costs what it
+    /// misses in the processor's caches.
+    object_ids: HashTable<ObjectId>,
     pub(crate) predicates: IndexVec<PredicateId, Predicate>,
     pub(crate) predicate_ids: FxHashMap<Name, PredicateId>,
     pub(crate) functions: IndexVec<FunctionId, Function>,
@@ -46,6 +50,10 @@ pub(crate) fn fold(text: &str) -> Cow<'_, str> {
     }
 }
 
+fn hash(name: &str) -> u64 {
+    FxBuildHasher.hash_one(name)
+}
+
 impl World {
     pub(crate) fn new(requirements: Requirements, types: TypeTable) -> Self {
         let type_ids = types.enumerate().map(|(id, t)| (t.name.clone(), id)).collect();
@@ -54,7 +62,7 @@ impl World {
             types,
             type_ids,
             objects: IndexVec::new(),
-            object_ids: FxHashMap::default(),
+            object_ids: HashTable::new(),
             predicates: IndexVec::new(),
             predicate_ids: FxHashMap::default(),
             functions: IndexVec::new(),
@@ -93,9 +101,10 @@ impl World {
     }
 
     pub(crate) fn add_object(&mut self, object: Object) {
-        let name = object.name.clone();
+        let hash = hash(&object.name);
         let id = self.objects.push(object);
-        self.object_ids.insert(name, id);
+        let objects = &self.objects;
+        self.object_ids.insert_unique(hash, id, |&id| self::hash(&objects[id].name));
     }
 
     pub(crate) fn add_predicate(&mut self, predicate: Predicate) {
@@ -121,7 +130,8 @@ impl World {
     }
 
     pub(crate) fn object(&self, name: &str) -> Option<ObjectId> {
-        self.object_ids.get(&*fold(name)).copied()
+        let name = fold(name);
+        self.object_ids.find(hash(&name), |&id| *self.objects[id].name == *name).copied()
     }
 
     pub(crate) fn predicate(&self, name: &str) -> Option<PredicateId> {

@@ -5,6 +5,7 @@
 
 use super::{IndexVec, Name, TypeId};
 use crate::Span;
+use smallvec::SmallVec;
 
 /// A declared type.
 #[derive(Clone, Debug)]
@@ -17,19 +18,25 @@ pub struct Type {
     pub span: Span,
 }
 
-/// A union of types: `(either a b)`, or one type.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct TypeSet(pub Vec<TypeId>);
+/// A union of types: `(either a b)`, or one type. Up to four need no memory of their own, since every object of a
+/// problem has such a set.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct TypeSet(pub SmallVec<[TypeId; 4]>);
 
 impl TypeSet {
     /// `object`: anything.
     pub fn any() -> Self {
-        Self(vec![TypeTable::OBJECT])
+        Self::one(TypeTable::OBJECT)
+    }
+
+    /// That type alone.
+    pub fn one(of: TypeId) -> Self {
+        Self(SmallVec::from_slice(&[of]))
     }
 
     /// Where a type stands that nothing declares. Only drafts have it (see `analyze_domain`).
     pub(crate) fn unknown() -> Self {
-        Self(Vec::new())
+        Self(SmallVec::new())
     }
 
     /// Whether it names a type that nothing declares, so that nothing can be said about it.

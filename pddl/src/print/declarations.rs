@@ -14,7 +14,7 @@ impl Printer<'_> {
             self.push("\n    ");
             self.push(&t.name);
             self.push(" - ");
-            self.types(&TypeSet(t.parents.clone()));
+            self.types(&TypeSet(t.parents.iter().copied().collect()));
         }
         self.push(")");
     }

@@ -8,14 +8,16 @@
 //! `define` goes on. Lists deeper than [`MAX_DEPTH`] get no nodes, so that whoever recurses over a
 //! tree is safe. Invariant: nodes are in preorder and every parent's range covers its children's.
 
-use super::lexer::lex;
-use super::token::TokenKind;
+use super::token::{TokenKind, Tokens};
 use super::tree::{NodeData, NodeKind, Tree};
 use crate::diagnostic::{Diagnostic, DiagnosticKind};
 use crate::{Source, Span};
 
 /// Deepest nesting that gets nodes.
 pub const MAX_DEPTH: usize = 1000;
+
+/// Room for nodes is made for a text that has one in so many bytes; few have less.
+const BYTES_PER_NODE: usize = 8;
 
 /// Most reports of one kind of imbalance, so that a binary file does not flood its reader.
 const MAX_REPORTS: usize = 20;
@@ -48,13 +50,13 @@ const SECTIONS: &[&str] = &[
 /// The tree of a source, and what is wrong with its parentheses.
 pub fn parse(source: &Source) -> (Tree<'_>, Vec<Diagnostic>) {
     let text = source.text();
-    let tokens = lex(text);
-    let mut builder = Builder { text, nodes: Vec::with_capacity(tokens.len() / 2), ..Builder::default() };
-    for (kind, span) in tokens.iter() {
+    let nodes = Vec::with_capacity(text.len() / BYTES_PER_NODE);
+    let mut builder = Builder { text, nodes, ..Builder::default() };
+    for (kind, span) in Tokens::of(text) {
         builder.token(kind, span);
     }
     builder.finish();
-    (Tree { text, tokens, nodes: builder.nodes }, builder.diagnostics)
+    (Tree { text, nodes: builder.nodes }, builder.diagnostics)
 }
 
 #[derive(Default)]

@@ -13,26 +13,17 @@ use nom::combinator::{map, recognize, value};
 use nom::sequence::pair;
 use nom::{IResult, Parser};
 
-use super::token::{TokenKind, Tokens};
+use super::token::TokenKind;
 
 const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
 
-/// All tokens of `text`.
-pub(super) fn lex(text: &str) -> Tokens {
-    let bytes = text.as_bytes();
-    let mut tokens = Tokens::for_text(bytes.len());
-    let mut rest = bytes;
-    while !rest.is_empty() {
-        let (after, kind) = match token(rest) {
-            Ok(next) => next,
-            // No byte is refused by every alternative; should one ever be, it is a word.
-            Err(_) => (&rest[1..], TokenKind::Name),
-        };
-        rest = after;
-        let end = u32::try_from(bytes.len() - rest.len()).expect("a source is shorter than 4 GiB");
-        tokens.push(kind, end);
+/// The length of the first token of `input`, which is not empty, and its kind.
+pub(super) fn first_token(input: &[u8]) -> (usize, TokenKind) {
+    match token(input) {
+        Ok((rest, kind)) => (input.len() - rest.len(), kind),
+        // No byte is refused by every alternative; should one ever be, it is a word.
+        Err(_) => (1, TokenKind::Name),
     }
-    tokens
 }
 
 /// The next token; its first byte says which kind it is.
@@ -86,11 +77,11 @@ fn is_number(word: &[u8]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{TokenKind, lex};
+    use super::TokenKind;
+    use crate::syntax::Tokens;
 
     fn kinds(text: &str) -> Vec<(TokenKind, &str)> {
-        lex(text)
-            .iter()
+        Tokens::of(text)
             .filter(|(k, _)| *k != TokenKind::Whitespace)
             .map(|(k, s)| (k, &text[s.range()]))
             .collect()

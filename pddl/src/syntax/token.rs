@@ -1,8 +1,9 @@
 //! Tokens: consecutive pieces that tile the text.
 //!
-//! Only the end of each token is stored; it starts where the one before it ends. So the tokens
-//! cover every byte once *by construction*, and one costs 5 bytes.
+//! They are not stored: whoever wants them reads the text again, which is faster than most would read them from
+//! memory. Each starts where the one before it ends, so they cover every byte once *by construction*.
 
+use super::lexer::first_token;
 use crate::Span;
 
 /// What a token is.
@@ -26,42 +27,30 @@ pub enum TokenKind {
     Number,
 }
 
-/// All tokens of a text.
-#[derive(Clone, Debug, Default)]
-pub struct Tokens {
-    kinds: Vec<TokenKind>,
-    ends: Vec<u32>,
+/// All tokens of a text, in order.
+#[derive(Clone, Debug)]
+pub struct Tokens<'s> {
+    text: &'s str,
+    /// How much of it is behind us.
+    at: usize,
 }
 
-impl Tokens {
-    /// Room for the tokens of a text of `bytes` bytes, by what PDDL files have on average.
-    pub(super) fn for_text(bytes: usize) -> Self {
-        Self { kinds: Vec::with_capacity(bytes / 3), ends: Vec::with_capacity(bytes / 3) }
+impl<'s> Tokens<'s> {
+    /// The tokens of that text.
+    pub(super) fn of(text: &'s str) -> Self {
+        Self { text, at: 0 }
     }
+}
 
-    /// Appends the token that ends at `end`.
-    pub(super) fn push(&mut self, kind: TokenKind, end: u32) {
-        self.kinds.push(kind);
-        self.ends.push(end);
-    }
+impl Iterator for Tokens<'_> {
+    type Item = (TokenKind, Span);
 
-    /// How many.
-    pub fn len(&self) -> usize {
-        self.kinds.len()
-    }
-
-    /// Whether the text is empty.
-    pub fn is_empty(&self) -> bool {
-        self.kinds.is_empty()
-    }
-
-    /// All tokens in order; each span starts where the one before it ends.
-    pub fn iter(&self) -> impl Iterator<Item = (TokenKind, Span)> + '_ {
-        let mut start = 0;
-        self.kinds.iter().zip(&self.ends).map(move |(&kind, &end)| {
-            let span = Span::new(start, end);
-            start = end;
-            (kind, span)
-        })
+    fn next(&mut self) -> Option<(TokenKind, Span)> {
+        let rest = self.text.as_bytes().get(self.at..).filter(|rest| !rest.is_empty())?;
+        let (length, kind) = first_token(rest);
+        let place = |at: usize| u32::try_from(at).expect("a source is shorter than 4 GiB");
+        let span = Span::new(place(self.at), place(self.at + length));
+        self.at += length;
+        Some((kind, span))
     }
 }

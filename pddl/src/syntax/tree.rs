@@ -34,19 +34,18 @@ pub(super) struct NodeData {
 #[derive(Clone, Debug)]
 pub struct Tree<'s> {
     pub(super) text: &'s str,
-    pub(super) tokens: Tokens,
     pub(super) nodes: Vec<NodeData>,
 }
 
 impl<'s> Tree<'s> {
     /// Every token, comments and blanks included.
-    pub fn tokens(&self) -> &Tokens {
-        &self.tokens
+    pub fn tokens(&self) -> Tokens<'s> {
+        Tokens::of(self.text)
     }
 
     /// The source, put together again from the tokens: equal to it byte for byte.
     pub fn text(&self) -> String {
-        self.tokens.iter().map(|(_, span)| &self.text[span.range()]).collect()
+        self.tokens().map(|(_, span)| &self.text[span.range()]).collect()
     }
 
     /// The nodes that no list encloses.

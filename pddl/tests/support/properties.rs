@@ -70,7 +70,7 @@ fn check_places(source: &Source, diagnostics: &[Diagnostic]) {
 /// Everything but white space; of comments all but the blanks at their end.
 fn words(source: &Source) -> Vec<(TokenKind, &str)> {
     let (tree, _) = syntax::parse(source);
-    let tokens = tree.tokens().iter().filter(|(kind, _)| *kind != TokenKind::Whitespace);
+    let tokens = tree.tokens().filter(|(kind, _)| *kind != TokenKind::Whitespace);
     tokens.map(|(kind, span)| (kind, source.slice(span).trim_end())).collect()
 }
 

@@ -124,7 +124,7 @@ impl<'a> Reader<'a> {
 
     /// The last comment of the form `; cost = 5`, as planners leave it.
     fn claimed_cost(&self) -> Option<ClaimedCost> {
-        let comments = self.tree.tokens().iter().filter(|(kind, _)| *kind == TokenKind::Comment);
+        let comments = self.tree.tokens().filter(|(kind, _)| *kind == TokenKind::Comment);
         let claims = comments.filter_map(|(_, span)| {
             let text = self.source.slice(span).trim_start_matches(';').trim_start();
             let word = text.get(..4).filter(|w| w.eq_ignore_ascii_case("cost"))?;
