@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use pddl::Source;
-use pddl::model::{Domain, Idx, Problem, Term, TypeSet, TypeTable, Variables};
+use pddl::model::{Domain, Idx, Problem, Term, TypeSet, Variables};
 
 use crate::walk::Polarity;
 
@@ -83,7 +83,7 @@ impl Words<'_> {
             return "?".to_owned();
         };
         let mut text = format!("?{}", variable.name);
-        if typed && variable.types.0 != [TypeTable::OBJECT] {
+        if typed && variable.types != TypeSet::any() {
             let names: Vec<&str> = variable.types.0.iter().map(|&t| &*self.domain.types[t].name).collect();
             let _ = match names.as_slice() {
                 [one] => write!(text, " - {one}"),

@@ -44,7 +44,7 @@ pub(crate) struct World<'a> {
     pub(crate) domain: &'a Domain,
     /// The problem, if there is one.
     pub(crate) problem: Option<&'a Problem>,
-    ranges: RefCell<FxHashMap<Vec<TypeId>, Rc<Range>>>,
+    ranges: RefCell<FxHashMap<TypeSet, Rc<Range>>>,
 }
 
 impl<'a> World<'a> {
@@ -84,7 +84,7 @@ impl<'a> World<'a> {
 
     /// The objects of the union.
     pub(crate) fn range(&self, types: &TypeSet) -> Rc<Range> {
-        if let Some(range) = self.ranges.borrow().get(&types.0) {
+        if let Some(range) = self.ranges.borrow().get(types) {
             return Rc::clone(range);
         }
         let all = self.named() + if self.problem.is_some() { 0 } else { self.domain.types.len() };
@@ -96,7 +96,7 @@ impl<'a> World<'a> {
             }
         }
         let range = Rc::new(range);
-        self.ranges.borrow_mut().insert(types.0.clone(), Rc::clone(&range));
+        self.ranges.borrow_mut().insert(types.clone(), Rc::clone(&range));
         range
     }
 }
