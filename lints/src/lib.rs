@@ -26,7 +26,7 @@
 //! | `view` | what a lint sees of a domain and a problem |
 //! | `text` | the sections and keys of a file, for lints about how something is written |
 //! | `usage` | what names what |
-//! | `schema`, `walk` | what bodies say, part by part, whatever they belong to |
+//! | `schema`, `walk`, `shape` | what bodies say, part by part, whatever they belong to |
 //! | `declarations` | W07: declarations, requirements, names |
 //! | `logic` | W08: conditions, effects, initial states, goals |
 //! | `semantics` | W0850 on: what never happens, and why |
@@ -50,6 +50,7 @@ mod reachability;
 mod registry;
 mod schema;
 mod semantics;
+mod shape;
 #[cfg(test)]
 mod test_support;
 mod text;

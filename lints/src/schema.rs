@@ -1,7 +1,10 @@
 //! Whatever has variables and a body, as one thing: lints about variables and atoms need not know which it is.
 
 use pddl::Span;
-use pddl::model::{Action, Axiom, Domain, DurativeAction, Method, SubtaskHead, TaskNetwork, Term, Variables};
+use pddl::model::{
+    Action, Axiom, Condition, Domain, DurativeAction, Effect, EffectKind, Method, SubtaskHead, TaskNetwork,
+    Term, TimeSpecifier, Variables,
+};
 
 use crate::walk::{self, Part, Polarity};
 
@@ -45,6 +48,47 @@ impl<'a> Schema<'a> {
         }
     }
 
+    /// Its conditions; those in one group must hold together.
+    pub(crate) fn conditions(&self) -> Vec<Vec<&'a Condition>> {
+        let mut groups = match self {
+            Self::Action(action) => vec![vec![&action.precondition]],
+            Self::Durative(action) => {
+                let mut groups: Vec<(&TimeSpecifier, Vec<&Condition>)> = Vec::new();
+                for part in &action.conditions {
+                    match groups.iter_mut().find(|(when, _)| **when == part.when) {
+                        Some((_, group)) => group.push(&part.condition),
+                        None => groups.push((&part.when, vec![&part.condition])),
+                    }
+                }
+                groups.into_iter().map(|(_, group)| group).collect()
+            }
+            Self::Axiom(axiom) => vec![vec![&axiom.body]],
+            Self::Method(method) => vec![vec![&method.precondition]],
+        };
+        for effect in self.effects().into_iter().flatten() {
+            guards(effect, &mut groups);
+        }
+        groups
+    }
+
+    /// Its effects; those in one group happen together.
+    pub(crate) fn effects(&self) -> Vec<Vec<&'a Effect>> {
+        match self {
+            Self::Action(action) => vec![vec![&action.effect]],
+            Self::Durative(action) => {
+                let mut groups: Vec<(&TimeSpecifier, Vec<&Effect>)> = Vec::new();
+                for part in &action.effects {
+                    match groups.iter_mut().find(|(when, _)| **when == part.when) {
+                        Some((_, group)) => group.push(&part.effect),
+                        None => groups.push((&part.when, vec![&part.effect])),
+                    }
+                }
+                groups.into_iter().map(|(_, group)| group).collect()
+            }
+            Self::Axiom(_) | Self::Method(_) => Vec::new(),
+        }
+    }
+
     /// Everything that it says, part by part.
     pub(crate) fn parts(&self, f: &mut dyn FnMut(Part<'a>)) {
         match self {
@@ -75,6 +119,19 @@ impl<'a> Schema<'a> {
                 network(&method.network, f);
             }
         }
+    }
+}
+
+/// The conditions of `when`, each a group of its own.
+fn guards<'a>(effect: &'a Effect, groups: &mut Vec<Vec<&'a Condition>>) {
+    match &effect.kind {
+        EffectKind::And(parts) => parts.iter().for_each(|part| guards(part, groups)),
+        EffectKind::Forall(_, inner) => guards(inner, groups),
+        EffectKind::When(condition, inner) => {
+            groups.push(vec![condition]);
+            guards(inner, groups);
+        }
+        _ => {}
     }
 }
 

@@ -1,8 +1,9 @@
 //! What names what: counted once for a domain and once for a problem, for all lints about what is unused.
 
 use pddl::model::{
-    ActionId, Domain, DurativeActionId, FluentValue, FunctionId, FunctionValue, Idx, IndexVec, ObjectId,
-    PredicateId, Problem, SubtaskHead, TaskId, Term, TokenSymbol, TypeId, TypeSet, Variables,
+    ActionId, Domain, DurativeActionId, Fact, FluentFact, FluentValue, FunctionId, FunctionValue, Idx,
+    IndexVec, ObjectId, PredicateId, Problem, SubtaskHead, TaskId, Term, TimedChange, TokenSymbol, TypeId,
+    TypeSet, Variables,
 };
 
 use crate::schema::{Schema, network};
@@ -20,6 +21,8 @@ pub(crate) struct PredicateUse {
     pub(crate) derived: bool,
     /// An agent may write it.
     pub(crate) permitted: bool,
+    /// It changes by itself at some time.
+    pub(crate) timed: bool,
 }
 
 impl PredicateUse {
@@ -42,6 +45,8 @@ impl PredicateUse {
 pub(crate) struct FunctionUse {
     pub(crate) read: bool,
     pub(crate) written: bool,
+    /// It changes by itself at some time.
+    pub(crate) timed: bool,
 }
 
 /// Who names whom in a domain or a problem.
@@ -85,6 +90,8 @@ impl Usage {
                 usage.type_set(types);
             }
         }
+        walk::constraints(&domain.constraints, &mut |part| usage.part(part));
+        usage.variables(&domain.constraints.variables);
         domain.constants.iter().for_each(|constant| usage.type_set(&constant.types));
         domain.tasks.iter().for_each(|task| usage.variables(&task.variables));
         for pattern in domain.permissions.iter().flat_map(|permission| &permission.tokens) {
@@ -101,18 +108,30 @@ impl Usage {
     /// Of a problem alone; its initial state counts as adding and assigning.
     pub(crate) fn of_problem(domain: &Domain, problem: &Problem) -> Self {
         let mut usage = Self::new(domain, problem.objects.len());
-        for fact in &problem.init {
-            usage.predicates[fact.predicate].added = true;
-            fact.arguments.iter().for_each(|&object| usage.objects[object] = true);
-        }
-        for fact in &problem.fluents {
-            usage.functions[fact.application.function].written = true;
-            fact.application.arguments.iter().for_each(|&object| usage.objects[object] = true);
-            if let FluentValue::Object(object) = fact.value {
-                usage.objects[object] = true;
+        problem.init.iter().for_each(|fact| usage.fact(fact).added = true);
+        problem.fluents.iter().for_each(|fact| usage.value(fact));
+        for timed in &problem.timed {
+            match &timed.change {
+                TimedChange::Add(fact) => {
+                    let used = usage.fact(fact);
+                    (used.added, used.timed) = (true, true);
+                }
+                TimedChange::Delete(fact) => usage.fact(fact).timed = true,
+                TimedChange::Assign(fact) => {
+                    usage.value(fact);
+                    usage.functions[fact.application.function].timed = true;
+                }
+                TimedChange::Undefine(application) => {
+                    usage.functions[application.function].timed = true;
+                    application.arguments.iter().for_each(|&object| usage.objects[object] = true);
+                }
             }
         }
         walk::condition(&problem.goal, Polarity::Positive, &mut |part| usage.part(part));
+        for preference in &problem.preferences {
+            walk::preference(preference, &preference.body, &mut |part| usage.part(part));
+        }
+        walk::constraints(&problem.constraints, &mut |part| usage.part(part));
         if let Some(metric) = &problem.metric {
             walk::expression(&metric.expression, &mut |part| usage.part(part));
         }
@@ -121,6 +140,19 @@ impl Usage {
             usage.variables(variables);
         }
         usage
+    }
+
+    fn fact(&mut self, fact: &Fact) -> &mut PredicateUse {
+        fact.arguments.iter().for_each(|&object| self.objects[object] = true);
+        &mut self.predicates[fact.predicate]
+    }
+
+    fn value(&mut self, fact: &FluentFact) {
+        self.functions[fact.application.function].written = true;
+        fact.application.arguments.iter().for_each(|&object| self.objects[object] = true);
+        if let FluentValue::Object(object) = fact.value {
+            self.objects[object] = true;
+        }
     }
 
     fn part(&mut self, part: Part<'_>) {

@@ -3,8 +3,9 @@
 //! Lints match on [`Part`] instead of on the model's forms, so that a new form is added here once.
 
 use pddl::model::{
-    Application, AssignOperator, AssignedValue, Atom, Condition, ConditionKind, Effect, EffectKind,
-    Expression, ExpressionKind, PredicateId, Preference, SubtaskHead, Term, VariableId,
+    Application, AssignOperator, AssignedValue, Atom, Condition, ConditionKind, Constraint, ConstraintKind,
+    Constraints, Effect, EffectKind, Expression, ExpressionKind, PredicateId, Preference, SubtaskHead, Term,
+    VariableId,
 };
 
 /// Whether something must be true or must be false for the whole to hold.
@@ -96,6 +97,49 @@ pub(crate) fn preference<'a, T>(of: &'a Preference<T>, what: &'a Condition, f: &
         f(Part::Binds(&of.forall));
     }
     condition(what, Polarity::Positive, f);
+}
+
+/// All that trajectory constraints ask for. Whether a condition below an operator must be true or false depends on
+/// the operator (`sometime-before` asks for neither alone), so that polarity counts only for plain negations.
+pub(crate) fn constraints<'a>(of: &'a Constraints, f: &mut dyn FnMut(Part<'a>)) {
+    of.hard.iter().for_each(|c| constraint(c, Polarity::Positive, f));
+    for preference in &of.preferences {
+        if !preference.forall.is_empty() {
+            f(Part::Binds(&preference.forall));
+        }
+        constraint(&preference.body, Polarity::Positive, f);
+    }
+}
+
+fn constraint<'a>(of: &'a Constraint, polarity: Polarity, f: &mut dyn FnMut(Part<'a>)) {
+    match &of.kind {
+        ConstraintKind::Holds(inner) => condition(inner, polarity, f),
+        ConstraintKind::And(parts) | ConstraintKind::Or(parts) => {
+            parts.iter().for_each(|part| constraint(part, polarity, f));
+        }
+        ConstraintKind::Not(inner) => constraint(inner, polarity.opposite(), f),
+        ConstraintKind::Imply(left, right) => {
+            constraint(left, polarity.opposite(), f);
+            constraint(right, polarity, f);
+        }
+        ConstraintKind::Exists(bound, inner) | ConstraintKind::Forall(bound, inner) => {
+            f(Part::Binds(bound));
+            constraint(inner, polarity, f);
+        }
+        ConstraintKind::SometimeAfter(left, right)
+        | ConstraintKind::SometimeBefore(left, right)
+        | ConstraintKind::AlwaysWithin(_, left, right) => {
+            constraint(left, polarity, f);
+            constraint(right, polarity, f);
+        }
+        ConstraintKind::AtEnd(inner)
+        | ConstraintKind::Always(inner)
+        | ConstraintKind::Sometime(inner)
+        | ConstraintKind::Within(_, inner)
+        | ConstraintKind::AtMostOnce(inner)
+        | ConstraintKind::HoldDuring(_, _, inner)
+        | ConstraintKind::HoldAfter(_, inner) => constraint(inner, polarity, f),
+    }
 }
 
 pub(crate) fn effect<'a>(of: &'a Effect, f: &mut dyn FnMut(Part<'a>)) {

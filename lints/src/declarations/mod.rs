@@ -21,6 +21,8 @@ mod unused_type;
 mod unused_variable;
 mod wide_argument;
 
+pub(crate) use wide_argument::type_text;
+
 use crate::Lint;
 
 pub(crate) static LINTS: &[&Lint] = &[

@@ -44,13 +44,18 @@ fn in_domain(view: &DomainView<'_>, found: &mut Findings) {
     for schema in view.schemas() {
         unused(schema.variables(), Place::domain, found, |f| schema.parts(f));
     }
+    let constraints = &view.domain.constraints;
+    unused(&constraints.variables, Place::domain, found, |f| walk::constraints(constraints, f));
 }
 
 fn in_goal(view: &ProblemView<'_, '_>, found: &mut Findings) {
     let problem = view.problem;
     unused(&problem.goal_variables, Place::problem, found, |f| {
         walk::condition(&problem.goal, Polarity::Positive, f);
+        problem.preferences.iter().for_each(|p| walk::preference(p, &p.body, f));
     });
+    let constraints = &problem.constraints;
+    unused(&constraints.variables, Place::problem, found, |f| walk::constraints(constraints, f));
 }
 
 fn unused<'a>(

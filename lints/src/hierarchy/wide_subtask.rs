@@ -1,0 +1,84 @@
+//! A variable of a wider type than what its subtask takes.
+
+use pddl::Explanation;
+use pddl::model::{SubtaskHead, Term, Variables};
+
+use crate::declarations::type_text;
+use crate::finding::Findings;
+use crate::lint::Check;
+use crate::view::DomainView;
+use crate::{Finding, Level, Lint, Place};
+
+pub(crate) static LINT: Lint = Lint {
+    name: "wide-subtask",
+    level: Level::Default,
+    explanation: Explanation {
+        code: "W0905",
+        title: "subtask of a narrower type",
+        meaning: "A method gives a subtask a variable whose type is wider than that of the parameter.",
+        why: "The method works only for objects of the narrower type, although it says that it is for others, \
+         too: for those the task may be left without any method. Some tools refuse it.",
+        wrong: &["\
+(define (domain hall)
+  (:requirements :typing :hierarchy)
+  (:types lamp - thing)
+  (:predicates (lit ?x - lamp) (clean ?x - thing))
+  (:task tidy
+    :parameters (?x - thing))
+  (:method in-order
+    :parameters (?x - thing)
+    :task (tidy ?x)
+    :ordered-subtasks (and (wipe ?x) (switch ?x)))
+  (:action wipe
+    :parameters (?x - thing)
+    :effect (clean ?x))
+  (:action switch
+    :parameters (?x - lamp)
+    :effect (lit ?x)))"],
+        right: &["\
+(define (domain hall)
+  (:requirements :typing :hierarchy)
+  (:types lamp - thing)
+  (:predicates (lit ?x - lamp) (clean ?x - thing))
+  (:task tidy
+    :parameters (?x - thing))
+  (:method in-order
+    :parameters (?x - lamp)
+    :task (tidy ?x)
+    :ordered-subtasks (and (wipe ?x) (switch ?x)))
+  (:action wipe
+    :parameters (?x - thing)
+    :effect (clean ?x))
+  (:action switch
+    :parameters (?x - lamp)
+    :effect (lit ?x)))"],
+    },
+    checks: &[Check::Domain(check)],
+};
+
+fn check(view: &DomainView<'_>, found: &mut Findings) {
+    let domain = view.domain;
+    for method in &domain.methods {
+        for subtask in &method.network.subtasks {
+            let (name, parameters): (_, &Variables) = match subtask.head {
+                SubtaskHead::Task(id) => (&domain.tasks[id].name, &domain.tasks[id].variables),
+                SubtaskHead::Action(id) => (&domain.actions[id].name, &domain.actions[id].variables),
+                SubtaskHead::DurativeAction(id) => {
+                    let action = &domain.durative_actions[id];
+                    (&action.name, &action.variables)
+                }
+            };
+            for (term, parameter) in subtask.arguments.iter().zip(parameters.parameters()) {
+                let Term::Variable(variable) = *term else { continue };
+                let given = &method.variables[variable];
+                if !domain.types.is_subset(&given.types, &parameter.types) {
+                    let (of, takes) = (type_text(domain, &given.types), type_text(domain, &parameter.types));
+                    let message =
+                        format!("`?{}` is of type {of}, but `{name}` takes {takes} only", given.name);
+                    let finding = Finding::new(&LINT, Place::domain(subtask.span), message);
+                    found.report(finding.label(Place::domain(given.span), "declared here"));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! A condition that can never hold.
+
+use pddl::Explanation;
+use pddl::model::{Comparison, Condition, ConditionKind, Expression, ExpressionKind, Term};
+
+use super::literals::{Fact, Group, Literal, groups};
+use crate::finding::Findings;
+use crate::lint::Check;
+use crate::shape;
+use crate::view::{DomainView, ProblemView};
+use crate::{Finding, Level, Lint, Place};
+
+pub(crate) static LINT: Lint = Lint {
+    name: "always-false",
+    level: Level::Default,
+    explanation: Explanation {
+        code: "W0801",
+        title: "condition is always false",
+        meaning: "A condition asks for something and for its negation, compares what is never equal, or is an \
+         `or` of nothing.",
+        why: "An action, a method or an axiom with it is dead. Mostly one of two atoms is meant to be another \
+         one.",
+        wrong: &["\
+(define (domain hall)
+  (:requirements :typing :negative-preconditions)
+  (:types lamp)
+  (:predicates (lit ?x - lamp) (broken ?x - lamp))
+  (:action switch
+    :parameters (?x - lamp)
+    :precondition (and (lit ?x) (not (lit ?x)))
+    :effect (broken ?x)))"],
+        right: &["\
+(define (domain hall)
+  (:requirements :typing :negative-preconditions)
+  (:types lamp)
+  (:predicates (lit ?x - lamp) (broken ?x - lamp))
+  (:action switch
+    :parameters (?x - lamp)
+    :precondition (and (lit ?x) (not (broken ?x)))
+    :effect (broken ?x)))"],
+    },
+    checks: &[Check::Domain(in_domain), Check::Problem(in_goal)],
+};
+
+fn in_domain(view: &DomainView<'_>, found: &mut Findings) {
+    for conditions in view.schemas().flat_map(|schema| schema.conditions()) {
+        check(&groups(conditions), Place::domain, found);
+    }
+}
+
+fn in_goal(view: &ProblemView<'_, '_>, found: &mut Findings) {
+    check(&groups([&view.problem.goal]), Place::problem, found);
+}
+
+fn check(groups: &[Group<'_>], place: fn(pddl::Span) -> Place, found: &mut Findings) {
+    for group in groups {
+        let parts = match group {
+            Group::Any(parts) if parts.is_empty() => continue,
+            Group::All(parts) | Group::Any(parts) => parts,
+        };
+        for part in parts.iter().filter(|part| verdict(part) == Some(false)) {
+            found.report(Finding::new(&LINT, place(part.span), "this can never hold"));
+        }
+        let Group::All(parts) = group else { continue };
+        let literals: Vec<Literal> = parts.iter().filter_map(|part| Literal::of(part)).collect();
+        for (i, literal) in literals.iter().enumerate() {
+            if let Some(earlier) = literals[..i].iter().find(|l| l.contradicts(literal)) {
+                let finding = Finding::new(
+                    &LINT,
+                    place(literal.span),
+                    "this can never hold together with another part",
+                );
+                found.report(finding.label(place(earlier.span), "with this"));
+            }
+        }
+    }
+}
+
+/// Whether a condition holds whatever the state and whatever the variables are, if that is plain to see.
+pub(super) fn verdict(condition: &Condition) -> Option<bool> {
+    match &condition.kind {
+        ConditionKind::Or(parts) if parts.is_empty() => Some(false),
+        ConditionKind::Same(..) | ConditionKind::Not(_) => {
+            let literal = Literal::of(condition)?;
+            let Fact::Same(a, b) = literal.fact else { return None };
+            let same = match (a, b) {
+                _ if a == b => true,
+                (Term::Object(_), Term::Object(_)) => false,
+                _ => return None,
+            };
+            Some(same == literal.positive)
+        }
+        ConditionKind::Compare(how, left, right) => {
+            if let (Some(left), Some(right)) = (number(left), number(right)) {
+                return Some(match how {
+                    Comparison::Less => left < right,
+                    Comparison::LessEqual => left <= right,
+                    Comparison::Equal => left == right,
+                    Comparison::GreaterEqual => left >= right,
+                    Comparison::Greater => left > right,
+                });
+            }
+            let reflexive =
+                matches!(how, Comparison::LessEqual | Comparison::Equal | Comparison::GreaterEqual);
+            (shape::expression(left) == shape::expression(right)).then_some(reflexive)
+        }
+        _ => None,
+    }
+}
+
+fn number(expression: &Expression) -> Option<f64> {
+    match expression.kind {
+        ExpressionKind::Number(number) => Some(number),
+        _ => None,
+    }
+}

@@ -1,0 +1,74 @@
+//! A durative action that breaks its own `over all`.
+
+use pddl::Explanation;
+use pddl::model::{EffectKind, TimeSpecifier};
+
+use super::changes::Changes;
+use super::literals::{Fact, required};
+use crate::finding::Findings;
+use crate::lint::Check;
+use crate::view::DomainView;
+use crate::{Finding, Level, Lint, Place};
+
+pub(crate) static LINT: Lint = Lint {
+    name: "broken-over-all",
+    level: Level::Default,
+    explanation: Explanation {
+        code: "W0810",
+        title: "own effect breaks `over all`",
+        meaning: "An effect at the start takes away what the action asks for over all of its duration.",
+        why: "`over all` is about the time after the start effects. The action can never be carried out; a \
+         rule is aborted in the moment in which it starts. Take it away at the end, or ask for it at the \
+         start only.",
+        wrong: &["\
+(define (domain hall)
+  (:requirements :typing :durative-actions)
+  (:types lamp)
+  (:predicates (lit ?x - lamp) (broken ?x - lamp))
+  (:durative-action repair
+    :parameters (?x - lamp)
+    :duration (= ?duration 5)
+    :condition (over all (broken ?x))
+    :effect (and (at start (not (broken ?x))) (at end (lit ?x)))))"],
+        right: &["\
+(define (domain hall)
+  (:requirements :typing :durative-actions)
+  (:types lamp)
+  (:predicates (lit ?x - lamp) (broken ?x - lamp))
+  (:durative-action repair
+    :parameters (?x - lamp)
+    :duration (= ?duration 5)
+    :condition (over all (broken ?x))
+    :effect (and (at end (not (broken ?x))) (at end (lit ?x)))))"],
+    },
+    checks: &[Check::Domain(check)],
+};
+
+fn check(view: &DomainView<'_>, found: &mut Findings) {
+    for action in &view.domain.durative_actions {
+        let throughout = action.conditions.iter().filter(|c| c.when == TimeSpecifier::OverAll);
+        let asked = required(throughout.map(|c| &c.condition));
+        let at_start = action.effects.iter().filter(|e| e.when == TimeSpecifier::Start);
+        let changes = Changes::of(at_start.map(|e| &e.effect));
+        // Adding wins over deleting.
+        let added: Vec<Fact> = changes
+            .certain()
+            .filter_map(|effect| match &effect.kind {
+                EffectKind::Add(atom) => Some(Fact::of(atom)),
+                _ => None,
+            })
+            .collect();
+        for effect in changes.certain() {
+            let (atom, becomes) = match &effect.kind {
+                EffectKind::Add(atom) => (atom, true),
+                EffectKind::Delete(atom) if !added.contains(&Fact::of(atom)) => (atom, false),
+                _ => continue,
+            };
+            if let Some(literal) = asked.iter().find(|l| l.positive != becomes && l.fact == Fact::of(atom)) {
+                let message = "this takes away what the action itself asks for over all of its duration";
+                let finding = Finding::new(&LINT, Place::domain(effect.span), message);
+                found.report(finding.label(Place::domain(literal.span), "asked for here"));
+            }
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! A metric that is the same for every plan.
+
+use pddl::Explanation;
+use pddl::model::{Expression, ExpressionKind};
+
+use crate::finding::Findings;
+use crate::lint::Check;
+use crate::view::ProblemView;
+use crate::{Finding, Level, Lint, Place};
+
+pub(crate) static LINT: Lint = Lint {
+    name: "constant-metric",
+    level: Level::Default,
+    explanation: Explanation {
+        code: "W0817",
+        title: "metric is constant",
+        meaning: "No action changes a function that the metric is about.",
+        why: "All plans are equally good. Mostly another function is meant, or an effect is missing.",
+        wrong: &[
+            "\
+(define (domain hall)
+  (:requirements :numeric-fluents)
+  (:predicates (lit))
+  (:functions (power) (price))
+  (:action switch
+    :precondition (> (power) 3)
+    :effect (and (lit) (decrease (power) 1))))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:init (= (power) 5) (= (price) 2))
+  (:goal (lit))
+  (:metric minimize (price)))",
+        ],
+        right: &[
+            "\
+(define (domain hall)
+  (:requirements :numeric-fluents)
+  (:predicates (lit))
+  (:functions (power) (price))
+  (:action switch
+    :precondition (> (power) 3)
+    :effect (and (lit) (decrease (power) 1))))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:init (= (power) 5) (= (price) 2))
+  (:goal (lit))
+  (:metric maximize (* (power) (price))))",
+        ],
+    },
+    checks: &[Check::Problem(check)],
+};
+
+fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
+    if !view.is_complete() {
+        return;
+    }
+    if let Some(metric) = &view.problem.metric
+        && !depends_on_plan(view, &metric.expression)
+    {
+        let message = "no action changes what the metric is about: all plans are equally good";
+        found.report(Finding::new(&LINT, Place::problem(metric.expression.span), message));
+    }
+}
+
+fn depends_on_plan(view: &ProblemView<'_, '_>, expression: &Expression) -> bool {
+    match &expression.kind {
+        ExpressionKind::Number(_) => false,
+        ExpressionKind::Fluent(application) => {
+            let function = application.function;
+            view.domain.usage().functions[function].written || view.usage().functions[function].timed
+        }
+        ExpressionKind::Arithmetic(_, operands) => {
+            operands.iter().any(|operand| depends_on_plan(view, operand))
+        }
+        // Time passes, and whatever else there is depends on the plan.
+        _ => true,
+    }
+}

@@ -1,0 +1,95 @@
+//! Two actions that do the same.
+
+use pddl::model::{DurativeAction, Name, Variables};
+use pddl::{Explanation, Span};
+use rustc_hash::FxHashMap;
+
+use crate::finding::Findings;
+use crate::lint::Check;
+use crate::view::DomainView;
+use crate::{Finding, Level, Lint, Place, shape};
+
+pub(crate) static LINT: Lint = Lint {
+    name: "duplicate-action",
+    level: Level::Default,
+    explanation: Explanation {
+        code: "W0809",
+        title: "action stands twice",
+        meaning: "Two actions have parameters of the same types, the same conditions and the same effects; only \
+         names differ.",
+        why: "A planner tries everything twice. Mostly one was copied from the other and not finished.",
+        wrong: &["\
+(define (domain hall)
+  (:requirements :typing)
+  (:types lamp)
+  (:predicates (lit ?x - lamp) (broken ?x - lamp))
+  (:action switch
+    :parameters (?x - lamp)
+    :precondition (broken ?x)
+    :effect (lit ?x))
+  (:action light
+    :parameters (?lamp - lamp)
+    :precondition (broken ?lamp)
+    :effect (lit ?lamp)))"],
+        right: &["\
+(define (domain hall)
+  (:requirements :typing)
+  (:types lamp)
+  (:predicates (lit ?x - lamp) (broken ?x - lamp))
+  (:action switch
+    :parameters (?x - lamp)
+    :precondition (broken ?x)
+    :effect (lit ?x))
+  (:action repair
+    :parameters (?lamp - lamp)
+    :precondition (lit ?lamp)
+    :effect (not (broken ?lamp))))"],
+    },
+    checks: &[Check::Domain(check)],
+};
+
+fn check(view: &DomainView<'_>, found: &mut Findings) {
+    if !view.is_complete() {
+        return;
+    }
+    let mut first: FxHashMap<String, (&Name, Span)> = FxHashMap::default();
+    let actions = view.domain.actions.iter().map(|action| {
+        let body = format!("{} {}", shape::condition(&action.precondition), shape::effect(&action.effect));
+        (types(&action.variables) + &body, &action.name, action.name_span)
+    });
+    // What a rule does also lies in its skill, which may well be the same for many.
+    let plain = view.domain.durative_actions.iter().filter(|action| action.rule.is_none());
+    let durative = plain.map(|action| (durative(action), &action.name, action.name_span));
+    for (shape, name, span) in actions.chain(durative) {
+        if let Some((other, earlier)) = first.get(&shape) {
+            let message = format!("action `{name}` does the same as `{other}`");
+            let finding = Finding::new(&LINT, Place::domain(span), message);
+            found.report(finding.label(Place::domain(*earlier), "the other one"));
+        } else {
+            first.insert(shape, (name, span));
+        }
+    }
+}
+
+/// The types of all variables.
+pub(crate) fn types(variables: &Variables) -> String {
+    let mut text = format!("{} ", variables.parameters);
+    for variable in &variables.slots {
+        let mut types: Vec<u32> = variable.types.0.iter().map(|t| t.0).collect();
+        types.sort_unstable();
+        text += &format!("{types:?}");
+    }
+    text
+}
+
+fn durative(action: &DurativeAction) -> String {
+    let mut parts: Vec<String> = Vec::new();
+    parts.extend(
+        action.duration.iter().map(|d| format!("{:?} {}", d.comparison, shape::expression(&d.bound))),
+    );
+    parts
+        .extend(action.conditions.iter().map(|c| format!("{:?} {}", c.when, shape::condition(&c.condition))));
+    parts.extend(action.effects.iter().map(|e| format!("do {:?} {}", e.when, shape::effect(&e.effect))));
+    parts.sort_unstable();
+    types(&action.variables) + &parts.join(" ")
+}

@@ -1,0 +1,58 @@
+//! `when` with a condition that always holds.
+
+use pddl::Explanation;
+
+use super::changes::Changes;
+use super::literals::{Literal, conjuncts, required};
+use crate::finding::Findings;
+use crate::lint::Check;
+use crate::view::DomainView;
+use crate::{Finding, Level, Lint, Place};
+
+pub(crate) static LINT: Lint = Lint {
+    name: "needless-when",
+    level: Level::Default,
+    explanation: Explanation {
+        code: "W0807",
+        title: "`when` is needless",
+        meaning: "The condition of a conditional effect is a part of the precondition, or empty.",
+        why: "The effect always happens; write it without `when`. Or the condition is meant to be another \
+         one.",
+        wrong: &["\
+(define (domain hall)
+  (:requirements :typing :conditional-effects)
+  (:types lamp)
+  (:predicates (lit ?x - lamp) (broken ?x - lamp))
+  (:action switch
+    :parameters (?x - lamp)
+    :precondition (broken ?x)
+    :effect (when (broken ?x) (lit ?x))))"],
+        right: &["\
+(define (domain hall)
+  (:requirements :typing)
+  (:types lamp)
+  (:predicates (lit ?x - lamp) (broken ?x - lamp))
+  (:action switch
+    :parameters (?x - lamp)
+    :precondition (broken ?x)
+    :effect (lit ?x)))"],
+    },
+    checks: &[Check::Domain(check)],
+};
+
+fn check(view: &DomainView<'_>, found: &mut Findings) {
+    for action in &view.domain.actions {
+        let asked = required([&action.precondition]);
+        for when in &Changes::of([&action.effect]).whens {
+            let mut parts = Vec::new();
+            conjuncts(when.condition, &mut parts);
+            let holds = |literal: Literal| asked.iter().any(|a| a.repeats(&literal));
+            if parts.into_iter().all(|part| Literal::of(part).is_some_and(holds)) {
+                let message = "this condition always holds here: the precondition asks for it";
+                let span = when.condition.span;
+                let place = Place::domain(if span.start < span.end { span } else { when.whole.span });
+                found.report(Finding::new(&LINT, place, message).help("write the effect without `when`"));
+            }
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! `(and (p) (p))`
+
+use std::collections::hash_map::Entry;
+
+use pddl::Explanation;
+use rustc_hash::FxHashMap;
+
+use super::literals::{Fact, Group, Literal, groups};
+use crate::finding::Findings;
+use crate::lint::Check;
+use crate::view::{DomainView, ProblemView};
+use crate::{Finding, Level, Lint, Place};
+
+pub(crate) static LINT: Lint = Lint {
+    name: "repeated-condition",
+    level: Level::Default,
+    explanation: Explanation {
+        code: "W0803",
+        title: "condition stands twice",
+        meaning: "A conjunction or disjunction has the same part twice.",
+        why: "The second one says nothing. Mostly it was copied and one of its arguments should have been \
+         changed.",
+        wrong: &["\
+(define (domain hall)
+  (:requirements :typing)
+  (:types lamp)
+  (:predicates (lit ?x - lamp) (broken ?x - lamp))
+  (:action switch
+    :parameters (?x - lamp)
+    :precondition (and (broken ?x) (broken ?x))
+    :effect (lit ?x)))"],
+        right: &["\
+(define (domain hall)
+  (:requirements :typing)
+  (:types lamp)
+  (:predicates (lit ?x - lamp) (broken ?x - lamp))
+  (:action switch
+    :parameters (?x - lamp)
+    :precondition (broken ?x)
+    :effect (lit ?x)))"],
+    },
+    checks: &[Check::Domain(in_domain), Check::Problem(in_goal)],
+};
+
+fn in_domain(view: &DomainView<'_>, found: &mut Findings) {
+    for conditions in view.schemas().flat_map(|schema| schema.conditions()) {
+        check(&groups(conditions), Place::domain, found);
+    }
+}
+
+fn in_goal(view: &ProblemView<'_, '_>, found: &mut Findings) {
+    check(&groups([&view.problem.goal]), Place::problem, found);
+}
+
+fn check(groups: &[Group<'_>], place: fn(pddl::Span) -> Place, found: &mut Findings) {
+    for Group::All(parts) | Group::Any(parts) in groups {
+        // A large goal is compared by hashing.
+        let mut seen: FxHashMap<(Fact, bool), pddl::Span> = FxHashMap::default();
+        for literal in parts.iter().filter_map(|part| Literal::of(part)) {
+            match seen.entry((literal.fact, literal.positive)) {
+                Entry::Vacant(entry) => {
+                    entry.insert(literal.span);
+                }
+                Entry::Occupied(first) => {
+                    let finding = Finding::new(&LINT, place(literal.span), "this stands here a second time");
+                    found.report(finding.label(place(*first.get()), "first here"));
+                }
+            }
+        }
+    }
+}

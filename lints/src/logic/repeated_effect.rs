@@ -1,0 +1,60 @@
+//! `(and (p) (p))` in an effect.
+
+use pddl::Explanation;
+use rustc_hash::FxHashMap;
+
+use super::changes::Changes;
+use crate::finding::Findings;
+use crate::lint::Check;
+use crate::shape;
+use crate::view::DomainView;
+use crate::{Finding, Level, Lint, Place};
+
+pub(crate) static LINT: Lint = Lint {
+    name: "repeated-effect",
+    level: Level::Default,
+    explanation: Explanation {
+        code: "W0805",
+        title: "effect stands twice",
+        meaning: "An action has the same effect twice at one time.",
+        why: "The second one does nothing, or increases a number twice. Mostly it was copied and an argument \
+         should have been changed.",
+        wrong: &["\
+(define (domain hall)
+  (:requirements :typing)
+  (:types lamp)
+  (:predicates (lit ?x - lamp) (broken ?x - lamp))
+  (:action switch
+    :parameters (?x - lamp)
+    :precondition (broken ?x)
+    :effect (and (lit ?x) (lit ?x))))"],
+        right: &["\
+(define (domain hall)
+  (:requirements :typing)
+  (:types lamp)
+  (:predicates (lit ?x - lamp) (broken ?x - lamp))
+  (:action switch
+    :parameters (?x - lamp)
+    :precondition (broken ?x)
+    :effect (and (lit ?x) (not (broken ?x)))))"],
+    },
+    checks: &[Check::Domain(check)],
+};
+
+fn check(view: &DomainView<'_>, found: &mut Findings) {
+    for effects in view.schemas().flat_map(|schema| schema.effects()) {
+        let Changes { changes, .. } = Changes::of(effects);
+        let mut first: FxHashMap<(usize, String), pddl::Span> = FxHashMap::default();
+        for change in &changes {
+            let span = change.effect.span;
+            let key = (change.context, shape::effect(change.effect));
+            if let Some(&earlier) = first.get(&key) {
+                let finding =
+                    Finding::new(&LINT, Place::domain(span), "this effect stands here a second time");
+                found.report(finding.label(Place::domain(earlier), "first here"));
+            } else {
+                first.insert(key, span);
+            }
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! A function that is read and never has a value.
+
+use pddl::Explanation;
+use pddl::model::{AssignOperator, IndexVec};
+
+use crate::finding::Findings;
+use crate::lint::Check;
+use crate::view::{ProblemView, is_here};
+use crate::walk::Part;
+use crate::{Finding, Level, Lint, Place};
+
+pub(crate) static LINT: Lint = Lint {
+    name: "uninitialised-function",
+    level: Level::Default,
+    explanation: Explanation {
+        code: "W0816",
+        title: "function never has a value",
+        meaning: "A condition, duration or effect needs the value of a function, but no problem that was looked \
+         at gives it one, and no effect assigns one.",
+        why: "What has no value makes every condition and every effect with it impossible: numbers do not \
+         begin with 0.",
+        wrong: &[
+            "\
+(define (domain hall)
+  (:requirements :numeric-fluents)
+  (:predicates (lit))
+  (:functions (power))
+  (:action switch
+    :precondition (> (power) 3)
+    :effect (and (lit) (decrease (power) 1))))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:init)
+  (:goal (lit)))",
+        ],
+        right: &[
+            "\
+(define (domain hall)
+  (:requirements :numeric-fluents)
+  (:predicates (lit))
+  (:functions (power))
+  (:action switch
+    :precondition (> (power) 3)
+    :effect (and (lit) (decrease (power) 1))))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:init (= (power) 5))
+  (:goal (lit)))",
+        ],
+    },
+    checks: &[Check::Problem(check)],
+};
+
+fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
+    let domain = view.domain.domain;
+    if !view.is_complete() || domain.functions.is_empty() {
+        return;
+    }
+    let mut needed: IndexVec<_, bool> = vec![false; domain.functions.len()].into();
+    let mut assigned = needed.clone();
+    for schema in view.domain.schemas() {
+        schema.parts(&mut |part| match part {
+            Part::Reads(application) => needed[application.function] = true,
+            Part::Writes(AssignOperator::Assign, application) => assigned[application.function] = true,
+            // Whoever increases must know what there is.
+            Part::Writes(_, application) => needed[application.function] = true,
+            _ => {}
+        });
+    }
+    for (id, function) in domain.functions.enumerate().filter(|(_, f)| is_here(f.span)) {
+        if needed[id] && !assigned[id] && !view.usage().functions[id].written {
+            let message = format!("actions need the value of `{}`, but nothing gives it one", function.name);
+            found.report(Finding::new(&LINT, Place::domain(function.span), message));
+        }
+    }
+}

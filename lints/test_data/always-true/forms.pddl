@@ -1,0 +1,11 @@
+(define (domain hall)
+  (:requirements :adl :numeric-fluents)
+  (:types lamp)
+  (:constants left right - lamp)
+  (:predicates (lit ?x - lamp) (broken ?x - lamp))
+  (:functions (power))
+  (:action forms
+    :parameters (?x - lamp)
+    :precondition (and (= ?x ?x) (not (= left right)) (< 2 3) (>= (power) (power)) (not (not (= ?x ?x)))
+      (or (lit ?x) (broken ?x) (not (lit ?x))))
+    :effect (broken ?x)))

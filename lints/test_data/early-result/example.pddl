@@ -1,0 +1,11 @@
+(define (domain ear)
+  (:requirements :typing :durative-actions :agent-rules)
+  (:types person answer)
+  (:predicates (asked ?p - person) (said ?p - person ?a - answer))
+  (:durative-action listen
+    :parameters (?p - person)
+    :duration (<= ?duration 10)
+    :condition (at start (asked ?p))
+    :effect (and (at start (said ?p ?a)) (at end (not (asked ?p))))
+    :skill (listen)
+    :results (?a - answer)))

@@ -1,0 +1,14 @@
+(define (domain hall)
+  (:requirements :typing)
+  (:types lamp)
+  (:predicates (lit ?x - lamp) (broken ?x - lamp))
+  (:action switch
+    :parameters (?x - lamp)
+    :precondition (broken ?x)
+    :effect (lit ?x)))
+
+(define (problem evening)
+  (:domain hall)
+  (:objects left - lamp)
+  (:init (broken left) (broken left))
+  (:goal (lit left)))
