@@ -9,13 +9,13 @@ use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "never-needed-predicate",
-    level: Level::Default,
+    level: Level::Pedantic,
     explanation: Explanation {
         code: "W0704",
         title: "predicate is never needed",
         meaning: "Effects or axioms make a predicate true or false, but no condition of the domain asks for it, \
          and no goal or constraint of the problems that were looked at. Hierarchical domains are not looked at.",
-        why: "It changes nothing that can be done. Often a condition is missing: the effect `(occupied \
+        why: "It changes nothing that can be done, unless other problems have it in their goals. Often a condition is missing: the effect `(occupied \
          ?place)` is of no use while no action needs `(not (occupied ?place))`.",
         wrong: &[
             "\

@@ -9,7 +9,7 @@ use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "never-read-function",
-    level: Level::Default,
+    level: Level::Pedantic,
     explanation: Explanation {
         code: "W0718",
         title: "function is never read",
