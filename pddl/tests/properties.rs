@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use pddl::model::Domain;
-use pddl::{Source, parse_domain};
+use pddl::{Source, parse_domain, parse_plan, parse_problem};
 use proptest::prelude::*;
 use support::properties::{check_domain, check_plan, check_problem, check_text};
 
@@ -145,4 +145,39 @@ fn a_hundred_thousand_open_lists_are_one_error_for_their_depth_and_a_few_for_the
     let codes: Vec<_> = parse_domain(&source, &[]).diagnostics.iter().map(pddl::Diagnostic::code).collect();
     assert_eq!(codes.iter().filter(|c| **c == "E0103").count(), 1);
     assert!(codes.len() < 30, "{codes:?}");
+}
+
+#[test]
+fn a_hundred_thousand_lists_in_any_kind_of_file_are_an_error_and_no_overflow() {
+    let deep = |form: &str| form.repeat(100_000) + "(p)" + &")".repeat(100_000);
+    let domain = "(define (domain d) (:predicates (p)) (:action p :effect (p)))";
+    let domain = parse_domain(&Source::new("d.pddl", domain), &[]).model.expect("a domain");
+    let problem = "(define (problem p) (:domain d) (:init) (:goal (p)))";
+    let problem = parse_problem(&Source::new("p.pddl", problem), &domain).model.expect("a problem");
+    for form in ["(", "(and ", "(not\n", "(forall (?x) "] {
+        let texts = [
+            format!(
+                "(define (domain d) (:predicates (p)) (:action a :precondition {} :effect (p)))",
+                deep(form)
+            ),
+            format!("(define (problem p) (:domain d) (:init (p) {0}) (:goal {0}))", deep(form)),
+            format!("(p) {} (p)", deep(form)),
+            format!("0.0: {} [1]", deep(form)),
+            format!("==>\n0 {0}\nroot {0}\n<==", deep(form)),
+            form.repeat(100_000),
+        ];
+        for text in texts {
+            let source = Source::new("deep", text);
+            let said = [
+                parse_domain(&source, &[]).diagnostics,
+                parse_problem(&source, &domain).diagnostics,
+                parse_plan(&source, &domain, &problem).diagnostics,
+                pddl::format(&source).expect_err("it is too deep"),
+            ];
+            for diagnostics in said {
+                assert!(diagnostics.iter().any(|d| d.code() == "E0103"), "{form} {diagnostics:?}");
+                assert!(diagnostics.len() < 60, "{form} {}", diagnostics.len());
+            }
+        }
+    }
 }

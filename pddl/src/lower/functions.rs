@@ -25,7 +25,8 @@ pub(crate) fn functions<'t>(
             };
             let value = match value {
                 None => FunctionValue::Number,
-                Some(t) if t.is("number") && world.type_id("number").is_none() => FunctionValue::Number,
+                // Also where a type has that name: its objects are no values of functions.
+                Some(t) if t.is("number") => FunctionValue::Number,
                 Some(t) => FunctionValue::Object(world.type_set(sink, Some(t))),
             };
             let name = Name::new(head.text());

@@ -1,0 +1,23 @@
+; as in 2004: axioms with recursion, constants in axioms, a derived predicate used before its axiom, `:derived` with types
+(define (domain psr)
+  (:requirements :adl :derived-predicates)
+  (:types DEVICE SIDE LINE)
+  (:constants CB1 SD1 - DEVICE  side1 side2 - SIDE  l1 l2 - LINE)
+  (:predicates (ext ?l - LINE ?x - DEVICE ?s - SIDE) (breaker ?x - DEVICE) (closed ?x - DEVICE) (faulty ?l - LINE)
+    (con ?x - DEVICE ?sx - SIDE ?y - DEVICE ?sy - SIDE) (upstream ?x - DEVICE ?sx - SIDE ?y - DEVICE ?sy - SIDE)
+    (unsafe ?x - DEVICE) (affected ?x - DEVICE) (fed ?l - LINE))
+  (:derived (upstream ?x - DEVICE ?sx - SIDE ?y - DEVICE ?sy - SIDE)
+    (and (closed ?x) (or (and (= ?sx side1) (con ?x side2 ?y ?sy)) (and (= ?sx side2) (con ?x side1 ?y ?sy))
+      (exists (?z - DEVICE) (and (closed ?z) (or (and (con ?z side1 ?y ?sy) (upstream ?x ?sx ?z side2))
+                                                 (and (con ?z side2 ?y ?sy) (upstream ?x ?sx ?z side1))))))))
+  (:derived (affected ?x - DEVICE)
+    (and (breaker ?x) (exists (?sx - SIDE) (unsafe ?x))))
+  (:derived (fed ?l - LINE) (exists (?x - DEVICE) (exists (?sx - SIDE) (and (ext ?l ?x ?sx) (closed ?x)))))
+  (:action open
+    :parameters (?x - DEVICE)
+    :precondition (and (not (= ?x CB1)) (not (affected ?x)) (closed ?x) (forall (?b - DEVICE) (not (affected ?b))))
+    :effect (not (closed ?x))))
+
+(define (problem line) (:domain psr)
+  (:init (breaker CB1) (closed CB1) (ext l1 CB1 side2) (con CB1 side2 SD1 side1))
+  (:goal (and (fed l1) (forall (?b - DEVICE) (imply (breaker ?b) (not (affected ?b)))))))

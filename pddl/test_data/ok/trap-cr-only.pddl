@@ -1,0 +1,1 @@
+(define (domain lines)  (:requirements :typing)    (:types a b - object)  (:predicates (p ?x - a)	(q ?y))  (:action go	:parameters (?x - a)    :effect (p ?x)))(define (problem p) (:domain lines) (:objects o - a) (:init (q o)) (:goal (p o)))

@@ -1,0 +1,15 @@
+; names as competitions have them: digits, underscores, signs and dots anywhere, numbers as objects
+(define (domain 3-d_world.v2)
+  (:requirements :typing :numeric-fluents)
+  (:types 2d 3d - shape shape _hidden a-b_c.d+e/f*g!h$i%j&k~l#m@n^o|p - object)
+  (:constants 1 2 3.5 - 2d 1e5x 007 - 3d)
+  (:predicates (2nd ?1 - 2d) (_under ?_x) (at-2 ?2-nd - shape) (<= ?x ?y) (a=b) (x' ?x) (42))
+  (:functions (3x ?a) (_f))
+  (:action 1st :parameters (?1 ?_ ?2d - 2d) :precondition (and (2nd ?1) (_under ?_) (2nd 1) (42)) :effect (and (2nd 2) (at-2 007)))
+  (:action __ :parameters (?x) :precondition (x' ?x) :effect (a=b)))
+
+(define (problem 1-2-3)
+  (:domain 3-d_world.v2)
+  (:objects 4 5 - 2d 12ab _1 - 3d p.1 node#2 a$b - shape)
+  (:init (2nd 4) (2nd 1) (_under 12ab) (at-2 p.1) (= (3x 4) 4) (= (_f) 1e-3) (at-2 node#2))
+  (:goal (and (2nd 5) (2nd 3.5) (42))))

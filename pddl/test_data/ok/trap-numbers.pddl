@@ -1,0 +1,17 @@
+; every way to write a number, n-ary arithmetic, every operator
+(define (domain sums)
+  (:requirements :numeric-fluents)
+  (:predicates (p))
+  (:functions (x) (y) (f ?a) total)
+  (:action a :parameters (?o)
+    :precondition (and (> (x) 1e-3) (< (y) .5) (>= (x) -2.50) (<= (y) 5.) (= (x) +4) (> (+ 1 2 3 (x)) (* 2 (y) .25 (f ?o)))
+                       (>= (- (x)) (- (x) (y) 1)) (< (/ (x) 2) 1.5E+2) (= (x) (y)) (> total -0.0))
+    :effect (and (increase (x) 1) (decrease (y) .5) (assign (f ?o) (+ (x) 1e-3)) (scale-up (x) 2) (scale-down (y) 2e0)
+                 (increase total (* (x) -1)))))
+
+(define (problem zero)
+  (:domain sums)
+  (:objects o)
+  (:init (= (x) 1e-3) (= (y) .5) (= (f o) -1.5E2) (= total 0))
+  (:goal (and (> (x) 100000) (p)))
+  (:metric maximize (- (+ (x) (y) (f o)) (* 2 total total-time))))

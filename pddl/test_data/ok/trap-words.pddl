@@ -1,0 +1,36 @@
+; words of the language as names of whatever may have that name
+(define (domain domain)
+  (:requirements :typing :durative-actions :numeric-fluents :duration-inequalities)
+  (:types object - object time name at over all start end - object number define domain problem - time either2 - name)
+  (:constants define domain problem time name at over start end all object number not - object and - time)
+  (:predicates (time ?x - time) (name ?n - name) (over) (at ?at - object ?over - object) (start ?start) (end ?end) (all ?all - all)
+               (object ?o - object) (number ?n - number) (define) (domain ?d - domain) (problem ?p - problem)
+               (assign ?x) (increase ?x) (decrease ?x) (scale-up) (minimize) (maximize) (is-violated ?x) (preference ?x)
+               (either) (types) (init) (goal) (duration ?duration) (total-time))
+  (:functions (at-time ?t - time) (number-of ?n - number) - number (start-of ?x) (total-cost))
+  (:action define
+    :parameters (?at ?over ?start ?end ?all ?not - object ?time - time)
+    :precondition (and (at ?at ?over) (start ?start) (end ?end) (time ?time) (over) (define) (object object) (at time at))
+    :effect (and (at over start) (not (over)) (duration ?at) (preference ?at) (not (start end)) (end all)))
+  (:action problem :parameters () :effect (define))
+  (:action domain :effect (and (over)))
+  (:action at :parameters (?x) :precondition (at ?x ?x) :effect (not (at ?x ?x)))
+  (:action over :parameters (?x) :precondition (not (over)) :effect (over))
+  (:durative-action time
+    :parameters (?at - object ?over - object)
+    :duration (= ?duration 3)
+    :condition (and (at  start (at ?at ?over)) (at	end (end ?at)) (over  all (over)) (at start (start ?at)) (at
+      end (at ?at end)) (over all (at ?at all)))
+    :effect (and (at  start (not (at ?at ?over))) (at end (over)) (at end (at start end))))
+  (:durative-action start
+    :parameters (?x - object)
+    :duration (and (>=  ?duration 1) (<= ?duration  2))
+    :condition (at start (at start ?x))
+    :effect (at end (at end ?x))))
+
+(define (problem problem)
+  (:domain domain)
+  (:objects p q - problem n - number names - name init goal)
+  (:init (at init goal) (time p) (name names) (over) (at time time)
+         (= (at-time p) 5) (= (number-of n) 1e-3) (= (start-of init) .5) (= (total-cost) 0))
+  (:goal (and (at goal init) (define) (over))))
