@@ -10,18 +10,23 @@
 mod actions;
 mod completion;
 mod definition;
+mod describe;
 mod edit;
+mod entity;
 mod folding;
 mod formatting;
 mod highlights;
 mod hover;
 mod lenses;
+mod path;
 mod references;
 mod rename;
 mod selection;
 mod semantic_tokens;
 mod signature;
 mod symbols;
+mod usage;
+mod words;
 
 pub use actions::{ActionKind, CodeAction, code_actions};
 pub use completion::{Completion, CompletionKind, completions};

@@ -4,6 +4,7 @@ use pddl::Role;
 use project::{Place, Project};
 
 use crate::Position;
+use crate::entity::entity_at;
 
 /// Whether declarations count as references.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,6 +25,11 @@ pub struct Reference {
 }
 
 /// Every place of the project at which the name at a position stands; `None` if there is no name.
-pub fn references(_project: &Project, _at: Position, _declarations: Declarations) -> Option<Vec<Reference>> {
-    None
+pub fn references(project: &Project, at: Position, declarations: Declarations) -> Option<Vec<Reference>> {
+    let (entity, _) = entity_at(project, at)?;
+    let all = entity.occurrences(project).into_iter();
+    let wanted = all.filter(|(_, o)| declarations == Declarations::Included || o.role == Role::Use);
+    Some(
+        wanted.map(|(source, o)| Reference { place: Place { source, span: o.span }, role: o.role }).collect(),
+    )
 }

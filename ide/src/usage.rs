@@ -1,0 +1,110 @@
+//! What a declared thing is used for: who needs it, adds it, deletes it, changes it.
+//!
+//! Told from where its name stands, not from the model: so it is there for drafts, and for every part of the
+//! language that has conditions and effects.
+
+use pddl::syntax::{self, Node};
+use pddl::{NameKind, Role, Span};
+use project::{FileKind, Project};
+
+use crate::entity::Entity;
+use crate::path::Spot;
+
+/// What one use does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Deed {
+    Needs,
+    Adds,
+    Deletes,
+    Changes,
+    Derives,
+    Decomposes,
+    Holds,
+    Writes,
+}
+
+impl Deed {
+    /// What to say before those who do it.
+    pub(crate) fn words(self) -> &'static str {
+        match self {
+            Self::Needs => "needed by",
+            Self::Adds => "added by",
+            Self::Deletes => "deleted by",
+            Self::Changes => "changed by",
+            Self::Derives => "derived",
+            Self::Decomposes => "carried out by",
+            Self::Holds => "subtask of",
+            Self::Writes => "written by",
+        }
+    }
+}
+
+/// Who does what with a thing, by deed, each once, in the order of files and places. Only domains count.
+pub(crate) fn deeds(project: &Project, entity: &Entity) -> Vec<(Deed, Vec<String>)> {
+    let mut found: Vec<(Deed, Vec<String>)> = Vec::new();
+    let uses = entity.occurrences(project);
+    for file in project.ids().filter(|&file| project.kind(file) == FileKind::Domain) {
+        let here: Vec<Span> =
+            uses.iter().filter(|(f, o)| *f == file && o.role == Role::Use).map(|(_, o)| o.span).collect();
+        if here.is_empty() {
+            continue;
+        }
+        let (tree, _) = syntax::parse(project.source(file));
+        for span in here {
+            let Some((deed, who)) =
+                Spot::of(&tree, span).and_then(|spot| deed(&spot, span, entity.symbol.kind))
+            else {
+                continue;
+            };
+            match found.iter_mut().find(|(d, _)| *d == deed) {
+                Some((_, all)) if all.contains(&who) => {}
+                Some((_, all)) => all.push(who),
+                None => found.push((deed, vec![who])),
+            }
+        }
+    }
+    found.sort_by_key(|(deed, _)| *deed);
+    found
+}
+
+fn deed(spot: &Spot<'_>, span: Span, kind: NameKind) -> Option<(Deed, String)> {
+    let name = || spot.name().map_or_else(String::new, |n| n.text().to_owned());
+    let keyword = spot.keyword().to_ascii_lowercase();
+    let subtasks = [":subtasks", ":tasks", ":ordered-subtasks", ":ordered-tasks"];
+    match keyword.as_str() {
+        ":writes" => Some((Deed::Writes, name())),
+        ":derived" => {
+            let head = spot.section.children().nth(1)?;
+            let in_head = head.span().start <= span.start && span.end <= head.span().end;
+            let derived = head.head().map_or("", Node::text).to_owned();
+            Some((if in_head { Deed::Derives } else { Deed::Needs }, derived))
+        }
+        ":method" if spot.has_key(":task") => Some((Deed::Decomposes, name())),
+        ":method" if subtasks.iter().any(|key| spot.has_key(key)) => Some((Deed::Holds, name())),
+        ":action" | ":durative-action" | ":process" | ":event" if spot.has_key(":effect") => {
+            Some((effect(&spot.lists, span, kind), name()))
+        }
+        ":action" | ":durative-action" | ":process" | ":event" | ":method" => Some((Deed::Needs, name())),
+        _ => None,
+    }
+}
+
+/// What a name in an effect does, by the lists around it.
+fn effect(lists: &[Node<'_>], span: Span, kind: NameKind) -> Deed {
+    let assigns = ["assign", "increase", "decrease", "scale-up", "scale-down"];
+    let mut deed = if kind == NameKind::Predicate { Deed::Adds } else { Deed::Needs };
+    for list in lists {
+        let first =
+            list.children().nth(1).is_some_and(|n| n.span().start <= span.start && span.end <= n.span().end);
+        if list.is_headed("when") && first {
+            return Deed::Needs;
+        }
+        if list.is_headed("not") && kind == NameKind::Predicate {
+            deed = Deed::Deletes;
+        }
+        if assigns.iter().any(|word| list.is_headed(word)) {
+            deed = if first && kind == NameKind::Function { Deed::Changes } else { Deed::Needs };
+        }
+    }
+    deed
+}
