@@ -11,6 +11,7 @@
 //! ```
 
 mod mission;
+mod summary;
 
 use crate::console::{Console, Form};
 use crate::disk::show;
@@ -35,9 +36,15 @@ pub(crate) struct Arguments {
     /// Mission folders, other folders, and files.
     #[arg(required = true)]
     paths: Vec<PathBuf>,
+    /// Say of each file only whether it can be read, then how many can: for collections of tasks.
+    #[arg(long)]
+    summary: bool,
 }
 
 pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
+    if arguments.summary {
+        return summary::run(&arguments.paths, console);
+    }
     let mut exit = Exit::Yes;
     let (mut paths, mut missions) = (Vec::new(), Vec::new());
     for path in &arguments.paths {

@@ -1,0 +1,141 @@
+//! Which domain a problem of a collection belongs to, and which problem a plan.
+//!
+//! Problem: collections have hundreds of domains of one name, so names alone say little, and there are many
+//! ways to lay them out: `domain.pddl` beside `p01.pddl`; `domains/domain-1.pddl` and
+//! `instances/instance-1.pddl`; `p01-domain.pddl`, `domain_p01.pddl`; a folder above. Idea: only domains near
+//! the problem are asked (its folder, those above it as far as they hold any, folders beside it), and of those the one
+//! wins that is named as the problem says, then the one whose file's name has the same *key*, then the one
+//! without a key, then the nearest. The key is what is left of a file's name without words such as
+//! `domain` and `problem`.
+
+use std::path::Path;
+
+/// Words of files' names that do not tell one task from another.
+const WORDS: &[&str] = &["domain", "problem", "instance", "pfile", "prob", "task", "plan", "inst", "p", "d"];
+
+/// A domain that could be meant.
+pub(super) struct Candidate<'a> {
+    pub(super) path: &'a Path,
+    /// What it is called inside.
+    pub(super) name: &'a str,
+}
+
+/// What tells files of a folder apart: `p01-domain.pddl` and `instance-1.pddl` have both the key `1`.
+pub(super) fn key(path: &Path) -> String {
+    let stem = path.file_stem().map(|s| s.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let mut key = String::new();
+    // Letters and digits apart: `p01` is `p` and `01`.
+    let class = |c: char| (c.is_alphabetic(), c.is_ascii_digit());
+    let chars: Vec<char> = stem.chars().collect();
+    for part in chars.chunk_by(|&a, &b| class(a) == class(b)) {
+        let part: String = part.iter().collect();
+        if !part.starts_with(char::is_alphanumeric) || WORDS.contains(&part.as_str()) {
+            continue;
+        }
+        let number = part.trim_start_matches('0');
+        if !key.is_empty() {
+            key.push(' ');
+        }
+        key.push_str(if number.is_empty() { "0" } else { number });
+    }
+    key
+}
+
+/// The domain of the problem at `path` that says that it is for the domain `wanted`; an index.
+pub(super) fn domain_for(path: &Path, wanted: Option<&str>, domains: &[Candidate<'_>]) -> Option<usize> {
+    let problem_key = key(path);
+    let score = |candidate: &Candidate<'_>| {
+        let distance = distance(path, candidate.path)?;
+        let domain_key = key(candidate.path);
+        let named = wanted == Some(candidate.name);
+        Some((named, domain_key == problem_key, domain_key.is_empty(), std::cmp::Reverse(distance)))
+    };
+    let scored = domains.iter().enumerate().filter_map(|(index, domain)| Some((score(domain)?, index)));
+    // Of equally good ones the first.
+    scored.max_by_key(|&(score, index)| (score, std::cmp::Reverse(index))).map(|(_, index)| index)
+}
+
+/// The problem of the plan at `path`: the one with its key, else the only one in its folder.
+pub(super) fn problem_for(path: &Path, problems: &[&Path]) -> Option<usize> {
+    let beside = |p: &&Path| p.parent() == path.parent();
+    let same = problems.iter().position(|p| beside(p) && key(p) == key(path));
+    same.or_else(|| {
+        let mut here = problems.iter().enumerate().filter(|(_, p)| beside(p)).map(|(index, _)| index);
+        here.next().filter(|_| here.next().is_none())
+    })
+}
+
+/// How far a domain is from a problem: steps up from the problem's folder and down again; `None` where nobody
+/// would look, which is everything but the folders above and those directly in them that are named for it.
+fn distance(problem: &Path, domain: &Path) -> Option<usize> {
+    let (from, to) = (problem.parent()?, domain.parent()?);
+    let up = from.ancestors().position(|above| to.starts_with(above))?;
+    let common = from.ancestors().nth(up)?;
+    let down: Vec<_> = to.strip_prefix(common).ok()?.components().collect();
+    let named = |folder: &std::path::Component<'_>| {
+        folder.as_os_str().to_string_lossy().to_lowercase().contains("domain")
+    };
+    match down.as_slice() {
+        [] if up <= 2 => Some(up),
+        [one] if up <= 1 && named(one) => Some(up + 1),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Candidate, domain_for, key, problem_for};
+    use std::path::Path;
+
+    fn check(problem: &str, wanted: &str, domains: &[(&str, &str)], expected: Option<&str>) {
+        let candidates: Vec<Candidate<'_>> =
+            domains.iter().map(|(path, name)| Candidate { path: Path::new(path), name }).collect();
+        let found = domain_for(Path::new(problem), Some(wanted), &candidates);
+        assert_eq!(found.map(|index| domains[index].0), expected, "{problem}");
+    }
+
+    #[test]
+    fn keys_are_what_differs() {
+        for (name, expected) in [
+            ("domain.pddl", ""),
+            ("p01.pddl", "1"),
+            ("p01-domain.pddl", "1"),
+            ("domain_p01.pddl", "1"),
+            ("instance-10.pddl", "10"),
+            ("pfile0.hddl", "0"),
+            ("probBLOCKS-4-0.pddl", "probblocks 4 0"),
+            ("rover-03.pddl", "rover 3"),
+        ] {
+            assert_eq!(key(Path::new(name)), expected, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_domain_for_all_or_for_each() {
+        let one = [("a/domain.pddl", "x"), ("b/domain.pddl", "x")];
+        check("b/p01.pddl", "x", &one, Some("b/domain.pddl"));
+        check("a/instances/p01.pddl", "x", &one, Some("a/domain.pddl"));
+        check("c/p01.pddl", "x", &one, None);
+        let each = [
+            ("a/domain_p01.pddl", "x"),
+            ("a/domain_p02.pddl", "x"),
+            ("b/domains/domain-1.pddl", "x"),
+            ("b/domains/domain-2.pddl", "x"),
+        ];
+        check("a/p02.pddl", "x", &each, Some("a/domain_p02.pddl"));
+        check("b/instances/instance-2.pddl", "x", &each, Some("b/domains/domain-2.pddl"));
+        check("b/instances/instance-2.pddl", "misspelt", &each, Some("b/domains/domain-2.pddl"));
+        let names = [("a/domain.pddl", "x"), ("a/domain-strips.pddl", "y")];
+        check("a/p01.pddl", "y", &names, Some("a/domain-strips.pddl"));
+        check("a/p01.pddl", "z", &names, Some("a/domain.pddl"));
+    }
+
+    #[test]
+    fn a_plan_is_for_its_key_or_the_only_problem() {
+        let problems = [Path::new("a/p1.pddl"), Path::new("a/p2.pddl"), Path::new("b/problem.pddl")];
+        assert_eq!(problem_for(Path::new("a/plan02.plan"), &problems), Some(1));
+        assert_eq!(problem_for(Path::new("a/best.plan"), &problems), None);
+        assert_eq!(problem_for(Path::new("b/best.plan"), &problems), Some(2));
+        assert_eq!(problem_for(Path::new("c/best.plan"), &problems), None);
+    }
+}

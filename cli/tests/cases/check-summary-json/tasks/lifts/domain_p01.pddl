@@ -1,0 +1,3 @@
+(define (domain lifts)
+  (:predicates (p) (q1))
+  (:action a :effect (p)))

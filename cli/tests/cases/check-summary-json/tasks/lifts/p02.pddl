@@ -1,0 +1,4 @@
+(define (problem x)
+  (:domain lifts)
+  (:init)
+  (:goal (q2)))

@@ -1,0 +1,2 @@
+(define (domain bad)
+  (:predicates (p ?x - t)))

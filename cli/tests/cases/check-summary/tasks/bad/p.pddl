@@ -1,0 +1,4 @@
+(define (problem x)
+  (:domain bad)
+  (:init)
+  (:goal (p)))

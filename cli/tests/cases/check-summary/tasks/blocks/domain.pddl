@@ -1,0 +1,3 @@
+(define (domain blocks)
+  (:predicates (p) (q))
+  (:action a :effect (p)))

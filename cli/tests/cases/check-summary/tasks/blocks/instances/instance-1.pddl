@@ -1,0 +1,4 @@
+(define (problem x)
+  (:domain blocks)
+  (:init)
+  (:goal (p)))

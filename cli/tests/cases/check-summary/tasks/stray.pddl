@@ -1,0 +1,4 @@
+(define (problem x)
+  (:domain none)
+  (:init)
+  (:goal (p)))
