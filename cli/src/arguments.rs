@@ -2,7 +2,7 @@
 
 use crate::console::{Console, Form};
 use crate::exit::Exit;
-use crate::{check, explain, fmt, plan, run as mission, validate};
+use crate::{check, explain, fmt, plan, run as mission, test, validate};
 use clap::{Parser, Subcommand};
 use std::ffi::OsString;
 
@@ -32,6 +32,8 @@ enum Command {
     Validate(validate::Arguments),
     /// Report every error of missions, domains, problems and methods.
     Check(check::Arguments),
+    /// Run the tests of domains: `expected.toml` beside them.
+    Test(test::Arguments),
     /// Lay files out, changing white space only.
     Fmt(fmt::Arguments),
     /// Say what a diagnostic's code means, with examples.
@@ -65,6 +67,7 @@ where
         Command::Plan(arguments) => plan::run(&arguments, console),
         Command::Validate(arguments) => validate::run(&arguments, console),
         Command::Check(arguments) => check::run(&arguments, console),
+        Command::Test(arguments) => test::run(&arguments, console),
         Command::Fmt(arguments) => fmt::run(&arguments, console),
         Command::Explain(arguments) => explain::run(&arguments, console),
     }

@@ -22,6 +22,12 @@ impl Deadline {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seconds(Duration);
 
+impl Seconds {
+    pub(crate) fn duration(self) -> Duration {
+        self.0
+    }
+}
+
 impl std::str::FromStr for Seconds {
     type Err = String;
 

@@ -61,9 +61,9 @@ fn apply(edits: &str, folder: &Path) {
 }
 
 /// Times differ from run to run and effort from search to search: `0.123 ms` becomes `# ms`,
-/// `12 expanded` becomes `# expanded`, and so in JSON.
+/// `12 expanded` becomes `# expanded`, `[   0.012s]` becomes `[#s]`, and so in JSON.
 fn without_measurements(text: &str) -> String {
-    const AFTER: [&str; 5] = [" ms", " facts", " operators", " expanded", " evaluated"];
+    const AFTER: [&str; 6] = ["s]", " ms", " facts", " operators", " expanded", " evaluated"];
     const BEFORE: [&str; 6] =
         ["_ms\":", "\"facts\":", "\"operators\":", "\"expanded\":", "\"evaluated\":", "\"generated\":"];
     let mut kept = String::new();
@@ -74,7 +74,8 @@ fn without_measurements(text: &str) -> String {
         let (before, after) = (&rest[..start], &rest[start + length..]);
         let measured =
             AFTER.iter().any(|a| after.starts_with(a)) || BEFORE.iter().any(|b| before.ends_with(b));
-        kept.push_str(before);
+        // `[   0.012s]` is as wide whatever was measured; `#` is not.
+        kept.push_str(if after.starts_with("s]") { before.trim_end() } else { before });
         kept.push_str(if measured { "#" } else { &rest[start..start + length] });
         rest = after;
     }

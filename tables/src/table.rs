@@ -91,6 +91,30 @@ impl<'d> Table<'d> {
         Some(array.iter().filter_map(|v| text_of(reader, v, &path)).collect())
     }
 
+    /// A string, or a list of strings; none if the key is not there.
+    pub fn one_or_more(&mut self, reader: &mut Reader<'_>, key: &str) -> Vec<Text> {
+        let is_text = |e: &Entry<'_>| e.key == key && e.value.get_ref().as_str().is_some();
+        if self.entries.iter().any(is_text) {
+            return self.text(reader, key).into_iter().collect();
+        }
+        self.texts(reader, key).unwrap_or_default()
+    }
+
+    /// A number, with its place.
+    pub fn number(&mut self, reader: &mut Reader<'_>, key: &str) -> Option<(f64, Span)> {
+        let value = self.take(key)?;
+        let number = match value.get_ref() {
+            DeValue::Integer(i) => i.as_str().parse::<f64>().ok(),
+            DeValue::Float(f) => f.as_str().parse().ok(),
+            _ => None,
+        };
+        let number = number.filter(|n| n.is_finite());
+        if number.is_none() {
+            reader.wrong_kind(value, &self.path_of(key), "a number");
+        }
+        Some((number?, span(value.span())))
+    }
+
     /// A boolean.
     pub fn boolean(&mut self, reader: &mut Reader<'_>, key: &str) -> Option<bool> {
         let value = self.take(key)?;

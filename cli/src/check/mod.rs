@@ -28,7 +28,7 @@ use std::path::{Path, PathBuf};
 use validator::{Validator, Verdict, explain};
 
 /// What makes a folder a mission.
-const MANIFEST: &str = "mission.toml";
+pub(crate) const MANIFEST: &str = "mission.toml";
 
 /// What to check.
 #[derive(Debug, Args)]
@@ -190,7 +190,7 @@ fn beside(path: &Path) -> Vec<PathBuf> {
 }
 
 /// The sources beside a file, then those of the robots in the folders above it.
-fn nearby(path: &Path) -> Vec<PathBuf> {
+pub(crate) fn nearby(path: &Path) -> Vec<PathBuf> {
     let absolute = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let mut paths = beside(path);
     for above in absolute.ancestors().skip(1) {

@@ -1,0 +1,99 @@
+//! Suites on a disk.
+
+use crate::check::{MANIFEST as MISSION, nearby};
+use crate::files::{self, FileError};
+use pddl::Source;
+use project::{FileKind, Header};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use suite::{File, Folder};
+
+/// What makes a folder a suite.
+pub(super) const EXPECTED: &str = "expected.toml";
+
+/// The folders with an `expected.toml` at or below a folder, in order. Hidden folders and `target` are passed over.
+pub(super) fn folders(folder: &Path, found: &mut Vec<PathBuf>) {
+    if folder.join(EXPECTED).is_file() {
+        found.push(folder.to_owned());
+    }
+    for below in folders_in(folder) {
+        folders(&below, found);
+    }
+}
+
+fn folders_in(folder: &Path) -> Vec<PathBuf> {
+    let mut below = crate::check::entries(folder);
+    below.retain(|path| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        path.is_dir() && !path.is_symlink() && !name.starts_with('.') && name != "target"
+    });
+    below
+}
+
+/// Reads what a suite is made of.
+pub(super) fn read(folder: &Path) -> Result<Folder, FileError> {
+    let expected = files::read(&folder.join(EXPECTED))?;
+    read_with(folder, &expected)
+}
+
+/// The same with another `expected.toml` than the one on the disk.
+pub(super) fn read_with(folder: &Path, expected: &Source) -> Result<Folder, FileError> {
+    let expected = Source::new(shown(&folder.join(EXPECTED)), expected.text());
+    let mut files = Vec::new();
+    files_below(folder, folder, &mut files)?;
+    let elsewhere = elsewhere(folder, &files);
+    Ok(Folder { path: shown(folder), expected, files, elsewhere })
+}
+
+fn files_below(root: &Path, folder: &Path, found: &mut Vec<File>) -> Result<(), FileError> {
+    for path in crate::check::entries(folder) {
+        let relative = with_slashes(path.strip_prefix(root).unwrap_or(&path));
+        if path.is_file() && FileKind::is_source(&relative) {
+            let source = files::read(&path)?;
+            found.push(File { path: relative, source: Source::new(shown(&path), source.text()) });
+        }
+    }
+    for below in folders_in(folder) {
+        if !below.join(EXPECTED).is_file() && !below.join(MISSION).is_file() {
+            files_below(root, &below, found)?;
+        }
+    }
+    Ok(())
+}
+
+/// The files that define what those of the suite need and none of them defines.
+fn elsewhere(folder: &Path, files: &[File]) -> Vec<Source> {
+    let headers: Vec<Header> = files.iter().map(|file| Header::of(&file.path, file.source.text())).collect();
+    let mut needed: Vec<String> =
+        headers.iter().flat_map(|h| h.needs.iter().map(|need| need.name.clone())).collect();
+    let mut defined: BTreeSet<String> =
+        headers.iter().filter(|h| h.kind == FileKind::Domain).map(|h| h.name.clone()).collect();
+    let mut found = Vec::new();
+    // A file that is found may need others in turn; each name is looked for once.
+    while let Some(name) = needed.pop() {
+        if !defined.insert(name.clone()) {
+            continue;
+        }
+        let above = folder.parent().map(|above| above.join(EXPECTED));
+        let candidates =
+            nearby(&folder.join(EXPECTED)).into_iter().chain(above.iter().flat_map(|p| nearby(p)));
+        let provider = candidates.filter_map(|path| files::read(&path).ok()).find_map(|source| {
+            let header = Header::of(source.name(), source.text());
+            header.defines(&name).then_some((source, header))
+        });
+        if let Some((source, header)) = provider {
+            needed.extend(header.needs.into_iter().map(|need| need.name));
+            found.push(source);
+        }
+    }
+    found
+}
+
+/// A path as it is shown: `/` between folders, and no `./` before it.
+fn shown(path: &Path) -> String {
+    with_slashes(path.strip_prefix(".").unwrap_or(path))
+}
+
+fn with_slashes(path: &Path) -> String {
+    path.display().to_string().replace(std::path::MAIN_SEPARATOR, "/")
+}

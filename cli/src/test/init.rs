@@ -1,0 +1,57 @@
+//! `pelea test --init FOLDER...`: a first `expected.toml` from what is found.
+
+use super::find;
+use crate::clock::Seconds;
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::files;
+use crate::memory;
+use crate::render::Message;
+use pddl::Source;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+use suite::{Limits, draft};
+
+pub(super) fn run(folders: &[PathBuf], timeout: Seconds, console: &mut Console<'_>) -> Exit {
+    folders.iter().fold(Exit::Yes, |exit, folder| exit.and(one(folder, timeout, console)))
+}
+
+fn one(folder: &Path, timeout: Seconds, console: &mut Console<'_>) -> Exit {
+    let path = folder.join(find::EXPECTED);
+    let refusal = if path.exists() {
+        Some(format!("`{}` is there already", path.display()))
+    } else if !folder.is_dir() {
+        Some(format!("`{}` is no folder", folder.display()))
+    } else {
+        None
+    };
+    if let Some(refusal) = refusal {
+        Message::error(refusal).show(console);
+        return Exit::Unreadable;
+    }
+    let found = match find::read_with(folder, &Source::new("", "")) {
+        Ok(found) => found,
+        Err(error) => {
+            Message::error(error.to_string()).show(console);
+            return Exit::Unreadable;
+        }
+    };
+    let start = Instant::now();
+    let now = move || start.elapsed();
+    let limits = Limits { now: &now, memory_bytes: Some(memory::budget()) };
+    let text = draft(found, timeout.duration(), &limits);
+    if let Err(error) = files::write(&path, &text) {
+        Message::error(error.to_string()).show(console);
+        return Exit::Unwritable;
+    }
+    console.result(&format!("{}: written; read it, it says what is so, not what should be", path.display()));
+    console.record(&WrittenRecord { kind: "written", file: &path.display().to_string() });
+    Exit::Yes
+}
+
+#[derive(Serialize)]
+struct WrittenRecord<'a> {
+    kind: &'static str,
+    file: &'a str,
+}

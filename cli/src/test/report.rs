@@ -1,0 +1,121 @@
+//! What is shown of a run.
+
+use super::Failed;
+use crate::console::{Console, Form};
+use crate::disk;
+use crate::exit::Exit;
+use project::Finding;
+use serde::Serialize;
+use suite::{CaseId, Suite};
+
+/// What has come of the cases so far.
+pub(super) struct Report<'a> {
+    suites: usize,
+    /// Suites that could not be read.
+    unreadable: usize,
+    /// Cases that the filter leaves out.
+    pub(super) left_out: usize,
+    passed: usize,
+    failed: Vec<Failed<'a>>,
+}
+
+impl<'a> Report<'a> {
+    /// Before the first case.
+    pub(super) fn new(suites: usize, unreadable: usize) -> Self {
+        Self { suites, unreadable, left_out: 0, passed: 0, failed: Vec::new() }
+    }
+
+    /// A case is done.
+    pub(super) fn case(
+        &mut self,
+        suite: &'a Suite,
+        id: CaseId,
+        findings: Vec<Finding>,
+        time_ms: f64,
+        console: &mut Console<'_>,
+    ) {
+        let Some((_, case)) = suite.cases().find(|(other, _)| *other == id) else { return };
+        let passed = findings.is_empty();
+        let outcome = if passed { "pass" } else { "fail" };
+        if console.form() == Form::Json {
+            disk::show(suite.sources(), &findings, console);
+        }
+        let word = word(passed, console.result_colour());
+        console.result(&format!("        {word} [{:>8.3}s] {}", time_ms / 1e3, case.name));
+        console.record(&CaseRecord { kind: "case", suite: suite.path(), name: &case.name, outcome, time_ms });
+        console.flush();
+        if passed {
+            self.passed += 1;
+        } else {
+            self.failed.push(Failed { suite, name: &case.name, findings });
+        }
+    }
+
+    /// All cases are done: what failed is explained, then counted.
+    pub(super) fn finish(self, time_ms: f64, console: &mut Console<'_>) -> Exit {
+        if console.form() == Form::Text {
+            for Failed { suite, name, findings } in &self.failed {
+                console.note(&format!("\n──── {name}"));
+                disk::show(suite.sources(), findings, console);
+            }
+        }
+        let failed = self.failed.len();
+        let cases = self.passed + failed;
+        let mut line = format!(
+            "────────────\n     Summary [{:>8.3}s] {cases} {} run: {} passed, {failed} failed",
+            time_ms / 1e3,
+            if cases == 1 { "case" } else { "cases" },
+            self.passed
+        );
+        if self.left_out > 0 {
+            line.push_str(&format!(", {} left out", self.left_out));
+        }
+        if self.unreadable > 0 {
+            let suites = if self.unreadable == 1 { "suite" } else { "suites" };
+            line.push_str(&format!("; {} {suites} could not be read", self.unreadable));
+        }
+        console.result(&line);
+        for Failed { name, .. } in &self.failed {
+            console.result(&format!("        {} {name}", word(false, console.result_colour())));
+        }
+        console.record(&TestsRecord {
+            kind: "tests",
+            suites: self.suites,
+            unreadable: self.unreadable,
+            passed: self.passed,
+            failed,
+            left_out: self.left_out,
+            time_ms,
+        });
+        if failed > 0 { Exit::No } else { Exit::Yes }
+    }
+}
+
+fn word(passed: bool, colour: bool) -> &'static str {
+    match (passed, colour) {
+        (true, false) => "PASS",
+        (false, false) => "FAIL",
+        (true, true) => "\u{1b}[32;1mPASS\u{1b}[0m",
+        (false, true) => "\u{1b}[31;1mFAIL\u{1b}[0m",
+    }
+}
+
+#[derive(Serialize)]
+struct CaseRecord<'a> {
+    kind: &'static str,
+    suite: &'a str,
+    name: &'a str,
+    outcome: &'static str,
+    time_ms: f64,
+}
+
+#[derive(Serialize)]
+struct TestsRecord {
+    kind: &'static str,
+    suites: usize,
+    unreadable: usize,
+    passed: usize,
+    failed: usize,
+    left_out: usize,
+    time_ms: f64,
+}

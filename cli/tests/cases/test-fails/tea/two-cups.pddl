@@ -1,0 +1,5 @@
+(define (problem two-cups)
+  (:domain tea)
+  (:objects mine yours - cup)
+  (:init (clean mine) (clean yours))
+  (:goal (and (full mine) (full yours))))

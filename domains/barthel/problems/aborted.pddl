@@ -1,0 +1,14 @@
+; Who has ended the test is not asked anything any more: there is no plan, and the mission falls back.
+(define (problem aborted)
+  (:domain barthel)
+  (:objects
+    person - person
+    opening closing - part
+    stairs - item)
+  (:init
+    (opens-with opening) (closes-with closing)
+    (next opening stairs)
+    (next stairs closing)
+    (present person)
+    (aborted person))
+  (:goal (and (reported person) (not (wants-help person)))))

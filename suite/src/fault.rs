@@ -1,0 +1,98 @@
+//! Why a plan is not valid, by a word that stays the same.
+//!
+//! Sentences get better and codes are looked up; a test names the kind of fault. A word is never renamed, and a kind
+//! that the validator learns gets a word here: the compiler asks for it.
+
+use std::fmt;
+
+/// A kind of fault.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Fault {
+    /// The text is no plan: parentheses, words that are no steps.
+    Syntax,
+    /// A step names no action of the domain.
+    UnknownAction,
+    /// A step names no object of the problem.
+    UnknownObject,
+    /// A step has too few or too many arguments.
+    Arity,
+    /// An argument is not of its parameter's type.
+    Type,
+    /// A step's precondition does not hold.
+    Precondition,
+    /// Effects of one step contradict each other.
+    Conflict,
+    /// An effect reads a fluent that has no value, or divides by zero.
+    Undefined,
+    /// The goal does not hold in the end.
+    Goal,
+    /// Domain and problem have no meaning under which a plan could be valid.
+    IllFormed,
+}
+
+impl Fault {
+    /// Every kind.
+    pub const ALL: &'static [Self] = &[
+        Self::Syntax,
+        Self::UnknownAction,
+        Self::UnknownObject,
+        Self::Arity,
+        Self::Type,
+        Self::Precondition,
+        Self::Conflict,
+        Self::Undefined,
+        Self::Goal,
+        Self::IllFormed,
+    ];
+
+    /// Its word.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Syntax => "syntax",
+            Self::UnknownAction => "unknown-action",
+            Self::UnknownObject => "unknown-object",
+            Self::Arity => "arity",
+            Self::Type => "type",
+            Self::Precondition => "precondition",
+            Self::Conflict => "conflict",
+            Self::Undefined => "undefined",
+            Self::Goal => "goal",
+            Self::IllFormed => "ill-formed",
+        }
+    }
+
+    /// The kind of that word.
+    pub fn of_word(word: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|fault| fault.word() == word)
+    }
+
+    /// What a diagnostic about a plan's text amounts to; `None` for those that have a code only.
+    pub(crate) fn of_code(code: &str) -> Option<Self> {
+        match code {
+            "E0204" => Some(Self::UnknownObject),
+            "E0206" => Some(Self::UnknownAction),
+            "E0301" => Some(Self::Arity),
+            "E0302" => Some(Self::Type),
+            code if code.starts_with("E01") => Some(Self::Syntax),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.word())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Fault;
+
+    #[test]
+    fn words_are_different() {
+        for &fault in Fault::ALL {
+            assert_eq!(Fault::of_word(fault.word()), Some(fault));
+        }
+    }
+}
