@@ -45,7 +45,7 @@ pub fn folding(project: &Project, source: SourceId) -> Vec<Fold> {
 fn comments(source: &Source, tree: &Tree<'_>) -> Vec<Fold> {
     let mut folds: Vec<Fold> = Vec::new();
     let mut last_line = 0;
-    for (kind, span) in tree.tokens().iter() {
+    for (kind, span) in tree.tokens() {
         let at = source.line_column(span.start);
         if kind != TokenKind::Comment || !source.line(at.line).trim_start().starts_with(';') {
             continue;

@@ -46,7 +46,7 @@ fn pieces(source: &Source) -> Vec<Piece> {
     let (tree, _) = syntax::parse(source);
     let mut pieces = Vec::new();
     let mut from = 0;
-    for (kind, span) in tree.tokens().iter() {
+    for (kind, span) in tree.tokens() {
         if kind != TokenKind::Whitespace {
             pieces.push(Piece { blank: Span::new(from, span.start), word: span });
             from = span.end;

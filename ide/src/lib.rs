@@ -8,7 +8,9 @@
 //! Source: the shape of rust-analyzer's `ide` crate (architecture.md, "IDE API").
 
 mod actions;
+mod applied;
 mod completion;
+mod context;
 mod definition;
 mod describe;
 mod edit;

@@ -144,7 +144,7 @@ fn check_name(kind: NameKind, name: &str) -> Result<(), RenameError> {
     let wanted = if kind == NameKind::Variable { NodeKind::Variable } else { NodeKind::Name };
     let mut words = tree.roots();
     let whole = words.next().is_some_and(|n| n.kind() == wanted && n.span() == Span::new(0, n.span().end));
-    let sound = whole && words.next().is_none() && tree.tokens().len() == 1 && !name.is_empty();
+    let sound = whole && words.next().is_none() && tree.tokens().count() == 1 && !name.is_empty();
     let odd = |c: char| !(c.is_alphanumeric() || matches!(c, '-' | '_'));
     if !sound || name.contains(odd) {
         return Err(RenameError::Invalid { name: name.to_owned() });

@@ -39,7 +39,7 @@ pub fn semantic_tokens(project: &Project, source: SourceId, range: Option<Span>)
     let (tree, _) = syntax::parse(text);
     let mut names = occurrences(project, source).iter().peekable();
     let mut tokens = Vec::new();
-    for (kind, span) in tree.tokens().iter() {
+    for (kind, span) in tree.tokens() {
         while names.next_if(|o| o.span.start < span.start).is_some() {}
         let name = names.peek().filter(|o| o.span == span);
         let role = match (kind, name) {

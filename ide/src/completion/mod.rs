@@ -1,9 +1,21 @@
 //! What may stand at a position.
+//!
+//! Problem: while somebody types, the text is broken just there. Idea: [`Context`] tells from the tokens before the
+//! cursor which lists are open; `expected` tells from these what may stand there; `candidates` asks the drafts,
+//! which lack only what is broken, for names that fit. Editors filter by what was typed so far.
+
+mod candidates;
+mod expected;
+mod snippets;
 
 use pddl::{NameKind, Span};
-use project::Project;
+use project::{FileKind, Project};
 
 use crate::Position;
+use crate::context::Context;
+
+use candidates::Candidates;
+use expected::expected;
 
 /// What a completion puts in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,6 +50,13 @@ pub struct Completion {
 }
 
 /// What may stand at a position, best first.
-pub fn completions(_project: &Project, _at: Position) -> Vec<Completion> {
-    Vec::new()
+pub fn completions(project: &Project, at: Position) -> Vec<Completion> {
+    let Some(context) = Context::of(project.source(at.source), at.offset) else { return Vec::new() };
+    let is_plan = project.kind(at.source) == FileKind::Plan;
+    let Some(expected) = expected(&context, is_plan) else { return Vec::new() };
+    let mut found = Candidates { project, at, context: &context, all: Vec::new() };
+    found.collect(expected);
+    let mut all = found.all;
+    all.sort_by(|a, b| (a.rank, &a.label).cmp(&(b.rank, &b.label)));
+    all
 }
