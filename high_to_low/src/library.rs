@@ -188,7 +188,10 @@ impl Compiler<'_> {
 
     fn method(&mut self, method: &pddl::model::Method) -> Option<Method> {
         let link = self.vocabulary.link(self.domain);
-        let precondition = self.keep(link.condition(&method.variables, [&method.precondition]));
+        let precondition = self.keep(link.condition(
+            &method.variables,
+            std::iter::once(&method.precondition).chain(&method.network.constraints),
+        ));
         let mut subtasks = Vec::new();
         for subtask in &method.network.subtasks {
             let head = match subtask.head {

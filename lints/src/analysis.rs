@@ -12,6 +12,7 @@ use crate::numbers::Numbers;
 use crate::reachability::{
     Cause, DeadGoal, Link, Nature, Origin, Part, Piece, Reachability, Schema, Words, World,
 };
+use crate::view;
 
 /// Conjuncts of a goal that are reported.
 const GOALS: usize = 5;
@@ -71,7 +72,7 @@ impl<'a> Analysis<'a> {
         let world = Rc::new(World::new(domain, problem));
         let (dead, silent, impossible, goals) = (Vec::new(), FxHashSet::default(), Vec::new(), Vec::new());
         let mut analysis = Self { numbers, dead, silent, impossible, goals };
-        let complete = domain.unsupported.is_empty() && problem.is_none_or(|p| p.unsupported.is_empty());
+        let complete = view::all_is_seen(domain) && problem.is_none_or(view::all_of_problem_is_seen);
         if complete && let Some(mut reach) = Reachability::new(&world, &analysis.numbers) {
             analysis.gather(words, &mut reach);
         }

@@ -137,6 +137,7 @@ fn guards<'a>(effect: &'a Effect, groups: &mut Vec<Vec<&'a Condition>>) {
 
 /// What a task network names.
 pub(crate) fn network<'a>(network: &'a TaskNetwork, f: &mut dyn FnMut(Part<'a>)) {
+    network.constraints.iter().for_each(|c| walk::condition(c, Polarity::Positive, f));
     for subtask in &network.subtasks {
         let head: SubtaskHead = subtask.head;
         f(Part::Subtask(head));

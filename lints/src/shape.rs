@@ -21,6 +21,7 @@ pub(crate) fn condition(of: &Condition) -> String {
         ConditionKind::Exists(bound, inner) => format!("(exists {bound:?} {})", condition(inner)),
         ConditionKind::Forall(bound, inner) => format!("(forall {bound:?} {})", condition(inner)),
         ConditionKind::Atom(atom) => format!("(p{}{})", atom.predicate.0, terms(&atom.arguments)),
+        ConditionKind::HasType(of, types) => format!("({types:?} {})", term(*of)),
         ConditionKind::Same(left, right) => sorted("=", [term(*left), term(*right)].into_iter()),
         ConditionKind::Compare(how, left, right) => {
             format!("({how:?} {} {})", expression(left), expression(right))
@@ -71,6 +72,7 @@ pub(crate) fn network(of: &TaskNetwork) -> String {
     for subtask in &of.subtasks {
         let _ = write!(text, "({:?}{})", subtask.head, terms(&subtask.arguments));
     }
+    text += &sorted("and", of.constraints.iter().map(condition));
     let mut orderings: Vec<(u32, u32)> = of.orderings.iter().map(|o| (o.before, o.after)).collect();
     orderings.sort_unstable();
     let _ = write!(text, "{orderings:?}");

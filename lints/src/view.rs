@@ -2,7 +2,7 @@
 
 use std::cell::OnceCell;
 
-use pddl::model::{Domain, Problem};
+use pddl::model::{Domain, Feature, Problem};
 use pddl::syntax::{self, Tree};
 use pddl::{Source, Span};
 
@@ -12,6 +12,20 @@ use crate::linter::File;
 use crate::reachability::Words;
 use crate::schema::Schema;
 use crate::usage::Usage;
+
+/// Whether lints see all that the domain says: they do not look at processes, events, constraints and some more.
+pub(crate) fn all_is_seen(domain: &Domain) -> bool {
+    domain.unsupported.is_empty() && domain.features().iter().all(|(feature, _)| is_seen(*feature))
+}
+
+/// The same of a problem.
+pub(crate) fn all_of_problem_is_seen(problem: &Problem) -> bool {
+    problem.unsupported.is_empty() && problem.features().iter().all(|(feature, _)| is_seen(*feature))
+}
+
+fn is_seen(feature: Feature) -> bool {
+    matches!(feature, Feature::TimedInitials | Feature::NetworkConstraints)
+}
 
 /// A domain.
 pub(crate) struct DomainView<'a> {
@@ -42,7 +56,7 @@ impl<'a> DomainView<'a> {
 
     /// Whether the model holds all that the text says: only then is what nobody names unused.
     pub(crate) fn is_complete(&self) -> bool {
-        self.domain.unsupported.is_empty()
+        all_is_seen(self.domain)
     }
 
     /// What reasons are worded with.
@@ -112,7 +126,7 @@ impl<'a, 'd> ProblemView<'a, 'd> {
 
     /// Whether both models hold all that their texts say.
     pub(crate) fn is_complete(&self) -> bool {
-        self.domain.is_complete() && self.problem.unsupported.is_empty()
+        self.domain.is_complete() && all_of_problem_is_seen(self.problem)
     }
 }
 

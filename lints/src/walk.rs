@@ -76,6 +76,7 @@ pub(crate) fn condition<'a>(of: &'a Condition, polarity: Polarity, f: &mut dyn F
             condition(inner, polarity, f);
         }
         ConditionKind::Atom(atom) => f(Part::Needs(atom, polarity)),
+        ConditionKind::HasType(term, _) => f(Part::Term(*term)),
         ConditionKind::Same(left, right) => {
             f(Part::Term(*left));
             f(Part::Term(*right));

@@ -8,7 +8,9 @@ mod support;
 use std::path::{Path, PathBuf};
 
 use pddl::model::Domain;
-use pddl::{Diagnostic, Severity, Source, parse_domain, parse_plan, parse_problem};
+use pddl::{
+    Diagnostic, DiagnosticKind, Severity, Source, UnsupportedFeature, parse_domain, parse_plan, parse_problem,
+};
 
 /// Files that are not read, each with the reason.
 const ALLOWED: &[(&str, &str)] = &[];
@@ -27,6 +29,15 @@ fn errors(source: &Source, diagnostics: &[Diagnostic]) -> Vec<String> {
     let allowed = ALLOWED.iter().any(|(end, _)| source.name().ends_with(end));
     let errors = diagnostics.iter().filter(|d| d.severity == Severity::Error && !allowed);
     errors.take(3).map(|d| d.describe(source)).collect()
+}
+
+/// The model holds all that competitions used but the `:vars` of actions.
+fn check_whole(source: &Source, diagnostics: &[Diagnostic]) {
+    let vars = UnsupportedFeature::ActionVariables;
+    for diagnostic in diagnostics.iter().filter(|d| d.severity == Severity::Unsupported) {
+        let expected = DiagnosticKind::Unsupported { feature: vars };
+        assert_eq!(diagnostic.kind, expected, "{}", diagnostic.describe(source));
+    }
 }
 
 /// The domain of a folder: the only one, or the one that is named like the problem.
@@ -71,6 +82,7 @@ fn every_file_is_read_and_printed() {
             let source = source(&domain_path);
             let parsed = parse_domain(&source, &[]);
             failed.extend(errors(&source, &parsed.diagnostics));
+            check_whole(&source, &parsed.diagnostics);
             unsupported += usize::from(parsed.model.as_ref().is_some_and(|d| !d.unsupported.is_empty()));
             read += usize::from(parsed.model.is_some());
             if let Some(domain) = &parsed.model {
@@ -95,6 +107,7 @@ fn every_file_is_read_and_printed() {
         if let Some(problem) = &parsed.model {
             support::check_problem_printed(problem, domain);
         }
+        check_whole(&text, &parsed.diagnostics);
         unsupported += usize::from(parsed.model.as_ref().is_some_and(|p| !p.unsupported.is_empty()));
         read += usize::from(parsed.model.is_some());
     }

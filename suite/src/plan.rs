@@ -223,6 +223,14 @@ impl Literals<'_> {
             let (text, wanted) = match part {
                 Unsatisfied::Missing { atom, .. } => (validator::show_atom(domain, problem, atom), true),
                 Unsatisfied::Present { atom, .. } => (validator::show_atom(domain, problem, atom), false),
+                Unsatisfied::Type { object: one, types, wanted, .. } => {
+                    let names: Vec<&str> = types.0.iter().map(|&t| domain.types[t].name.as_str()).collect();
+                    let types = match names.as_slice() {
+                        [one] => (*one).to_owned(),
+                        several => format!("(either {})", several.join(" ")),
+                    };
+                    (format!("(sortof {} - {types})", object(*one)), *wanted)
+                }
                 Unsatisfied::Different { left, right, .. } => {
                     (format!("(= {} {})", object(*left), object(*right)), true)
                 }

@@ -39,7 +39,10 @@ pub(crate) fn each_predicate(
             each_predicate(part, positive, visit);
         }
         ConditionKind::Atom(atom) => visit(atom.predicate, positive),
-        ConditionKind::Same(..) | ConditionKind::Compare(..) | ConditionKind::FluentIs(..) => {}
+        ConditionKind::HasType(..)
+        | ConditionKind::Same(..)
+        | ConditionKind::Compare(..)
+        | ConditionKind::FluentIs(..) => {}
     }
 }
 

@@ -84,6 +84,9 @@ impl Scene<'_> {
                 binding.with_objects(&atom.arguments, |arguments| self.state.holds(atom.predicate, arguments))
                     == wanted
             }
+            ConditionKind::HasType(term, types) => {
+                self.universe.is_of(binding.object(*term), types) == wanted
+            }
             ConditionKind::Same(left, right) => (binding.object(*left) == binding.object(*right)) == wanted,
             ConditionKind::Compare(comparison, left, right) => {
                 match (self.number(left, binding), self.number(right, binding)) {

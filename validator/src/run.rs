@@ -15,6 +15,7 @@ use crate::verdict::{
     Failure, Feature, IllFormed, MetricValue, StepFault, StepIndex, Unsupported, Valid, Verdict,
 };
 use crate::why::Why;
+use pddl::model::Feature as LanguageFeature;
 use pddl::model::{
     Action, ActionId, Condition, ConditionKind, Domain, Effect, EffectKind, FluentValue, GroundApplication,
     Idx, IndexVec, Problem, Variables,
@@ -177,16 +178,21 @@ fn unsupported(domain: &Domain, problem: &Problem) -> Option<Unsupported> {
         let feature = Feature::InProblem(diagnostic.message());
         return Some(Unsupported { feature, span: diagnostic.span });
     }
-    if let Some(&(feature, span)) = domain.features().first() {
+    if let Some((feature, span)) = domain.features().into_iter().find(|(f, _)| !is_known(*f)) {
         return Some(Unsupported { feature: Feature::LanguageOfDomain(feature), span });
     }
-    if let Some(&(feature, span)) = problem.features().first() {
+    if let Some((feature, span)) = problem.features().into_iter().find(|(f, _)| !is_known(*f)) {
         return Some(Unsupported { feature: Feature::LanguageOfProblem(feature), span });
     }
     problem.htn.as_ref().map(|(_, network)| {
         let span = network.subtasks.first().map_or(problem.goal_span, |subtask| subtask.span);
         Unsupported { feature: Feature::TaskNetwork, span }
     })
+}
+
+/// Whether the feature is evaluated here, or only in methods, which a sequence of actions does not use.
+fn is_known(feature: LanguageFeature) -> bool {
+    matches!(feature, LanguageFeature::TypePredicates | LanguageFeature::NetworkConstraints)
 }
 
 fn initial_state(domain: &Domain, problem: &Problem) -> State {
@@ -249,6 +255,7 @@ fn each_quantified(condition: &Condition, visit: &mut dyn FnMut(&Condition)) {
         }
         ConditionKind::Exists(_, body) | ConditionKind::Forall(_, body) => visit(body),
         ConditionKind::Atom(_)
+        | ConditionKind::HasType(..)
         | ConditionKind::Same(..)
         | ConditionKind::Compare(..)
         | ConditionKind::FluentIs(..) => {}

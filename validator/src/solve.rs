@@ -107,6 +107,7 @@ fn each_variable(condition: &Condition, visit: &mut dyn FnMut(VariableId)) {
             each_variable(then, visit);
         }
         ConditionKind::Atom(atom) => each_term_variable(&atom.arguments, visit),
+        ConditionKind::HasType(term, _) => each_term_variable(&[*term], visit),
         ConditionKind::Same(left, right) => each_term_variable(&[*left, *right], visit),
         ConditionKind::Compare(_, left, right) => {
             each_expression_variable(left, visit);

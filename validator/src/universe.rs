@@ -59,6 +59,11 @@ impl Universe {
         }
     }
 
+    /// Whether the object is of one of the types.
+    pub(crate) fn is_of(&self, object: ObjectId, types: &TypeSet) -> bool {
+        types.0.iter().any(|&t| self.types[t].contains(object))
+    }
+
     pub(crate) fn extent(&self, types: &TypeSet) -> &Extent {
         match types.0.as_slice() {
             [one] => &self.types[*one],

@@ -155,6 +155,17 @@ pub enum Unsatisfied {
         /// Where it is forbidden.
         span: Span,
     },
+    /// An object should be of a type, or should not.
+    Type {
+        /// The object.
+        object: ObjectId,
+        /// The type, or several of which one is enough.
+        types: pddl::model::TypeSet,
+        /// Whether it should be.
+        wanted: bool,
+        /// Where that is asked for.
+        span: Span,
+    },
     /// Two objects should be the same.
     Different {
         /// One.
@@ -229,6 +240,7 @@ impl Unsatisfied {
             Self::Missing { span, .. }
             | Self::Present { span, .. }
             | Self::Different { span, .. }
+            | Self::Type { span, .. }
             | Self::Same { span, .. }
             | Self::Comparison { span, .. }
             | Self::Fluent { span, .. }

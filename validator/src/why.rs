@@ -61,6 +61,9 @@ impl Why<'_> {
                 }
             }
             ConditionKind::Atom(atom) => vec![self.atom(atom, wanted, binding)],
+            ConditionKind::HasType(term, types) => {
+                vec![Unsatisfied::Type { object: binding.object(*term), types: types.clone(), wanted, span }]
+            }
             ConditionKind::Same(left, right) => {
                 let (left, right) = (binding.object(*left), binding.object(*right));
                 vec![if wanted {

@@ -284,6 +284,12 @@ impl Words<'_> {
                     Some(step) => format!("{atom} should not hold; {} added it", self.step(*step)),
                 }
             }
+            Unsatisfied::Type { object, types, wanted, .. } => {
+                let name = |t: &pddl::model::TypeId| format!("`{}`", self.domain.types[*t].name);
+                let types: Vec<String> = types.0.iter().map(name).collect();
+                let is = if *wanted { "is not" } else { "is" };
+                format!("{} {is} of type {}", self.object(*object), types.join(" or "))
+            }
             Unsatisfied::Different { left, right, .. } => {
                 format!("{} and {} are not the same", self.object(*left), self.object(*right))
             }

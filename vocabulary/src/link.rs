@@ -25,6 +25,9 @@ pub enum LinkErrorKind {
     /// The predicate cannot stand in the graph.
     #[error("`{name}` is no token of vocabulary `{vocabulary}`")]
     NotAToken { name: Name, vocabulary: Name },
+    /// A type as a predicate: variables and nodes have their types already.
+    #[error("types cannot be asked for here")]
+    TypeCondition,
     /// The function cannot stand in the graph.
     #[error("`{name}` is no attribute of vocabulary `{vocabulary}`")]
     NotAnAttribute { name: Name, vocabulary: Name },

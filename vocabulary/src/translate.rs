@@ -65,6 +65,10 @@ impl<'a> Translator<'a> {
                 Formula::None(self.quantified(variables, span), Box::new(part))
             }
             ConditionKind::Atom(atom) => self.atom(atom),
+            ConditionKind::HasType(..) => {
+                self.error(span, LinkErrorKind::TypeCondition);
+                Formula::always()
+            }
             ConditionKind::Same(a, b) => match (self.node(*a, span), self.node(*b, span)) {
                 (Some(a), Some(b)) => Formula::Literal(Literal::Same(a, b), span),
                 _ => Formula::always(),

@@ -120,6 +120,9 @@ fn collect(condition: &Condition, atoms: &mut Vec<pddl::model::PredicateId>) {
             collect(b, atoms);
         }
         ConditionKind::Atom(atom) => atoms.push(atom.predicate),
-        ConditionKind::Same(..) | ConditionKind::Compare(..) | ConditionKind::FluentIs(..) => {}
+        ConditionKind::HasType(..)
+        | ConditionKind::Same(..)
+        | ConditionKind::Compare(..)
+        | ConditionKind::FluentIs(..) => {}
     }
 }

@@ -113,6 +113,8 @@ impl Evaluator<'_> {
                 let row: Vec<u32> = terms.map(|&t| resolve(t, binding)).collect();
                 Ok(self.literal(rows, relation, &row, polarity))
             }
+            // Which it is of is not looked at: it may hold.
+            (ConditionKind::HasType(..), _) => Ok(true),
             (ConditionKind::Same(a, b), _) => {
                 let (a, b) = (resolve(*a, binding), resolve(*b, binding));
                 Ok(self.world.is_abstract(a) || (a == b) == (polarity == Polarity::Positive))

@@ -107,6 +107,8 @@ impl Relaxer<'_> {
                 let arguments = application.arguments.iter().copied().chain([*value]).collect();
                 self.literal(Pattern { relation, arguments, span }, polarity)
             }
+            // Which it is of is not looked at: it may hold.
+            (ConditionKind::HasType(..), _) => vec![Conjunction::default()],
             (ConditionKind::Same(a, b), Polarity::Positive) => vec![Conjunction::check(Check::Same(*a, *b))],
             (ConditionKind::Same(a, b), Polarity::Negative) => {
                 vec![Conjunction::check(Check::Different(*a, *b))]

@@ -53,7 +53,7 @@ impl<'d> Tokens<'d> {
                 self.condition(right);
             }
             ConditionKind::Atom(atom) => self.atom(atom),
-            ConditionKind::Same(..) => {}
+            ConditionKind::HasType(..) | ConditionKind::Same(..) => {}
             ConditionKind::Compare(_, left, right) => {
                 self.expression(left);
                 self.expression(right);

@@ -36,6 +36,10 @@ pub enum SymbolKind {
     Requirement,
     /// A preference.
     Preference,
+    /// A process.
+    Process,
+    /// An event.
+    Event,
     /// An action or a task of a hierarchical plan, by its number.
     PlanStep,
 }
@@ -56,6 +60,8 @@ impl SymbolKind {
             | Self::Domain
             | Self::Requirement
             | Self::Preference
+            | Self::Process
+            | Self::Event
             | Self::PlanStep => return None,
         })
     }
@@ -79,6 +85,8 @@ impl std::fmt::Display for SymbolKind {
             Self::Requirement => "requirement",
             Self::PlanStep => "number",
             Self::Preference => "preference",
+            Self::Process => "process",
+            Self::Event => "event",
         })
     }
 }
@@ -114,22 +122,6 @@ impl std::fmt::Display for FileKind {
 /// A language feature that is read but not modelled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum UnsupportedFeature {
-    /// `#t`
-    ContinuousEffects,
-    /// `:process`
-    Processes,
-    /// `:event`
-    Events,
-    /// `(p (f ?x))`
-    FunctionTerms,
-    /// `(= (f ?x) (g ?y))` of object fluents
-    FluentComparison,
-    /// `(when (at start p) (at end q))`
-    ConditionsAcrossTimes,
-    /// `(at end (= ?duration …))`
-    DurationAtEnd,
-    /// `:constraints` of a problem's task network, or `(sort …)` in a method's
-    NetworkConstraints,
     /// `:vars` of actions (PDDL 1.2)
     ActionVariables,
 }
@@ -137,14 +129,6 @@ pub enum UnsupportedFeature {
 impl std::fmt::Display for UnsupportedFeature {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
-            Self::ContinuousEffects => "continuous effects (`#t`)",
-            Self::Processes => "processes",
-            Self::Events => "events",
-            Self::FunctionTerms => "functions as arguments",
-            Self::FluentComparison => "comparison of two object fluents",
-            Self::ConditionsAcrossTimes => "conditional effects across times",
-            Self::DurationAtEnd => "duration constraints at the end",
-            Self::NetworkConstraints => "constraints of task networks",
             Self::ActionVariables => "variables of actions that are no parameters (`:vars`)",
         })
     }
@@ -395,6 +379,15 @@ pub enum DiagnosticKind {
     /// `(:constraints (p))`
     #[error("this does not say in which states it must hold")]
     BareCondition,
+    /// `(increase (f) (* #t #t))`
+    #[error("this is not a rate times `#t`")]
+    NotLinear,
+    /// `(p (f a))` in an initial state, or as an argument of a task or a skill.
+    #[error("`{name}` is a function, and only objects can be arguments here")]
+    MisplacedFunction {
+        /// Which function.
+        name: Name,
+    },
     /// `(is-violated p)` in a precondition.
     #[error("`{name}` has a meaning only in {place}")]
     OutOfPlace {
@@ -448,6 +441,8 @@ impl DiagnosticKind {
                 SymbolKind::Requirement => "W0213",
                 SymbolKind::PlanStep => "E0214",
                 SymbolKind::Preference => "W0215",
+                // Nothing names them, so none is unknown.
+                SymbolKind::Process | SymbolKind::Event => "E0206",
             },
             Self::Duplicate { .. } => "E0220",
             Self::ImportConflict { .. } => "E0221",
@@ -460,6 +455,7 @@ impl DiagnosticKind {
             Self::CyclicTypes { .. } => "E0304",
             Self::WrongValue { .. } => "E0305",
             Self::DerivedEffect { .. } => "E0306",
+            Self::MisplacedFunction { .. } => "E0307",
             Self::CyclicOrdering { .. } => "E0401",
             Self::UnknownTime { .. } => "E0501",
             Self::OutcomeInCondition { .. } => "E0502",
@@ -470,6 +466,7 @@ impl DiagnosticKind {
             Self::MisplacedOperator { .. } => "E0507",
             Self::BareCondition => "E0508",
             Self::OutOfPlace { .. } => "E0509",
+            Self::NotLinear => "E0510",
             Self::Unsupported { .. } => "U0601",
         }
     }

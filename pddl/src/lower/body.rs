@@ -4,11 +4,12 @@
 //! ([`crate::syntax::MAX_DEPTH`]); each form has a function of its own, so that a level costs little
 //! stack. An error leaves a placeholder in the model, which is then not handed out.
 
+use super::function_term::FunctionTerms;
 use super::schema::Schema;
 use super::sink::Sink;
 use super::world::World;
 use crate::analysis::NameKind;
-use crate::diagnostic::{DiagnosticKind, SymbolKind, UnsupportedFeature};
+use crate::diagnostic::{DiagnosticKind, SymbolKind};
 use crate::model::{Name, ObjectId, Term, TypeSet, Variable, VariableId};
 use crate::syntax::{Node, NodeKind};
 
@@ -17,6 +18,7 @@ pub(crate) struct Body<'a> {
     pub(crate) world: &'a World,
     pub(crate) sink: &'a mut Sink,
     pub(crate) schema: Schema,
+    pub(super) functions: FunctionTerms,
 }
 
 /// A declared symbol that is applied to arguments.
@@ -28,7 +30,7 @@ pub(super) struct Applied<'a> {
 
 impl<'a> Body<'a> {
     pub(crate) fn new(world: &'a World, sink: &'a mut Sink) -> Self {
-        Self { world, sink, schema: Schema::default() }
+        Self { world, sink, schema: Schema::default(), functions: FunctionTerms::default() }
     }
 
     /// A variable in sight or an object; reports what is neither.
@@ -37,8 +39,7 @@ impl<'a> Body<'a> {
             NodeKind::Variable => self.variable(node).map(Term::Variable),
             NodeKind::Name | NodeKind::Number => self.object(node).map(Term::Object),
             NodeKind::List if node.head().is_some_and(|h| self.world.function(h.text()).is_some()) => {
-                self.sink.unsupported(node.span(), UnsupportedFeature::FunctionTerms);
-                None
+                self.function_term(node)
             }
             NodeKind::List | NodeKind::Keyword => {
                 self.sink.unexpected(node, "a variable or an object");

@@ -7,18 +7,21 @@
 use super::body::{Applied, Body};
 use super::constraint::is_modal;
 use super::sink::first_word;
+use crate::Span;
 use crate::analysis::NameKind;
-use crate::diagnostic::{DiagnosticKind, SymbolKind, UnsupportedFeature};
+use crate::diagnostic::{DiagnosticKind, SymbolKind};
 use crate::model::{
-    Atom, Comparison, Condition, ConditionKind, FunctionValue, ObjectId, PredicateId, Term, TypeSet,
+    Atom, Comparison, Condition, ConditionKind, FunctionValue, Name, ObjectId, PredicateId, Term, TypeId,
+    TypeSet, Variable,
 };
 use crate::syntax::{Node, NodeKind};
 
 impl Body<'_> {
     /// Reads a condition; `()` always holds.
     pub(crate) fn condition(&mut self, node: Node<'_>) -> Condition {
-        let kind = self.condition_kind(node).unwrap_or_else(always);
-        Condition { kind, span: node.span() }
+        let (kind, functions) = self.binding(|body| body.condition_kind(node));
+        let condition = Condition { kind: kind.unwrap_or_else(always), span: node.span() };
+        Self::some_value(functions, condition)
     }
 
     fn condition_kind(&mut self, node: Node<'_>) -> Option<ConditionKind> {
@@ -81,11 +84,33 @@ impl Body<'_> {
                 .unexpected(head, "a predicate or one of `and`, `or`, `not`, `imply`, `forall`, `exists`");
             return None;
         }
+        if let Some(sort) = sort(node) {
+            return self.sort(sort);
+        }
         if let Some(predicate) = self.world.predicate(head.text()) {
             return self.atom(node, predicate).map(ConditionKind::Atom);
         }
+        if let Some(id) = self.world.type_id(head.text()) {
+            return self.type_predicate(node, head, id);
+        }
         self.unknown_predicate(node, head);
         None
+    }
+
+    /// `(truck ?x)` with a type that is no predicate.
+    fn type_predicate(&mut self, node: Node<'_>, head: Node<'_>, id: TypeId) -> Option<ConditionKind> {
+        self.sink.mention(NameKind::Type, head, None);
+        let types = TypeSet::any();
+        let variable = Variable { name: Name::new("x"), types, span: head.span() };
+        let world = self.world;
+        let of = Applied { symbol: SymbolKind::Type, name: &world.types[id].name, parameters: &[variable] };
+        let term = *self.arguments(node, node.children().skip(1), &of)?.first()?;
+        Some(ConditionKind::HasType(term, TypeSet::one(id)))
+    }
+
+    fn sort(&mut self, (term, types): (Node<'_>, Node<'_>)) -> Option<ConditionKind> {
+        let (term, types) = (self.term(term), self.world.type_set(self.sink, Some(types)));
+        Some(ConditionKind::HasType(term?, types))
     }
 
     /// Reports a head that is no predicate; some are known from other places.
@@ -121,8 +146,7 @@ impl Body<'_> {
         let (l, r) = (self.fluent_value(left), self.fluent_value(right));
         match (l, r) {
             (Some(FunctionValue::Object(_)), Some(FunctionValue::Object(_))) => {
-                self.sink.unsupported(node.span(), UnsupportedFeature::FluentComparison);
-                None
+                self.fluents_equal(left, right, node.span())
             }
             (Some(FunctionValue::Object(types)), _) => self.fluent_is(left, &types, right),
             (_, Some(FunctionValue::Object(types))) => self.fluent_is(right, &types, left),
@@ -133,10 +157,20 @@ impl Body<'_> {
 
     fn fluent_is(&mut self, fluent: Node<'_>, types: &TypeSet, value: Node<'_>) -> Option<ConditionKind> {
         let application = self.application(fluent);
+        if self.is_undefined(value) {
+            return Some(self.has_no_value(application?, types.clone()));
+        }
         let term = self.term(value)?;
         let value_types = self.term_types(term);
         self.check_common((fluent, types), (value, &value_types));
         Some(ConditionKind::FluentIs(application?, term))
+    }
+
+    fn fluents_equal(&mut self, left: Node<'_>, right: Node<'_>, span: Span) -> Option<ConditionKind> {
+        let (l, r) = (self.object_fluent(left), self.object_fluent(right));
+        let (l, r) = (l?, r?);
+        self.check_common((left, &l.1), (right, &r.1));
+        Some(self.same_value(l, r, span))
     }
 
     fn same(&mut self, left: Node<'_>, right: Node<'_>) -> Option<ConditionKind> {
@@ -204,13 +238,23 @@ impl Body<'_> {
         if node.is_name() {
             return self.object(node);
         }
-        if node.is_headed("") || !node.is_list() || self.fluent_value(node).is_none() {
-            self.sink.unexpected(node, "an object");
-        } else {
-            self.sink.unsupported(node.span(), UnsupportedFeature::FunctionTerms);
+        match node.head().and_then(|head| self.world.function(head.text())) {
+            Some(function) => {
+                let name = self.world.functions[function].name.clone();
+                self.sink.report(node.span(), DiagnosticKind::MisplacedFunction { name });
+            }
+            None => self.sink.unexpected(node, "an object"),
         }
         None
     }
+}
+
+/// The term and the type of HDDL's `(sort ?x - t)` or `(sortof ?x - t)`.
+fn sort<'t>(node: Node<'t>) -> Option<(Node<'t>, Node<'t>)> {
+    let mut parts = node.children();
+    let (head, term, hyphen, types) = (parts.next()?, parts.next()?, parts.next()?, parts.next()?);
+    let is_sort = (head.is("sort") || head.is("sortof")) && hyphen.is("-") && parts.next().is_none();
+    is_sort.then_some((term, types))
 }
 
 fn always() -> ConditionKind {

@@ -14,14 +14,15 @@ use super::header::{Header, header};
 use super::htn::{method, task};
 use super::permissions::permission;
 use super::predicates::predicates;
+use super::process::{event, process};
 use super::requirements::requirements;
 use super::sink::{Lowered, Sink};
 use super::types::types;
 use super::world::World;
 use super::{imports, sink};
 use crate::Span;
-use crate::diagnostic::{DiagnosticKind, FileKind, Label, SymbolKind, UnsupportedFeature};
-use crate::model::{Domain, IndexVec, Name, SubtaskHead};
+use crate::diagnostic::{DiagnosticKind, FileKind, Label, SymbolKind};
+use crate::model::{Domain, Event, Idx, IndexVec, Name, Process, SubtaskHead};
 use crate::syntax::Tree;
 
 const SECTIONS: &[&str] = &[
@@ -69,7 +70,6 @@ fn read(sink: &mut Sink, header: &Header<'_>, given: &[&Domain]) -> Domain {
             world.predicates[id].derived = true;
         }
     }
-    unsupported(sink, header);
 
     let mut actions = IndexVec::new();
     let mut durative_actions = IndexVec::new();
@@ -90,6 +90,10 @@ fn read(sink: &mut Sink, header: &Header<'_>, given: &[&Domain]) -> Domain {
             world.add_signature(&name, head, &parameters);
         }
     }
+    let processes = header.all(":process").filter_map(|s| process(&world, sink, s)).collect();
+    let events = header.all(":event").filter_map(|s| event(&world, sink, s)).collect();
+    distinct(sink, SymbolKind::Process, &processes, |p: &Process| (&p.name, p.name_span));
+    distinct(sink, SymbolKind::Event, &events, |e: &Event| (&e.name, e.name_span));
     let constraints = constraints(&world, sink, header.all(":constraints"));
     let axioms = header.all(":derived").filter_map(|s| axiom(&world, sink, s)).collect();
     for section in header.all(":task") {
@@ -124,6 +128,8 @@ fn read(sink: &mut Sink, header: &Header<'_>, given: &[&Domain]) -> Domain {
         functions: world.functions,
         actions,
         durative_actions,
+        processes,
+        events,
         axioms,
         constraints,
         tasks,
@@ -133,19 +139,30 @@ fn read(sink: &mut Sink, header: &Header<'_>, given: &[&Domain]) -> Domain {
     }
 }
 
+/// Reports names that stand twice.
+fn distinct<I: Idx, T>(
+    sink: &mut Sink,
+    symbol: SymbolKind,
+    all: &IndexVec<I, T>,
+    name: impl Fn(&T) -> (&Name, Span),
+) {
+    let mut names = rustc_hash::FxHashMap::default();
+    for item in all {
+        let (name, span) = name(item);
+        if let Some(first) = names.insert(name.clone(), span) {
+            sink.report_with(
+                span,
+                DiagnosticKind::Duplicate { symbol, name: name.clone() },
+                first,
+                Label::First,
+            );
+        }
+    }
+}
+
 /// Tasks and actions share their names: a subtask must say which one it is.
 fn unique(world: &World, sink: &mut Sink, symbol: SymbolKind, name: &Name, span: Span) {
     if world.task_or_action(name).is_some() {
         sink.report(span, DiagnosticKind::Duplicate { symbol, name: name.clone() });
-    }
-}
-
-fn unsupported(sink: &mut Sink, header: &Header<'_>) {
-    for (keyword, feature) in
-        [(":process", UnsupportedFeature::Processes), (":event", UnsupportedFeature::Events)]
-    {
-        for section in header.all(keyword) {
-            sink.unsupported(sink::first_word(section), feature);
-        }
     }
 }

@@ -10,9 +10,10 @@ use super::schema::Owner;
 use super::sink::Sink;
 use super::world::World;
 use crate::analysis::NameKind;
-use crate::diagnostic::{DiagnosticKind, UnsupportedFeature};
+use crate::diagnostic::DiagnosticKind;
 use crate::model::{
-    Comparison, DurationConstraint, DurativeAction, Name, Requirement, Rule, SkillCall, Term, VariableId,
+    Comparison, DurationConstraint, DurativeAction, Name, Requirement, Rule, SkillCall, Term, TimeSpecifier,
+    VariableId,
 };
 use crate::syntax::Node;
 
@@ -31,16 +32,18 @@ pub(crate) fn durative_action(world: &World, sink: &mut Sink, section: Node<'_>)
     let results = body.results(&keys);
     let mut duration = Vec::new();
     if let Some(node) = keys.get(":duration") {
-        body.duration(node, &mut duration);
+        body.duration(node, &TimeSpecifier::Start, &mut duration);
     }
     let (mut conditions, mut preferences) = (Vec::new(), Vec::new());
     if let Some(node) = keys.get(":condition") {
         body.timed_conditions(node, None, &mut conditions);
         preferences = body.timed_preferences(node);
     }
-    let mut effects = Vec::new();
+    let (mut effects, mut continuous) = (Vec::new(), Vec::new());
     if let Some(node) = keys.get(":effect") {
         body.timed_effects(node, None, &mut effects);
+        body.effects_across_times(node, &mut effects);
+        continuous = body.continuous_effects(node);
     }
     let rule = body.rule(&keys, results);
     let (variables, span) = (body.schema.variables, section.span());
@@ -51,6 +54,7 @@ pub(crate) fn durative_action(world: &World, sink: &mut Sink, section: Node<'_>)
         conditions,
         preferences,
         effects,
+        continuous,
         rule,
         span,
         name_span,
@@ -69,7 +73,7 @@ impl Body<'_> {
         }
     }
 
-    fn duration(&mut self, node: Node<'_>, into: &mut Vec<DurationConstraint>) {
+    fn duration(&mut self, node: Node<'_>, when: &TimeSpecifier, into: &mut Vec<DurationConstraint>) {
         const EXPECTED: &str = "`(= ?duration NUMBER)`, or `<=` or `>=`";
         let Some(head) = node.head() else {
             if !node.is_list() {
@@ -80,18 +84,16 @@ impl Body<'_> {
         let comparison = match () {
             () if head.is("and") => {
                 for part in node.children().skip(1) {
-                    self.duration(part, into);
+                    self.duration(part, when, into);
                 }
                 return;
             }
             () if head.is("at") => {
-                let Some([when, what]) = self.parts(node, "`(at start CONSTRAINT)`") else { return };
-                if when.is("end") {
-                    self.sink.unsupported(node.span(), UnsupportedFeature::DurationAtEnd);
-                } else if when.is("start") {
-                    self.duration(what, into);
-                } else {
-                    self.sink.unexpected(when, "`start` or `end`");
+                let Some([time, what]) = self.parts(node, "`(at start CONSTRAINT)`") else { return };
+                match () {
+                    () if time.is("start") => self.duration(what, &TimeSpecifier::Start, into),
+                    () if time.is("end") => self.duration(what, &TimeSpecifier::End, into),
+                    () => self.sink.unexpected(time, "`start` or `end`"),
                 }
                 return;
             }
@@ -104,8 +106,10 @@ impl Body<'_> {
         if !left.is("?duration") {
             self.sink.unexpected(left, "`?duration`");
         }
-        if let Some(bound) = self.expression(right) {
-            into.push(DurationConstraint { comparison, bound, span: node.span() });
+        let (bound, functions) = self.binding(|body| body.expression(right));
+        if let Some(bound) = bound {
+            let when = when.clone();
+            into.push(DurationConstraint { when, comparison, bound, functions, span: node.span() });
         }
     }
 

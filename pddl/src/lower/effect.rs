@@ -20,8 +20,9 @@ pub(super) fn assign_operator(head: Node<'_>) -> Option<AssignOperator> {
 impl Body<'_> {
     /// Reads an effect; `()` does nothing.
     pub(crate) fn effect(&mut self, node: Node<'_>) -> Effect {
-        let kind = self.effect_kind(node).unwrap_or_else(|| EffectKind::And(Vec::new()));
-        Effect { kind, span: node.span() }
+        let (kind, functions) = self.binding(|body| body.effect_kind(node));
+        let effect = Effect { kind: kind.unwrap_or_else(|| EffectKind::And(Vec::new())), span: node.span() };
+        Self::each_value(functions, effect)
     }
 
     fn effect_kind(&mut self, node: Node<'_>) -> Option<EffectKind> {
@@ -105,34 +106,37 @@ impl Body<'_> {
             }
             return None;
         };
-        let undefined = value.is("undefined") && self.world.object("undefined").is_none();
         let assigned = match &self.world.functions[application.function].value {
-            _ if undefined && operator == AssignOperator::Assign => Some(AssignedValue::Undefined),
-            FunctionValue::Number => self.expression(value).map(AssignedValue::Number),
+            _ if self.is_undefined(value) && operator == AssignOperator::Assign => AssignedValue::Undefined,
+            FunctionValue::Number => AssignedValue::Number(self.expression(value)?),
             FunctionValue::Object(types) => {
-                self.assigned_object(&application, target, types, operator, value)
+                return self.object_assignment(application, (target, types), operator, (node, value));
             }
         };
-        Some(EffectKind::Assign(operator, application, assigned?))
+        Some(EffectKind::Assign(operator, application, assigned))
     }
 
-    fn assigned_object(
+    fn object_assignment(
         &mut self,
-        application: &Application,
-        target: Node<'_>,
-        types: &TypeSet,
+        application: Application,
+        (target, types): (Node<'_>, &TypeSet),
         operator: AssignOperator,
-        value: Node<'_>,
-    ) -> Option<AssignedValue> {
+        (node, value): (Node<'_>, Node<'_>),
+    ) -> Option<EffectKind> {
         if operator != AssignOperator::Assign {
             let name = self.world.functions[application.function].name.clone();
             let kind = DiagnosticKind::WrongValue { name, found: "an object", expected: "a number" };
             self.sink.report(target.span(), kind);
             return None;
         }
+        if matches!(self.fluent_value(value), Some(FunctionValue::Object(_))) {
+            let (from, from_types) = self.object_fluent(value)?;
+            self.check_common((target, types), (value, &from_types));
+            return Some(self.assign_value(application, from, from_types, node.span()));
+        }
         let term = self.term(value)?;
         let value_types = self.term_types(term);
         self.check_common((target, types), (value, &value_types));
-        Some(AssignedValue::Object(term))
+        Some(EffectKind::Assign(operator, application, AssignedValue::Object(term)))
     }
 }

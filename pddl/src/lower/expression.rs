@@ -3,7 +3,7 @@
 use super::body::{Applied, Body};
 use super::schema::Owner;
 use crate::analysis::NameKind;
-use crate::diagnostic::{DiagnosticKind, SymbolKind, UnsupportedFeature};
+use crate::diagnostic::{DiagnosticKind, SymbolKind};
 use crate::model::{Application, ArithmeticOperator, Expression, ExpressionKind, FunctionValue, Name};
 use crate::syntax::{Node, NodeKind};
 
@@ -37,9 +37,11 @@ impl Body<'_> {
         number.map(ExpressionKind::Number)
     }
 
+    /// `#t` outside of the continuous effects, which read it themselves.
     fn continuous(&mut self, node: Node<'_>) -> Option<ExpressionKind> {
-        self.sink.unsupported(node.span(), UnsupportedFeature::ContinuousEffects);
-        Some(ExpressionKind::Number(0.0))
+        let name = node.text().to_ascii_lowercase();
+        self.sink.report(node.span(), DiagnosticKind::OutOfPlace { name, place: "a continuous effect" });
+        None
     }
 
     fn compound(&mut self, node: Node<'_>) -> Option<ExpressionKind> {

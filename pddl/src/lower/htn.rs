@@ -2,7 +2,7 @@
 //!
 //! `:subtasks` and `:tasks` are unordered but for `:ordering`, `:ordered-subtasks` and
 //! `:ordered-tasks` a chain. A subtask is `(name term …)` or `(id (name term …))`: no argument is a
-//! list, so the second form cannot be the first. `:constraints` join the method's precondition.
+//! list, so the second form cannot be the first.
 //!
 //! Source: Höller, Behnke, Bercher, Biundo, Fiorino, Pellier & Alford, "HDDL: an extension to PDDL
 //! for expressing hierarchical planning problems", AAAI 2020.
@@ -13,10 +13,10 @@ use super::keys::Keys;
 use super::sink::{Sink, first_word};
 use super::world::{Signature, World, fold};
 use crate::analysis::NameKind;
-use crate::diagnostic::{DiagnosticKind, Label, SymbolKind, UnsupportedFeature};
+use crate::diagnostic::{DiagnosticKind, Label, SymbolKind};
 use crate::model::{
-    CompoundTask, Condition, ConditionKind, Method, Name, Ordering, Subtask, SubtaskHead, TaskId,
-    TaskNetwork, Term, Variables,
+    CompoundTask, Condition, Method, Name, Ordering, Subtask, SubtaskHead, TaskId, TaskNetwork, Term,
+    Variables,
 };
 use crate::syntax::Node;
 
@@ -69,8 +69,6 @@ pub(crate) fn method(world: &World, sink: &mut Sink, section: Node<'_>) -> Optio
         }
     };
     let precondition = body.guard(&keys, ":precondition", section);
-    let constraints = body.constraints(&keys);
-    let precondition = conjoin(precondition, constraints);
     let network = body.network(&keys);
     let (task, task_arguments) = task?;
     let (variables, span) = (body.schema.variables, section.span());
@@ -83,24 +81,8 @@ pub(crate) fn initial_network(world: &World, sink: &mut Sink, section: Node<'_>)
     let mut body = Body::new(world, sink);
     body.schema.scope = section.span();
     body.parameters(&keys);
-    if let Some(node) = keys.get(":constraints")
-        && !body.condition(node).is_always()
-    {
-        body.sink.unsupported(node.span(), UnsupportedFeature::NetworkConstraints);
-    }
     let network = body.network(&keys);
     (body.schema.variables, network)
-}
-
-fn conjoin(a: Condition, b: Option<Condition>) -> Condition {
-    match b {
-        Some(b) if a.is_always() => b,
-        Some(b) if !b.is_always() => {
-            let span = a.span.to(b.span);
-            Condition { kind: ConditionKind::And(vec![a, b]), span }
-        }
-        _ => a,
-    }
 }
 
 impl Body<'_> {
@@ -131,17 +113,20 @@ impl Body<'_> {
         self.arguments(node, node.children().skip(1), &of)
     }
 
-    fn constraints(&mut self, keys: &Keys<'_>) -> Option<Condition> {
-        let node = keys.get(":constraints")?;
-        if node.is_headed("sort") || node.children().any(|n| n.is_headed("sort")) {
-            self.sink.unsupported(node.span(), UnsupportedFeature::NetworkConstraints);
-            return None;
+    /// `()`, a condition, or a conjunction of them.
+    fn network_constraints(&mut self, node: Node<'_>, into: &mut Vec<Condition>) {
+        if node.is_headed("and") {
+            node.children().skip(1).for_each(|part| self.network_constraints(part, into));
+        } else if !node.is_list() || node.head().is_some() {
+            into.push(self.condition(node));
         }
-        Some(self.condition(node))
     }
 
     fn network(&mut self, keys: &Keys<'_>) -> TaskNetwork {
         let mut network = TaskNetwork::default();
+        if let Some(node) = keys.get(":constraints") {
+            self.network_constraints(node, &mut network.constraints);
+        }
         let mut given: Option<Node<'_>> = None;
         for key in ORDERED.iter().chain(&UNORDERED) {
             let Some(node) = keys.get(key) else { continue };

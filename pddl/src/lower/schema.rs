@@ -6,7 +6,7 @@ use super::world::{World, fold};
 use crate::Span;
 use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, Label, SymbolKind};
-use crate::model::{Idx, Name, Variable, VariableId, Variables};
+use crate::model::{Idx, Name, TypeSet, Variable, VariableId, Variables};
 use crate::syntax::{Node, NodeKind};
 
 /// Variables with their scopes.
@@ -94,6 +94,27 @@ impl Schema {
         }
         self.visible.extend(&bound);
         bound
+    }
+
+    /// A new slot that never comes in sight, named like `name`, but like nothing in sight and none of `others`.
+    pub(crate) fn hidden(
+        &mut self,
+        name: &Name,
+        others: &[VariableId],
+        types: TypeSet,
+        span: Span,
+    ) -> VariableId {
+        let is_taken = |wanted: &Name| {
+            let mut slots = self.visible.iter().chain(others);
+            slots.any(|&v| self.variables[v].name == *wanted)
+        };
+        let mut free = name.clone();
+        let mut number = 2;
+        while is_taken(&free) {
+            free = Name::new(&format!("{name}-{number}"));
+            number += 1;
+        }
+        self.variables.slots.push(Variable { name: free, types, span })
     }
 
     /// Takes the last `count` variables out of sight.

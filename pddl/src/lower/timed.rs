@@ -6,9 +6,9 @@
 //! has quantified slots of its own.
 
 use super::body::Body;
-use crate::diagnostic::{DiagnosticKind, UnsupportedFeature};
+use crate::diagnostic::DiagnosticKind;
 use crate::model::{
-    Condition, ConditionKind, Effect, EffectKind, Name, Preference, Requirement, TimeSpecifier,
+    Condition, ConditionKind, Effect, EffectKind, Given, Name, Preference, Requirement, TimeSpecifier,
     TimedCondition, TimedEffect,
 };
 use crate::syntax::Node;
@@ -77,6 +77,78 @@ impl Body<'_> {
         let mut times = Vec::new();
         self.times_in(node, &mut times);
         times
+    }
+
+    /// The times of the effects in `node` whose conditions are at no other time, each once, in order.
+    fn effect_times(&self, node: Node<'_>) -> Vec<TimeSpecifier> {
+        if let Timed::At(time, _) = timed(node, self.outcomes()) {
+            return vec![time];
+        }
+        if node.is_headed("when") {
+            let Some(effect) = node.children().nth(2) else { return Vec::new() };
+            let conditions = node.children().nth(1).map(|c| self.times_of(c)).unwrap_or_default();
+            let mut times = self.effect_times(effect);
+            times.retain(|time| conditions.iter().all(|condition| condition == time));
+            return times;
+        }
+        let mut times: Vec<TimeSpecifier> = Vec::new();
+        for part in node.children().skip(1) {
+            for time in self.effect_times(part) {
+                if !times.contains(&time) {
+                    times.push(time);
+                }
+            }
+        }
+        times
+    }
+
+    /// Reads the effects in `node` that have a condition at another time.
+    pub(super) fn effects_across_times(&mut self, node: Node<'_>, into: &mut Vec<TimedEffect>) {
+        let mut found = Vec::new();
+        self.find_across_times(node, &mut Vec::new(), &mut found);
+        for (around, when, what) in found {
+            let (mut given, mut bound) = (Vec::new(), 0);
+            for node in around {
+                if node.is_headed("forall") {
+                    let Some((slots, _)) = self.quantifier(node) else { continue };
+                    bound += slots.len();
+                    given.push(Given::Forall(slots));
+                } else if let Some(condition) = node.children().nth(1) {
+                    let mut parts = Vec::new();
+                    self.timed_conditions(condition, None, &mut parts);
+                    given.push(Given::When(parts));
+                }
+            }
+            let effect = self.effect(what);
+            self.schema.unbind(bound);
+            into.push(TimedEffect { when, given, effect });
+        }
+    }
+
+    /// Effects with the `forall` and `when` lists around them, if a condition is at another time.
+    fn find_across_times<'t>(
+        &self,
+        node: Node<'t>,
+        around: &mut Vec<Node<'t>>,
+        into: &mut Vec<(Vec<Node<'t>>, TimeSpecifier, Node<'t>)>,
+    ) {
+        if let Timed::At(time, what) = timed(node, self.outcomes()) {
+            let conditions =
+                around.iter().filter(|n| n.is_headed("when")).filter_map(|n| n.children().nth(1));
+            if conditions.flat_map(|c| self.times_of(c)).any(|other| other != time) {
+                into.push((around.clone(), time, what));
+            }
+        } else if node.is_headed("and") {
+            for part in node.children().skip(1) {
+                self.find_across_times(part, around, into);
+            }
+        } else if (node.is_headed("forall") || node.is_headed("when"))
+            && let Some(inner) = node.children().nth(2)
+        {
+            around.push(node);
+            self.find_across_times(inner, around, into);
+            around.pop();
+        }
     }
 
     /// Reads the preferences among the conditions at times in `node`.
@@ -195,7 +267,7 @@ impl Body<'_> {
                 Timed::At(when, what) => {
                     if wanted(&when, only) {
                         let effect = self.effect(what);
-                        into.push(TimedEffect { when, effect });
+                        into.push(TimedEffect { when, given: Vec::new(), effect });
                     }
                 }
                 Timed::Unknown(when) => self.unknown_time(when),
@@ -204,22 +276,22 @@ impl Body<'_> {
     }
 
     fn forall_effects(&mut self, node: Node<'_>, only: Option<&TimeSpecifier>, into: &mut Vec<TimedEffect>) {
-        let times = self.times_of(node);
-        if times.is_empty() {
-            self.untimed_effect(node);
+        if let (true, Some(body)) = (self.times_of(node).is_empty(), node.children().nth(2)) {
+            self.timed_effects(body, only, into);
         }
-        for when in times.into_iter().filter(|t| wanted(t, only)) {
+        for when in self.effect_times(node).into_iter().filter(|t| wanted(t, only)) {
             let Some((bound, inner)) = self.quantifier(node) else { return };
             let mut parts = Vec::new();
             self.timed_effects(inner, Some(&when), &mut parts);
             self.schema.unbind(bound.len());
             let inner = all_effects(parts, inner);
             let kind = EffectKind::Forall(bound, Box::new(inner));
-            into.push(TimedEffect { when, effect: Effect { kind, span: node.span() } });
+            let effect = Effect { kind, span: node.span() };
+            into.push(TimedEffect { when, given: Vec::new(), effect });
         }
     }
 
-    /// `(when (at start c) (at start e))` is `(at start (when c e))`; other times have no model.
+    /// `(when (at start c) (at start e))` is `(at start (when c e))`; with other times it is read elsewhere.
     fn conditional_effects(
         &mut self,
         node: Node<'_>,
@@ -230,31 +302,24 @@ impl Body<'_> {
         for found in self.preferences_in(condition) {
             self.misplaced_preference(found.node);
         }
-        let condition_times = self.times_of(condition);
-        let times = self.times_of(effect);
-        if times.is_empty() {
-            self.untimed_effect(effect);
+        if self.times_of(effect).is_empty() {
+            self.sink.unexpected(effect, "`(at start …)` or `(at end …)`");
         }
-        for when in times.into_iter().filter(|t| wanted(t, only)) {
-            if condition_times.iter().any(|t| *t != when) {
-                self.sink.unsupported(node.span(), UnsupportedFeature::ConditionsAcrossTimes);
-                continue;
-            }
+        for when in self.effect_times(node).into_iter().filter(|t| wanted(t, only)) {
             let mut parts = Vec::new();
             self.timed_conditions(condition, Some(&when), &mut parts);
             let guard = all_conditions(parts, condition);
             let mut effects = Vec::new();
             self.timed_effects(effect, Some(&when), &mut effects);
             let kind = EffectKind::When(guard, Box::new(all_effects(effects, effect)));
-            into.push(TimedEffect { when, effect: Effect { kind, span: node.span() } });
+            let effect = Effect { kind, span: node.span() };
+            into.push(TimedEffect { when, given: Vec::new(), effect });
         }
     }
 
-    /// Without a time there are only continuous effects.
+    /// Without a time there are only continuous effects, which are read elsewhere.
     fn untimed_effect(&mut self, node: Node<'_>) {
-        if super::effect::assign_operator(node.head().unwrap_or(node)).is_some() && holds(node, "#t") {
-            self.sink.unsupported(node.span(), UnsupportedFeature::ContinuousEffects);
-        } else {
+        if !self.is_continuous(node) {
             self.sink.unexpected(node, "`(at start …)` or `(at end …)`");
         }
     }
@@ -262,10 +327,6 @@ impl Body<'_> {
     fn unknown_time(&mut self, when: Node<'_>) {
         self.sink.report(when.span(), DiagnosticKind::UnknownTime { name: when.text().to_owned() });
     }
-}
-
-fn holds(node: Node<'_>, word: &str) -> bool {
-    node.is(word) || node.children().any(|n| holds(n, word))
 }
 
 fn all_conditions(mut parts: Vec<TimedCondition>, node: Node<'_>) -> Condition {

@@ -1,6 +1,9 @@
 //! Instantaneous actions, durative actions, and the agents' rules that durative actions express.
 
-use super::{Comparison, Condition, Effect, Expression, Name, Preference, Term, Variables};
+use super::{
+    Comparison, Condition, ContinuousEffect, Effect, Expression, FunctionTerm, Name, Preference, Term,
+    Variables,
+};
 use crate::Span;
 
 /// An instantaneous action schema.
@@ -45,11 +48,23 @@ pub struct TimedCondition {
     pub condition: Condition,
 }
 
+/// Something around an effect that looks at another time than the effect's.
+#[derive(Clone, Debug)]
+pub enum Given {
+    /// For every binding of these slots.
+    Forall(Vec<super::VariableId>),
+    /// If each of these holds at its time.
+    When(Vec<TimedCondition>),
+}
+
 /// An effect at a time.
 #[derive(Clone, Debug)]
 pub struct TimedEffect {
     /// When.
     pub when: TimeSpecifier,
+    /// What stands around it, outermost first, if a condition in it is at another time than the effect;
+    /// conditions at the effect's own time alone are in the effect.
+    pub given: Vec<Given>,
     /// What changes.
     pub effect: Effect,
 }
@@ -57,10 +72,14 @@ pub struct TimedEffect {
 /// `(op ?duration expression)`.
 #[derive(Clone, Debug)]
 pub struct DurationConstraint {
+    /// At which of the two ends the bound is read: `at start`, also where none is written, or `at end`.
+    pub when: TimeSpecifier,
     /// `<=`, `=` or `>=`.
     pub comparison: Comparison,
     /// The bound, in seconds.
     pub bound: Expression,
+    /// Functions that stand as arguments in it, innermost first.
+    pub functions: Vec<FunctionTerm>,
     /// Where it stands.
     pub span: Span,
 }
@@ -78,8 +97,10 @@ pub struct DurativeAction {
     pub conditions: Vec<TimedCondition>,
     /// What should hold as well, at its time.
     pub preferences: Vec<Preference<TimedCondition>>,
-    /// Effects by time.
+    /// Effects by time; those with something [`Given`] come last.
     pub effects: Vec<TimedEffect>,
+    /// What changes from start to end.
+    pub continuous: Vec<ContinuousEffect>,
     /// What makes it an agent's rule.
     pub rule: Option<Rule>,
     /// The whole definition.

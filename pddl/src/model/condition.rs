@@ -1,6 +1,6 @@
 //! Conditions: preconditions, goals, bodies of axioms, guards of methods.
 
-use super::{Application, Expression, ObjectId, PredicateId, VariableId};
+use super::{Application, Expression, ObjectId, PredicateId, TypeSet, VariableId};
 use crate::Span;
 
 /// A variable or a constant.
@@ -64,6 +64,8 @@ pub enum ConditionKind {
     Forall(Vec<VariableId>, Box<Condition>),
     /// A predicate holds.
     Atom(Atom),
+    /// An object is of one of these types: `(truck ?x)`, `(sortof ?x - truck)`.
+    HasType(Term, TypeSet),
     /// Two terms are the same object.
     Same(Term, Term),
     /// Two numbers compare.

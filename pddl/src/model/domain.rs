@@ -6,9 +6,9 @@
 //! `(:writes speech (is ?r speaking) (finish ?r speaking) said)`.
 
 use super::{
-    Action, ActionId, CompoundTask, Condition, Constraints, DurativeAction, DurativeActionId, FunctionId,
-    IndexVec, Method, MethodId, Name, ObjectId, PredicateId, Requirements, TaskId, TypeId, TypeSet,
-    TypeTable, Variables,
+    Action, ActionId, CompoundTask, Condition, Constraints, DurativeAction, DurativeActionId, Event, EventId,
+    FunctionId, IndexVec, Method, MethodId, Name, ObjectId, PredicateId, Process, ProcessId, Requirements,
+    TaskId, TypeId, TypeSet, TypeTable, Variables,
 };
 use crate::Span;
 
@@ -125,6 +125,10 @@ pub struct Domain {
     pub actions: IndexVec<ActionId, Action>,
     /// Its durative actions, rules and intentions.
     pub durative_actions: IndexVec<DurativeActionId, DurativeAction>,
+    /// What goes on by itself.
+    pub processes: IndexVec<ProcessId, Process>,
+    /// What happens by itself.
+    pub events: IndexVec<EventId, Event>,
     /// Its axioms.
     pub axioms: Vec<Axiom>,
     /// What holds of every plan.

@@ -5,7 +5,10 @@
 //! that a consumer names what it refuses, and a part that comes to the language is refused
 //! everywhere until somebody takes it. Cost: one walk over the schemas; facts are not looked at.
 
-use super::{Domain, ExpressionKind, Problem};
+use super::{
+    Condition, ConditionKind, Domain, DurativeAction, Effect, EffectKind, ExpressionKind, Problem,
+    TaskNetwork, TimeSpecifier,
+};
 use crate::Span;
 
 /// A part of the language that a consumer may have to refuse by name.
@@ -17,6 +20,20 @@ pub enum Feature {
     TrajectoryConstraints,
     /// `(at 5 (p))` in `:init`.
     TimedInitials,
+    /// `(:process …)`
+    Processes,
+    /// `(:event …)`
+    Events,
+    /// `#t` in a durative action.
+    ContinuousEffects,
+    /// `(when (at start c) (at end e))`
+    ConditionsAcrossTimes,
+    /// `(at end (<= ?duration …))`
+    DurationAtEnd,
+    /// `(truck ?x)`, `(sortof ?x - truck)`
+    TypePredicates,
+    /// `:constraints` of a method or of a problem's task network.
+    NetworkConstraints,
 }
 
 impl std::fmt::Display for Feature {
@@ -25,6 +42,13 @@ impl std::fmt::Display for Feature {
             Self::Preferences => "preferences",
             Self::TrajectoryConstraints => "trajectory constraints",
             Self::TimedInitials => "timed initial literals and fluents",
+            Self::Processes => "processes",
+            Self::Events => "events",
+            Self::ContinuousEffects => "continuous effects (`#t`)",
+            Self::ConditionsAcrossTimes => "conditional effects across times",
+            Self::DurationAtEnd => "duration constraints at the end",
+            Self::TypePredicates => "types as predicates",
+            Self::NetworkConstraints => "constraints of task networks",
         })
     }
 }
@@ -35,9 +59,24 @@ impl Domain {
         let mut uses = Uses::default();
         for action in &self.actions {
             uses.first(Feature::Preferences, action.preferences.iter().map(|p| p.span));
+            uses.condition(&action.precondition);
+            action.preferences.iter().for_each(|p| uses.condition(&p.body));
+            uses.effect(&action.effect);
         }
         for action in &self.durative_actions {
-            uses.first(Feature::Preferences, action.preferences.iter().map(|p| p.span));
+            uses.durative(action);
+        }
+        uses.first(Feature::Processes, self.processes.iter().map(|p| p.name_span));
+        self.processes.iter().for_each(|p| uses.condition(&p.precondition));
+        uses.first(Feature::Events, self.events.iter().map(|e| e.name_span));
+        for event in &self.events {
+            uses.condition(&event.precondition);
+            uses.effect(&event.effect);
+        }
+        self.axioms.iter().for_each(|axiom| uses.condition(&axiom.body));
+        for method in &self.methods {
+            uses.condition(&method.precondition);
+            uses.network(&method.network);
         }
         uses.constraints(&self.constraints);
         uses.0
@@ -51,6 +90,11 @@ impl Problem {
         uses.first(Feature::TimedInitials, self.timed.iter().map(|t| t.span));
         uses.first(Feature::Preferences, self.preferences.iter().map(|p| p.span));
         uses.constraints(&self.constraints);
+        uses.condition(&self.goal);
+        self.preferences.iter().for_each(|p| uses.condition(&p.body));
+        if let Some((_, network)) = &self.htn {
+            uses.network(network);
+        }
         if let Some(metric) = &self.metric {
             metric.expression.each(&mut |e| {
                 if matches!(e.kind, ExpressionKind::IsViolated(_)) {
@@ -74,8 +118,59 @@ impl Uses {
         }
     }
 
+    fn durative(&mut self, action: &DurativeAction) {
+        self.first(Feature::Preferences, action.preferences.iter().map(|p| p.span));
+        action.conditions.iter().for_each(|c| self.condition(&c.condition));
+        action.preferences.iter().for_each(|p| self.condition(&p.body.condition));
+        for effect in &action.effects {
+            if !effect.given.is_empty() {
+                self.first(Feature::ConditionsAcrossTimes, [effect.effect.span]);
+            }
+            self.effect(&effect.effect);
+        }
+        let at_end = action.duration.iter().filter(|d| d.when == TimeSpecifier::End);
+        self.first(Feature::DurationAtEnd, at_end.map(|d| d.span));
+        self.first(Feature::ContinuousEffects, action.continuous.iter().map(|c| c.span));
+    }
+
     fn constraints(&mut self, constraints: &super::Constraints) {
         self.first(Feature::TrajectoryConstraints, constraints.hard.iter().map(|c| c.span));
         self.first(Feature::Preferences, constraints.preferences.iter().map(|p| p.span));
+    }
+
+    fn network(&mut self, network: &TaskNetwork) {
+        self.first(Feature::NetworkConstraints, network.constraints.iter().map(|c| c.span));
+    }
+
+    fn condition(&mut self, condition: &Condition) {
+        match &condition.kind {
+            ConditionKind::And(parts) | ConditionKind::Or(parts) => {
+                parts.iter().for_each(|part| self.condition(part));
+            }
+            ConditionKind::Not(inner) | ConditionKind::Exists(_, inner) | ConditionKind::Forall(_, inner) => {
+                self.condition(inner);
+            }
+            ConditionKind::Imply(left, right) => {
+                self.condition(left);
+                self.condition(right);
+            }
+            ConditionKind::HasType(..) => self.first(Feature::TypePredicates, [condition.span]),
+            ConditionKind::Atom(_)
+            | ConditionKind::Same(..)
+            | ConditionKind::Compare(..)
+            | ConditionKind::FluentIs(..) => {}
+        }
+    }
+
+    fn effect(&mut self, effect: &Effect) {
+        match &effect.kind {
+            EffectKind::And(parts) => parts.iter().for_each(|part| self.effect(part)),
+            EffectKind::Forall(_, inner) => self.effect(inner),
+            EffectKind::When(condition, inner) => {
+                self.condition(condition);
+                self.effect(inner);
+            }
+            EffectKind::Add(_) | EffectKind::Delete(_) | EffectKind::Assign(..) => {}
+        }
     }
 }

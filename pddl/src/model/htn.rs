@@ -29,7 +29,7 @@ pub struct Method {
     pub task: TaskId,
     /// The task's arguments in terms of the method's variables.
     pub task_arguments: Vec<Term>,
-    /// When it may be used (`:constraints` are conjoined).
+    /// When it may be used; the network's constraints come on top.
     pub precondition: Condition,
     /// What it becomes.
     pub network: TaskNetwork,
@@ -44,6 +44,9 @@ pub struct TaskNetwork {
     pub subtasks: Vec<Subtask>,
     /// `before` ends before `after` starts; acyclic.
     pub orderings: Vec<Ordering>,
+    /// What must hold of the parameters, whatever the state: `(not (= ?x ?y))`, `(sortof ?x - t)`. The
+    /// conjunction at the top is flattened.
+    pub constraints: Vec<Condition>,
 }
 
 /// One constraint of the partial order, by positions in [`TaskNetwork::subtasks`].

@@ -32,6 +32,10 @@ ids! {
     ActionId;
     /// A durative action: a temporal action, an agent's rule or an intention.
     DurativeActionId;
+    /// A process of PDDL+.
+    ProcessId;
+    /// An event of PDDL+.
+    EventId;
     /// A compound task of HDDL.
     TaskId;
     /// A method of HDDL.

@@ -22,12 +22,14 @@ mod index;
 mod name;
 mod preference;
 mod problem;
+mod process;
 mod requirements;
 mod types;
 mod variables;
 
 pub use action::{
-    Action, DurationConstraint, DurativeAction, Rule, SkillCall, TimeSpecifier, TimedCondition, TimedEffect,
+    Action, DurationConstraint, DurativeAction, Given, Rule, SkillCall, TimeSpecifier, TimedCondition,
+    TimedEffect,
 };
 pub use condition::{Atom, Comparison, Condition, ConditionKind, Term};
 pub use constraint::{Constraint, ConstraintKind, Constraints};
@@ -39,7 +41,8 @@ pub use expression::{Application, ArithmeticOperator, Expression, ExpressionKind
 pub use feature::Feature;
 pub use htn::{CompoundTask, Method, Ordering, Subtask, SubtaskHead, TaskNetwork};
 pub use ids::{
-    ActionId, DurativeActionId, FunctionId, MethodId, ObjectId, PredicateId, TaskId, TypeId, VariableId,
+    ActionId, DurativeActionId, EventId, FunctionId, MethodId, ObjectId, PredicateId, ProcessId, TaskId,
+    TypeId, VariableId,
 };
 pub use index::{Idx, IndexVec};
 pub use name::Name;
@@ -47,6 +50,7 @@ pub use preference::Preference;
 pub use problem::{
     Fact, FluentFact, FluentValue, GroundApplication, Metric, Objective, Problem, TimedChange, TimedInitial,
 };
+pub use process::{ContinuousEffect, Direction, Event, FunctionTerm, Process};
 pub use requirements::{Requirement, Requirements};
 pub use types::{Type, TypeSet, TypeTable};
 pub use variables::{Variable, Variables};

@@ -18,9 +18,33 @@ pub(super) fn comparison(comparison: Comparison) -> &'static str {
     }
 }
 
-impl Printer<'_> {
+/// Words that mean something else in front of a list than a type of that name.
+const RESERVED: &[&str] = &[
+    "and",
+    "or",
+    "not",
+    "imply",
+    "forall",
+    "exists",
+    "preference",
+    "always",
+    "sometime",
+    "within",
+    "at-most-once",
+    "sometime-after",
+    "sometime-before",
+    "always-within",
+    "hold-during",
+    "hold-after",
+];
+
+impl<'m> Printer<'m> {
     pub(super) fn term(&mut self, v: &Variables, term: Term) {
         match term {
+            Term::Variable(id) if self.functions.iter().any(|f| f.slot == id) => {
+                let functions = self.functions;
+                functions.iter().filter(|f| f.slot == id).for_each(|f| self.application(v, &f.application));
+            }
             Term::Variable(id) => {
                 self.push("?");
                 self.push(&v[id].name);
@@ -47,7 +71,7 @@ impl Printer<'_> {
         self.applied(v, &domain.predicates[atom.predicate].name, &atom.arguments);
     }
 
-    fn application(&mut self, v: &Variables, of: &Application) {
+    pub(super) fn application(&mut self, v: &Variables, of: &Application) {
         let domain = self.domain;
         self.applied(v, &domain.functions[of.function].name, &of.arguments);
     }
@@ -80,6 +104,7 @@ impl Printer<'_> {
             ConditionKind::Exists(slots, inner) => self.quantified("(exists ", v, slots, inner),
             ConditionKind::Forall(slots, inner) => self.quantified("(forall ", v, slots, inner),
             ConditionKind::Atom(atom) => self.atom(v, atom),
+            ConditionKind::HasType(term, types) => self.has_type(v, *term, types),
             ConditionKind::Same(a, b) => self.applied(v, "=", &[*a, *b]),
             ConditionKind::Compare(c, a, b) => self.compare(v, *c, a, b),
             ConditionKind::FluentIs(fluent, value) => {
@@ -90,6 +115,23 @@ impl Printer<'_> {
                 self.push(")");
             }
         }
+    }
+
+    /// As a predicate where that is read as a type.
+    fn has_type(&mut self, v: &Variables, term: Term, types: &TypeSet) {
+        let domain = self.domain;
+        if let [one] = types.0.as_slice()
+            && let name = &domain.types[*one].name
+            && domain.predicate(name).is_none()
+            && !RESERVED.contains(&name.as_str())
+        {
+            return self.applied(v, name, &[term]);
+        }
+        self.push("(sortof ");
+        self.term(v, term);
+        self.push(" - ");
+        self.types(types);
+        self.push(")");
     }
 
     fn quantified(&mut self, open: &str, v: &Variables, slots: &[VariableId], inner: &Condition) {

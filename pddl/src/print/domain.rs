@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::Printer;
 
-impl Printer<'_> {
+impl<'m> Printer<'m> {
     pub(super) fn domain(&mut self) {
         let domain = self.domain;
         let _ = write!(self.out, "(define (domain {})", domain.name);
@@ -26,6 +26,12 @@ impl Printer<'_> {
         }
         for action in &domain.durative_actions {
             self.durative_action(action);
+        }
+        for process in &domain.processes {
+            self.process(process);
+        }
+        for event in &domain.events {
+            self.event(event);
         }
         for task in &domain.tasks {
             self.task(task);

@@ -41,6 +41,10 @@ impl Printer<'_> {
                 p.push(")");
             }
         });
+        if !network.constraints.is_empty() {
+            self.push("\n    :constraints ");
+            self.list("(and", &network.constraints, |p, c| p.condition(v, c));
+        }
         let rest = &network.orderings[if ordered { links } else { 0 }..];
         if rest.is_empty() {
             return;

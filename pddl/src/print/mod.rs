@@ -18,7 +18,7 @@ mod schemas;
 
 pub use plan::print_plan;
 
-use crate::model::{Domain, IndexVec, Name, Object, ObjectId, Problem};
+use crate::model::{Domain, FunctionTerm, IndexVec, Name, Object, ObjectId, Problem};
 
 /// The text of a domain.
 pub fn print_domain(domain: &Domain) -> String {
@@ -39,11 +39,13 @@ struct Printer<'m> {
     out: String,
     domain: &'m Domain,
     objects: &'m IndexVec<ObjectId, Object>,
+    /// What the slots stand for that nothing binds.
+    functions: &'m [FunctionTerm],
 }
 
 impl<'m> Printer<'m> {
     fn new(domain: &'m Domain, objects: &'m IndexVec<ObjectId, Object>) -> Self {
-        Self { out: String::new(), domain, objects }
+        Self { out: String::new(), domain, objects, functions: &[] }
     }
 
     fn push(&mut self, text: &str) {

@@ -4,9 +4,12 @@ use std::fmt::Write as _;
 
 use super::Printer;
 use super::body::comparison;
-use crate::model::{Action, Axiom, DurativeAction, Rule, TimeSpecifier, TimedCondition, Variables};
+use crate::model::{
+    Action, Axiom, ContinuousEffect, Direction, DurativeAction, Event, Given, Process, Rule, TimeSpecifier,
+    TimedCondition, TimedEffect, Variables,
+};
 
-impl Printer<'_> {
+impl<'m> Printer<'m> {
     pub(super) fn parameters(&mut self, v: &Variables) {
         self.push("\n    :parameters ");
         self.bound(v, v.parameter_ids());
@@ -53,7 +56,7 @@ impl Printer<'_> {
         self.push(")");
     }
 
-    pub(super) fn durative_action(&mut self, action: &DurativeAction) {
+    pub(super) fn durative_action(&mut self, action: &'m DurativeAction) {
         let v = &action.variables;
         let _ = write!(self.out, "\n  (:durative-action {}", action.name);
         self.parameters(v);
@@ -62,9 +65,13 @@ impl Printer<'_> {
         }
         self.push("\n    :duration ");
         self.list("(and", &action.duration, |p, constraint| {
+            let at_end = constraint.when == TimeSpecifier::End;
+            p.push(if at_end { "(at end " } else { "" });
             let _ = write!(p.out, "({} ?duration ", comparison(constraint.comparison));
+            p.functions = &constraint.functions;
             p.expression(v, &constraint.bound);
-            p.push(")");
+            p.functions = &[];
+            p.push(if at_end { "))" } else { ")" });
         });
         self.push("\n    :condition ");
         self.push("(and");
@@ -78,11 +85,80 @@ impl Printer<'_> {
         }
         self.push(")");
         self.push("\n    :effect ");
-        self.lines("(and", &action.effects, |p, timed| {
-            p.time(&timed.when);
-            p.effect(v, &timed.effect);
-            p.push(")");
+        self.push("(and");
+        for timed in &action.effects {
+            self.push("\n      ");
+            self.timed_effect(v, timed);
+        }
+        for effect in &action.continuous {
+            self.push("\n      ");
+            self.continuous(v, effect);
+        }
+        self.push(")");
+        self.push(")");
+    }
+
+    fn timed_effect(&mut self, v: &Variables, timed: &TimedEffect) {
+        for given in &timed.given {
+            match given {
+                Given::Forall(slots) => {
+                    self.push("(forall ");
+                    self.bound(v, slots.iter().copied());
+                }
+                Given::When(conditions) => {
+                    self.push("(when ");
+                    self.list("(and", conditions, |p, condition| p.timed(v, condition));
+                }
+            }
+            self.push(" ");
+        }
+        self.time(&timed.when);
+        self.effect(v, &timed.effect);
+        self.push(")");
+        timed.given.iter().for_each(|_| self.push(")"));
+    }
+
+    /// `(forall (?x …) (increase (f ?x) (* #t rate)))`
+    fn continuous(&mut self, v: &Variables, effect: &'m ContinuousEffect) {
+        if !effect.forall.is_empty() {
+            self.push("(forall ");
+            self.bound(v, effect.forall.iter().copied());
+            self.push(" ");
+        }
+        self.push(match effect.direction {
+            Direction::Increase => "(increase ",
+            Direction::Decrease => "(decrease ",
         });
+        self.functions = &effect.functions;
+        self.application(v, &effect.fluent);
+        self.push(" (* #t ");
+        self.expression(v, &effect.rate);
+        self.functions = &[];
+        self.push(if effect.forall.is_empty() { "))" } else { ")))" });
+    }
+
+    pub(super) fn process(&mut self, process: &'m Process) {
+        let v = &process.variables;
+        let _ = write!(self.out, "\n  (:process {}", process.name);
+        self.parameters(v);
+        self.push("\n    :precondition ");
+        self.condition(v, &process.precondition);
+        self.push("\n    :effect (and");
+        for effect in &process.effects {
+            self.push("\n      ");
+            self.continuous(v, effect);
+        }
+        self.push("))");
+    }
+
+    pub(super) fn event(&mut self, event: &Event) {
+        let v = &event.variables;
+        let _ = write!(self.out, "\n  (:event {}", event.name);
+        self.parameters(v);
+        self.push("\n    :precondition ");
+        self.condition(v, &event.precondition);
+        self.push("\n    :effect ");
+        self.effect(v, &event.effect);
         self.push(")");
     }
 

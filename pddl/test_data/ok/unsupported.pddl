@@ -1,11 +1,4 @@
 ; read, named as unsupported, and the rest is still a model
 (define (domain later)
-  (:requirements :typing :time)
-  (:predicates (p ?x) (at ?x))
-  (:functions (fuel ?x) (load) - object)
-  (:process burn :parameters (?x) :precondition (p ?x) :effect (decrease (fuel ?x) (* #t 1)))
-  (:event bang :parameters (?x) :precondition (p ?x) :effect (p ?x))
-  (:action a :parameters (?x) :vars (?y) :precondition (p (load)) :effect (p ?y))
-  (:durative-action d :parameters (?x)
-    :duration (and (at start (= ?duration 3)) (at end (= ?duration 3)))
-    :effect (and (decrease (fuel ?x) (* #t 1)) (when (at start (p ?x)) (at end (p ?x))))))
+  (:predicates (p ?x))
+  (:action a :parameters (?x) :vars (?y) :precondition (p ?x) :effect (p ?y)))

@@ -65,6 +65,9 @@ impl Formula {
                 arguments: atom.arguments.clone().into(),
             }),
             (&ConditionKind::Same(left, right), _) => Self::Same { positive, left, right },
+            (ConditionKind::HasType(..), _) => {
+                return unsupported(Feature::Language(pddl::model::Feature::TypePredicates));
+            }
             (ConditionKind::Compare(..), _) => return unsupported(Feature::NumericFluents),
             (ConditionKind::FluentIs(..), _) => return unsupported(Feature::ObjectFluents),
         })

@@ -29,6 +29,7 @@ use crate::task::Task;
 use cost::CostModel;
 use formula::Formula;
 use pddl::Diagnostic;
+use pddl::model::Feature as Language;
 use pddl::model::{Domain, Effect, EffectKind, Idx, PredicateId, Problem};
 use universe::Universe;
 
@@ -83,10 +84,12 @@ fn refuse(domain: &Domain, problem: &Problem) -> Result<(), GroundError> {
     if let Some(span) = first(&problem.unsupported) {
         return refuse(Feature::OutsideTheModel, Origin::Problem, span);
     }
-    if let Some(&(feature, span)) = domain.features().first() {
+    // Types in conditions are refused where they are read; methods are not.
+    let is_read = |feature| !matches!(feature, Language::TypePredicates | Language::NetworkConstraints);
+    if let Some((feature, span)) = domain.features().into_iter().find(|(f, _)| is_read(*f)) {
         return refuse(Feature::Language(feature), Origin::Domain, span);
     }
-    if let Some(&(feature, span)) = problem.features().first() {
+    if let Some((feature, span)) = problem.features().into_iter().find(|(f, _)| is_read(*f)) {
         return refuse(Feature::Language(feature), Origin::Problem, span);
     }
     if let Some(action) = domain.durative_actions.iter().next() {

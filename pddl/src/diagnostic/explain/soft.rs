@@ -77,8 +77,10 @@ pub(super) const EXPLANATIONS: &[Explanation] = &[
     Explanation {
         code: "E0509",
         title: "a word without a meaning here",
-        meaning: "`total-time` and `is-violated` stand outside of a metric.",
-        why: "They are about a whole plan, which is only there once it is finished.",
+        meaning: "`total-time` or `is-violated` stands outside of a metric, or `#t` outside of what a process or a \
+         durative action changes continuously.",
+        why: "The first two are about a whole plan, which is only there once it is finished; `#t` is the time that \
+         something has been going on.",
         wrong: &["\
 (define (domain hall)
   (:requirements :numeric-fluents)
@@ -94,5 +96,29 @@ pub(super) const EXPLANATIONS: &[Explanation] = &[
   (:action switch
     :precondition (< (clock) 5)
     :effect (lit)))"],
+    },
+    Explanation {
+        code: "E0510",
+        title: "a change that is not linear in `#t`",
+        meaning: "The change of a continuous effect is not a rate times `#t`.",
+        why: "`#t` is the time since the process or action began; what multiplies it is by how much the fluent \
+         changes in a second. That rate may itself depend on fluents that change.",
+        wrong: &["\
+(define (domain hall)
+  (:requirements :time :fluents)
+  (:functions (heat))
+  (:process burn
+    :parameters ()
+    :effect (increase (heat) (* #t #t))))"],
+        right: &["\
+(define (domain hall)
+  (:requirements :time :fluents)
+  (:functions (heat) (speed))
+  (:process speed
+    :parameters ()
+    :effect (increase (speed) (* #t 2)))
+  (:process burn
+    :parameters ()
+    :effect (increase (heat) (* #t (speed)))))"],
     },
 ];

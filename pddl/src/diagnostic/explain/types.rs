@@ -113,4 +113,39 @@ pub(super) const EXPLANATIONS: &[Explanation] = &[
   (:derived (bright) (exists (?x) (lit ?x)))
   (:action switch :parameters (?x) :effect (lit ?x)))"],
     },
+    Explanation {
+        code: "E0307",
+        title: "a function where only objects can be arguments",
+        meaning: "A function to objects is an argument in an initial state, of a task, of a skill or in a metric.",
+        why: "There its value would have to be known before anything is: name the object. In conditions and \
+         effects functions can be arguments.",
+        wrong: &[
+            "\
+(define (domain hall)
+  (:requirements :object-fluents)
+  (:types lamp)
+  (:predicates (lit ?x - lamp))
+  (:functions (nearest) - lamp))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:objects red - lamp)
+  (:init (= (nearest) red) (lit (nearest)))
+  (:goal (lit red)))",
+        ],
+        right: &[
+            "\
+(define (domain hall)
+  (:requirements :object-fluents)
+  (:types lamp)
+  (:predicates (lit ?x - lamp))
+  (:functions (nearest) - lamp))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:objects red - lamp)
+  (:init (= (nearest) red) (lit red))
+  (:goal (lit (nearest))))",
+        ],
+    },
 ];

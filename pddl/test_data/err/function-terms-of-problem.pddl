@@ -1,0 +1,12 @@
+(define (domain carry)
+  (:requirements :object-fluents :numeric-fluents)
+  (:types place robot)
+  (:predicates (free ?p - place))
+  (:functions (at ?r - robot) - place (size ?p - place) - number))
+
+(define (problem p)
+  (:domain carry)
+  (:objects r - robot a - place)
+  (:init (free (at r)) (= (size (at r)) 4) (= (size a) undefined))
+  (:goal (free (at r)))
+  (:metric minimize (size (at r))))

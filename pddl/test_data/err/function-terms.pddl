@@ -1,0 +1,13 @@
+(define (domain carry)
+  (:requirements :object-fluents :numeric-fluents :hierarchy)
+  (:types place robot thing)
+  (:predicates (free ?p - place) (truck ?x))
+  (:functions (at ?r - robot) - place (size ?p - place) - number (owner ?p - place) - robot)
+  (:task go :parameters (?p - place))
+  (:method m :parameters (?r - robot) :task (go (at ?r)) :subtasks (and (go (at ?r))))
+  (:action a
+    :parameters (?r - robot ?p - place)
+    :precondition (and (free (size ?p)) (free (owner ?p)) (= (at ?r) (owner ?p)) (free (att ?r)) (= (size ?p) (at ?r))
+                       (robot) (robot ?r ?p) (sortof ?r - robto) (sort ?q - robot) (= ?r undefined))
+    :effect (and (assign (at ?r) (owner ?p)) (assign (size ?p) (at ?r)) (assign (at ?r) (size ?p))
+                 (robot ?r) (increase (at ?r) (at ?r)))))

@@ -1,0 +1,30 @@
+; functions as arguments, object fluents beside each other and undefined, in all places
+(define (domain carry)
+  (:requirements :adl :object-fluents :numeric-fluents :durative-actions :continuous-effects)
+  (:types place robot thing)
+  (:constants hall - place)
+  (:predicates (free ?p - place) (lit ?p - place) (near ?p ?q - place))
+  (:functions (at ?x - (either robot thing)) - place (held ?r - robot) - thing
+              (far ?p ?q - place) - number (cost) - number (best) - robot)
+  (:action move
+    :parameters (?r - robot ?to ?at - place)
+    :precondition (and (near (at ?r) ?to) (not (free (at (held ?r)))) (= (at ?r) (at (held (best))))
+                       (= ?at (at ?r)) (not (= (held ?r) undefined)) (> 5 (far (at ?r) (at (held ?r))))
+                       (imply (free ?to) (exists (?at-2 - place) (near (at ?r) ?at-2))) (= undefined (best)))
+    :effect (and (assign (at ?r) ?to) (assign (at (held ?r)) (at ?r)) (not (free (at ?r)))
+                 (increase (cost) (far (at ?r) ?to)) (when (free (at ?r)) (lit (at ?r)))
+                 (forall (?x - thing) (when (= (at ?x) (at ?r)) (assign (at ?x) hall)))
+                 (assign (held ?r) undefined)))
+  (:durative-action haul
+    :parameters (?r - robot ?to - place)
+    :duration (and (>= ?duration (far (at ?r) ?to)) (at end (<= ?duration (far (at (held ?r)) (at ?r)))))
+    :condition (and (at start (free (at ?r))) (over all (near (at ?r) ?to)))
+    :effect (and (at end (assign (at ?r) ?to)) (at start (not (free (at ?r))))
+                 (increase (cost) (* #t (far (at ?r) ?to)))
+                 (forall (?x - robot) (decrease (far (at ?x) ?to) (* #t 1))))))
+
+(define (problem p)
+  (:domain carry)
+  (:objects r - robot t - thing a - place)
+  (:init (= (at r) a) (= (best) r) (= (far a hall) 4) (= (cost) 0))
+  (:goal (and (free (at r)) (= (at r) (at t)))))
