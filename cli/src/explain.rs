@@ -7,12 +7,14 @@
 //!  "wrong": ["…"], "right": ["…"]}
 //! ```
 //!
-//! `wrong` and `right` hold the texts of files, those that others need before them.
+//! `wrong` and `right` hold the texts of files, those that others need before them; a lint's code has the field
+//! `lint` as well, its name.
 
 use crate::console::{Console, Form};
 use crate::exit::Exit;
 use crate::render::Message;
 use clap::Args;
+use lints::{Level, Lint};
 use pddl::Explanation;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -23,25 +25,38 @@ const WIDTH: usize = 80;
 /// Which code to explain.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Such as `E0202`; without it, all codes are listed.
+    /// Such as `E0202`, or the name of a lint such as `unused-parameter`; without it, all codes are listed.
     code: Option<String>,
 }
 
 pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     let Some(code) = &arguments.code else {
         for explanation in pddl::explanations() {
-            show(explanation, &format!("{}  {}", explanation.code, explanation.title), console);
+            show(explanation, None, &format!("{}  {}", explanation.code, explanation.title), console);
+        }
+        for lint in lints::all() {
+            let Lint { name, explanation, level, .. } = lint;
+            let pedantic = if *level == Level::Pedantic { ", pedantic" } else { "" };
+            let line = format!("{}  {} ({name}{pedantic})", explanation.code, explanation.title);
+            show(explanation, Some(lint), &line, console);
         }
         return Exit::Yes;
     };
+    if let Some(lint) = lints::find(code) {
+        let text = text(&lint.explanation) + "\n" + &wrapped(&silencing(lint));
+        show(&lint.explanation, Some(lint), text.trim_end(), console);
+        return Exit::Yes;
+    }
     match pddl::explain(code) {
         Ok(explanation) => {
-            show(explanation, text(explanation).trim_end(), console);
+            show(explanation, None, text(explanation).trim_end(), console);
             Exit::Yes
         }
         Err(unknown) => {
             let mut message = Message::error(format!("no diagnostic has the code `{code}`"));
-            message.help = Some(match unknown.suggestion {
+            let names = lints::all().flat_map(|lint| [lint.code(), lint.name]);
+            let suggestion = unknown.suggestion.map(str::to_owned).or_else(|| pddl::nearest(code, names));
+            message.help = Some(match suggestion {
                 Some(nearest) => format!("did you mean `{nearest}`?"),
                 None => "`pelea explain` lists all codes".to_owned(),
             });
@@ -51,10 +66,22 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     }
 }
 
-fn show(explanation: &Explanation, text: &str, console: &mut Console<'_>) {
+/// How to be rid of a lint where what it finds is meant.
+fn silencing(lint: &Lint) -> String {
+    let shown = match lint.level {
+        Level::Default => "",
+        Level::Pedantic => "It is shown by `pelea check --pedantic` only. ",
+    };
+    format!("{shown}Where it is meant, say so on the same line or the line before: `; allow({})`.", lint.name)
+}
+
+fn show(explanation: &Explanation, lint: Option<&Lint>, text: &str, console: &mut Console<'_>) {
     match console.form() {
         Form::Text => console.result(text),
-        Form::Json => console.record(&ExplanationRecord { kind: "explanation", explanation }),
+        Form::Json => {
+            let lint = lint.map(|lint| lint.name);
+            console.record(&ExplanationRecord { kind: "explanation", explanation, lint });
+        }
     }
 }
 
@@ -100,4 +127,7 @@ struct ExplanationRecord<'a> {
     kind: &'static str,
     #[serde(flatten)]
     explanation: &'a Explanation,
+    /// The name of the lint that has the code.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lint: Option<&'a str>,
 }

@@ -136,3 +136,17 @@ fn findings_are_silent_where_a_comment_allows_them() {
         assert!(!found.contains("unknown-lint"), "{body}");
     }
 }
+
+#[test]
+fn the_page_lists_all_lints() {
+    let mut table = String::from("| code | name | what it finds |\n|---|---|---|\n");
+    for lint in lints::all() {
+        let pedantic = if lint.level == Level::Pedantic { " (pedantic)" } else { "" };
+        let (code, name, meaning) = (lint.code(), lint.name, lint.explanation.meaning);
+        table += &format!("| {code} | `{name}`{pedantic} | {meaning} |\n");
+    }
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/lints.md");
+    let text = std::fs::read_to_string(&page).expect("the page can be read");
+    let (head, _) = text.split_once("| code |").expect("the page has the table");
+    expect_test::expect_file![page].assert_eq(&format!("{head}{table}"));
+}

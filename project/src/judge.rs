@@ -5,8 +5,6 @@
 //! them. Bound: with problems of more than [`MOST_LINTED`] bytes in sum the domain is looked at alone, and a
 //! larger problem not at all.
 
-use lints::Level;
-
 use crate::{FileKind, Finding, Linted, Place, Project, Reading, SourceId};
 
 /// Longest problems that are linted, in bytes.
@@ -44,11 +42,11 @@ pub(crate) fn lints(project: &Project, id: SourceId) -> Vec<Linted> {
     let mut said = match project.kind(id) {
         FileKind::Plan => Vec::new(),
         FileKind::Problem if size(id) > MOST_LINTED => Vec::new(),
-        FileKind::Problem => project.lint_problem(id, Level::Default),
+        FileKind::Problem => project.lint_problem(id, project.lint_level()),
         FileKind::Domain if project.dependents(id).map(size).sum::<usize>() > MOST_LINTED => {
-            project.lint_domain(id, Level::Default)
+            project.lint_domain(id, project.lint_level())
         }
-        FileKind::Domain => project.lint_family(id, Level::Default),
+        FileKind::Domain => project.lint_family(id, project.lint_level()),
     };
     said.retain(|linted| linted.finding.place.source == id);
     said

@@ -19,7 +19,7 @@
 //! assert!(project.sources().describe(&findings[0]).starts_with("hall/problem.pddl:1:47: error[E0202]"));
 //!
 //! project.set("hall/domain.pddl", "(define (domain hall) (:predicates (lti)))");
-//! assert!(project.findings(problem).is_empty());
+//! assert!(project.language_findings(problem).is_empty());
 //! ```
 //!
 //! Map, from the ground up: `sources` (texts by number), `finding` (what is wrong, where), `header` (the names

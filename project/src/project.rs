@@ -51,6 +51,17 @@ pub struct Project {
     files: IndexVec<SourceId, Option<Arc<File>>>,
     by_path: FxHashMap<String, SourceId>,
     names: Names,
+    level: LintLevel,
+}
+
+/// What lints may say.
+#[derive(Clone, Copy, Debug)]
+struct LintLevel(lints::Level);
+
+impl Default for LintLevel {
+    fn default() -> Self {
+        Self(lints::Level::Default)
+    }
 }
 
 impl Project {
@@ -62,6 +73,16 @@ impl Project {
     /// No files, and of those to come only what is wrong with them is wanted: readings have no occurrences.
     pub fn without_names() -> Self {
         Self { names: Names::Skipped, ..Self::default() }
+    }
+
+    /// Lets lints up to `level` speak, in files that are set from now on.
+    pub fn set_lint_level(&mut self, level: lints::Level) {
+        self.level = LintLevel(level);
+    }
+
+    /// Up to which level lints speak.
+    pub fn lint_level(&self) -> lints::Level {
+        self.level.0
     }
 
     /// Adds the file at `path` or gives it another text. Paths have `/` between folders; a path keeps its id,

@@ -4,7 +4,7 @@ use expect_test::{Expect, expect};
 use pddl::{NameKind, Role};
 use project::{FileKind, Project, Reading, SourceId};
 
-const HALL: &str = "(define (domain hall) (:requirements :typing) (:types lamp) (:predicates (lit ?l - lamp))
+const HALL: &str = "(define (domain hall) (:requirements :typing :negative-preconditions) (:types lamp) (:predicates (lit ?l - lamp))
   (:action light :parameters (?l - lamp) :precondition (not (lit ?l)) :effect (lit ?l)))";
 const DARK: &str = "(define (problem dark) (:domain hall) (:objects l - lamp) (:init) (:goal (lit l)))";
 

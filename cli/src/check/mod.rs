@@ -19,6 +19,7 @@ use crate::exit::Exit;
 use crate::render::{MOST_PER_FILE, Message};
 use crate::task::read_source;
 use clap::Args;
+use lints::Level;
 use pddl::{SequentialPlan, Severity, Source};
 use project::{FileKind, Header, Need, Project, Reading, SourceId};
 use serde::Serialize;
@@ -39,6 +40,9 @@ pub(crate) struct Arguments {
     /// Say of each file only whether it can be read, then how many can: for collections of tasks.
     #[arg(long)]
     summary: bool,
+    /// Show the warnings as well that are often meant as they are.
+    #[arg(long)]
+    pedantic: bool,
 }
 
 pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
@@ -70,6 +74,9 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     }
     find_needs(&mut files);
     let mut project = Project::without_names();
+    if arguments.pedantic {
+        project.set_lint_level(Level::Pedantic);
+    }
     let given: Vec<bool> = files.iter().map(|file| file.given).collect();
     let ids = project.set_all(files.into_iter().map(|file| file.source));
     let files: Vec<File> = ids.into_iter().zip(given).map(|(id, given)| File { id, given }).collect();

@@ -184,28 +184,27 @@ impl Needs {
 pub(super) fn of_domain(view: &DomainView<'_>) -> Vec<Need> {
     let mut needs = Needs::default();
     text::sections(view.tree(), FileKind::Domain).for_each(|section| needs.section(section));
-    if view.domain.types.len() > 1 || hyphen(view) {
-        // Imported types need it as well, but there is nothing here to point at.
-        let at = needs.0.iter().find(|n| n.requirement == Requirement::Typing).map_or_else(name, |n| n.span);
-        needs.add(Requirement::Typing, at, "a type");
+    let hyphen = hyphen(view);
+    if view.domain.types.len() > 1 || hyphen.is_some() {
+        needs.add(Requirement::Typing, hyphen.unwrap_or_else(elsewhere), "a type");
     }
     functions(view, &mut needs);
     needs.0
 }
 
-/// A place for what has none.
-fn name() -> Span {
+/// The place of what is imported: it is used, but whoever declared it had to announce it.
+fn elsewhere() -> Span {
     Span::default()
 }
 
-/// Whether a predicate or a parameter is written with a type.
-fn hyphen(view: &DomainView<'_>) -> bool {
-    let mut lists = text::sections(view.tree(), FileKind::Domain).flat_map(|section| {
+/// Where a predicate or a parameter is written with a type.
+fn hyphen(view: &DomainView<'_>) -> Option<Span> {
+    let lists = text::sections(view.tree(), FileKind::Domain).flat_map(|section| {
         let parameters = text::value(section, ":parameters");
         let declared = section.is_headed(":predicates").then(|| section.children().skip(1));
         parameters.into_iter().chain(declared.into_iter().flatten())
     });
-    lists.any(|list| list.children().any(|child| child.is("-")))
+    lists.flat_map(Node::children).find(|child| child.is("-")).map(Node::span)
 }
 
 fn functions(view: &DomainView<'_>, needs: &mut Needs) {
@@ -221,7 +220,7 @@ fn functions(view: &DomainView<'_>, needs: &mut Needs) {
     }
     let costs = (!beyond_costs).then_some(Requirement::ActionCosts);
     for function in &domain.functions {
-        let at = if is_here(function.span) { function.span } else { name() };
+        let at = if is_here(function.span) { function.span } else { elsewhere() };
         match function.value {
             FunctionValue::Number => needs.add_or(Requirement::NumericFluents, costs, at, "a function"),
             FunctionValue::Object(_) => needs.add(Requirement::ObjectFluents, at, "a function to objects"),

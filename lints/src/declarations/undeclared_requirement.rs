@@ -7,7 +7,7 @@ use pddl::{Explanation, FileKind, Span};
 use super::features::{Need, is_granted, of_domain, of_problem};
 use crate::finding::{Edit, Findings};
 use crate::lint::Check;
-use crate::view::{DomainView, ProblemView};
+use crate::view::{DomainView, ProblemView, is_here};
 use crate::{Finding, Level, Lint, Place, text};
 
 pub(crate) static LINT: Lint = Lint {
@@ -56,7 +56,7 @@ fn in_problem(view: &ProblemView<'_, '_>, found: &mut Findings) {
 }
 
 fn check(needs: &[Need], declared: &Requirements, tree: &Tree<'_>, file: FileKind, found: &mut Findings) {
-    for need in needs.iter().filter(|need| !is_granted(need, declared)) {
+    for need in needs.iter().filter(|need| is_here(need.span) && !is_granted(need, declared)) {
         let flag = need.requirement.as_str();
         let message = format!("{} needs the requirement `{flag}`", need.what);
         let mut finding = Finding::new(&LINT, Place { file, span: need.span }, message);

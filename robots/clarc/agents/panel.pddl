@@ -61,7 +61,7 @@
 
   ; That a page was sent is not that it was shown: the screen itself reports what stands on it.
   (:durative-action see-page
-    :parameters (?r - robot)
+    :parameters (?r - robot) ; allow(unused-parameter): it runs once for each robot
     :condition (at start (not (is screen broken)))
     :results (?u - utterance ?i - part)
     :effect (at end (was_shown_in ?u ?i))
