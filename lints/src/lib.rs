@@ -52,6 +52,8 @@ mod schema;
 mod semantics;
 mod shape;
 #[cfg(test)]
+mod soundness_tests;
+#[cfg(test)]
 mod test_support;
 mod text;
 mod usage;
