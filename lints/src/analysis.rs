@@ -5,14 +5,14 @@
 
 use std::rc::Rc;
 
-use pddl::model::{Domain, Problem};
+use pddl::model::{Domain, DurativeAction, Feature, Problem};
 use rustc_hash::FxHashSet;
 
+use crate::invariants::{Counts, Invariant, invariants};
 use crate::numbers::Numbers;
 use crate::reachability::{
     Cause, DeadGoal, Link, Nature, Origin, Part, Piece, Reachability, Schema, Words, World,
 };
-use crate::view;
 
 /// Conjuncts of a goal that are reported.
 const GOALS: usize = 5;
@@ -50,10 +50,20 @@ pub(crate) struct Impossible {
     pub(crate) reason: String,
 }
 
+/// Atoms of which at most one holds at a time.
+pub(crate) struct Exclusion {
+    /// The invariant.
+    pub(crate) invariant: Invariant,
+    /// Where it starts.
+    pub(crate) counts: Counts,
+}
+
 /// What is known of a domain, or of a problem.
 pub(crate) struct Analysis<'a> {
     /// Possible values of fluents.
     pub(crate) numbers: Rc<Numbers>,
+    /// What excludes what.
+    pub(crate) exclusions: Vec<Exclusion>,
     /// Roots only.
     pub(crate) dead: Vec<Dead>,
     /// All that never fires.
@@ -71,12 +81,34 @@ impl<'a> Analysis<'a> {
         let numbers = Rc::new(Numbers::new(domain, problem));
         let world = Rc::new(World::new(domain, problem));
         let (dead, silent, impossible, goals) = (Vec::new(), FxHashSet::default(), Vec::new(), Vec::new());
-        let mut analysis = Self { numbers, dead, silent, impossible, goals };
-        let complete = view::all_is_seen(domain) && problem.is_none_or(view::all_of_problem_is_seen);
-        if complete && let Some(mut reach) = Reachability::new(&world, &analysis.numbers) {
+        let exclusions = Vec::new();
+        let mut analysis = Self { numbers, exclusions, dead, silent, impossible, goals };
+        if let (Some(problem), true) = (problem, is_covered(words)) {
+            analysis.exclude(domain, problem);
+        }
+        if is_covered(words)
+            && let Some(mut reach) = Reachability::new(&world, &analysis.numbers)
+        {
             analysis.gather(words, &mut reach);
         }
         analysis
+    }
+
+    fn exclude(&mut self, domain: &Domain, problem: &Problem) {
+        // Neither a rule's outcome nor an effect that looks at another time has all its conditions in
+        // its happening.
+        let elsewhere =
+            |a: &DurativeAction| a.rule.is_some() || a.effects.iter().any(|e| !e.given.is_empty());
+        if domain.durative_actions.iter().any(elsewhere) {
+            return;
+        }
+        self.exclusions = invariants(domain)
+            .into_iter()
+            .filter_map(|invariant| {
+                let counts = Counts::new(&invariant, problem)?;
+                Some(Exclusion { invariant, counts })
+            })
+            .collect();
     }
 
     fn gather(&mut self, words: &Words<'a>, reach: &mut Reachability<'a>) {
@@ -125,6 +157,31 @@ impl<'a> Analysis<'a> {
     }
 }
 
+/// Whether the analyses know every part of the language that the models use.
+pub(crate) fn is_covered(words: &Words<'_>) -> bool {
+    let known = |f: &Feature| {
+        // A feature that comes later is unknown until it is named here.
+        matches!(
+            f,
+            Feature::Preferences
+                | Feature::TrajectoryConstraints
+                | Feature::TimedInitials
+                | Feature::NetworkConstraints
+                | Feature::TypePredicates
+                | Feature::Processes
+                | Feature::Events
+                | Feature::ContinuousEffects
+                | Feature::ConditionsAcrossTimes
+                | Feature::DurationAtEnd
+        )
+    };
+    let domain = words.domain.unsupported.is_empty() && words.domain.features().iter().all(|(f, _)| known(f));
+    domain
+        && words
+            .problem
+            .is_none_or(|p| p.unsupported.is_empty() && p.features().iter().all(|(f, _)| known(f)))
+}
+
 /// The silent origin that a chain ends in, `i` itself if there is none but it.
 fn root(i: usize, asked: &[&Origin], chains: &[Vec<Link>]) -> usize {
     let mut seen = vec![i];
@@ -169,6 +226,7 @@ pub(crate) fn place(domain: &Domain, schema: &Schema) -> pddl::Span {
         Schema::Durative(id) => domain.durative_actions[*id].name_span,
         Schema::Axiom(i) => domain.axioms[*i].span,
         Schema::Method(id) => domain.methods[*id].span,
+        Schema::Event(id) => domain.events[*id].name_span,
         Schema::Goal(_) | Schema::Initial(_) => pddl::Span::default(),
     }
 }

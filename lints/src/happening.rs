@@ -1,8 +1,9 @@
-//! What changes the state: actions, starts and ends of durative actions, outcomes of rules.
+//! What changes the state: actions, events, starts and ends of durative actions, outcomes of rules.
 //!
 //! Problem: every analysis asks the same of each of them: under which conditions it happens, and
-//! which effects it has. Idea: one flat list. Invariant: a happening's conditions are at most those
-//! of any plan in which it happens, so that an analysis that follows the list misses nothing.
+//! which effects it has. Idea: one flat list; what changes continuously is not in it. Invariant: a
+//! happening's conditions are at most those of any plan in which it happens, so that an analysis that
+//! follows the list misses nothing.
 
 use pddl::model::{
     Application, AssignOperator, AssignedValue, Atom, Condition, Domain, Effect, EffectKind, TimeSpecifier,
@@ -21,6 +22,8 @@ pub(crate) struct Happening<'a> {
     pub(crate) variables: &'a Variables,
     /// What it needs, then or before.
     pub(crate) conditions: Vec<&'a Condition>,
+    /// What surely holds just before, with no other happening between.
+    pub(crate) just_before: Vec<&'a Condition>,
     /// What it does.
     pub(crate) effects: Vec<&'a Effect>,
 }
@@ -34,7 +37,18 @@ pub(crate) fn happenings(domain: &Domain) -> Vec<Happening<'_>> {
             part: Part::Whole,
             variables: &action.variables,
             conditions: vec![&action.precondition],
+            just_before: vec![&action.precondition],
             effects: vec![&action.effect],
+        });
+    }
+    for (id, event) in domain.events.enumerate() {
+        all.push(Happening {
+            schema: Schema::Event(id),
+            part: Part::Whole,
+            variables: &event.variables,
+            conditions: vec![&event.precondition],
+            just_before: vec![&event.precondition],
+            effects: vec![&event.effect],
         });
     }
     for (id, action) in domain.durative_actions.enumerate() {
@@ -53,6 +67,8 @@ pub(crate) fn happenings(domain: &Domain) -> Vec<Happening<'_>> {
                 (TimeSpecifier::Outcome(name), Part::Outcome(own)) => name == own,
                 _ => false,
             };
+            let now =
+                |when: &TimeSpecifier| at(when) || (part == Part::End && *when == TimeSpecifier::OverAll);
             let needed = |when: &TimeSpecifier| part == Part::End || *when == TimeSpecifier::Start;
             all.push(Happening {
                 schema: Schema::Durative(id),
@@ -61,6 +77,12 @@ pub(crate) fn happenings(domain: &Domain) -> Vec<Happening<'_>> {
                     .conditions
                     .iter()
                     .filter(|c| needed(&c.when))
+                    .map(|c| &c.condition)
+                    .collect(),
+                just_before: action
+                    .conditions
+                    .iter()
+                    .filter(|c| now(&c.when))
                     .map(|c| &c.condition)
                     .collect(),
                 effects: action.effects.iter().filter(|e| at(&e.when)).map(|e| &e.effect).collect(),

@@ -2,12 +2,13 @@
 //!
 //! The tasks are searched exhaustively, by an interpreter that shares nothing with the analyses.
 
+use std::cell::Cell;
 use std::collections::{BTreeSet, VecDeque};
 
 use pddl::Source;
 use pddl::model::{
     Action, AssignOperator, AssignedValue, Comparison, Condition, ConditionKind, Domain, Effect, EffectKind,
-    Expression, ExpressionKind, Idx, ObjectId, Problem, Term, VariableId, Variables,
+    Expression, ExpressionKind, Idx, ObjectId, PredicateId, Problem, Term, VariableId, Variables,
 };
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
@@ -98,8 +99,16 @@ fn task(dice: &mut Dice<'_>) -> (String, String) {
         let mut scope = constants.clone();
         scope.push(("?v".into(), ["t", "u"][dice.below(2)]));
         scope.push(("?w".into(), ["t", "u"][dice.below(2)]));
-        let conditions: Vec<String> = (0..1 + dice.below(3)).map(|_| condition(dice, &scope, 2)).collect();
-        let effects: Vec<String> = (0..1 + dice.below(3)).map(|_| effect(dice, &scope)).collect();
+        let mut conditions: Vec<String> =
+            (0..1 + dice.below(3)).map(|_| condition(dice, &scope, 2)).collect();
+        let mut effects: Vec<String> = (0..1 + dice.below(3)).map(|_| effect(dice, &scope)).collect();
+        // Something that moves, so that there are invariants.
+        if dice.below(2) == 0 {
+            let from = atom(dice, &scope);
+            let to = atom(dice, &scope);
+            effects = vec![format!("(not {from})"), to];
+            conditions.push(from);
+        }
         domain += &format!(
             "(:action a{i} :parameters (?v - {} ?w - {}) :precondition (and {}) :effect (and {}))\n",
             scope[2].1,
@@ -196,9 +205,11 @@ impl Interpreter<'_> {
         while let Some((effect, binding)) = open.pop() {
             match &effect.kind {
                 EffectKind::And(parts) => open.extend(parts.iter().map(|p| (p, binding.clone()))),
-                EffectKind::Add(a) => drop(adds.insert((a.predicate.0, ground(&a.arguments, &binding)))),
+                EffectKind::Add(a) => {
+                    adds.insert((a.predicate.0, ground(&a.arguments, &binding)));
+                }
                 EffectKind::Delete(a) => {
-                    drop(deletes.insert((a.predicate.0, ground(&a.arguments, &binding))))
+                    deletes.insert((a.predicate.0, ground(&a.arguments, &binding)));
                 }
                 EffectKind::Forall(slots, inner) => {
                     self.each(&action.variables, slots, &binding, &mut |b| open.push((inner, b.to_vec())));
@@ -287,7 +298,7 @@ fn what_is_called_impossible_never_happens() {
         Config { cases: 300, ..Config::default() },
         proptest::test_runner::TestRng::deterministic_rng(proptest::test_runner::RngAlgorithm::ChaCha),
     );
-    let (silent, goals) = (std::cell::Cell::new(0), std::cell::Cell::new(0));
+    let (silent, goals, exclusions) = (Cell::new(0), Cell::new(0), Cell::new(0));
     runner
         .run(&proptest::collection::vec(any::<u8>(), 160), |bytes| {
             let (domain_text, problem_text) = task(&mut Dice(bytes.iter()));
@@ -316,10 +327,29 @@ fn what_is_called_impossible_never_happens() {
                 let holds = |s: &State| run.holds(goal.goal.condition, &problem.goal_variables, &binding, s);
                 prop_assert!(!states.iter().any(holds), "{}\n{domain_text}\n{problem_text}", goal.reason);
             }
+            for exclusion in &analysis.exclusions {
+                for state in &states {
+                    let mut counts = std::collections::BTreeMap::new();
+                    for (predicate, arguments) in &state.0 {
+                        let Some(member) = exclusion.invariant.member(PredicateId(*predicate)) else {
+                            continue;
+                        };
+                        let arguments: Vec<ObjectId> = arguments.iter().map(|&o| ObjectId(o)).collect();
+                        *counts.entry(member.instance(&arguments)).or_insert(0) += 1;
+                    }
+                    for (instance, count) in counts {
+                        let said = exclusion.invariant.words(&domain, &[]);
+                        let kept = count <= 1 || !exclusion.counts.is_exclusive(&instance);
+                        prop_assert!(kept, "{said}\n{domain_text}\n{problem_text}");
+                    }
+                }
+            }
+            exclusions.set(exclusions.get() + analysis.exclusions.len());
             silent.set(silent.get() + analysis.silent.len());
             goals.set(goals.get() + analysis.goals.len());
             Ok(())
         })
         .unwrap_or_else(|e| panic!("{e}"));
-    assert!(silent.get() > 20 && goals.get() > 20, "{} silent, {} goals", silent.get(), goals.get());
+    let found = [silent.get(), goals.get(), exclusions.get()];
+    assert!(found.iter().all(|&n| n > 20), "{found:?}");
 }

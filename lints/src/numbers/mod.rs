@@ -80,6 +80,12 @@ impl Numbers {
             own.hull = Some(own.hull.map_or(value, |h| h.hull(value)));
             own.changes = true;
         }
+        let processes = domain.processes.iter().flat_map(|p| &p.effects);
+        for change in processes.chain(domain.durative_actions.iter().flat_map(|a| &a.continuous)) {
+            let own = &mut numbers.functions[change.fluent.function];
+            own.hull = Some(Interval::ALL);
+            own.changes = true;
+        }
         numbers.close(domain);
         numbers
     }

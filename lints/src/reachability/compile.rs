@@ -230,7 +230,8 @@ impl Compiled<'_> {
             for subtask in 0..network.subtasks.len() {
                 let origin = Origin { schema: Schema::Initial(subtask), part: Part::Whole, when: None };
                 let subtasks = vec![network.subtasks[subtask].clone()];
-                let one = TaskNetwork { subtasks, ..TaskNetwork::default() };
+                let constraints = network.constraints.clone();
+                let one = TaskNetwork { subtasks, constraints, ..TaskNetwork::default() };
                 self.network(&origin, variables, None, &one, &[]);
             }
         }
@@ -246,7 +247,8 @@ impl Compiled<'_> {
     ) {
         let domain = self.evaluator.world.domain;
         let mut slots = self.slots(variables).to_vec();
-        let mut rows = self.relaxer().conjoin(precondition.as_slice());
+        let mut rows =
+            self.relaxer().conjoin(&precondition.into_iter().chain(&network.constraints).collect::<Vec<_>>());
         for subtask in &network.subtasks {
             let (callee, conditions): (&Variables, Vec<&Condition>) = match subtask.head {
                 SubtaskHead::Task(task) => {

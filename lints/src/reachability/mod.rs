@@ -33,7 +33,7 @@ use database::{Indices, RelationId, Rows};
 use join::{Exhausted, Join, Sink, Step};
 pub(crate) use rule::{Origin, Part, Schema};
 use rule::{Pattern, Rule};
-pub(crate) use text::{Words, listed};
+pub(crate) use text::{Words, listed, shortened};
 pub(crate) use why::{Cause, DeadGoal, Link, Nature, Piece};
 pub(crate) use world::World;
 use world::{UNBOUND, resolve};
@@ -60,6 +60,11 @@ impl<'a> Reachability<'a> {
         all.compiled.hierarchy();
         all.saturate(first).ok()?;
         Some(all)
+    }
+
+    /// Possible values of fluents.
+    pub(crate) fn numbers(&self) -> &Numbers {
+        &self.compiled.evaluator.numbers
     }
 
     /// Everything that may fire and never does.

@@ -3,7 +3,9 @@
 use std::rc::Rc;
 
 use pddl::Span;
-use pddl::model::{ActionId, Comparison, Condition, DurativeActionId, Expression, MethodId, Name, Term};
+use pddl::model::{
+    ActionId, Comparison, Condition, DurativeActionId, EventId, Expression, MethodId, Name, Term,
+};
 
 use crate::walk::Polarity;
 
@@ -19,6 +21,8 @@ pub(crate) enum Schema {
     Durative(DurativeActionId),
     /// An axiom, by position.
     Axiom(usize),
+    /// An event of PDDL+.
+    Event(EventId),
     /// A method.
     Method(MethodId),
     /// A conjunct of the goal, by position.

@@ -3,8 +3,9 @@
 use std::fmt::Write as _;
 
 use pddl::Source;
-use pddl::model::{Domain, Idx, Problem, Term, TypeSet, Variables};
+use pddl::model::{Domain, ExpressionKind, Idx, Problem, Term, TypeSet, Variables};
 
+use crate::numbers::each_part;
 use crate::walk::Polarity;
 
 use super::Reachability;
@@ -41,6 +42,7 @@ impl Words<'_> {
             Schema::Axiom(i) => {
                 format!("the axiom of `{}`", self.domain.predicates[self.domain.axioms[*i].predicate].name)
             }
+            Schema::Event(id) => format!("event `{}`", self.domain.events[*id].name),
             Schema::Method(id) => format!("method `{}`", self.domain.methods[*id].name),
             Schema::Goal(_) => "the goal".to_owned(),
             Schema::Initial(_) => "the initial task network".to_owned(),
@@ -204,7 +206,9 @@ impl Reachability<'_> {
                     let pieces: Vec<String> =
                         pieces.iter().map(|p| format!("`{}`", self.piece(words, schema, p, false))).collect();
                     match pieces.as_slice() {
-                        [one] => format!("{needs} {one}, which can never hold"),
+                        [one] => {
+                            format!("{needs} {one}, which can never hold{}", self.values(words, &link.cause))
+                        }
                         _ => format!("{needs} {}, which never hold together", listed(&pieces)),
                     }
                 }
@@ -214,6 +218,30 @@ impl Reachability<'_> {
             };
         }
         text
+    }
+
+    /// What the functions of a comparison may be.
+    fn values(&self, words: &Words<'_>, cause: &Cause) -> String {
+        let Cause::NeverTogether(pieces) = cause else { return String::new() };
+        let [Piece::Check(Check::Compare(_, _, sides, _), _)] = pieces.as_slice() else {
+            return String::new();
+        };
+        let mut known: Vec<String> = Vec::new();
+        for side in [&sides.0, &sides.1] {
+            each_part(side, &mut |part| {
+                if let ExpressionKind::Fluent(application) = &part.kind {
+                    let name = &words.domain.functions[application.function].name;
+                    let text = match self.numbers().of(application.function) {
+                        Some(interval) => format!("`{name}` is {interval}"),
+                        None => format!("`{name}` never has a value"),
+                    };
+                    if !known.contains(&text) {
+                        known.push(text);
+                    }
+                }
+            });
+        }
+        if known.is_empty() { String::new() } else { format!(": {}", listed(&known)) }
     }
 
     fn verb(&self, piece: &Piece) -> &'static str {

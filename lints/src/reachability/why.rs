@@ -289,6 +289,12 @@ impl<'a> Reachability<'a> {
             {
                 return if makes(pattern) { Nature::Facts } else { Nature::Data };
             }
+            // A task that only its own methods carry out: an endless recursion, which another lint says.
+            Some(Cause::Circle(Piece::Atom(pattern, _), _))
+                if matches!(self.name(pattern.relation), Some(Named::Task(_))) =>
+            {
+                return Nature::Declared;
+            }
             Some(Cause::NothingMakes(piece)) => std::slice::from_ref(piece),
             Some(Cause::NeverTogether(pieces)) => pieces,
             _ => return Nature::Domain,
@@ -338,7 +344,7 @@ impl<'a> Reachability<'a> {
 pub(crate) enum Nature {
     /// The problem's objects and facts that nothing changes: another problem may have others.
     Data,
-    /// A predicate that nothing makes true, and that no fact has.
+    /// A predicate that nothing makes true and that no fact has, a task without an end: other lints say it.
     Declared,
     /// An atom that no fact is like and that no effect makes true, of a predicate that effects make true elsewhere.
     Facts,
@@ -364,6 +370,7 @@ pub(crate) fn variables<'d>(domain: &'d Domain, schema: &Schema) -> Option<&'d V
         Schema::Durative(id) => &domain.durative_actions[*id].variables,
         Schema::Axiom(i) => &domain.axioms[*i].variables,
         Schema::Method(id) => &domain.methods[*id].variables,
+        Schema::Event(id) => &domain.events[*id].variables,
         _ => return None,
     })
 }

@@ -20,7 +20,7 @@ pub(crate) struct Wording {
 
 /// What no problem of the domain can do.
 pub(crate) fn in_domain(view: &DomainView<'_>, wording: &Wording, found: &mut Findings) {
-    report(view.analysis(), &view.words(), wording, &|dead| dead.nature != Nature::Data, found);
+    report(view.analysis(), &view.words(), wording, &|dead| dead.nature == Nature::Domain, found);
 }
 
 /// What this problem cannot do although the domain could.

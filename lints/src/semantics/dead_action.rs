@@ -75,6 +75,8 @@ pub(crate) static LINT: Lint = Lint {
 
 static WORDING: Wording = Wording {
     lint: &LINT,
-    about: |o| o.when.is_none() && matches!(o.schema, Schema::Action(_) | Schema::Durative(_)),
+    about: |o| {
+        o.when.is_none() && matches!(o.schema, Schema::Action(_) | Schema::Durative(_) | Schema::Event(_))
+    },
     verdict: "can never apply",
 };

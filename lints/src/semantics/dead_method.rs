@@ -16,38 +16,53 @@ pub(crate) static LINT: Lint = Lint {
         title: "method can never be used",
         meaning: "The condition of a method, or the condition of an action in it, never holds, or one of its \
          subtasks can never be carried out to the end.",
-        why: "A planner tries it in vain. A task all of whose methods need the task itself can never be carried \
-         out: the recursion lacks its last step.",
-        wrong: &["\
+        why: "A planner tries it in vain, and the task has one way less than it seems.",
+        wrong: &[
+            "\
 (define (domain hall)
-  (:requirements :typing :hierarchy)
-  (:types lamp)
-  (:predicates (lit ?l - lamp))
-  (:task evening :parameters (?l - lamp))
-  (:method go-on
-    :parameters (?l - lamp)
-    :task (evening ?l)
-    :ordered-subtasks (and (switch ?l) (evening ?l)))
+  (:requirements :typing :hierarchy :method-preconditions)
+  (:types lamp sign)
+  (:predicates (lit ?x - object))
+  (:task announce :parameters (?s - sign))
+  (:method if-lit
+    :parameters (?s - sign ?l - lamp)
+    :task (announce ?s)
+    :precondition (lit ?s)
+    :ordered-subtasks (switch ?l))
   (:action switch
     :parameters (?l - lamp)
-    :effect (lit ?l)))"],
-        right: &["\
+    :effect (lit ?l)))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:objects left - lamp exit - sign)
+  (:htn
+    :ordered-subtasks (switch left))
+  (:init))",
+        ],
+        right: &[
+            "\
 (define (domain hall)
-  (:requirements :typing :hierarchy)
-  (:types lamp)
+  (:requirements :typing :hierarchy :method-preconditions)
+  (:types lamp sign)
   (:predicates (lit ?l - lamp))
-  (:task evening :parameters (?l - lamp))
-  (:method go-on
-    :parameters (?l - lamp)
-    :task (evening ?l)
-    :ordered-subtasks (and (switch ?l) (evening ?l)))
-  (:method stop
-    :parameters (?l - lamp)
-    :task (evening ?l)
-    :ordered-subtasks ())
+  (:task announce :parameters (?s - sign))
+  (:method if-lit
+    :parameters (?s - sign ?l - lamp)
+    :task (announce ?s)
+    :precondition (lit ?l)
+    :ordered-subtasks (switch ?l))
   (:action switch
     :parameters (?l - lamp)
-    :effect (lit ?l)))"],
+    :effect (lit ?l)))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:objects left - lamp exit - sign)
+  (:htn
+    :ordered-subtasks (announce exit))
+  (:init (lit left)))",
+        ],
     },
     checks: &[
         Check::Domain(|view, found| in_domain(view, &WORDING, found)),

@@ -2,13 +2,18 @@
 //!
 //! A finding names the root: what is silent only because something else is, is named there.
 
+mod contradictory_condition;
+mod contradictory_goal;
 mod dead;
 mod dead_action;
 mod dead_axiom;
 mod dead_conditional_effect;
 mod dead_method;
+mod division_by_zero;
+mod exclusion;
 mod idle_schema;
 mod impossible_task;
+mod negative_duration;
 mod unreachable_goal;
 
 use crate::Lint;
@@ -21,4 +26,8 @@ pub(crate) static LINTS: &[&Lint] = &[
     &impossible_task::LINT,
     &unreachable_goal::LINT,
     &idle_schema::LINT,
+    &contradictory_condition::LINT,
+    &contradictory_goal::LINT,
+    &negative_duration::LINT,
+    &division_by_zero::LINT,
 ];

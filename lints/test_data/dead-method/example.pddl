@@ -1,12 +1,20 @@
 (define (domain hall)
-  (:requirements :typing :hierarchy)
-  (:types lamp)
-  (:predicates (lit ?l - lamp))
-  (:task evening :parameters (?l - lamp))
-  (:method go-on
-    :parameters (?l - lamp)
-    :task (evening ?l)
-    :ordered-subtasks (and (switch ?l) (evening ?l)))
+  (:requirements :typing :hierarchy :method-preconditions)
+  (:types lamp sign)
+  (:predicates (lit ?x - object))
+  (:task announce :parameters (?s - sign))
+  (:method if-lit
+    :parameters (?s - sign ?l - lamp)
+    :task (announce ?s)
+    :precondition (lit ?s)
+    :ordered-subtasks (switch ?l))
   (:action switch
     :parameters (?l - lamp)
     :effect (lit ?l)))
+
+(define (problem evening)
+  (:domain hall)
+  (:objects left - lamp exit - sign)
+  (:htn
+    :ordered-subtasks (switch left))
+  (:init))

@@ -1,0 +1,50 @@
+//! How many atoms of each instance of an invariant hold initially.
+//!
+//! Idea: an invariant only says that the number does not grow; a problem's initial state says where it
+//! starts. Invariant: an instance without initial atoms is not listed, and none of its atoms ever holds.
+
+use pddl::model::{ObjectId, Problem, TimedChange, TimedInitial};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::Invariant;
+
+/// The numbers of one invariant.
+pub(crate) struct Counts {
+    of: FxHashMap<Vec<ObjectId>, u32>,
+    most: u32,
+}
+
+impl Counts {
+    /// Of a problem; `None` if something happens by itself that may break the invariant, or if an
+    /// object of several types may.
+    pub(crate) fn new(invariant: &Invariant, problem: &Problem) -> Option<Self> {
+        let breaks = |t: &TimedInitial| match &t.change {
+            TimedChange::Add(fact) => invariant.member(fact.predicate).is_some(),
+            _ => false,
+        };
+        if problem.timed.iter().any(breaks) || problem.objects.iter().any(|o| o.types.0.len() > 1) {
+            return None;
+        }
+        let mut of: FxHashMap<Vec<ObjectId>, u32> = FxHashMap::default();
+        let mut seen = FxHashSet::default();
+        for fact in &problem.init {
+            if let Some(member) = invariant.member(fact.predicate)
+                && seen.insert((fact.predicate, &fact.arguments))
+            {
+                *of.entry(member.instance(&fact.arguments)).or_default() += 1;
+            }
+        }
+        let most = of.values().copied().max().unwrap_or(0);
+        Some(Self { of, most })
+    }
+
+    /// Whether at most one atom of the instance ever holds.
+    pub(crate) fn is_exclusive(&self, instance: &[ObjectId]) -> bool {
+        self.of.get(instance).copied().unwrap_or(0) <= 1
+    }
+
+    /// Whether that is so of every instance.
+    pub(crate) fn all_exclusive(&self) -> bool {
+        self.most <= 1
+    }
+}

@@ -1,0 +1,49 @@
+//! Two atoms that an invariant lets never hold together.
+
+use pddl::model::{Atom, Domain, ObjectId, Term, Variables};
+
+use crate::analysis::{Analysis, Exclusion};
+use crate::invariants::differ;
+
+/// Two of the atoms that exclude each other, with the reason; `parameters` are in their terms.
+pub(crate) fn find<'a>(
+    analysis: &'a Analysis<'_>,
+    domain: &Domain,
+    variables: &Variables,
+    held: &[&'a Atom],
+    different: &[(Term, Term)],
+) -> Option<(&'a Atom, &'a Atom, &'a Exclusion, Vec<Term>)> {
+    for exclusion in &analysis.exclusions {
+        let members: Vec<_> =
+            held.iter().filter_map(|a| Some((*a, exclusion.invariant.member(a.predicate)?))).collect();
+        for (i, (b, b_member)) in members.iter().enumerate() {
+            for (a, a_member) in &members[..i] {
+                let instance = a_member.instance(&a.arguments);
+                if instance != b_member.instance(&b.arguments) {
+                    continue;
+                }
+                let apart = a.predicate != b.predicate
+                    || a.arguments
+                        .iter()
+                        .zip(&b.arguments)
+                        .any(|(&x, &y)| differ(domain, variables, x, y, different));
+                if apart && exclusive(exclusion, &instance) {
+                    return Some((a, b, exclusion, instance));
+                }
+            }
+        }
+    }
+    None
+}
+
+/// Whether at most one atom of the instance ever holds; with variables, of every instance.
+fn exclusive(exclusion: &Exclusion, instance: &[Term]) -> bool {
+    let ground: Option<Vec<ObjectId>> = instance
+        .iter()
+        .map(|t| match t {
+            Term::Object(o) => Some(*o),
+            Term::Variable(_) => None,
+        })
+        .collect();
+    ground.map_or(exclusion.counts.all_exclusive(), |g| exclusion.counts.is_exclusive(&g))
+}

@@ -1,0 +1,131 @@
+//! A duration below zero, or none at all.
+
+use pddl::Explanation;
+use pddl::model::{Comparison, DurationConstraint, ExpressionKind, FluentValue};
+
+use crate::finding::Findings;
+use crate::lint::Check;
+use crate::numbers::{Interval, Numbers, Value};
+use crate::view::{DomainView, ProblemView, is_here};
+use crate::{Finding, Level, Lint, Place};
+
+pub(crate) static LINT: Lint = Lint {
+    name: "negative-duration",
+    level: Level::Default,
+    explanation: Explanation {
+        code: "W0859",
+        title: "duration is negative or impossible",
+        meaning: "A duration comes out below zero: always, or for an initial value that nothing changes. Or the \
+         bounds of a duration leave no number between them.",
+        why: "The action, or this instance of it, can never be started.",
+        wrong: &[
+            "\
+(define (domain hall)
+  (:requirements :typing :durative-actions :numeric-fluents)
+  (:types place)
+  (:predicates (at ?p - place))
+  (:functions (way ?a ?b - place))
+  (:durative-action move
+    :parameters (?a ?b - place)
+    :duration (= ?duration (way ?a ?b))
+    :condition (at start (at ?a))
+    :effect (and (at start (not (at ?a))) (at end (at ?b)))))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:objects a b - place)
+  (:init (at a) (= (way a b) 5) (= (way b a) -5))
+  (:goal (at b)))",
+        ],
+        right: &[
+            "\
+(define (domain hall)
+  (:requirements :typing :durative-actions :numeric-fluents)
+  (:types place)
+  (:predicates (at ?p - place))
+  (:functions (way ?a ?b - place))
+  (:durative-action move
+    :parameters (?a ?b - place)
+    :duration (= ?duration (way ?a ?b))
+    :condition (at start (at ?a))
+    :effect (and (at start (not (at ?a))) (at end (at ?b)))))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:objects a b - place)
+  (:init (at a) (= (way a b) 5) (= (way b a) 5))
+  (:goal (at b)))",
+        ],
+    },
+    checks: &[Check::Domain(in_domain), Check::Problem(in_problem)],
+};
+
+fn in_domain(view: &DomainView<'_>, found: &mut Findings) {
+    if view.is_complete() {
+        certain(view, &view.analysis().numbers, found);
+    }
+}
+
+fn in_problem(view: &ProblemView<'_, '_>, found: &mut Findings) {
+    if !view.is_complete() {
+        return;
+    }
+    let numbers = &view.analysis().numbers;
+    certain(view.domain, numbers, found);
+    for action in &view.domain.domain.durative_actions {
+        for bound in action.duration.iter().filter(|c| bounds_above(c)) {
+            let ExpressionKind::Fluent(application) = &bound.bound.kind else { continue };
+            let some = numbers.of(application.function).is_some_and(|i| i.low < 0.0 && i.high >= 0.0);
+            if !some || numbers.changes(application.function) {
+                continue;
+            }
+            let negative = view.problem.fluents.iter().find(|f| {
+                f.application.function == application.function
+                    && matches!(f.value, FluentValue::Number(value) if value < 0.0)
+            });
+            if let Some(fact) = negative {
+                let message = format!("this makes a duration of action `{}` negative", action.name);
+                let finding = Finding::new(&LINT, Place::problem(fact.span), message);
+                found.report(finding.label(Place::domain(bound.span), "the duration"));
+            }
+        }
+    }
+}
+
+fn bounds_above(constraint: &DurationConstraint) -> bool {
+    matches!(constraint.comparison, Comparison::Equal | Comparison::LessEqual | Comparison::Less)
+}
+
+/// What is so for all arguments and in all states.
+fn certain(view: &DomainView<'_>, numbers: &Numbers, found: &mut Findings) {
+    for action in &view.domain.durative_actions {
+        let bounds: Vec<(&DurationConstraint, Interval)> = action
+            .duration
+            .iter()
+            .filter_map(|c| match numbers.hull(&c.bound) {
+                Value::In(interval) => Some((c, interval)),
+                Value::Undefined => None,
+            })
+            .collect();
+        for (constraint, interval) in &bounds {
+            if bounds_above(constraint) && interval.high < 0.0 && is_here(constraint.span) {
+                let message = format!("the duration of action `{}` is negative", action.name);
+                found.report(
+                    Finding::new(&LINT, Place::domain(constraint.span), message)
+                        .help(format!("it is {interval}")),
+                );
+            }
+        }
+        for (low, at_least) in
+            bounds.iter().filter(|(c, _)| !matches!(c.comparison, Comparison::LessEqual | Comparison::Less))
+        {
+            for (high, at_most) in bounds.iter().filter(|(c, _)| bounds_above(c)) {
+                if at_least.low > at_most.high && at_most.high >= 0.0 && is_here(high.span) {
+                    let message = format!("no duration of action `{}` keeps both bounds", action.name);
+                    let finding = Finding::new(&LINT, Place::domain(high.span), message);
+                    found.report(finding.label(Place::domain(low.span), format!("{at_least}")));
+                }
+            }
+        }
+    }
+}

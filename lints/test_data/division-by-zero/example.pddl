@@ -1,0 +1,16 @@
+(define (domain hall)
+  (:requirements :typing :durative-actions :numeric-fluents)
+  (:types place)
+  (:predicates (at ?p - place))
+  (:functions (way ?a ?b - place) (speed))
+  (:durative-action move
+    :parameters (?a ?b - place)
+    :duration (= ?duration (/ (way ?a ?b) (speed)))
+    :condition (at start (at ?a))
+    :effect (and (at start (not (at ?a))) (at end (at ?b)))))
+
+(define (problem evening)
+  (:domain hall)
+  (:objects a b - place)
+  (:init (at a) (= (way a b) 5) (= (way b a) 5) (= (speed) 0))
+  (:goal (at b)))
