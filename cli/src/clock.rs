@@ -28,6 +28,12 @@ impl Seconds {
     }
 }
 
+impl From<Duration> for Seconds {
+    fn from(time: Duration) -> Self {
+        Self(time)
+    }
+}
+
 impl std::str::FromStr for Seconds {
     type Err = String;
 

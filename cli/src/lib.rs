@@ -15,7 +15,7 @@
 //! assert!(String::from_utf8(err).unwrap().contains("no/such/file.pddl"));
 //! ```
 //!
-//! Members: `arguments` (the tree of commands), `run`, `plan`, `validate`, `check`, `test`, `fmt`, `explain` (one each),
+//! Members: `arguments` (the tree of commands), `run`, `plan`, `validate`, `check`, `test`, `fmt`, `lsp`, `explain` (one each),
 //! `task` (a domain with its problem, read from files), `assemble` (a mission, from its folder to what runs it),
 //! `scenario`, `files`, `disk` (mission folders), `memory`, `clock`, `render`
 //! (diagnostics as text with excerpts, or as JSON), `console` and `exit`.
@@ -30,6 +30,7 @@ mod exit;
 mod explain;
 mod files;
 mod fmt;
+mod lsp;
 mod memory;
 mod plan;
 mod render;

@@ -111,15 +111,17 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
             answer.end("unsolvable", &reason, console);
             Exit::No
         }
-        Outcome::LimitReached(limit) => {
-            let limit = match limit {
-                Limit::Interrupted => "the time is over",
-                Limit::Expansions => "as many states were expanded as allowed",
-                Limit::Memory => "the memory is used up",
-                Limit::Incomplete => "this search is incomplete and gave up; another one may find a plan",
-            };
-            no_answer(limit, &mut answer, console)
-        }
+        Outcome::LimitReached(limit) => no_answer(limit_words(*limit), &mut answer, console),
+    }
+}
+
+/// Which limit it was.
+pub(crate) fn limit_words(limit: Limit) -> &'static str {
+    match limit {
+        Limit::Interrupted => "the time is over",
+        Limit::Expansions => "as many states were expanded as allowed",
+        Limit::Memory => "the memory is used up",
+        Limit::Incomplete => "this search is incomplete and gave up; another one may find a plan",
     }
 }
 
@@ -162,22 +164,8 @@ fn solved(
     answer: &mut Answer,
     console: &mut Console<'_>,
 ) -> Exit {
-    let mut text = String::new();
-    let mut plan = pddl::SequentialPlan::default();
-    for &id in &found.operators {
-        let line = task.operator_name(id);
-        let start = u32::try_from(text.len()).unwrap_or(u32::MAX);
-        let end = u32::try_from(text.len() + line.len()).unwrap_or(u32::MAX);
-        let operator = &task.operators()[id];
-        plan.steps.push(PlanStep {
-            action: operator.action,
-            arguments: operator.arguments.to_vec(),
-            span: Span::new(start, end),
-        });
-        text.push_str(&line);
-        text.push('\n');
-        answer.steps.push(line);
-    }
+    let (mut text, plan) = written(task, found);
+    answer.steps = text.lines().map(str::to_owned).collect();
     let verdict = validator::validate(&files.domain, &files.problem, &plan);
     let Verdict::Valid(valid) = verdict else {
         return bug(&verdict, &plan, &text, files, console);
@@ -203,6 +191,26 @@ fn solved(
     Exit::Yes
 }
 
+/// A plan as a file has it, a step a line, and as reading that file would give it.
+pub(crate) fn written(task: &Task, found: &planner::Plan) -> (String, pddl::SequentialPlan) {
+    let mut text = String::new();
+    let mut plan = pddl::SequentialPlan::default();
+    for &id in &found.operators {
+        let line = task.operator_name(id);
+        let start = u32::try_from(text.len()).unwrap_or(u32::MAX);
+        let end = u32::try_from(text.len() + line.len()).unwrap_or(u32::MAX);
+        let operator = &task.operators()[id];
+        plan.steps.push(PlanStep {
+            action: operator.action,
+            arguments: operator.arguments.to_vec(),
+            span: Span::new(start, end),
+        });
+        text.push_str(&line);
+        text.push('\n');
+    }
+    (text, plan)
+}
+
 /// Never seen, we hope. The plan is shown as it is, since whoever repairs this needs it.
 fn bug(
     verdict: &Verdict,
@@ -226,7 +234,8 @@ fn cost_kind(files: &TaskFiles) -> &'static str {
     if files.problem.metric.is_some() { "general cost" } else { "unit cost" }
 }
 
-fn why_unsolvable(task: &Task, reason: &UnsolvableReason) -> String {
+/// Why there is none.
+pub(crate) fn why_unsolvable(task: &Task, reason: &UnsolvableReason) -> String {
     let named = |atoms: &[planner::GroundAtom]| {
         atoms.iter().map(|atom| task.atom_name(atom)).collect::<Vec<_>>().join(", ")
     };

@@ -1,0 +1,122 @@
+//! Planner and validator, as the language server calls them.
+
+use crate::clock::{Deadline, Seconds};
+use crate::memory;
+use crate::plan::{limit_words, why_unsolvable, written};
+use ::lsp::{File, Judged, Limits, Planned, Remark, Task};
+use pddl::model::{Domain, Problem};
+use pddl::{Severity, Source, Span, parse_domain, parse_plan, parse_problem};
+use planner::{
+    Budget, GroundError, GroundOptions, Origin, Outcome, Query, SearchConfiguration, ground, solve,
+};
+use validator::{Verdict, explain, validate};
+
+/// Ours.
+pub(super) struct Tools;
+
+impl ::lsp::Tools for Tools {
+    fn plan(&self, task: &Task, limits: &Limits) -> Planned {
+        let Some((domain, problem)) = models(task) else { return Planned::Unreadable };
+        let configuration = match limits.search.as_deref().map(SearchConfiguration::named) {
+            None => SearchConfiguration::portfolio(),
+            Some(Some(configuration)) => configuration,
+            Some(None) => return Planned::Limit("there is no search of the name in `planSearch`".to_owned()),
+        };
+        let deadline = Deadline::after(Some(Seconds::from(limits.timeout)));
+        let interrupted = || deadline.is_over() || limits.cancelled.is_cancelled();
+        let options = GroundOptions { interrupted: &interrupted, ..GroundOptions::default() };
+        let grounded = match ground(&domain, &problem, &options) {
+            Ok(grounded) => grounded,
+            Err(error) => return not_grounded(&error),
+        };
+        let budget =
+            Budget { expansions: None, memory_bytes: Some(memory::budget()), interrupted: &interrupted };
+        let report = solve(&grounded, &Query::of(&grounded), &configuration, &budget);
+        match report.outcome {
+            Outcome::Solved(found) => {
+                let (text, plan) = written(&grounded, &found);
+                match validate(&domain, &problem, &plan) {
+                    Verdict::Valid(valid) => Planned::Solved {
+                        text: format!("{text}; cost = {}\n", valid.cost()),
+                        steps: plan.steps.len(),
+                        cost: valid.cost().to_string(),
+                    },
+                    verdict => {
+                        let why = explain(&domain, &problem, &plan, &verdict);
+                        let why = why.map(|finding| finding.sentence).unwrap_or_default();
+                        Planned::Limit(format!("a bug in pelea: the planner's plan is not valid: {why}"))
+                    }
+                }
+            }
+            Outcome::Unsolvable(reason) => {
+                let sentence = format!("there is no plan: {}", why_unsolvable(&grounded, &reason));
+                Planned::Unsolvable(remark(Severity::Error, sentence, (File::Problem, problem.goal_span)))
+            }
+            Outcome::LimitReached(limit) => Planned::Limit(limit_words(limit).to_owned()),
+        }
+    }
+
+    fn validate(&self, task: &Task, plan: &Source) -> Judged {
+        let Some((domain, problem)) = models(task) else { return Judged::Unreadable };
+        let Some(plan) = parse_plan(plan, &domain, &problem).model else { return Judged::Unreadable };
+        let (kind, start) = (plan.kind(), plan.first_span());
+        let Some(plan) = plan.into_sequential() else {
+            let sentence = format!("{kind} plans are read but not validated");
+            return Judged::Not(vec![remark(Severity::Unsupported, sentence, (File::Plan, start))]);
+        };
+        let verdict = validate(&domain, &problem, &plan);
+        if let Verdict::Valid(valid) = &verdict {
+            return Judged::Valid { steps: plan.steps.len(), cost: valid.cost().to_string() };
+        }
+        let severity =
+            if matches!(verdict, Verdict::Unsupported(_)) { Severity::Unsupported } else { Severity::Error };
+        let found = explain(&domain, &problem, &plan, &verdict);
+        let remarks = found.map(|finding| Remark {
+            severity,
+            sentence: finding.sentence,
+            place: place(finding.place),
+            notes: finding.notes.into_iter().map(|(at, text)| (place(at), text)).collect(),
+        });
+        Judged::Not(remarks.into_iter().collect())
+    }
+}
+
+/// What the texts mean, if they have no errors.
+fn models(task: &Task) -> Option<(Domain, Problem)> {
+    let mut imports: Vec<Domain> = Vec::new();
+    for import in &task.imports {
+        let known: Vec<&Domain> = imports.iter().collect();
+        let domain = parse_domain(import, &known).model?;
+        imports.push(domain);
+    }
+    let known: Vec<&Domain> = imports.iter().collect();
+    let domain = parse_domain(&task.domain, &known).model?;
+    let problem = parse_problem(&task.problem, &domain).model?;
+    Some((domain, problem))
+}
+
+fn not_grounded(error: &GroundError) -> Planned {
+    match error {
+        GroundError::Unsupported { origin, span, .. } => {
+            let file = match origin {
+                Origin::Domain => File::Domain,
+                Origin::Problem => File::Problem,
+            };
+            Planned::Refused(vec![remark(Severity::Unsupported, error.to_string(), (file, *span))])
+        }
+        GroundError::Limit { .. } | GroundError::Interrupted { .. } => Planned::Limit(error.to_string()),
+    }
+}
+
+fn remark(severity: Severity, sentence: String, place: (File, Span)) -> Remark {
+    Remark { severity, sentence, place, notes: Vec::new() }
+}
+
+fn place(place: validator::Place) -> (File, Span) {
+    let file = match place.file {
+        validator::File::Domain => File::Domain,
+        validator::File::Problem => File::Problem,
+        validator::File::Plan => File::Plan,
+    };
+    (file, place.span)
+}

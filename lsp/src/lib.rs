@@ -1,0 +1,59 @@
+//! A language server for PDDL, HDDL and plans.
+//!
+//! [`serve`] speaks the Language Server Protocol over any input and output until the client leaves. What names
+//! mean is the crate `ide`'s to know, which files belong together that of `project`; here are the protocol, the texts
+//! that an editor has open, and the order in which things happen. A [`Host`] brings what this crate has no business
+//! with: the disk, the planner, the validator.
+//!
+//! ```
+//! use lsp::{Disk, Ended, Entry, Host, Judged, Limits, Planned, ReadError, Task, Tools, serve};
+//! use std::sync::Arc;
+//!
+//! struct Nothing;
+//! impl Disk for Nothing {
+//!     fn list(&self, _: &str) -> Vec<Entry> { vec![] }
+//!     fn read(&self, path: &str, _: u64) -> Result<String, ReadError> {
+//!         Err(ReadError::Unreadable(format!("no {path}")))
+//!     }
+//! }
+//! impl Tools for Nothing {
+//!     fn plan(&self, _: &Task, _: &Limits) -> Planned { Planned::Limit("no planner".into()) }
+//!     fn validate(&self, _: &Task, _: &pddl::Source) -> Judged { Judged::Not(vec![]) }
+//! }
+//!
+//! let input = r#"{"jsonrpc": "2.0", "method": "exit"}"#;
+//! let input = format!("Content-Length: {}\r\n\r\n{input}", input.len());
+//! let host = Host { disk: Arc::new(Nothing), tools: Arc::new(Nothing) };
+//! let ended = serve(std::io::Cursor::new(input), std::io::sink(), host);
+//! assert_eq!(ended, Ended::Abruptly, "without `shutdown` before it");
+//! ```
+//!
+//! Map, from the ground up: `frame` and `message` (bytes in), `position` and `uri` (how clients name places), `host`
+//! (what is handed in), `client` and `options` (what this session is like), `documents` (the texts), `job` (work on
+//! threads of its own), `outbox` (bytes out), `event` and `inbox` (what happens, in which order), `server` (the state, and
+//! what changes it), `answers` (one file a question; none changes anything), `serve` (the threads).
+//!
+//! **Invariant: the state changes in `Server::handle` and nowhere else.** Jobs send news; answers read.
+//!
+//! **Invariant: no message ends the session but `exit`.** What cannot be read is answered with an error, a panic is
+//! caught, logged and answered.
+
+mod answers;
+mod client;
+mod documents;
+mod event;
+mod frame;
+mod host;
+mod inbox;
+mod job;
+mod message;
+mod options;
+mod outbox;
+mod position;
+mod serve;
+mod server;
+mod uri;
+
+pub use host::{Cancel, Disk, Entry, File, Host, Judged, Limits, Planned, ReadError, Remark, Task, Tools};
+pub use position::{Encoding, LineIndex};
+pub use serve::{Ended, serve};
