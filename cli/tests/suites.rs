@@ -17,10 +17,13 @@ fn said(output: &Output) -> String {
 #[test]
 fn our_own_suites_pass() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let output = pelea(&root, &["test", "domains"]);
+    let output = pelea(&root, &["test", "domains", "validator/test_data"]);
     let said = said(&output);
     assert_eq!(output.status.code(), Some(0), "{said}");
     assert!(said.contains("PASS") && said.contains("domains/barthel/problem.pddl::solvable"), "{said}");
+    let plans = said.lines().filter(|line| line.contains("validator/test_data") && line.contains(".plan::"));
+    let plans = plans.count();
+    assert!(plans >= 150, "only {plans} plans in validator/test_data");
 }
 
 #[test]

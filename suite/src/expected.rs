@@ -112,6 +112,8 @@ pub(crate) struct Details {
     pub(crate) line: Option<Written<u32>>,
     /// Literals as [`crate::plan::literal`] writes them.
     pub(crate) missing: Vec<Written<String>>,
+    /// Parts of the sentences that explain it.
+    pub(crate) says: Vec<Written<String>>,
 }
 
 /// Why a plan is invalid.

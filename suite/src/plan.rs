@@ -39,6 +39,13 @@ pub(crate) struct Says {
     pub(crate) notes: Vec<(Place, String)>,
 }
 
+impl Says {
+    /// Whether a text stands in one of the sentences.
+    fn says(&self, text: &str) -> bool {
+        self.sentence.contains(text) || self.notes.iter().any(|(_, note)| note.contains(text))
+    }
+}
+
 impl Suite {
     /// Judges a plan.
     pub(crate) fn found(&self, task: &Task<'_>, file: SourceId) -> Found {
@@ -131,6 +138,12 @@ impl Suite {
     /// Where what was found is not what was expected: `Some`, with the place in `expected.toml` if there is one.
     fn difference(&self, file: SourceId, case: &PlanCase, found: &Found) -> Option<Option<Span>> {
         let details = &case.details;
+        if let Found::Invalid { says, .. } | Found::Unreadable { says, .. } = found
+            && case.verdict == Wanted::Invalid
+            && let Some(unsaid) = details.says.iter().find(|wanted| !says.says(&wanted.value))
+        {
+            return Some(Some(unsaid.span));
+        }
         match (case.verdict, found) {
             (Wanted::Valid, Found::Valid { cost }) => {
                 let wrong = details.cost.filter(|wanted| wanted.value != *cost)?;
@@ -296,6 +309,7 @@ fn describe_wanted(case: &PlanCase) -> String {
     more.extend(details.step.map(|step| format!("step {}", step.value)));
     more.extend(details.line.map(|line| format!("line {}", line.value)));
     more.extend(details.missing.iter().map(|literal| format!("missing {}", literal.value)));
+    more.extend(details.says.iter().map(|text| format!("saying `{}`", text.value)));
     with_details(case.verdict.word(), &more)
 }
 

@@ -133,6 +133,11 @@ fn plan(reader: &mut Reader<'_>, entry: &mut Table<'_>, span: Span, known: &Know
             .into_iter()
             .map(|text| Written { value: crate::plan::literal(&text.value), span: text.span })
             .collect(),
+        says: entry
+            .one_or_more(reader, "says")
+            .into_iter()
+            .map(|text| Written { span: text.span, value: text.value })
+            .collect(),
     };
     PlanEntry { file: NOWHERE, span, problem, verdict, details }
 }

@@ -182,6 +182,7 @@ impl Suite {
             wrong.extend(details.step.map(|s| ("step", s.span)));
             wrong.extend(details.line.map(|l| ("line", l.span)));
             wrong.extend(details.missing.first().map(|m| ("missing", m.span)));
+            wrong.extend(details.says.first().map(|s| ("says", s.span)));
         }
         for (key, span) in wrong {
             let message = format!("a plan that is {} has no `{key}`", verdict.word());

@@ -96,6 +96,8 @@ fn each_reason_is_held_against_what_is_so() {
         code = { why = "E0204" }
         line = { why = "arity", line = 1 }
         cheap = { cost = 2 }
+        told = { says = ["cannot be taken", "step 2 (pour a) deleted it"] }
+        untold = { says = "it never did" }
         "#,
         &[
             ("invalid/right.plan", "(boil)\n(pour a)\n(pour a)"),
@@ -106,6 +108,8 @@ fn each_reason_is_held_against_what_is_so() {
             ("invalid/text.plan", "(boil)\n(brew a)"),
             ("invalid/code.plan", "(pour z)"),
             ("invalid/line.plan", "(boil)\n(pour)"),
+            ("invalid/told.plan", "(boil)\n(pour a)\n(pour a)"),
+            ("invalid/untold.plan", "(boil)\n(pour a)\n(pour a)"),
             ("valid/cheap.plan", "(boil)\n(pour a)\n(pour b)"),
         ],
         &expect![[r#"
@@ -143,6 +147,15 @@ fn each_reason_is_held_against_what_is_so() {
               tea/invalid/step.plan:2:1: this adds (full a)
               tea/expected.toml:5:25: expected here
             pass tea/invalid/text.plan::invalid
+            pass tea/invalid/told.plan::invalid
+            FAIL tea/invalid/untold.plan::invalid
+            tea/invalid/untold.plan:3:1: error[T0302]: expected invalid (saying `it never did`), found invalid (precondition, step 3, missing (clean a), missing (not (full a)))
+              tea/invalid/untold.plan:3:1: step 3 (pour a) cannot be taken: its precondition does not hold
+              tea/domain.pddl:8:30: (clean a) does not hold; step 2 (pour a) deleted it
+              tea/invalid/untold.plan:2:1: this deletes (clean a)
+              tea/domain.pddl:8:46: (full a) should not hold; step 2 (pour a) added it
+              tea/invalid/untold.plan:2:1: this adds (full a)
+              tea/expected.toml:13:27: expected here
             FAIL tea/valid/cheap.plan::valid
             tea/valid/cheap.plan:1:1: error[T0302]: expected valid (cost 2), found valid (cost 3)
               tea/expected.toml:11:26: expected here

@@ -22,7 +22,8 @@
 //! From the ground up: `number` (exact arithmetic), `universe` (which objects a type has), `state`
 //! (facts and fluents, each with the step that changed it last), `expression`, `condition` and `solve`
 //! (what holds), `axiom` (what follows), `effect` (what an action does), `run` (the plan, step by step),
-//! [`Verdict`] with `why` (what was missing) and `words` (how to say it).
+//! [`Verdict`] with `why` (what was missing) and `words` (how to say it). Its cases are suites of `pelea test` in
+//! `test_data`, a folder per feature.
 
 mod axiom;
 mod condition;

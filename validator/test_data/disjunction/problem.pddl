@@ -1,1 +1,5 @@
-(define (problem p) (:domain tea) (:objects cup) (:init) (:goal (served cup)))
+(define (problem p)
+  (:domain tea)
+  (:objects cup)
+  (:init)
+  (:goal (served cup)))

@@ -1,1 +1,0 @@
-(define (problem p) (:domain wins) (:init (p)) (:goal (p)))

@@ -1,0 +1,4 @@
+(define (problem p)
+  (:domain wins)
+  (:init (p))
+  (:goal (p)))

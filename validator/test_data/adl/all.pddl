@@ -1,0 +1,5 @@
+(define (problem all)
+  (:domain lamps)
+  (:objects hall bed - lamp left right - switch)
+  (:init (wired left hall) (wired left bed) (wired right bed))
+  (:goal (forall (?l - lamp) (and (on ?l) (not (broken ?l))))))

@@ -1,0 +1,5 @@
+(define (problem broken)
+  (:domain lamps)
+  (:objects hall bed - lamp left right - switch)
+  (:init (wired left hall) (wired left bed) (wired right bed) (broken hall))
+  (:goal (checked)))

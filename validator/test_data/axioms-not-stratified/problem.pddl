@@ -1,1 +1,0 @@
-(define (problem p) (:domain liar) (:init) (:goal (done)))

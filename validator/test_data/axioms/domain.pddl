@@ -1,0 +1,10 @@
+(define (domain network)
+  (:requirements :strips :derived-predicates :negative-preconditions :existential-preconditions
+                 :disjunctive-preconditions)
+  (:predicates (wire ?a ?b) (cut-off ?a) (fed ?a) (source ?a) (repaired ?a) (alarm))
+  (:derived (fed ?x) (or (source ?x) (exists (?y) (and (fed ?y) (wire ?y ?x)))))
+  (:derived (cut-off ?x) (not (fed ?x)))
+  (:derived (alarm) (exists (?x) (cut-off ?x)))
+  (:action lay :parameters (?a ?b) :precondition (fed ?a) :effect (wire ?a ?b))
+  (:action cut :parameters (?a ?b) :precondition (wire ?a ?b) :effect (not (wire ?a ?b)))
+  (:action repair :parameters (?a) :precondition (cut-off ?a) :effect (repaired ?a)))

@@ -1,0 +1,5 @@
+(define (problem fed)
+  (:domain network)
+  (:objects plant a b c)
+  (:init (source plant) (wire plant a) (wire a b))
+  (:goal (fed c)))

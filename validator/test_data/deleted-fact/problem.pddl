@@ -1,1 +1,0 @@
-(define (problem p) (:domain candle) (:objects red blue) (:init (match)) (:goal (seen red)))

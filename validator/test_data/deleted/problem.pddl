@@ -1,0 +1,5 @@
+(define (problem p)
+  (:domain candle)
+  (:objects red blue)
+  (:init (match))
+  (:goal (seen red)))

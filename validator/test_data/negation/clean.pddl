@@ -1,0 +1,5 @@
+(define (problem clean)
+  (:domain sterile)
+  (:objects a b c - room)
+  (:init (at a) (dirty b))
+  (:goal (and (clean a) (not (= a b)) (not (clean c)))))

@@ -1,0 +1,5 @@
+(define (problem wash)
+  (:domain sterile)
+  (:objects a b c - room)
+  (:init (at a) (dirty b))
+  (:goal (and (at b) (not (dirty b)))))

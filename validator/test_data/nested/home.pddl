@@ -1,0 +1,5 @@
+(define (problem home)
+  (:domain ward)
+  (:objects ana bea - nurse carl - doctor max eva - patient)
+  (:init (on-duty ana) (on-duty carl) (allergic eva))
+  (:goal (exists (?p - patient) (discharged ?p))))

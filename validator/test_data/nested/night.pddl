@@ -1,0 +1,5 @@
+(define (problem night)
+  (:domain ward)
+  (:objects ana bea - nurse carl - doctor max eva - patient)
+  (:init (on-duty ana) (on-duty carl) (allergic eva))
+  (:goal (and (treated max) (treated eva))))

@@ -1,0 +1,5 @@
+(define (problem p)
+  (:domain nobody)
+  (:objects ana - nurse)
+  (:init)
+  (:goal (done)))

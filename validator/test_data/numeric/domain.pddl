@@ -1,0 +1,21 @@
+(define (domain tank)
+  (:requirements :strips :typing :numeric-fluents :negative-preconditions
+                 :disjunctive-preconditions)
+  (:predicates (done) (started))
+  (:functions (level) (drops) (rate) (limit))
+  (:action pour :parameters () :effect (increase (level) 0.1))
+  (:action spill :parameters () :precondition (>= (level) 0.05) :effect (decrease (level) 0.05))
+  (:action double :parameters () :effect (scale-up (level) 2))
+  (:action third :parameters () :effect (scale-down (level) 3))
+  (:action share :parameters () :effect (assign (drops) (/ 1 (level))))
+  (:action drip :parameters () :effect (increase (drops) 1))
+  (:action both :parameters () :effect (and (assign (level) 1) (increase (level) 1)))
+  (:action twice
+    :parameters ()
+    :effect (and (increase (level) 0.25) (increase (level) (* 0.5 0.5))))
+  (:action stop :parameters () :precondition (= (level) 0.3) :effect (done))
+  (:action ask :parameters () :precondition (or (not (> (drops) 3)) (started)) :effect (done))
+  (:action close
+    :parameters ()
+    :precondition (<= (+ (level) 0.1) (- (limit) (level)))
+    :effect (done)))

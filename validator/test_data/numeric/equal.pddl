@@ -1,0 +1,5 @@
+(define (problem equal)
+  (:domain tank)
+  (:init (= (level) 0) (= (limit) 0.5))
+  (:goal (= (level) 1))
+  (:metric maximize (level)))

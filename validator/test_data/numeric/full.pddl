@@ -1,0 +1,5 @@
+(define (problem full)
+  (:domain tank)
+  (:init (= (level) 0) (= (limit) 0.5))
+  (:goal (and (>= (level) 0.4) (< (level) 0.5)))
+  (:metric minimize (level)))

@@ -1,0 +1,5 @@
+(define (problem started)
+  (:domain tank)
+  (:init (started) (= (level) 0) (= (limit) 0.5))
+  (:goal (done))
+  (:metric maximize (level)))

@@ -1,0 +1,5 @@
+(define (problem tank)
+  (:domain tank)
+  (:init (= (level) 0) (= (limit) 0.5))
+  (:goal (done))
+  (:metric maximize (level)))

@@ -1,8 +1,0 @@
-(define (domain desk)
-  (:requirements :typing :object-fluents :negative-preconditions)
-  (:types person place)
-  (:predicates (met ?a ?b - person))
-  (:functions (seat ?p - person) - place)
-  (:action move :parameters (?p - person ?to - place) :effect (assign (seat ?p) ?to))
-  (:action meet :parameters (?a ?b - person ?at - place)
-    :precondition (and (= (seat ?a) ?at) (= (seat ?b) ?at)) :effect (met ?a ?b)))

@@ -1,1 +1,0 @@
-(define (problem p) (:domain lamp) (:init) (:goal (and (lit) (preference w (warm)))) (:metric minimize (is-violated w)))

@@ -1,1 +1,0 @@
-(define (problem p) (:domain nobody) (:objects ana - nurse) (:init) (:goal (done)))

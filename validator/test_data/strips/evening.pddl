@@ -1,0 +1,6 @@
+(define (problem evening)
+  (:domain rounds)
+  (:objects ward store kitchen - room pills water - item)
+  (:init (at ward) (free) (in pills store) (in water kitchen)
+         (door ward store) (door store ward) (door ward kitchen) (door kitchen ward))
+  (:goal (and (in pills ward) (in water ward))))

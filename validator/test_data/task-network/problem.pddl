@@ -1,3 +1,0 @@
-(define (problem p) (:domain tidy) (:objects)
-  (:htn :parameters () :ordered-subtasks (and (tidy)))
-  (:init))

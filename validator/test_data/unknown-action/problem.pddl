@@ -1,5 +1,0 @@
-(define (problem morning) (:domain rounds)
-  (:objects ward store kitchen - room pills water - item)
-  (:init (at ward) (free) (in pills store) (in water kitchen)
-         (door ward store) (door store ward) (door ward kitchen) (door kitchen ward))
-  (:goal (and (in pills ward))))

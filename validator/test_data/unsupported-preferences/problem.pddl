@@ -1,0 +1,5 @@
+(define (problem p)
+  (:domain lamp)
+  (:init)
+  (:goal (and (lit) (preference w (warm))))
+  (:metric minimize (is-violated w)))

@@ -1,0 +1,5 @@
+(define (problem p)
+  (:domain tidy)
+  (:objects)
+  (:htn :parameters () :ordered-subtasks (and (tidy)))
+  (:init))
