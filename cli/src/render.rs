@@ -89,6 +89,10 @@ impl<'a> Message<'a> {
             let help = self.help.as_ref().map(|help| format!("  help: {help}\n")).unwrap_or_default();
             return format!("{}: {}\n{help}", word(self.severity), self.text);
         };
+        let places = || std::iter::once(at).chain(self.labels.iter().map(|(at, _)| *at));
+        if places().any(is_long) {
+            return self.plain(at);
+        }
         let kind = match self.severity {
             Severity::Error => ReportKind::Error,
             Severity::Warning => ReportKind::Warning,
@@ -135,6 +139,28 @@ impl<'a> Message<'a> {
         }
     }
 
+    /// A head, places, and pieces of their lines.
+    fn plain(&self, at: At<'_>) -> String {
+        let code = self.code.map(|code| format!("[{code}] ")).unwrap_or_default();
+        let mut text = format!("{code}{}: {}\n", word(self.severity), self.text);
+        let labels = self.labels.iter().map(|(at, note)| (*at, note.as_str()));
+        for (At { source, span }, note) in std::iter::once((at, "here")).chain(labels) {
+            let place = source.line_column(span.start);
+            let column = place.column as usize - 1;
+            let skip = column.saturating_sub(WINDOW / 2);
+            let shown: String = source.line(place.line).chars().skip(skip).take(WINDOW).collect();
+            let shown = harmless(&shown).replace('\t', " ");
+            let (before, after) = (" ".repeat(column - skip), if skip > 0 { "… " } else { "" });
+            text += &format!("   {}:{}:{}\n", source.name(), place.line, place.column);
+            text += &format!("   {after}{}\n", shown.trim_end());
+            text += &format!("   {}{before}^ {note}\n", " ".repeat(after.chars().count()));
+        }
+        if let Some(help) = &self.help {
+            text += &format!("   Help: {help}\n");
+        }
+        text
+    }
+
     fn record(&self) -> DiagnosticRecord<'_> {
         DiagnosticRecord {
             kind: "diagnostic",
@@ -158,6 +184,18 @@ fn word(severity: Severity) -> &'static str {
         Severity::Unsupported => "Unsupported",
         Severity::Error => "Error",
     }
+}
+
+/// How much of a long line is shown, in characters.
+const WINDOW: usize = 100;
+
+/// Longest line that is shown whole, and longest text that is drawn with frames (which looks at all of it every
+/// time), both in bytes.
+const LONGEST: (usize, usize) = (2_000, 4_000_000);
+
+fn is_long(at: At<'_>) -> bool {
+    let lines = [at.span.start, at.span.end].map(|offset| at.source.line_column(offset).line);
+    at.source.text().len() > LONGEST.1 || lines.iter().any(|&line| at.source.line(line).len() > LONGEST.0)
 }
 
 /// A text that a terminal only shows: control characters, which are a byte each, become `?`.
@@ -245,6 +283,19 @@ struct DiagnosticRecord<'a> {
 mod tests {
     use super::{At, Message, bytes};
     use pddl::{Source, Span};
+
+    #[test]
+    fn of_a_long_line_a_piece_is_shown() {
+        let source = Source::new("x", format!("a\n{}(p){}", "(and ".repeat(1000), ")".repeat(1000)));
+        let shown = Message::error("too deep").at(&source, Span::new(5002, 6005)).text(false);
+        expect_test::expect![[r#"
+            Error: too deep
+               x:2:5001
+               … (and (and (and (and (and (and (and (and (and (and (p))))))))))))))))))))))))))))))))))))))))))))))))
+                                                                   ^ here
+        "#]]
+        .assert_eq(&shown);
+    }
 
     #[test]
     fn spans_of_any_kind_are_shown() {

@@ -32,8 +32,9 @@ pub(crate) fn plan(
     for object in problem.objects.iter().skip(domain.constants.len()) {
         world.add_object(object.clone());
     }
+    let knows_time = !domain.durative_actions.is_empty() || !problem.timed.is_empty();
     let mut sink = sink;
-    let plan = Reader { source, tree, domain, body: Body::new(&world, &mut sink) }.plan();
+    let plan = Reader { source, tree, domain, knows_time, body: Body::new(&world, &mut sink) }.plan();
     let finished = sink.finish();
     Lowered::new(plan, finished)
 }
@@ -43,6 +44,8 @@ struct Reader<'a> {
     source: &'a Source,
     tree: &'a Tree<'a>,
     domain: &'a Domain,
+    /// Whether whole numbers before steps are times.
+    knows_time: bool,
     body: Body<'a>,
 }
 

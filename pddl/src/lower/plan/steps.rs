@@ -173,8 +173,8 @@ impl<'a> Reader<'a> {
         let any = |step: &Written<'_>| {
             step.duration.is_some() || step.time.as_ref().is_some_and(fractional) || durative(step)
         };
-        let timed = !self.domain.durative_actions.is_empty();
-        written.iter().any(any) || (timed && !written.is_empty() && written.iter().all(|s| s.time.is_some()))
+        written.iter().any(any)
+            || (self.knows_time && !written.is_empty() && written.iter().all(|s| s.time.is_some()))
     }
 
     /// Steps are taken in the order of the file, and their numbers must not say otherwise.
