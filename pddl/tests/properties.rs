@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 use pddl::model::Domain;
 use pddl::{Source, parse_domain, parse_plan, parse_problem};
 use proptest::prelude::*;
-use support::properties::{check_domain, check_plan, check_problem, check_text};
+use support::properties::{check_domain, check_drafts, check_plan, check_problem, check_text};
 
 /// The good and bad cases, as material to mutate.
 static TEXTS: LazyLock<Vec<String>> = LazyLock::new(|| {
@@ -26,6 +26,7 @@ static VOCABULARY: LazyLock<Domain> = LazyLock::new(|| {
 fn read(text: &str) {
     let source = Source::new("text", text);
     check_text(&source);
+    check_drafts(&source);
     let Some(domain) = check_domain(&source, &[&*VOCABULARY]) else { return };
     let Some(problem) = check_problem(&source, &domain) else { return };
     check_plan(&source, &domain, &problem);

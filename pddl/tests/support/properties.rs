@@ -5,7 +5,10 @@
 
 use pddl::model::{Domain, Problem};
 use pddl::syntax::{self, Node, TokenKind};
-use pddl::{Diagnostic, Source, Span, parse_domain, parse_plan, parse_problem};
+use pddl::{
+    Analysis, Diagnostic, Names, Parsed, Source, Span, analyze_domain, analyze_plan, analyze_problem,
+    parse_domain, parse_plan, parse_problem, print_domain, print_plan, print_problem,
+};
 
 /// What holds of a text whatever it is.
 pub(crate) fn check_text(source: &Source) {
@@ -31,8 +34,9 @@ fn check_nodes<'t>(nodes: impl Iterator<Item = Node<'t>>, within: Span) {
 /// Reads the text as a domain.
 pub(crate) fn check_domain(source: &Source, imports: &[&Domain]) -> Option<Domain> {
     let parsed = parse_domain(source, imports);
-    check_places(source, &parsed.diagnostics);
-    assert_eq!(parsed.model.is_none(), parsed.errors().next().is_some());
+    let analysis = analyze_domain(source, imports, Names::Kept);
+    check_analysis(source, &parsed, &analysis);
+    print_domain(&analysis.draft);
     let domain = parsed.model?;
     super::check_domain_printed(&domain, imports);
     Some(domain)
@@ -41,8 +45,9 @@ pub(crate) fn check_domain(source: &Source, imports: &[&Domain]) -> Option<Domai
 /// Reads the text as a problem of `domain`.
 pub(crate) fn check_problem(source: &Source, domain: &Domain) -> Option<Problem> {
     let parsed = parse_problem(source, domain);
-    check_places(source, &parsed.diagnostics);
-    assert_eq!(parsed.model.is_none(), parsed.errors().next().is_some());
+    let analysis = analyze_problem(source, domain, Names::Kept);
+    check_analysis(source, &parsed, &analysis);
+    print_problem(&analysis.draft, domain);
     let problem = parsed.model?;
     super::check_problem_printed(&problem, domain);
     Some(problem)
@@ -51,10 +56,39 @@ pub(crate) fn check_problem(source: &Source, domain: &Domain) -> Option<Problem>
 /// Reads the text as a plan for `problem`.
 pub(crate) fn check_plan(source: &Source, domain: &Domain, problem: &Problem) {
     let parsed = parse_plan(source, domain, problem);
-    check_places(source, &parsed.diagnostics);
+    let analysis = analyze_plan(source, domain, problem, Names::Kept);
+    check_analysis(source, &parsed, &analysis);
+    print_plan(&analysis.draft, domain, problem);
     if let Some(plan) = &parsed.model {
         super::check_plan_printed(plan, domain, problem);
     }
+}
+
+/// Reads the text as a domain and as a problem of it, both of them drafts.
+pub(crate) fn check_drafts(source: &Source) {
+    let domain = analyze_domain(source, &[], Names::Skipped).draft;
+    let problem = analyze_problem(source, &domain, Names::Skipped).draft;
+    print_problem(&problem, &domain);
+    print_plan(&analyze_plan(source, &domain, &problem, Names::Skipped).draft, &domain, &problem);
+}
+
+/// There is a model or an error; an editor is told the same, and names stand where it says. That the ids of drafts
+/// are in range is seen by printing them, which follows every one.
+fn check_analysis<M>(source: &Source, parsed: &Parsed<M>, analysis: &Analysis<M>) {
+    check_places(source, &parsed.diagnostics);
+    assert_eq!(parsed.model.is_none(), parsed.errors().next().is_some());
+    assert_eq!(parsed.model.is_some(), analysis.sound);
+    assert_eq!(parsed.diagnostics, analysis.diagnostics);
+    for occurrence in &analysis.occurrences {
+        assert!(!source.slice(occurrence.span).is_empty(), "{occurrence:?}");
+        if let Some(scope) = occurrence.symbol.scope {
+            assert!(
+                scope.start <= occurrence.span.start && occurrence.span.end <= scope.end,
+                "{occurrence:?}"
+            );
+        }
+    }
+    assert!(analysis.occurrences.is_sorted_by_key(|occurrence| occurrence.span.start));
 }
 
 /// Diagnostics come in order, stand in the text between characters, and can be shown.
