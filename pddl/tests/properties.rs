@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use pddl::model::Domain;
-use pddl::{Source, parse_domain, parse_plan, parse_problem};
+use pddl::{Source, Span, parse_domain, parse_plan, parse_problem, syntax};
 use proptest::prelude::*;
 use support::properties::{check_domain, check_drafts, check_plan, check_problem, check_text};
 
@@ -181,4 +181,47 @@ fn a_hundred_thousand_lists_in_any_kind_of_file_are_an_error_and_no_overflow() {
             }
         }
     }
+}
+
+/// Without one of its parentheses, a file says so in the section where it stood. Removing one from the very end may
+/// show at the definition's own, which then names the last section as well. The one that opens the definition is kept:
+/// without it there is no definition to be in.
+#[test]
+fn a_lost_parenthesis_is_reported_where_it_was() {
+    let good = Path::new(env!("CARGO_MANIFEST_DIR")).join("test_data/ok");
+    for path in support::files(&good) {
+        let source = Source::from_bytes("text", std::fs::read(&path).expect("the case can be read"));
+        let text = pddl::format(&source).expect("the case is good");
+        let source = Source::new("text", text);
+        let (tree, _) = syntax::parse(&source);
+        for (at, _) in source.text().match_indices(['(', ')']) {
+            let at = u32::try_from(at).expect("cases are short");
+            let is_token = |(_, span): (_, Span)| span == Span::new(at, at + 1);
+            let Some(define) = tree.roots().find(|n| n.span().start < at && at < n.span().end) else {
+                continue;
+            };
+            if !define.is_headed("define") || !tree.tokens().any(is_token) {
+                continue;
+            }
+            let section = define.children().find(|n| n.span().start < at && at + 1 < n.span().end);
+            let place = section.filter(|n| n.is_list()).unwrap_or(define).span();
+            let is_last = define.children().last().is_some_and(|last| last.span() == place);
+            check_lost(&source, at, if is_last { Span::new(place.start, define.span().end) } else { place });
+        }
+    }
+}
+
+fn check_lost(source: &Source, at: u32, place: Span) {
+    let mut text = source.text().to_owned();
+    text.remove(at as usize);
+    let broken = Source::new("broken", text);
+    let (_, diagnostics) = syntax::parse(&broken);
+    assert!(!diagnostics.is_empty(), "{}", broken.text());
+    let lines = broken.line_column(place.start).line..=broken.line_column(place.end - 2).line;
+    let spans = diagnostics
+        .iter()
+        .flat_map(|d| std::iter::once(d.span).chain(d.labels.iter().map(|(span, _)| *span)));
+    let mut places = spans.map(|span| broken.line_column(span.start).line);
+    let said: String = diagnostics.iter().map(|d| d.describe(&broken)).collect();
+    assert!(places.any(|line| lines.contains(&line)), "{lines:?}\n{said}{}", broken.text());
 }

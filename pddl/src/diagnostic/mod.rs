@@ -41,6 +41,9 @@ pub enum Label {
     /// The list that should have ended before.
     #[error("opened here")]
     Opened,
+    /// The last section of a definition that is not closed.
+    #[error("unless it is one in this section that is not closed")]
+    LastSection,
 }
 
 /// Something to tell an author.

@@ -6,6 +6,7 @@
 //! Cost: linear in the text; 16 bytes a node, nothing a token.
 
 mod build;
+mod layout;
 mod lexer;
 mod token;
 mod tree;

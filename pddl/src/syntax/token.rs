@@ -40,6 +40,11 @@ impl<'s> Tokens<'s> {
     pub(super) fn of(text: &'s str) -> Self {
         Self { text, at: 0 }
     }
+
+    /// Those of a part that starts and ends where tokens do; their spans are of the whole.
+    pub(super) fn within(text: &'s str, part: Span) -> Self {
+        Self { text: &text[..part.end as usize], at: part.start as usize }
+    }
 }
 
 impl Iterator for Tokens<'_> {

@@ -6,8 +6,10 @@ pub(super) const EXPLANATIONS: &[Explanation] = &[
     Explanation {
         code: "E0101",
         title: "a parenthesis is never closed",
-        meaning: "An opening parenthesis has no closing one. It is reported where it stands as soon as a \
-         section begins inside another one, or at the end of the file.",
+        meaning: "An opening parenthesis has no closing one. Which one it is, is told by the keys (`:effect` \
+         cannot stand in a condition) and by the indentation of the lines; where they tell nothing, the \
+         outermost list that is still open when a section begins inside another one, or at the end of \
+         the file.",
         why: "Everything behind it would be read as a part of what it opens. The rest of the file is \
          read as if it had been closed before the next section, so that other mistakes are still \
          found.",
