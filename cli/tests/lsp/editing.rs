@@ -89,7 +89,7 @@ fn lints_come_when_nothing_happens() {
         "context": {"diagnostics": [unused]}});
     let actions = client.ask("textDocument/codeAction", params).unwrap();
     let allow =
-        actions.as_array().unwrap().iter().find(|a| a["title"].as_str().unwrap().starts_with("allow"));
+        actions.as_array().unwrap().iter().find(|a| a["title"].as_str().unwrap().starts_with("Allow"));
     let edit = &allow.unwrap()["edit"]["documentChanges"][0]["edits"][0];
     assert!(edit["newText"].as_str().unwrap().contains("; allow("));
     assert_eq!(allow.unwrap()["diagnostics"][0]["code"], unused["code"]);

@@ -1,10 +1,9 @@
-//! `textDocument/codeAction`: what `ide` offers, and what lints do.
+//! `textDocument/codeAction`.
 
 use super::{Question, Refusal, edits};
-use ide::{ActionKind, CodeAction as Offer, Edits, TextEdit};
+use ide::{ActionKind, CodeAction as Offer};
 use lsp_types::{Code, CodeAction, CodeActionKind, CodeActionParams, CodeActionResponse};
-use pddl::Span;
-use project::{Linted, SourceId};
+use project::SourceId;
 
 pub(crate) fn answer(
     q: &Question<'_>,
@@ -15,55 +14,9 @@ pub(crate) fn answer(
     if !q.client.action_literals {
         return Ok(None);
     }
-    let span = q.documents.span(source, params.range);
-    let mut offers = ide::code_actions(q.project(), source, span);
-    for linted in (q.warnings)(source).iter().filter(|linted| touch(linted.finding.place.span, span)) {
-        offers.extend(mended(linted));
-        offers.push(allowed(q, source, linted));
-    }
+    let offers = ide::code_actions(q.project(), source, q.documents.span(source, params.range));
     let actions = offers.into_iter().filter_map(|offer| action(q, source, params, offer));
     Ok(Some(actions.map(CodeActionResponse::CodeAction).collect()))
-}
-
-fn touch(one: Span, other: Span) -> bool {
-    one.start <= other.end && other.start <= one.end
-}
-
-/// What a lint offers to mend.
-fn mended(linted: &Linted) -> Option<Offer> {
-    let fix = linted.fix.as_ref()?;
-    let mut edits = Edits::default();
-    for (place, text) in &fix.edits {
-        let edit = TextEdit { span: place.span, text: text.clone() };
-        edits.files.entry(place.source).or_default().push(edit);
-    }
-    edits.files.values_mut().for_each(|edits| edits.sort());
-    Some(Offer { title: fix.title.clone(), preferred: true, ..offer(linted, edits) })
-}
-
-/// The comment that silences a lint, on a line of its own before the one that it speaks of.
-fn allowed(q: &Question<'_>, source: SourceId, linted: &Linted) -> Offer {
-    let text = q.documents.text(source);
-    let at = linted.finding.place.span.start as usize;
-    let before = text.get(..at).unwrap_or_default();
-    let line = before.rfind('\n').map_or(0, |end| end + 1);
-    let indent: String = text[line..].chars().take_while(|c| matches!(c, ' ' | '\t')).collect();
-    let start = u32::try_from(line).unwrap_or(u32::MAX);
-    let edit =
-        TextEdit { span: Span::new(start, start), text: format!("{indent}; allow({})\n", linted.lint) };
-    let mut edits = Edits::default();
-    edits.files.insert(source, vec![edit]);
-    offer(linted, edits)
-}
-
-fn offer(linted: &Linted, edits: Edits) -> Offer {
-    Offer {
-        title: format!("allow `{}` here", linted.lint),
-        kind: ActionKind::Fix,
-        fixes: Some((linted.finding.code, linted.finding.place.span)),
-        preferred: false,
-        edits,
-    }
 }
 
 /// An offer as the client wants it; nothing if it asked for other kinds.

@@ -23,7 +23,7 @@ use crate::documents::Documents;
 use crate::options::Options;
 use ide::Position;
 use lsp_types::{Documentation, MarkupContent, MarkupKind, TextDocumentPositionParams};
-use project::{Linted, Project, SourceId};
+use project::{Project, SourceId};
 
 /// What an answer may look at.
 pub(crate) struct Question<'a> {
@@ -32,8 +32,6 @@ pub(crate) struct Question<'a> {
     pub(crate) options: &'a Options,
     /// All that is known to be wrong with a document.
     pub(crate) diagnostics: &'a dyn Fn(SourceId) -> Vec<lsp_types::Diagnostic>,
-    /// What lints said of a document as it is now.
-    pub(crate) warnings: &'a dyn Fn(SourceId) -> &'a [Linted],
 }
 
 /// Why there is no answer, as a sentence for the user.

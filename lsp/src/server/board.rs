@@ -3,7 +3,7 @@
 use crate::documents::Replaced;
 use crate::job::About;
 use lsp_types::Diagnostic;
-use project::{Linted, SourceId};
+use project::{Finding, SourceId};
 use rustc_hash::FxHashMap;
 
 /// Findings and what became of them.
@@ -17,7 +17,7 @@ pub(crate) struct Board {
     pub(crate) checked: u64,
     /// The revision that was last handed to the slow lints.
     pub(crate) linted: u64,
-    /// What the slow lints said last, and of which text. It stays, moved along with the text, until they say something
+    /// What the slow lints said last. It stays, moved along with the text, until they say something
     /// else: a warning that comes and goes with every letter would be worse than one that is late.
     pub(crate) lints: FxHashMap<SourceId, Warnings>,
     /// What planner and validator said last, by the document that the command was about.
@@ -29,19 +29,17 @@ pub(crate) struct Board {
 /// What the slow lints said of a document.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Warnings {
-    pub(crate) said: Vec<Linted>,
-    /// Of which text: edits that mend something fit that one only.
-    pub(crate) stamp: u64,
+    pub(crate) said: Vec<Finding>,
 }
 
 impl Warnings {
     /// Moves them along with a change of the text; what the change touches is not said any more.
     pub(crate) fn shift(&mut self, source: SourceId, change: &Replaced) {
-        self.said.retain_mut(|linted| {
-            let places = linted.finding.related.iter_mut().map(|(place, _)| place);
+        self.said.retain_mut(|finding| {
+            let places = finding.related.iter_mut().map(|(place, _)| place);
             let moved =
                 places.filter(|place| place.source == source).all(|place| change.shift(&mut place.span));
-            let main = &mut linted.finding.place;
+            let main = &mut finding.place;
             moved && (main.source != source || change.shift(&mut main.span))
         });
     }

@@ -90,16 +90,10 @@ impl Server {
     /// A job has looked for modelling mistakes.
     pub(crate) fn linted(&mut self, purpose: &Purpose, source: SourceId, said: Vec<Linted>) {
         if *purpose == Purpose::Lint(self.board.revision) {
-            let stamp = self.documents.stamp(source);
-            self.board.lints.insert(source, Warnings { said, stamp });
+            let said = said.into_iter().map(|linted| linted.finding).collect();
+            self.board.lints.insert(source, Warnings { said });
             self.publish(source);
         }
-    }
-
-    /// What lints said of a document, if its text has not changed since.
-    pub(crate) fn fresh_warnings(&self, source: SourceId) -> &[Linted] {
-        let warnings = self.board.lints.get(&source).filter(|_| self.options.lints);
-        warnings.filter(|w| w.stamp == self.documents.stamp(source)).map_or(&[], |w| &w.said)
     }
 
     /// Everything that is known about a document.
@@ -107,7 +101,7 @@ impl Server {
         let findings = self.documents.project().language_findings(source);
         let warnings = self.board.lints.get(&source).filter(|_| self.options.lints);
         let warnings = warnings.into_iter().flat_map(|warnings| &warnings.said);
-        let all = findings.iter().chain(warnings.map(|linted| &linted.finding));
+        let all = findings.iter().chain(warnings);
         let mut said: Vec<Diagnostic> =
             all.map(|finding| diagnostics::of_finding(&self.documents, &self.client, finding)).collect();
         for verdict in self.board.verdicts.values() {

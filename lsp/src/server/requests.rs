@@ -79,7 +79,6 @@ impl Table<'_> {
                 client: &server.client,
                 options: &server.options,
                 diagnostics: &|source| server.diagnostics(source),
-                warnings: &|source| server.fresh_warnings(source),
             };
             match serde_json::from_value(request.params) {
                 Ok(params) => self.server.reply(request.id, answer(&question, &params)),
