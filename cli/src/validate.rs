@@ -3,14 +3,15 @@
 //! As JSON a verdict is
 //!
 //! ```json
-//! {"kind": "verdict", "plan": "x.plan", "verdict": "valid", "steps": 4, "cost": 4, "metric": null,
-//!  "message": null, "trace": null}
+//! {"kind": "verdict", "plan": "x.plan", "verdict": "valid", "steps": 4, "makespan": null, "violated": [],
+//!  "cost": 4, "metric": null, "message": null, "trace": null}
 //! ```
 //!
 //! `verdict` is `valid`, `invalid`, `unreadable` or `unsupported`; what is not valid says why in
 //! `message` and is preceded by diagnostics with places. `metric` is `{"objective": "minimize",
-//! "value": 4}` where the problem has one. With `--verbose`, `trace` has an array of changes per step
-//! that could be taken.
+//! "value": 4}` where the problem has one; `makespan` is the end of a plan with times, `violated` has the
+//! preferences that do not hold. With `--verbose`, `trace` has an array of changes per step (with times:
+//! per happening) that could be taken.
 
 use crate::console::{Console, Form};
 use crate::exit::Exit;
@@ -18,12 +19,12 @@ use crate::render::{At, Message, show_all};
 use crate::task::{TaskFiles, read_source};
 use clap::Args;
 use pddl::model::Objective;
-use pddl::{Plan, SequentialPlan, Severity, Source, parse_plan};
+use pddl::{Plan, Severity, Source, parse_plan};
 use serde::Serialize;
 use std::path::PathBuf;
 use validator::{
-    Feature, File, Finding, Number, Place, Trace, Unsupported, Validator, Verdict, explain, show_diff,
-    show_step,
+    Feature, File, Finding, Number, Place, Trace, Unsupported, Validator, Verdict, explain, show_cause,
+    show_diff, show_preference,
 };
 
 /// What to validate.
@@ -85,10 +86,6 @@ impl Judge<'_> {
             say(console, &record);
             return exit;
         };
-        let plan = match plan {
-            Plan::Sequential(plan) => plan,
-            Plan::Temporal(_) | Plan::Hierarchical(_) => return refuse(&plan, source, console),
-        };
         let (verdict, trace) = match self.validator {
             Ok(validator) if self.verbose => {
                 let (verdict, trace) = validator.trace(&plan);
@@ -106,6 +103,9 @@ impl Judge<'_> {
         let mut record = VerdictRecord::of(source.name(), word);
         if let Verdict::Valid(valid) = &verdict {
             record.steps = Some(valid.steps);
+            record.makespan = valid.makespan.map(Figure);
+            let violated = valid.violations.instances().iter();
+            record.violated = violated.map(|v| show_preference(&task.problem, v)).collect();
             record.cost = Some(Figure(valid.cost()));
             record.metric = valid.metric.map(|metric| MetricRecord {
                 objective: match metric.objective {
@@ -117,8 +117,8 @@ impl Judge<'_> {
         }
         if let Some(trace) = &trace {
             self.show_trace(&plan, trace, console);
-            record.trace =
-                Some(trace.steps.iter().map(|diff| show_diff(&task.domain, &task.problem, diff)).collect());
+            let diffs = trace.happenings.iter().map(|h| show_diff(&task.domain, &task.problem, &h.diff));
+            record.trace = Some(diffs.collect());
         }
         if let Some(finding) = explain(&task.domain, &task.problem, &plan, &verdict) {
             if !reported_by_the_parser(&verdict) {
@@ -130,29 +130,20 @@ impl Judge<'_> {
         exit
     }
 
-    fn show_trace(&self, plan: &SequentialPlan, trace: &Trace, console: &mut Console<'_>) {
+    fn show_trace(&self, plan: &Plan, trace: &Trace, console: &mut Console<'_>) {
         if console.form() == Form::Json {
             return;
         }
-        for (number, (step, diff)) in (1..).zip(plan.steps.iter().zip(&trace.steps)) {
-            console.note(&format!("{number}: {}", show_step(&self.task.domain, &self.task.problem, step)));
-            for line in show_diff(&self.task.domain, &self.task.problem, diff) {
+        let TaskFiles { domain, problem, .. } = self.task;
+        for happening in &trace.happenings {
+            for &cause in &happening.causes {
+                console.note(&show_cause(domain, problem, plan, cause));
+            }
+            for line in show_diff(domain, problem, &happening.diff) {
                 console.note(&format!("    {line}"));
             }
         }
     }
-}
-
-/// A plan of a kind that no verdict is given on.
-fn refuse(plan: &Plan, source: &Source, console: &mut Console<'_>) -> Exit {
-    let sentence = format!("{} plans are read but not validated", plan.kind());
-    let mut message = Message::error(sentence.clone()).at(source, plan.first_span());
-    message.severity = Severity::Unsupported;
-    message.show(console);
-    let mut record = VerdictRecord::of(source.name(), "unsupported");
-    record.message = Some(sentence);
-    say(console, &record);
-    Exit::Unsupported
 }
 
 /// Whether reading the files has said the same already.
@@ -188,12 +179,15 @@ pub(crate) fn finding_message<'a>(
 }
 
 fn say(console: &mut Console<'_>, record: &VerdictRecord) {
-    let detail = match (&record.message, record.steps, &record.cost) {
+    let mut detail = match (&record.message, record.steps, &record.cost) {
         (Some(message), _, _) => format!(": {message}"),
         (None, Some(1), Some(cost)) => format!(", 1 step, cost {}", cost.0),
         (None, Some(steps), Some(cost)) => format!(", {steps} steps, cost {}", cost.0),
         _ => String::new(),
     };
+    if !record.violated.is_empty() {
+        detail += &format!(", violates {}", record.violated.join(", "));
+    }
     console.result(&format!("{}: {}{detail}", record.plan, record.verdict));
     console.record(record);
 }
@@ -222,6 +216,8 @@ struct VerdictRecord {
     plan: String,
     verdict: &'static str,
     steps: Option<u32>,
+    makespan: Option<Figure>,
+    violated: Vec<String>,
     cost: Option<Figure>,
     metric: Option<MetricRecord>,
     message: Option<String>,
@@ -235,6 +231,8 @@ impl VerdictRecord {
             plan: plan.to_owned(),
             verdict,
             steps: None,
+            makespan: None,
+            violated: Vec::new(),
             cost: None,
             metric: None,
             message: None,

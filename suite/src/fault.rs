@@ -20,10 +20,20 @@ pub enum Fault {
     Type,
     /// A step's precondition does not hold.
     Precondition,
+    /// A step takes too long or too short, or does not say how long.
+    Duration,
+    /// What must hold all the time that a step takes does not.
+    Invariant,
+    /// Two things happen at once, and their order matters.
+    Interference,
     /// Effects of one step contradict each other.
     Conflict,
     /// An effect reads a fluent that has no value, or divides by zero.
     Undefined,
+    /// Continuous change, processes or events have no result.
+    Change,
+    /// The states that the plan goes through break a constraint.
+    Constraint,
     /// The goal does not hold in the end.
     Goal,
     /// Domain and problem have no meaning under which a plan could be valid.
@@ -39,8 +49,13 @@ impl Fault {
         Self::Arity,
         Self::Type,
         Self::Precondition,
+        Self::Duration,
+        Self::Invariant,
+        Self::Interference,
         Self::Conflict,
         Self::Undefined,
+        Self::Change,
+        Self::Constraint,
         Self::Goal,
         Self::IllFormed,
     ];
@@ -54,8 +69,13 @@ impl Fault {
             Self::Arity => "arity",
             Self::Type => "type",
             Self::Precondition => "precondition",
+            Self::Duration => "duration",
+            Self::Invariant => "invariant",
+            Self::Interference => "interference",
             Self::Conflict => "conflict",
             Self::Undefined => "undefined",
+            Self::Change => "change",
+            Self::Constraint => "constraint",
             Self::Goal => "goal",
             Self::IllFormed => "ill-formed",
         }

@@ -6,7 +6,9 @@ use crate::judge::{Task, TaskFiles};
 use crate::suite::{PlanCase, Suite};
 use pddl::{Severity, Source, Span, parse_plan};
 use project::{Finding, Place, SourceId};
-use validator::{Failure, File, Number, Unsatisfied, Verdict, explain, validate};
+use validator::{
+    Cause, Failure, File, Number, StepFault, StepIndex, Unsatisfied, Verdict, explain, validate,
+};
 
 /// What there is to say.
 #[derive(Clone, Debug)]
@@ -69,13 +71,6 @@ impl Suite {
                 Found::Unreadable { errors, says }
             };
         };
-        let kind_of_plan = plan.kind();
-        let Some(plan) = plan.into_sequential() else {
-            let sentence = format!("the validator does not support {kind_of_plan} plans");
-            return Found::Unsupported {
-                says: Says { sentence, place: place(file, Span::default()), notes: vec![] },
-            };
-        };
         let verdict = validate(task.domain, task.problem, &plan);
         let says = explain(task.domain, task.problem, &plan, &verdict).map_or_else(
             || Says { sentence: String::new(), place: place(file, Span::default()), notes: vec![] },
@@ -96,13 +91,19 @@ impl Suite {
         let (fault, step) = kind(&failure);
         let mut missing = Vec::new();
         match &failure {
-            Failure::Precondition { parts, .. } => {
+            Failure::Precondition { parts, .. } | Failure::Invariant { parts, .. } => {
                 Literals { suite: self, task, file: task.files.domain }.of(parts, &mut missing);
             }
             Failure::Goal { parts } => {
                 Literals { suite: self, task, file: task.files.problem }.of(parts, &mut missing);
             }
-            Failure::Step { .. } | Failure::Effect { .. } => {}
+            Failure::Step { .. }
+            | Failure::Duration { .. }
+            | Failure::Interference { .. }
+            | Failure::Effect { .. }
+            | Failure::Change { .. }
+            | Failure::EndlessEvents { .. }
+            | Failure::Constraint { .. } => {}
         }
         Found::Invalid { fault, step, missing, says }
     }
@@ -199,23 +200,32 @@ fn of(file: File, task: TaskFiles, plan: SourceId) -> SourceId {
 }
 
 fn kind(failure: &Failure) -> (Fault, Option<u64>) {
+    let number = |cause: &Cause| cause.step().map(StepIndex::number);
     match failure {
         Failure::Step { step, fault } => {
             let fault = match fault {
-                validator::StepFault::UnknownAction => Fault::UnknownAction,
-                validator::StepFault::Arity { .. } => Fault::Arity,
-                validator::StepFault::Type { .. } => Fault::Type,
+                StepFault::UnknownAction => Fault::UnknownAction,
+                StepFault::Arity { .. } => Fault::Arity,
+                StepFault::Type { .. } => Fault::Type,
+                StepFault::NoDuration => Fault::Duration,
             };
             (fault, Some(step.number()))
         }
-        Failure::Precondition { step, .. } => (Fault::Precondition, Some(step.number())),
-        Failure::Effect { step, fault } => {
+        Failure::Precondition { at, .. } => (Fault::Precondition, number(at)),
+        Failure::Duration { step, .. } => (Fault::Duration, Some(step.number())),
+        Failure::Invariant { step, .. } => (Fault::Invariant, Some(step.number())),
+        Failure::Interference { first, second, .. } => {
+            (Fault::Interference, number(second).or_else(|| number(first)))
+        }
+        Failure::Effect { at, fault } => {
             let fault = match fault {
                 validator::EffectFault::Conflict { .. } => Fault::Conflict,
                 validator::EffectFault::Numeric(_) => Fault::Undefined,
             };
-            (fault, Some(step.number()))
+            (fault, number(at))
         }
+        Failure::Change { .. } | Failure::EndlessEvents { .. } => (Fault::Change, None),
+        Failure::Constraint { .. } => (Fault::Constraint, None),
         Failure::Goal { .. } => (Fault::Goal, None),
     }
 }

@@ -21,7 +21,7 @@ use validator::{Number, Valid, Verdict, validate};
 /// What the planner says.
 pub(crate) enum Answer {
     /// A valid plan, as text, and its figures.
-    Plan(String, Valid),
+    Plan(String, Box<Valid>),
     /// There is none.
     Unsolvable,
     /// It does not know.
@@ -58,14 +58,14 @@ impl Suite {
                 Some(self.failed(task, message, expected.span))
             }
             (Solvable::Yes(bounds), Answer::Plan(_, valid)) => {
-                return self.bounds(&asked, &bounds, valid);
+                return self.bounds(&asked, &bounds, &valid);
             }
             (_, other) => Some(self.no_answer(task, other, expected.span, timeout)),
         };
         finding.into_iter().collect()
     }
 
-    fn bounds(&self, asked: &Question<'_>, bounds: &Bounds, found: Valid) -> Vec<Finding> {
+    fn bounds(&self, asked: &Question<'_>, bounds: &Bounds, found: &Valid) -> Vec<Finding> {
         let task = asked.task;
         let mut failed = Vec::new();
         let too_dear = bounds.cost_at_most.filter(|most| found.cost() > most.value);
@@ -190,7 +190,7 @@ impl Question<'_> {
         let read = parse_plan(&source, domain, problem).model.and_then(pddl::Plan::into_sequential);
         let verdict = read.map(|plan| validate(domain, problem, &plan));
         match verdict {
-            Some(Verdict::Valid(valid)) => Answer::Plan(source.text().to_owned(), valid),
+            Some(Verdict::Valid(valid)) => Answer::Plan(source.text().to_owned(), Box::new(valid)),
             _ => Answer::NotValid(source.text().to_owned()),
         }
     }

@@ -11,8 +11,8 @@
 //! Source: Thiébaux, Hoffmann & Nebel, "In defense of PDDL axioms", AIJ 2005, §2 (stratification).
 
 use crate::condition::Strictness;
-use crate::scene::{Binding, Scene};
-use crate::state::State;
+use crate::scene::{Binding, Clock, Scene};
+use crate::state::{Moment, State};
 use crate::universe::Universe;
 use crate::verdict::IllFormed;
 use pddl::model::{Axiom, Condition, ConditionKind, Domain, Idx, ObjectId, PredicateId};
@@ -102,7 +102,7 @@ impl Strata {
     }
 
     /// Brings the derived part of `state` up to date.
-    pub(crate) fn derive(&self, domain: &Domain, universe: &Universe, state: &mut State, elapsed: u32) {
+    pub(crate) fn derive(&self, domain: &Domain, universe: &Universe, state: &mut State, now: Moment) {
         if !state.stale {
             return;
         }
@@ -118,15 +118,15 @@ impl Strata {
                     if grown.as_ref().is_some_and(|grown| !reads_any(&axiom.body, grown)) {
                         continue;
                     }
-                    let heads = consequences(axiom, universe, state, elapsed);
+                    let heads = consequences(axiom, universe, state);
                     let arity = axiom.variables.parameters;
                     let relation = &mut state.derived[axiom.predicate];
                     let mut new = false;
                     if arity == 0 {
-                        new |= heads.is_some() && relation.add(&[], elapsed);
+                        new |= heads.is_some() && relation.add(&[], now);
                     } else {
                         for head in heads.unwrap_or_default().chunks_exact(arity) {
-                            new |= relation.add(head, elapsed);
+                            new |= relation.add(head, now);
                         }
                     }
                     if new && !growing.contains(&axiom.predicate) {
@@ -150,8 +150,8 @@ fn reads_any(body: &Condition, predicates: &[PredicateId]) -> bool {
 }
 
 /// The head's arguments, one tuple after the other; `None` if the body holds for none.
-fn consequences(axiom: &Axiom, universe: &Universe, state: &State, elapsed: u32) -> Option<Vec<ObjectId>> {
-    let scene = Scene { universe, state, variables: &axiom.variables, elapsed };
+fn consequences(axiom: &Axiom, universe: &Universe, state: &State) -> Option<Vec<ObjectId>> {
+    let scene = Scene { universe, state, variables: &axiom.variables, clock: Clock::steps(0) };
     let mut binding = Binding::new(&axiom.variables, &[]);
     if axiom.variables.parameters == 0 {
         return scene.holds(&axiom.body, &mut binding).then(Vec::new);

@@ -23,8 +23,17 @@ use pddl::model::{
     Application, AssignOperator, AssignedValue, Atom, Condition, Effect, EffectKind, GroundApplication,
     ObjectId, PredicateId, VariableId,
 };
-use rustc_hash::FxBuildHasher;
+use rustc_hash::{FxBuildHasher, FxHashSet};
 use std::ops::ControlFlow;
+
+/// How a fluent is changed, as far as the order of changes matters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Write {
+    /// By increases and decreases, in any order.
+    Additive,
+    /// In some other way.
+    Other,
+}
 
 #[derive(Clone, Copy, Debug)]
 enum Update {
@@ -41,10 +50,18 @@ struct Atoms {
 
 impl Atoms {
     fn push(&mut self, atom: &Atom, binding: &Binding) {
-        let arity =
-            u32::try_from(atom.arguments.len()).expect("an atom of a file has less than 2^32 arguments");
-        self.heads.push((atom.predicate, arity));
+        self.head(atom.predicate, atom.arguments.len());
         self.arguments.extend(atom.arguments.iter().map(|&t| binding.object(t)));
+    }
+
+    fn push_ground(&mut self, predicate: PredicateId, arguments: &[ObjectId]) {
+        self.head(predicate, arguments.len());
+        self.arguments.extend_from_slice(arguments);
+    }
+
+    fn head(&mut self, predicate: PredicateId, arity: usize) {
+        let arity = u32::try_from(arity).expect("an atom of a file has less than 2^32 arguments");
+        self.heads.push((predicate, arity));
     }
 
     fn clear(&mut self) {
@@ -75,6 +92,44 @@ impl Changes {
         self.adds.clear();
         self.deletes.clear();
         self.updates.clear();
+    }
+
+    pub(crate) fn add(&mut self, predicate: PredicateId, arguments: &[ObjectId]) {
+        self.adds.push_ground(predicate, arguments);
+    }
+
+    pub(crate) fn delete(&mut self, predicate: PredicateId, arguments: &[ObjectId]) {
+        self.deletes.push_ground(predicate, arguments);
+    }
+
+    /// Gives a fluent a value, or takes it away.
+    pub(crate) fn set(&mut self, fluent: GroundApplication, value: Option<Value>, span: Span) {
+        self.updates.insert(fluent, (Update::Assign(value), span));
+    }
+
+    pub(crate) fn each_add(&self, mut visit: impl FnMut(GroundAtom)) {
+        self.adds.each(|predicate, arguments| visit(GroundAtom { predicate, arguments: arguments.into() }));
+    }
+
+    /// The deletes that no add of the same atom undoes.
+    pub(crate) fn each_delete(&self, mut visit: impl FnMut(GroundAtom)) {
+        let mut added = FxHashSet::default();
+        self.each_add(|atom| {
+            added.insert(atom);
+        });
+        self.deletes.each(|predicate, arguments| {
+            let atom = GroundAtom { predicate, arguments: arguments.into() };
+            if !added.contains(&atom) {
+                visit(atom);
+            }
+        });
+    }
+
+    pub(crate) fn each_write(&self, mut visit: impl FnMut(&GroundApplication, Write)) {
+        for (fluent, (update, _)) in &self.updates {
+            let additive = matches!(update, Update::Shift(_));
+            visit(fluent, if additive { Write::Additive } else { Write::Other });
+        }
     }
 
     /// Collects what `effect` does in the state of `scene`.

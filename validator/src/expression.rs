@@ -1,7 +1,7 @@
 //! The value of a numeric expression.
 //!
 //! An expression has no value where a fluent in it has none, where it divides by zero, or where the
-//! result is not finite. `total-time` of a sequential plan is its number of steps.
+//! result is not finite.
 //!
 //! Source: Fox & Long, "PDDL2.1", JAIR 2003, §6 (undefined values).
 
@@ -80,10 +80,11 @@ impl Scene<'_> {
             ExpressionKind::Arithmetic(operator, operands) => {
                 self.arithmetic(*operator, operands, span, binding)
             }
-            ExpressionKind::Duration => Err(NumericFault::Duration { span }),
-            // Preferences are refused before anything is evaluated.
-            ExpressionKind::IsViolated(_) => Ok(Number::ZERO),
-            ExpressionKind::TotalTime => Ok(Number::integer(i64::from(self.elapsed))),
+            ExpressionKind::Duration => self.clock.duration.ok_or(NumericFault::Duration { span }),
+            ExpressionKind::TotalTime => Ok(self.clock.now),
+            ExpressionKind::IsViolated(name) => {
+                Ok(self.clock.violations.map_or(Number::ZERO, |violations| violations.count(name)))
+            }
         }
     }
 

@@ -26,27 +26,41 @@
 //! `test_data`, a folder per feature.
 
 mod axiom;
+mod cause;
 mod condition;
+mod curve;
+mod demands;
 mod effect;
 mod expression;
 mod number;
+mod preference;
+mod prepare;
 mod run;
 mod scene;
+mod sequential;
 mod solve;
 mod state;
+mod temporal;
 mod trace;
+mod trajectory;
 mod universe;
 mod verdict;
 mod why;
 mod words;
 
+pub use cause::Cause;
 pub use expression::NumericFault;
 pub use number::Number;
-pub use run::{Validator, validate};
+pub use preference::{ViolatedPreference, Violations};
+pub use run::{PlanRef, Precision, Validator, validate};
 pub use state::{GroundAtom, Value};
-pub use trace::{Diff, FluentChange, Trace};
+pub use trace::{Diff, FluentChange, Happening, Trace};
+pub use trajectory::Breach;
 pub use verdict::{
-    EffectFault, Failure, Feature, IllFormed, MetricValue, Near, Operand, StepFault, StepIndex, Unsatisfied,
-    Unsupported, Valid, Verdict,
+    ChangeFault, EffectFault, Failure, Feature, IllFormed, MetricValue, Near, Operand, Shared, StepFault,
+    StepIndex, Unsatisfied, Unsupported, Valid, Verdict,
 };
-pub use words::{File, Finding, Place, explain, show_application, show_atom, show_diff, show_step};
+pub use words::{
+    File, Finding, Place, explain, show_application, show_atom, show_cause, show_diff, show_preference,
+    show_step, show_timed_step,
+};

@@ -38,6 +38,9 @@ impl Number {
     /// Nothing.
     pub const ZERO: Self = Self::integer(0);
 
+    /// Larger than what any file means.
+    pub(crate) const MAX: Self = Self(Form::Double(f64::MAX));
+
     /// A whole number.
     pub const fn integer(value: i64) -> Self {
         Self(Form::Ratio { numerator: value as i128, denominator: 1 })
@@ -53,6 +56,25 @@ impl Number {
             return Some(Self::integer(value as i64));
         }
         Some(decimal(&value.to_string()).unwrap_or(Self(Form::Double(value))))
+    }
+
+    /// So many thousandths.
+    pub const fn thousandths(count: i64) -> Self {
+        // In lowest terms: 1000 has the prime divisors 2 and 5 only.
+        let (mut numerator, mut denominator) = (count as i128, 1000);
+        while denominator % 2 == 0 && numerator % 2 == 0 {
+            (numerator, denominator) = (numerator / 2, denominator / 2);
+        }
+        while denominator % 5 == 0 && numerator % 5 == 0 {
+            (numerator, denominator) = (numerator / 5, denominator / 5);
+        }
+        Self(Form::Ratio { numerator, denominator })
+    }
+
+    /// A decimal as it was written.
+    pub fn from_decimal(value: pddl::Decimal) -> Self {
+        let (numerator, denominator) = value.fraction();
+        Self::ratio(numerator, denominator).unwrap_or(Self(Form::Double(value.to_f64())))
     }
 
     /// As a double, to about 15 digits.

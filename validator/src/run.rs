@@ -1,29 +1,90 @@
-//! A plan, step by step.
+//! One task, any number of plans of any kind.
 //!
-//! [`Validator`] prepares a task once (extents, strata, the initial state) and then judges any number of
-//! plans. Cost of a plan: the initial state is copied once, then each step pays for its own conditions
-//! and effects only.
+//! [`Validator`] prepares a task once (extents, strata, the initial state) and then judges plans. Cost of
+//! a plan: the initial state is copied once, then each step pays for its own conditions and effects only.
 
-use crate::axiom::{Strata, each_predicate};
-use crate::effect::Changes;
+use crate::axiom::Strata;
+use crate::cause::{Cause, Causes};
+use crate::demands::Demands;
 use crate::number::Number;
-use crate::scene::{Binding, Scene};
-use crate::state::{State, Value};
-use crate::trace::{Diff, Trace};
+use crate::prepare::{derived_in_effect, initial_state};
+use crate::scene::{Binding, Clock, Scene};
+use crate::state::{Moment, State};
+use crate::trace::Trace;
 use crate::universe::Universe;
-use crate::verdict::{
-    Failure, Feature, IllFormed, MetricValue, StepFault, StepIndex, Unsupported, Valid, Verdict,
-};
+use crate::verdict::{Failure, Feature, MetricValue, StepFault, Unsatisfied, Unsupported, Valid, Verdict};
 use crate::why::Why;
-use pddl::model::Feature as LanguageFeature;
-use pddl::model::{
-    Action, ActionId, Condition, ConditionKind, Domain, Effect, EffectKind, FluentValue, GroundApplication,
-    Idx, IndexVec, Problem, Variables,
-};
-use pddl::{PlanStep, SequentialPlan};
+use pddl::model::{Condition, Domain, ObjectId, Problem, Variables};
+use pddl::{HierarchicalPlan, Plan, SequentialPlan, TemporalPlan};
+
+/// A plan of any kind.
+#[derive(Clone, Copy, Debug)]
+pub enum PlanRef<'p> {
+    /// One action after the other.
+    Sequential(&'p SequentialPlan),
+    /// Actions with times.
+    Temporal(&'p TemporalPlan),
+    /// Actions, and the tasks that they carry out.
+    Hierarchical(&'p HierarchicalPlan),
+}
+
+impl PlanRef<'_> {
+    /// How many steps it has.
+    pub(crate) fn steps(self) -> usize {
+        match self {
+            Self::Sequential(plan) => plan.steps.len(),
+            Self::Temporal(plan) => plan.steps.len(),
+            Self::Hierarchical(plan) => plan.steps.len(),
+        }
+    }
+}
+
+impl<'p> From<&'p Plan> for PlanRef<'p> {
+    fn from(plan: &'p Plan) -> Self {
+        match plan {
+            Plan::Sequential(plan) => Self::Sequential(plan),
+            Plan::Temporal(plan) => Self::Temporal(plan),
+            Plan::Hierarchical(plan) => Self::Hierarchical(plan),
+        }
+    }
+}
+
+impl<'p> From<&'p SequentialPlan> for PlanRef<'p> {
+    fn from(plan: &'p SequentialPlan) -> Self {
+        Self::Sequential(plan)
+    }
+}
+
+impl<'p> From<&'p TemporalPlan> for PlanRef<'p> {
+    fn from(plan: &'p TemporalPlan) -> Self {
+        Self::Temporal(plan)
+    }
+}
+
+impl<'p> From<&'p HierarchicalPlan> for PlanRef<'p> {
+    fn from(plan: &'p HierarchicalPlan) -> Self {
+        Self::Hierarchical(plan)
+    }
+}
+
+/// How exactly the times of a plan must be kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Precision {
+    /// How far a duration may be from what it must be, in seconds: planners round what they write.
+    pub tolerance: Number,
+    /// What is nearer than this, in seconds, happens at one time, and must not interfere.
+    pub separation: Number,
+}
+
+impl Default for Precision {
+    /// A hundredth and a thousandth, like VAL.
+    fn default() -> Self {
+        Self { tolerance: Number::thousandths(10), separation: Number::thousandths(1) }
+    }
+}
 
 /// Judges one plan.
-pub fn validate(domain: &Domain, problem: &Problem, plan: &SequentialPlan) -> Verdict {
+pub fn validate<'p>(domain: &Domain, problem: &Problem, plan: impl Into<PlanRef<'p>>) -> Verdict {
     match Validator::new(domain, problem) {
         Ok(validator) => validator.validate(plan),
         Err(refusal) => *refusal,
@@ -33,13 +94,12 @@ pub fn validate(domain: &Domain, problem: &Problem, plan: &SequentialPlan) -> Ve
 /// A task, ready to judge plans.
 #[derive(Clone, Debug)]
 pub struct Validator<'a> {
-    domain: &'a Domain,
-    problem: &'a Problem,
-    universe: Universe,
-    strata: Strata,
-    initial: State,
-    /// Per action, whether its conditions read derived predicates.
-    reads_derived: IndexVec<ActionId, bool>,
+    pub(crate) domain: &'a Domain,
+    pub(crate) problem: &'a Problem,
+    pub(crate) precision: Precision,
+    pub(crate) universe: Universe,
+    pub(crate) strata: Strata,
+    pub(crate) initial: State,
 }
 
 impl<'a> Validator<'a> {
@@ -56,117 +116,167 @@ impl<'a> Validator<'a> {
         for action in &domain.actions {
             derived_in_effect(&action.effect, &strata).map_err(ill_formed)?;
         }
-        let reads_derived = domain
-            .actions
-            .iter()
-            .map(|action| {
-                let mut reads = strata.reads_derived(&action.precondition);
-                each_guard(&action.effect, &mut |guard, _| reads |= strata.reads_derived(guard));
-                reads
-            })
-            .collect();
+        for timed in domain.durative_actions.iter().flat_map(|action| &action.effects) {
+            derived_in_effect(&timed.effect, &strata).map_err(ill_formed)?;
+        }
+        for event in &domain.events {
+            derived_in_effect(&event.effect, &strata).map_err(ill_formed)?;
+        }
         let universe = Universe::new(domain, problem);
         let initial = initial_state(domain, problem);
-        Ok(Self { domain, problem, universe, strata, initial, reads_derived })
+        Ok(Self { domain, problem, precision: Precision::default(), universe, strata, initial })
+    }
+
+    /// The same with another precision.
+    #[must_use]
+    pub fn with_precision(mut self, precision: Precision) -> Self {
+        self.precision = precision;
+        self
     }
 
     /// Judges a plan.
-    pub fn validate(&self, plan: &SequentialPlan) -> Verdict {
-        self.run(plan, None)
+    pub fn validate<'p>(&self, plan: impl Into<PlanRef<'p>>) -> Verdict {
+        self.run(plan.into(), None)
     }
 
     /// Judges a plan, and answers what each step changed.
-    pub fn trace(&self, plan: &SequentialPlan) -> (Verdict, Trace) {
+    pub fn trace<'p>(&self, plan: impl Into<PlanRef<'p>>) -> (Verdict, Trace) {
         let mut trace = Trace::default();
-        let verdict = self.run(plan, Some(&mut trace));
+        let verdict = self.run(plan.into(), Some(&mut trace));
         (verdict, trace)
     }
 
-    fn run(&self, plan: &SequentialPlan, mut trace: Option<&mut Trace>) -> Verdict {
-        let mut state = self.initial.clone();
-        let mut changes = Changes::default();
-        let mut binding = Binding::default();
-        let mut steps = 0;
-        for step in &plan.steps {
-            let mut diff = trace.is_some().then(Diff::default);
-            let index = StepIndex(steps);
-            if let Err(failure) =
-                self.step(index, step, &mut state, &mut changes, &mut binding, diff.as_mut())
-            {
-                return Verdict::Invalid(*failure);
+    fn run(&self, plan: PlanRef<'_>, trace: Option<&mut Trace>) -> Verdict {
+        let result = match plan {
+            PlanRef::Sequential(plan) => match self.needs_times() {
+                Some(unsupported) => return Verdict::Unsupported(unsupported),
+                None => crate::sequential::run(self, plan, trace),
+            },
+            PlanRef::Temporal(plan) => crate::temporal::run(self, plan, trace),
+            PlanRef::Hierarchical(plan) => {
+                return Verdict::Unsupported(Unsupported {
+                    feature: Feature::HierarchicalPlan,
+                    span: plan.root_span,
+                });
             }
-            if let (Some(trace), Some(diff)) = (&mut trace, diff) {
-                trace.steps.push(diff);
-            }
-            steps += 1;
+        };
+        match result {
+            Ok(valid) => Verdict::Valid(valid),
+            Err(failure) => Verdict::Invalid(*failure),
         }
-        self.finish(steps, &mut state)
     }
 
-    fn step(
+    /// What in the task only a plan with times can be judged under.
+    fn needs_times(&self) -> Option<Unsupported> {
+        let features = [
+            (self.problem.timed.first().map(|timed| timed.span), Feature::TimesMissingForProblem),
+            (self.domain.processes.iter().next().map(|process| process.span), Feature::TimesMissingForDomain),
+            (self.domain.events.iter().next().map(|event| event.span), Feature::TimesMissingForDomain),
+        ];
+        features.into_iter().find_map(|(span, feature)| Some(Unsupported { feature, span: span? }))
+    }
+
+    /// The demands on a plan that has yet to begin.
+    pub(crate) fn demands(&self) -> Demands<'_> {
+        Demands::new(self.domain, self.problem, &self.universe, &self.strata, &self.initial)
+    }
+
+    pub(crate) fn scene<'s>(
+        &'s self,
+        state: &'s State,
+        variables: &'s Variables,
+        clock: Clock<'s>,
+    ) -> Scene<'s> {
+        Scene { universe: &self.universe, state, variables, clock }
+    }
+
+    /// Brings the derived part of a state up to date if the condition reads it.
+    pub(crate) fn derive_for(&self, condition: &Condition, state: &mut State, now: Moment) {
+        if self.strata.reads_derived(condition) {
+            self.derive(state, now);
+        }
+    }
+
+    pub(crate) fn derive(&self, state: &mut State, now: Moment) {
+        self.strata.derive(self.domain, &self.universe, state, now);
+    }
+
+    /// What keeps a condition from holding.
+    pub(crate) fn lacks(
         &self,
-        index: StepIndex,
-        step: &PlanStep,
-        state: &mut State,
-        changes: &mut Changes,
+        scene: Scene<'_>,
+        causes: Causes<'_>,
+        condition: &Condition,
         binding: &mut Binding,
-        diff: Option<&mut Diff>,
-    ) -> Result<(), Box<Failure>> {
-        let action = self.action(step).map_err(|fault| Box::new(Failure::Step { step: index, fault }))?;
-        if self.reads_derived[step.action] {
-            self.strata.derive(self.domain, &self.universe, state, index.0);
-        }
-        binding.reset(&action.variables, &step.arguments);
-        let scene = self.scene(state, &action.variables, index.0);
-        if !scene.holds(&action.precondition, binding) {
-            let why = Why { scene, strata: &self.strata };
-            let parts = why.unsatisfied(&action.precondition, true, binding);
-            return Err(Box::new(Failure::Precondition { step: index, parts }));
-        }
-        changes.clear();
-        changes
-            .collect(scene, &action.effect, binding)
-            .and_then(|()| changes.apply(state, index.0 + 1, diff))
-            .map_err(|fault| Box::new(Failure::Effect { step: index, fault }))
+    ) -> Vec<Unsatisfied> {
+        Why { scene, strata: &self.strata, causes }.unsatisfied(condition, true, binding)
     }
 
-    /// The step's action, if the step is an instance of it.
-    fn action(&self, step: &PlanStep) -> Result<&'a Action, StepFault> {
-        let action = self.domain.actions.get(step.action).ok_or(StepFault::UnknownAction)?;
-        let (expected, found) = (action.variables.parameters, step.arguments.len());
+    /// Whether a step's arguments fit its schema.
+    pub(crate) fn fits(&self, variables: &Variables, arguments: &[ObjectId]) -> Result<(), StepFault> {
+        let (expected, found) = (variables.parameters, arguments.len());
         if expected != found {
             return Err(StepFault::Arity { expected, found });
         }
-        for (parameter, &object) in action.variables.parameter_ids().zip(&step.arguments) {
-            if !self.universe.extent(&action.variables[parameter].types).contains(object) {
+        for (parameter, &object) in variables.parameter_ids().zip(arguments) {
+            if !self.universe.extent(&variables[parameter].types).contains(object) {
                 return Err(StepFault::Type { parameter, object });
             }
         }
-        Ok(action)
+        Ok(())
     }
 
-    fn finish(&self, steps: u32, state: &mut State) -> Verdict {
-        let variables = &self.problem.goal_variables;
-        if self.strata.reads_derived(&self.problem.goal) {
-            self.strata.derive(self.domain, &self.universe, state, steps);
+    /// Judges the last state: constraints, goal, preferences, metric.
+    pub(crate) fn finish(&self, end: End<'_>, mut demands: Demands<'_>) -> Result<Valid, Box<Failure>> {
+        let End { state, causes, total_time, makespan, steps } = end;
+        if let Some(broken) = demands.broken() {
+            return Err(Box::new(Failure::Constraint {
+                file: broken.file,
+                span: broken.span,
+                breach: broken.breach,
+                time: broken.time,
+            }));
         }
-        let scene = self.scene(state, variables, steps);
+        let now = Moment::try_from(causes.len(steps)).unwrap_or(Moment::MAX);
+        self.derive_for(&self.problem.goal, state, now);
+        for preference in &self.problem.preferences {
+            self.derive_for(&preference.body, state, now);
+        }
+        let variables = &self.problem.goal_variables;
+        let scene = self.scene(state, variables, Clock::at(total_time));
         let mut binding = Binding::new(variables, &[]);
         if !scene.holds(&self.problem.goal, &mut binding) {
-            let why = Why { scene, strata: &self.strata };
-            let parts = why.unsatisfied(&self.problem.goal, true, &mut Binding::new(variables, &[]));
-            return Verdict::Invalid(Failure::Goal { parts });
+            let mut binding = Binding::new(variables, &[]);
+            let parts = self.lacks(scene, causes, &self.problem.goal, &mut binding);
+            return Err(Box::new(Failure::Goal { parts }));
         }
+        demands.count_soft();
+        let mut violations = demands.violations;
+        for preference in &self.problem.preferences {
+            violations.judge(scene, preference, &mut binding, |body, binding| scene.holds(body, binding));
+        }
+        let clock = Clock { violations: Some(&violations), ..Clock::at(total_time) };
+        let scene = self.scene(state, variables, clock);
         let metric = self.problem.metric.as_ref().and_then(|metric| {
             let value = scene.number(&metric.expression, &binding).ok()?;
             Some(MetricValue { objective: metric.objective, value })
         });
-        Verdict::Valid(Valid { steps, metric })
+        Ok(Valid { steps, makespan, metric, violations })
     }
+}
 
-    fn scene<'s>(&'s self, state: &'s State, variables: &'s Variables, elapsed: u32) -> Scene<'s> {
-        Scene { universe: &self.universe, state, variables, elapsed }
-    }
+/// A plan that has been carried out.
+pub(crate) struct End<'s> {
+    pub(crate) state: &'s mut State,
+    pub(crate) causes: Causes<'s>,
+    pub(crate) total_time: Number,
+    pub(crate) makespan: Option<Number>,
+    pub(crate) steps: u32,
+}
+
+/// Something that can be blamed for the failure of a condition at a moment.
+pub(crate) fn precondition(at: Cause, parts: Vec<Unsatisfied>) -> Box<Failure> {
+    Box::new(Failure::Precondition { at, parts })
 }
 
 fn unsupported(domain: &Domain, problem: &Problem) -> Option<Unsupported> {
@@ -178,117 +288,8 @@ fn unsupported(domain: &Domain, problem: &Problem) -> Option<Unsupported> {
         let feature = Feature::InProblem(diagnostic.message());
         return Some(Unsupported { feature, span: diagnostic.span });
     }
-    if let Some((feature, span)) = domain.features().into_iter().find(|(f, _)| !is_known(*f)) {
-        return Some(Unsupported { feature: Feature::LanguageOfDomain(feature), span });
-    }
-    if let Some((feature, span)) = problem.features().into_iter().find(|(f, _)| !is_known(*f)) {
-        return Some(Unsupported { feature: Feature::LanguageOfProblem(feature), span });
-    }
     problem.htn.as_ref().map(|(_, network)| {
         let span = network.subtasks.first().map_or(problem.goal_span, |subtask| subtask.span);
         Unsupported { feature: Feature::TaskNetwork, span }
     })
-}
-
-/// Whether the feature is evaluated here, or only in methods, which a sequence of actions does not use.
-fn is_known(feature: LanguageFeature) -> bool {
-    matches!(feature, LanguageFeature::TypePredicates | LanguageFeature::NetworkConstraints)
-}
-
-fn initial_state(domain: &Domain, problem: &Problem) -> State {
-    let mut state = State::empty(domain, &joined(domain, problem));
-    for fact in &problem.init {
-        state.facts[fact.predicate].add(&fact.arguments, 0);
-    }
-    // Action costs are counted from 0 even where `:init` forgets to say so.
-    if let Some(function) = domain.function("total-cost")
-        && domain.functions[function].variables.parameters == 0
-    {
-        let total_cost = GroundApplication { function, arguments: Vec::new() };
-        state.set_fluent(total_cost, Some(Value::Number(Number::ZERO)));
-    }
-    for fact in &problem.fluents {
-        let value = match fact.value {
-            FluentValue::Number(number) => Number::from_f64(number).map(Value::Number),
-            FluentValue::Object(object) => Some(Value::Object(object)),
-        };
-        state.set_fluent(fact.application.clone(), value);
-    }
-    state
-}
-
-/// Which predicates are looked up by pattern: those inside quantifiers, axioms and universal effects.
-fn joined(domain: &Domain, problem: &Problem) -> Vec<bool> {
-    let mut joined = vec![false; domain.predicates.len()];
-    let mut mark = |condition: &Condition| {
-        each_predicate(condition, true, &mut |predicate, _| joined[predicate.index()] = true);
-    };
-    for action in &domain.actions {
-        each_quantified(&action.precondition, &mut mark);
-        each_guard(&action.effect, &mut |guard, universal| {
-            if universal {
-                mark(guard);
-            } else {
-                each_quantified(guard, &mut mark);
-            }
-        });
-    }
-    for axiom in &domain.axioms {
-        mark(&axiom.body);
-    }
-    each_quantified(&problem.goal, &mut mark);
-    joined
-}
-
-/// The outermost quantified conditions.
-fn each_quantified(condition: &Condition, visit: &mut dyn FnMut(&Condition)) {
-    match &condition.kind {
-        ConditionKind::And(parts) | ConditionKind::Or(parts) => {
-            for part in parts {
-                each_quantified(part, visit);
-            }
-        }
-        ConditionKind::Not(part) => each_quantified(part, visit),
-        ConditionKind::Imply(if_, then) => {
-            each_quantified(if_, visit);
-            each_quantified(then, visit);
-        }
-        ConditionKind::Exists(_, body) | ConditionKind::Forall(_, body) => visit(body),
-        ConditionKind::Atom(_)
-        | ConditionKind::HasType(..)
-        | ConditionKind::Same(..)
-        | ConditionKind::Compare(..)
-        | ConditionKind::FluentIs(..) => {}
-    }
-}
-
-/// The conditions of conditional effects, and whether a universal effect is around them.
-fn each_guard(effect: &Effect, visit: &mut dyn FnMut(&Condition, bool)) {
-    fn walk(effect: &Effect, universal: bool, visit: &mut dyn FnMut(&Condition, bool)) {
-        match &effect.kind {
-            EffectKind::And(parts) => {
-                for part in parts {
-                    walk(part, universal, visit);
-                }
-            }
-            EffectKind::Forall(_, body) => walk(body, true, visit),
-            EffectKind::When(guard, body) => {
-                visit(guard, universal);
-                walk(body, universal, visit);
-            }
-            EffectKind::Add(_) | EffectKind::Delete(_) | EffectKind::Assign(..) => {}
-        }
-    }
-    walk(effect, false, visit);
-}
-
-fn derived_in_effect(effect: &Effect, strata: &Strata) -> Result<(), IllFormed> {
-    match &effect.kind {
-        EffectKind::And(parts) => parts.iter().try_for_each(|part| derived_in_effect(part, strata)),
-        EffectKind::Forall(_, body) | EffectKind::When(_, body) => derived_in_effect(body, strata),
-        EffectKind::Add(atom) | EffectKind::Delete(atom) if strata.derives(atom.predicate) => {
-            Err(IllFormed::DerivedInEffect { predicate: atom.predicate, span: atom.span })
-        }
-        EffectKind::Add(_) | EffectKind::Delete(_) | EffectKind::Assign(..) => Ok(()),
-    }
 }

@@ -3,6 +3,8 @@
 //! A binding is an array with a place for each variable of the schema, quantified ones included, so
 //! nothing is ever substituted. Quantified variables are unbound outside of their quantifier.
 
+use crate::number::Number;
+use crate::preference::Violations;
 use crate::state::State;
 use crate::universe::{Extent, Universe};
 use pddl::model::{Idx, ObjectId, Term, VariableId, Variables};
@@ -66,8 +68,29 @@ pub(crate) struct Scene<'a> {
     pub(crate) universe: &'a Universe,
     pub(crate) state: &'a State,
     pub(crate) variables: &'a Variables,
-    /// How many steps lie behind: `total-time` of a sequential plan.
-    pub(crate) elapsed: u32,
+    pub(crate) clock: Clock<'a>,
+}
+
+/// What an expression may ask for besides the state.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Clock<'a> {
+    /// `total-time`: seconds, or steps of a sequential plan.
+    pub(crate) now: Number,
+    /// `?duration`, inside of a durative action.
+    pub(crate) duration: Option<Number>,
+    /// What `is-violated` counts, in a metric.
+    pub(crate) violations: Option<&'a Violations>,
+}
+
+impl Clock<'_> {
+    /// After so many steps.
+    pub(crate) fn steps(steps: u32) -> Self {
+        Self::at(Number::integer(i64::from(steps)))
+    }
+
+    pub(crate) fn at(now: Number) -> Self {
+        Self { now, duration: None, violations: None }
+    }
 }
 
 impl<'a> Scene<'a> {

@@ -8,7 +8,7 @@
 
 use crate::number::Number;
 use indexmap::IndexMap;
-use pddl::model::{Domain, GroundApplication, Idx, IndexVec, ObjectId, PredicateId};
+use pddl::model::{Domain, FluentValue, GroundApplication, Idx, IndexVec, ObjectId, PredicateId};
 use rustc_hash::{FxBuildHasher, FxHashMap};
 
 /// A predicate of objects.
@@ -27,6 +27,16 @@ pub enum Value {
     Number(Number),
     /// An object.
     Object(ObjectId),
+}
+
+impl Value {
+    /// What a file gives a fluent; `None` if it is no finite number.
+    pub(crate) fn of(value: FluentValue) -> Option<Self> {
+        match value {
+            FluentValue::Number(number) => Number::from_f64(number).map(Self::Number),
+            FluentValue::Object(object) => Some(Self::Object(object)),
+        }
+    }
 }
 
 /// A moment of the plan: 0 before the first step, `n` after step `n`.

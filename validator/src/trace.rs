@@ -1,5 +1,7 @@
-//! What each step changed.
+//! What each step changed. Continuous change is seen in the next step's values only.
 
+use crate::cause::Cause;
+use crate::number::Number;
 use crate::state::{GroundAtom, Value};
 use pddl::model::GroundApplication;
 
@@ -25,9 +27,20 @@ pub struct Diff {
     pub fluents: Vec<FluentChange>,
 }
 
-/// The changes of every step that could be taken.
+/// What happened at one time: a step, or what a plan with times does at once.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Happening {
+    /// When, in seconds; in a plan without times how many steps lie behind.
+    pub time: Number,
+    /// What happened.
+    pub causes: Vec<Cause>,
+    /// What it changed.
+    pub diff: Diff,
+}
+
+/// Everything that happened before the plan ended or failed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Trace {
-    /// One per step, up to the one that failed.
-    pub steps: Vec<Diff>,
+    /// In order of time.
+    pub happenings: Vec<Happening>,
 }

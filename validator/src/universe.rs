@@ -42,9 +42,20 @@ impl Universe {
         for action in &domain.actions {
             universe.index(domain, problem, &action.variables);
         }
+        for action in &domain.durative_actions {
+            universe.index(domain, problem, &action.variables);
+        }
+        for process in &domain.processes {
+            universe.index(domain, problem, &process.variables);
+        }
+        for event in &domain.events {
+            universe.index(domain, problem, &event.variables);
+        }
         for axiom in &domain.axioms {
             universe.index(domain, problem, &axiom.variables);
         }
+        universe.index(domain, problem, &domain.constraints.variables);
+        universe.index(domain, problem, &problem.constraints.variables);
         universe.index(domain, problem, &problem.goal_variables);
         universe
     }

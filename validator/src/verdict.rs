@@ -1,10 +1,16 @@
 //! What there is to say about a plan, as data.
 
+use crate::cause::Cause;
 use crate::expression::NumericFault;
 use crate::number::Number;
+use crate::preference::Violations;
 use crate::state::GroundAtom;
+use crate::trajectory::Breach;
+use crate::words::File;
 use pddl::Span;
-use pddl::model::{Comparison, GroundApplication, Name, ObjectId, Objective, PredicateId, VariableId};
+use pddl::model::{
+    Comparison, EventId, GroundApplication, Name, ObjectId, Objective, PredicateId, VariableId,
+};
 
 /// A step's position in the plan, from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -38,18 +44,23 @@ impl Verdict {
 }
 
 /// A valid plan's figures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Valid {
     /// Its length.
     pub steps: u32,
+    /// When its last step ends, in seconds; `None` for a plan without times.
+    pub makespan: Option<Number>,
     /// The metric, if the problem has one with a value in the last state.
     pub metric: Option<MetricValue>,
+    /// The preferences that it does not satisfy.
+    pub violations: Violations,
 }
 
 impl Valid {
-    /// What the plan costs: the metric where there is one, otherwise its length.
+    /// What the plan costs: the metric where there is one, otherwise how long it takes, or its length.
     pub fn cost(&self) -> Number {
-        self.metric.map_or(Number::integer(i64::from(self.steps)), |metric| metric.value)
+        let length = self.makespan.unwrap_or(Number::integer(i64::from(self.steps)));
+        self.metric.map_or(length, |metric| metric.value)
     }
 }
 
@@ -72,24 +83,117 @@ pub enum Failure {
         /// What is wrong with it.
         fault: StepFault,
     },
-    /// A step cannot be taken.
+    /// A step cannot be taken, started or ended.
     Precondition {
-        /// Which one.
-        step: StepIndex,
-        /// What its precondition lacks; spans are of the domain.
+        /// Which one, and which end of it.
+        at: Cause,
+        /// What its condition lacks; spans are of the domain.
         parts: Vec<Unsatisfied>,
     },
-    /// A step that can be taken has no result.
-    Effect {
+    /// A step takes too long or too short.
+    Duration {
         /// Which one.
         step: StepIndex,
+        /// How long it takes, in seconds.
+        actual: Number,
+        /// How it must compare …
+        comparison: Comparison,
+        /// … with what.
+        bound: Operand,
+        /// Where that is asked for, in the domain.
+        span: Span,
+    },
+    /// What must hold all the time that a step takes does not.
+    Invariant {
+        /// Which step.
+        step: StepIndex,
+        /// A time at which it does not hold, in seconds.
+        time: Number,
+        /// What it lacks; spans are of the domain.
+        parts: Vec<Unsatisfied>,
+    },
+    /// Two things happen at once, and what they do or need depends on their order.
+    Interference {
+        /// One.
+        first: Cause,
+        /// The other.
+        second: Cause,
+        /// What they disagree about.
+        over: Shared,
+    },
+    /// Something that can happen has no result.
+    Effect {
+        /// What.
+        at: Cause,
         /// Why; spans are of the domain.
         fault: EffectFault,
+    },
+    /// Fluents that change continuously have no values.
+    Change {
+        /// From when on, in seconds.
+        time: Number,
+        /// Why; spans are of the domain.
+        fault: ChangeFault,
+    },
+    /// Events cause each other without end, at one time.
+    EndlessEvents {
+        /// When, in seconds.
+        time: Number,
+        /// One of them.
+        event: EventId,
+    },
+    /// The states that the plan goes through break a constraint.
+    Constraint {
+        /// Whether the domain or the problem has it.
+        file: File,
+        /// The constraint, without `and` and `forall` around it.
+        span: Span,
+        /// How it is broken.
+        breach: Breach,
+        /// When, in seconds or steps; `None` if it is nowhere satisfied.
+        time: Option<Number>,
     },
     /// The goal does not hold in the end.
     Goal {
         /// What it lacks; spans are of the problem.
         parts: Vec<Unsatisfied>,
+    },
+}
+
+/// What two simultaneous happenings disagree about.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Shared {
+    /// An atom that one changes and the other needs or changes the other way.
+    Atom(GroundAtom),
+    /// A fluent that one changes and the other reads or changes.
+    Fluent(GroundApplication),
+    /// A derived predicate that one needs and that depends on what the other changes.
+    Derived {
+        /// What is needed.
+        predicate: PredicateId,
+        /// What is changed.
+        atom: GroundAtom,
+    },
+}
+
+/// Why continuous change has no result.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ChangeFault {
+    /// A value cannot be computed.
+    Numeric(NumericFault),
+    /// A rate depends on itself: the change is no polynomial of time.
+    NotPolynomial {
+        /// The fluent.
+        fluent: GroundApplication,
+        /// Its rate.
+        span: Span,
+    },
+    /// Processes begin and end without end, at one time.
+    Unsteady,
+    /// Something is divided by what changes: the result is no polynomial of time.
+    NotPolynomialExpression {
+        /// The division.
+        span: Span,
     },
 }
 
@@ -105,6 +209,8 @@ pub enum StepFault {
         /// Arguments of the step.
         found: usize,
     },
+    /// A durative action has no duration.
+    NoDuration,
     /// An argument is not of its parameter's type.
     Type {
         /// The parameter.
@@ -137,8 +243,8 @@ pub enum Unsatisfied {
     Missing {
         /// Which one.
         atom: GroundAtom,
-        /// The step that deleted it last; `None` if it never held.
-        deleted_by: Option<StepIndex>,
+        /// What deleted it last; `None` if it never held.
+        deleted_by: Option<Cause>,
         /// Whether an axiom would have to derive it.
         derived: bool,
         /// Where it is asked for.
@@ -148,8 +254,8 @@ pub enum Unsatisfied {
     Present {
         /// Which one.
         atom: GroundAtom,
-        /// The step that added it last; `None` if it held from the beginning, or follows by an axiom.
-        added_by: Option<StepIndex>,
+        /// What added it last; `None` if it held from the beginning, or follows by an axiom.
+        added_by: Option<Cause>,
         /// Whether an axiom derives it.
         derived: bool,
         /// Where it is forbidden.
@@ -293,6 +399,12 @@ pub enum Feature {
     LanguageOfProblem(pddl::model::Feature),
     /// A plan for a task network must come with its decomposition.
     TaskNetwork,
+    /// A plan with its decomposition.
+    HierarchicalPlan,
+    /// A plan without times, where the problem has timed changes.
+    TimesMissingForProblem,
+    /// A plan without times, where the domain has processes or events.
+    TimesMissingForDomain,
 }
 
 /// Why a task has no meaning although each of its parts has.

@@ -6,10 +6,11 @@
 //! closest objects is bounded.
 
 use crate::axiom::Strata;
+use crate::cause::Causes;
 use crate::condition::Strictness;
 use crate::scene::{Binding, Scene};
-use crate::state::{GroundAtom, Moment, Value};
-use crate::verdict::{Near, Operand, StepIndex, Unsatisfied};
+use crate::state::{GroundAtom, Value};
+use crate::verdict::{Near, Operand, Unsatisfied};
 use pddl::Span;
 use pddl::model::{
     Application, Atom, Condition, ConditionKind, Expression, ExpressionKind, Name, ObjectId, Term, VariableId,
@@ -19,14 +20,11 @@ use std::ops::ControlFlow;
 /// How many bindings are tried for the closest one.
 const BINDINGS_TRIED: usize = 512;
 
-fn step_before(moment: Moment) -> Option<StepIndex> {
-    moment.checked_sub(1).map(StepIndex)
-}
-
 /// Explains failures in one scene.
 pub(crate) struct Why<'a> {
     pub(crate) scene: Scene<'a>,
     pub(crate) strata: &'a Strata,
+    pub(crate) causes: Causes<'a>,
 }
 
 impl Why<'_> {
@@ -87,7 +85,7 @@ impl Why<'_> {
         let record = self.scene.state.facts[atom.predicate].record(&arguments);
         let span = atom.span;
         let derived = self.strata.derives(atom.predicate);
-        let since = record.filter(|r| r.holds != wanted).and_then(|r| step_before(r.since));
+        let since = record.filter(|r| r.holds != wanted).and_then(|r| self.causes.of(r.since));
         let atom = GroundAtom { predicate: atom.predicate, arguments };
         if wanted {
             Unsatisfied::Missing { atom, deleted_by: since, derived, span }
@@ -112,7 +110,7 @@ impl Why<'_> {
         Unsatisfied::Fluent { fluent, value: binding.object(value), wanted, actual, span }
     }
 
-    fn operand(&self, expression: &Expression, binding: &Binding) -> Operand {
+    pub(crate) fn operand(&self, expression: &Expression, binding: &Binding) -> Operand {
         let mut fluents = Vec::new();
         self.fluents(expression, binding, &mut fluents);
         Operand { value: self.scene.number(expression, binding), fluents, span: expression.span }

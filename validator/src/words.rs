@@ -4,14 +4,21 @@
 //! sentences. A [`Finding`] has one sentence and a place, and notes with places of their own, which may
 //! lie in another file: a failing step in the plan, its unsatisfied parts in the domain.
 
+use crate::cause::Cause;
 use crate::expression::NumericFault;
+use crate::number::Number;
+use crate::preference::ViolatedPreference;
+use crate::run::PlanRef;
 use crate::state::{GroundAtom, Value};
+use crate::temporal;
 use crate::trace::Diff;
+use crate::trajectory::Breach;
 use crate::verdict::{
-    EffectFault, Failure, Feature, IllFormed, Operand, StepFault, StepIndex, Unsatisfied, Verdict,
+    ChangeFault, EffectFault, Failure, Feature, IllFormed, Operand, Shared, StepFault, StepIndex,
+    Unsatisfied, Verdict,
 };
 use pddl::model::{Comparison, Domain, GroundApplication, Name, ObjectId, Problem};
-use pddl::{PlanStep, SequentialPlan, Span};
+use pddl::{PlanStep, Span, StepHead, TemporalStep};
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -48,13 +55,13 @@ pub struct Finding {
 }
 
 /// What to say about a verdict; nothing about a valid plan.
-pub fn explain(
+pub fn explain<'p>(
     domain: &Domain,
     problem: &Problem,
-    plan: &SequentialPlan,
+    plan: impl Into<PlanRef<'p>>,
     verdict: &Verdict,
 ) -> Option<Finding> {
-    let words = Words { domain, problem, plan };
+    let words = Words { domain, problem, plan: plan.into() };
     match verdict {
         Verdict::Valid(_) => None,
         Verdict::Invalid(failure) => Some(words.failure(failure)),
@@ -68,6 +75,17 @@ pub fn explain(
                     File::Problem,
                     "not supported: a plan for a task network without its decomposition".into(),
                 ),
+                Feature::TimesMissingForProblem => (
+                    File::Problem,
+                    "a plan without times is not supported where the problem has timed changes".into(),
+                ),
+                Feature::TimesMissingForDomain => (
+                    File::Domain,
+                    "a plan without times is not supported where the domain has processes or events".into(),
+                ),
+                Feature::HierarchicalPlan => {
+                    (File::Plan, "a plan with its decomposition is not supported".into())
+                }
             };
             Some(Finding { sentence, place: Place { file, span: unsupported.span }, notes: Vec::new() })
         }
@@ -90,6 +108,40 @@ pub fn show_step(domain: &Domain, problem: &Problem, step: &PlanStep) -> String 
     let unknown = Name::new("?");
     let name = domain.actions.get(step.action).map_or(&unknown, |action| &action.name);
     show_list(name, &step.arguments, problem)
+}
+
+/// A step of a plan with times as PDDL, without its times.
+pub fn show_timed_step(domain: &Domain, problem: &Problem, step: &TemporalStep) -> String {
+    let unknown = Name::new("?");
+    let name = match step.head {
+        StepHead::Action(id) => domain.actions.get(id).map(|action| &action.name),
+        StepHead::DurativeAction(id) => domain.durative_actions.get(id).map(|action| &action.name),
+    };
+    show_list(name.unwrap_or(&unknown), &step.arguments, problem)
+}
+
+/// What happened, in words: `step 3 (go a b)`, `the end of step 3 (go a b) at 4.5`.
+pub fn show_cause<'p>(
+    domain: &Domain,
+    problem: &Problem,
+    plan: impl Into<PlanRef<'p>>,
+    cause: Cause,
+) -> String {
+    Words { domain, problem, plan: plan.into() }.cause(cause)
+}
+
+/// A violated preference: `p1 (?x = a)`.
+pub fn show_preference(problem: &Problem, violated: &ViolatedPreference) -> String {
+    let name = violated.name.as_ref().map_or("a preference without a name", Name::as_str);
+    if violated.binding.is_empty() {
+        return name.to_owned();
+    }
+    format!("{name} ({})", show_binding(problem, &violated.binding))
+}
+
+fn show_binding(problem: &Problem, binding: &[(Name, ObjectId)]) -> String {
+    let value = |(name, object): &(Name, ObjectId)| format!("?{name} = {}", show_object(*object, problem));
+    binding.iter().map(value).collect::<Vec<_>>().join(", ")
 }
 
 /// A step's changes, one a line: `+ (at b)`, `- (at a)`, `(fuel) 3 -> 2`.
@@ -135,7 +187,7 @@ const fn symbol(comparison: Comparison) -> &'static str {
 struct Words<'a> {
     domain: &'a Domain,
     problem: &'a Problem,
-    plan: &'a SequentialPlan,
+    plan: PlanRef<'a>,
 }
 
 impl Words<'_> {
@@ -152,23 +204,70 @@ impl Words<'_> {
     }
 
     fn binding(&self, binding: &[(Name, ObjectId)]) -> String {
-        let mut text = String::new();
-        for (index, (name, object)) in binding.iter().enumerate() {
-            let comma = if index == 0 { "" } else { ", " };
-            write!(text, "{comma}?{name} = {}", self.object(*object)).expect("a string takes all");
+        show_binding(self.problem, binding)
+    }
+
+    /// A step as PDDL, and where it stands.
+    fn step_text(&self, step: StepIndex) -> Option<(String, Span)> {
+        let index = step.0 as usize;
+        match self.plan {
+            PlanRef::Sequential(plan) => {
+                plan.steps.get(index).map(|s| (show_step(self.domain, self.problem, s), s.span))
+            }
+            PlanRef::Temporal(plan) => {
+                plan.steps.get(index).map(|s| (show_timed_step(self.domain, self.problem, s), s.span))
+            }
+            PlanRef::Hierarchical(plan) => {
+                let step = plan.steps.iter().nth(index)?;
+                Some((show_step(self.domain, self.problem, &step.step), step.step.span))
+            }
         }
-        text
     }
 
     fn step_place(&self, step: StepIndex) -> Place {
-        let span = self.plan.steps.get(step.0 as usize).map_or_else(Span::default, |s| s.span);
-        Place { file: File::Plan, span }
+        Place { file: File::Plan, span: self.step_text(step).map_or_else(Span::default, |(_, span)| span) }
     }
 
     fn step(&self, step: StepIndex) -> String {
-        match self.plan.steps.get(step.0 as usize) {
-            Some(s) => format!("step {} {}", step.number(), show_step(self.domain, self.problem, s)),
+        match self.step_text(step) {
+            Some((text, _)) => format!("step {} {text}", step.number()),
             None => format!("step {}", step.number()),
+        }
+    }
+
+    /// When something happens, in a plan with times.
+    fn time(&self, cause: Cause) -> Option<Number> {
+        let PlanRef::Temporal(plan) = self.plan else { return None };
+        match cause {
+            Cause::Step(step) | Cause::Start(step) => plan.steps.get(step.0 as usize).map(temporal::start),
+            Cause::End(step) => plan.steps.get(step.0 as usize).map(temporal::end),
+            Cause::Timed(index) => {
+                self.problem.timed.get(index as usize).map(|timed| Number::from_decimal(timed.time))
+            }
+            Cause::Event(_) => None,
+        }
+    }
+
+    fn cause_place(&self, cause: Cause) -> Place {
+        match cause {
+            Cause::Step(step) | Cause::Start(step) | Cause::End(step) => self.step_place(step),
+            Cause::Timed(index) => {
+                let span = self.problem.timed.get(index as usize).map_or_else(Span::default, |t| t.span);
+                Place { file: File::Problem, span }
+            }
+            Cause::Event(event) => Place { file: File::Domain, span: self.domain.events[event].name_span },
+        }
+    }
+
+    /// `step 3 (a b)`, `the start of step 3 (a b) at 4.5`.
+    fn cause(&self, cause: Cause) -> String {
+        let at = self.time(cause).map_or_else(String::new, |time| format!(" at {time}"));
+        match cause {
+            Cause::Step(step) => format!("{}{at}", self.step(step)),
+            Cause::Start(step) => format!("the start of {}{at}", self.step(step)),
+            Cause::End(step) => format!("the end of {}{at}", self.step(step)),
+            Cause::Timed(_) => format!("a timed change{at}"),
+            Cause::Event(event) => format!("event `{}`", self.domain.events[event].name),
         }
     }
 
@@ -180,6 +279,7 @@ impl Words<'_> {
                     StepFault::Arity { expected, found } => {
                         format!("has {found} arguments where the action has {expected} parameters")
                     }
+                    StepFault::NoDuration => "says not how long it takes".to_owned(),
                     StepFault::Type { object, .. } => {
                         format!("has an argument of the wrong type: {}", self.object(*object))
                     }
@@ -187,13 +287,116 @@ impl Words<'_> {
                 let sentence = format!("{} {what}", self.step(*step));
                 Finding { sentence, place: self.step_place(*step), notes: Vec::new() }
             }
-            Failure::Precondition { step, parts } => {
-                let sentence =
-                    format!("{} cannot be taken: its precondition does not hold", self.step(*step));
+            Failure::Precondition { at, parts } => {
+                let (what, condition) = match at {
+                    Cause::Start(_) => ("begin", "condition at the start"),
+                    Cause::End(_) => ("end", "condition at the end"),
+                    _ => ("be taken", "precondition"),
+                };
+                let subject = match at {
+                    Cause::Start(step) | Cause::End(step) => {
+                        let time = self.time(*at).map_or_else(String::new, |time| format!(" at {time}"));
+                        format!("{} cannot {what}{time}", self.step(*step))
+                    }
+                    _ => format!("{} cannot {what}", self.cause(*at)),
+                };
+                let sentence = format!("{subject}: its {condition} does not hold");
+                Finding { sentence, place: self.cause_place(*at), notes: self.notes(parts, File::Domain) }
+            }
+            Failure::Duration { step, actual, comparison, bound, span } => {
+                let sentence = match &bound.value {
+                    Ok(value) => format!(
+                        "{} takes {actual} s, and its duration must be {} {value}",
+                        self.step(*step),
+                        symbol(*comparison)
+                    ),
+                    Err(fault) => {
+                        format!(
+                            "{} has no duration that could fit: {}",
+                            self.step(*step),
+                            self.numeric(fault)
+                        )
+                    }
+                };
+                let mut note = "asked for here".to_owned();
+                self.with_fluents(&mut note, bound.fluents.iter());
+                let notes = vec![(Place { file: File::Domain, span: *span }, note)];
+                Finding { sentence, place: self.step_place(*step), notes }
+            }
+            Failure::Invariant { step, time, parts } => {
+                let sentence = format!(
+                    "{} is disturbed: what must hold all the time does not hold after {time}",
+                    self.step(*step)
+                );
                 Finding { sentence, place: self.step_place(*step), notes: self.notes(parts, File::Domain) }
             }
-            Failure::Effect { step, fault } => {
-                let sentence = format!("{} has no result", self.step(*step));
+            Failure::Interference { first, second, over } => {
+                let sentence = format!(
+                    "{} and {} are at one time, and interfere",
+                    self.cause(*first),
+                    self.cause(*second)
+                );
+                let why = match over {
+                    Shared::Atom(atom) => {
+                        format!("one changes {}, on which the other relies", self.atom(atom))
+                    }
+                    Shared::Fluent(fluent) => {
+                        format!("one changes {}, which the other reads or changes", self.application(fluent))
+                    }
+                    Shared::Derived { predicate, atom } => format!(
+                        "one changes {}, on which `{}` depends that the other needs",
+                        self.atom(atom),
+                        self.domain.predicates[*predicate].name
+                    ),
+                };
+                let notes = vec![
+                    (self.cause_place(*first), why),
+                    (self.cause_place(*second), "at the same time".to_owned()),
+                ];
+                Finding { sentence, place: self.cause_place(*second), notes }
+            }
+            Failure::Change { time, fault } => {
+                let (why, span) = match fault {
+                    ChangeFault::Numeric(fault) => (self.numeric(fault), fault.span()),
+                    ChangeFault::NotPolynomial { fluent, span } => {
+                        (format!("the rate of {} depends on itself", self.application(fluent)), *span)
+                    }
+                    ChangeFault::Unsteady => {
+                        ("processes begin and end without end at one time".to_owned(), Span::default())
+                    }
+                    ChangeFault::NotPolynomialExpression { span } => {
+                        ("divided by what changes continuously".to_owned(), *span)
+                    }
+                };
+                let sentence = format!("continuous change after {time} has no result: {why}");
+                Finding { sentence, place: Place { file: File::Domain, span }, notes: Vec::new() }
+            }
+            Failure::EndlessEvents { time, event } => {
+                let sentence = format!(
+                    "events cause each other without end at {time}, `{}` among them",
+                    self.domain.events[*event].name
+                );
+                Finding { sentence, place: self.cause_place(Cause::Event(*event)), notes: Vec::new() }
+            }
+            Failure::Constraint { file, span, breach, time } => {
+                let when = match (self.plan, time) {
+                    (_, None) => String::new(),
+                    (PlanRef::Temporal(_), Some(time)) => format!("at {time}"),
+                    (_, Some(step)) if *step == Number::ZERO => "in the initial state".to_owned(),
+                    (_, Some(step)) => format!("after step {step}"),
+                };
+                let how = match breach {
+                    Breach::Here(_) => format!("{when} it does not hold"),
+                    Breach::NeverAfter(_) => format!("what must follow never comes, or too late, {when}"),
+                    Breach::NeverBefore(_) => format!("what must come before did not, {when}"),
+                    Breach::Again(_) => format!("{when} it becomes true again"),
+                    Breach::Nowhere => "no state satisfies it in time".to_owned(),
+                };
+                let sentence = format!("the plan breaks a constraint: {how}");
+                Finding { sentence, place: Place { file: *file, span: *span }, notes: Vec::new() }
+            }
+            Failure::Effect { at, fault } => {
+                let sentence = format!("{} has no result", self.cause(*at));
                 let note = |span, text| (Place { file: File::Domain, span }, text);
                 let notes = match fault {
                     EffectFault::Conflict { fluent, first, second } => {
@@ -205,10 +408,10 @@ impl Words<'_> {
                     }
                     EffectFault::Numeric(fault) => vec![note(fault.span(), self.numeric(fault))],
                 };
-                Finding { sentence, place: self.step_place(*step), notes }
+                Finding { sentence, place: self.cause_place(*at), notes }
             }
             Failure::Goal { parts } => {
-                let sentence = match self.plan.steps.len() {
+                let sentence = match self.plan.steps() {
                     0 => "the goal does not hold, and the plan is empty".to_owned(),
                     1 => "the goal does not hold after the only step".to_owned(),
                     n => format!("the goal does not hold after the last of {n} steps"),
@@ -253,15 +456,15 @@ impl Words<'_> {
         for part in parts {
             notes.push((Place { file, span: part.span() }, self.part(part)));
             let cause = match part {
-                Unsatisfied::Missing { atom, deleted_by: Some(step), .. } => {
-                    Some((*step, format!("this deletes {}", self.atom(atom))))
+                Unsatisfied::Missing { atom, deleted_by: Some(cause), .. } => {
+                    Some((*cause, format!("this deletes {}", self.atom(atom))))
                 }
-                Unsatisfied::Present { atom, added_by: Some(step), .. } => {
-                    Some((*step, format!("this adds {}", self.atom(atom))))
+                Unsatisfied::Present { atom, added_by: Some(cause), .. } => {
+                    Some((*cause, format!("this adds {}", self.atom(atom))))
                 }
                 _ => None,
             };
-            notes.extend(cause.map(|(step, text)| (self.step_place(step), text)));
+            notes.extend(cause.map(|(cause, text)| (self.cause_place(cause), text)));
         }
         notes
     }
@@ -273,7 +476,7 @@ impl Words<'_> {
                 match deleted_by {
                     _ if *derived => format!("{atom} does not follow"),
                     None => format!("{atom} does not hold; it never did"),
-                    Some(step) => format!("{atom} does not hold; {} deleted it", self.step(*step)),
+                    Some(cause) => format!("{atom} does not hold; {} deleted it", self.cause(*cause)),
                 }
             }
             Unsatisfied::Present { atom, added_by, derived, .. } => {
@@ -281,7 +484,7 @@ impl Words<'_> {
                 match added_by {
                     None if *derived => format!("{atom} should not hold, but follows"),
                     None => format!("{atom} should not hold, but does from the beginning"),
-                    Some(step) => format!("{atom} should not hold; {} added it", self.step(*step)),
+                    Some(cause) => format!("{atom} should not hold; {} added it", self.cause(*cause)),
                 }
             }
             Unsatisfied::Type { object, types, wanted, .. } => {
@@ -335,11 +538,20 @@ impl Words<'_> {
         };
         let is_not = if wanted { "is not" } else { "should not be" };
         let mut text = format!("{} {is_not} {} {}", side(left), symbol(comparison), side(right));
-        for (index, (fluent, value)) in left.fluents.iter().chain(&right.fluents).enumerate() {
+        self.with_fluents(&mut text, left.fluents.iter().chain(&right.fluents));
+        text
+    }
+
+    /// Appends `; (fuel a) = 3, (fuel b) = undefined`.
+    fn with_fluents<'f>(
+        &self,
+        text: &mut String,
+        fluents: impl Iterator<Item = &'f (GroundApplication, Option<Number>)>,
+    ) {
+        for (index, (fluent, value)) in fluents.enumerate() {
             let start = if index == 0 { "; " } else { ", " };
             let value = value.map_or_else(|| "undefined".to_owned(), |v| v.to_string());
             write!(text, "{start}{} = {value}", self.application(fluent)).expect("a string takes all");
         }
-        text
     }
 }

@@ -5,7 +5,7 @@
 use pddl::model::{ActionId, Domain, ObjectId, Problem};
 use pddl::{PlanStep, SequentialPlan, Source, Span, parse_domain, parse_plan, parse_problem};
 use proptest::prelude::*;
-use validator::{Failure, Validator, Verdict, explain, validate};
+use validator::{Cause, Failure, Validator, Verdict, explain, validate};
 
 const DOMAIN: &str = "(define (domain rounds) (:requirements :adl :typing :numeric-fluents)
   (:types room item)
@@ -96,7 +96,9 @@ fn every_step_is_needed() {
         let verdict = validator.validate(&shorter);
         // Carrying both at once is forbidden, every other step is a link of the chain.
         match verdict {
-            Verdict::Invalid(Failure::Precondition { step, .. }) => assert!(step.0 as usize >= dropped),
+            Verdict::Invalid(Failure::Precondition { at: Cause::Step(step), .. }) => {
+                assert!(step.0 as usize >= dropped);
+            }
             Verdict::Invalid(Failure::Goal { .. }) => {}
             other => panic!("without step {dropped}: {other:?}"),
         }
@@ -146,7 +148,7 @@ proptest! {
         let validator = Validator::new(&domain, &problem).unwrap();
         let (verdict, trace) = validator.trace(&plan);
         prop_assert_eq!(&verdict, &validator.validate(&plan));
-        prop_assert!(trace.steps.len() <= plan.steps.len());
+        prop_assert!(trace.happenings.len() <= plan.steps.len());
         prop_assert_eq!(verdict.is_valid(), explain(&domain, &problem, &plan, &verdict).is_none());
     }
 

@@ -59,14 +59,9 @@ impl ::lsp::Tools for Tools {
     fn validate(&self, task: &Task, plan: &Source) -> Judged {
         let Some((domain, problem)) = models(task) else { return Judged::Unreadable };
         let Some(plan) = parse_plan(plan, &domain, &problem).model else { return Judged::Unreadable };
-        let (kind, start) = (plan.kind(), plan.first_span());
-        let Some(plan) = plan.into_sequential() else {
-            let sentence = format!("{kind} plans are read but not validated");
-            return Judged::Not(vec![remark(Severity::Unsupported, sentence, (File::Plan, start))]);
-        };
         let verdict = validate(&domain, &problem, &plan);
         if let Verdict::Valid(valid) = &verdict {
-            return Judged::Valid { steps: plan.steps.len(), cost: valid.cost().to_string() };
+            return Judged::Valid { steps: valid.steps as usize, cost: valid.cost().to_string() };
         }
         let severity =
             if matches!(verdict, Verdict::Unsupported(_)) { Severity::Unsupported } else { Severity::Error };

@@ -1,0 +1,121 @@
+//! What a plan must and should satisfy besides its goal: trajectory constraints and preferences.
+//!
+//! The domain's and the problem's constraints are grounded once, before the first state; then the states
+//! are noted as they come, and at the end the hard ones are judged, the soft ones counted.
+
+use crate::axiom::Strata;
+use crate::number::Number;
+use crate::preference::Violations;
+use crate::scene::{Binding, Clock, Scene};
+use crate::state::State;
+use crate::trajectory::{Breach, Formula, Trajectory, each_instance};
+use crate::universe::Universe;
+use crate::words::File;
+use pddl::Span;
+use pddl::model::{Condition, Constraint, Domain, Preference, Problem, Variables};
+
+/// A soft constraint for one binding of the `forall`s around it.
+#[derive(Clone, Debug)]
+struct Soft<'a> {
+    preference: &'a Preference<Constraint>,
+    variables: &'a Variables,
+    binding: Binding,
+    formula: Formula,
+}
+
+/// A constraint that a plan breaks.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Broken {
+    pub(crate) file: File,
+    pub(crate) span: Span,
+    pub(crate) breach: Breach,
+    pub(crate) time: Option<Number>,
+}
+
+/// All demands on one plan, while it runs.
+#[derive(Clone, Debug)]
+pub(crate) struct Demands<'a> {
+    trajectory: Trajectory<'a>,
+    hard: Vec<(File, Formula)>,
+    soft: Vec<Soft<'a>>,
+    reads_derived: bool,
+    pub(crate) violations: Violations,
+}
+
+impl<'a> Demands<'a> {
+    pub(crate) fn new(
+        domain: &'a Domain,
+        problem: &'a Problem,
+        universe: &'a Universe,
+        strata: &Strata,
+        state: &'a State,
+    ) -> Self {
+        let mut demands = Self {
+            trajectory: Trajectory::default(),
+            hard: Vec::new(),
+            soft: Vec::new(),
+            reads_derived: false,
+            violations: Violations::default(),
+        };
+        for (file, constraints) in
+            [(File::Domain, &domain.constraints), (File::Problem, &problem.constraints)]
+        {
+            let variables = &constraints.variables;
+            let scene = Scene { universe, state, variables, clock: Clock::steps(0) };
+            let mut binding = Binding::new(variables, &[]);
+            for constraint in &constraints.hard {
+                let formula = demands.trajectory.ground(scene, constraint, &mut binding);
+                demands.hard.push((file, formula));
+            }
+            for preference in &constraints.preferences {
+                each_instance(scene, &preference.forall, &mut binding, &mut |binding| {
+                    let formula = demands.trajectory.ground(scene, &preference.body, binding);
+                    demands.soft.push(Soft { preference, variables, binding: binding.clone(), formula });
+                });
+            }
+        }
+        demands.reads_derived =
+            demands.trajectory.conditions().any(|(condition, ..)| strata.reads_derived(condition));
+        demands
+    }
+
+    /// Whether states need not be noted.
+    pub(crate) fn are_none(&self) -> bool {
+        self.hard.is_empty() && self.soft.is_empty()
+    }
+
+    /// Whether the derived part of a state must be up to date when it is noted.
+    pub(crate) fn read_derived(&self) -> bool {
+        self.reads_derived
+    }
+
+    /// The conditions whose truth is noted.
+    pub(crate) fn conditions(&self) -> impl Iterator<Item = (&'a Condition, &'a Variables, &Binding)> {
+        self.trajectory.conditions()
+    }
+
+    /// Notes a state.
+    pub(crate) fn observe(&mut self, time: Number, universe: &Universe, state: &State) {
+        if !self.are_none() {
+            self.trajectory.observe(time, universe, state);
+        }
+    }
+
+    /// Judges the constraints when all is over; the first that is broken, if one is.
+    pub(crate) fn broken(&self) -> Option<Broken> {
+        self.hard.iter().find_map(|(file, formula)| {
+            let (span, breach) = self.trajectory.breach(formula)?;
+            let time = breach.position().and_then(|position| self.trajectory.time(position));
+            Some(Broken { file: *file, span, breach, time })
+        })
+    }
+
+    /// Counts the soft constraints that are broken.
+    pub(crate) fn count_soft(&mut self) {
+        for soft in &self.soft {
+            if !self.trajectory.satisfies(&soft.formula) {
+                self.violations.add(soft.preference, soft.variables, &soft.binding);
+            }
+        }
+    }
+}

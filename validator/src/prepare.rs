@@ -1,0 +1,158 @@
+//! What is prepared once for a task: its initial state, which relations are looked up by pattern, and
+//! whether its effects leave derived predicates alone.
+
+use crate::axiom::{Strata, each_predicate};
+use crate::number::Number;
+use crate::state::{State, Value};
+use crate::verdict::IllFormed;
+use pddl::model::{
+    Condition, ConditionKind, Constraint, ConstraintKind, Domain, Effect, EffectKind, GroundApplication, Idx,
+    Problem,
+};
+
+pub(crate) fn initial_state(domain: &Domain, problem: &Problem) -> State {
+    let mut state = State::empty(domain, &joined(domain, problem));
+    for fact in &problem.init {
+        state.facts[fact.predicate].add(&fact.arguments, 0);
+    }
+    // Action costs are counted from 0 even where `:init` forgets to say so.
+    if let Some(function) = domain.function("total-cost")
+        && domain.functions[function].variables.parameters == 0
+    {
+        let total_cost = GroundApplication { function, arguments: Vec::new() };
+        state.set_fluent(total_cost, Some(Value::Number(Number::ZERO)));
+    }
+    for fact in &problem.fluents {
+        state.set_fluent(fact.application.clone(), Value::of(fact.value));
+    }
+    state
+}
+
+/// Which predicates are looked up by pattern: those inside quantifiers, axioms and universal effects.
+fn joined(domain: &Domain, problem: &Problem) -> Vec<bool> {
+    let mut joined = vec![false; domain.predicates.len()];
+    let mut mark = |condition: &Condition| {
+        each_predicate(condition, true, &mut |predicate, _| joined[predicate.index()] = true);
+    };
+    for action in &domain.actions {
+        each_quantified(&action.precondition, &mut mark);
+        action.preferences.iter().for_each(|p| each_quantified(&p.body, &mut mark));
+        quantified_guards(&action.effect, &mut mark);
+    }
+    for action in &domain.durative_actions {
+        action.conditions.iter().for_each(|timed| each_quantified(&timed.condition, &mut mark));
+        action.preferences.iter().for_each(|p| each_quantified(&p.body.condition, &mut mark));
+        action.effects.iter().for_each(|timed| quantified_guards(&timed.effect, &mut mark));
+    }
+    for axiom in &domain.axioms {
+        mark(&axiom.body);
+    }
+    for process in &domain.processes {
+        mark(&process.precondition);
+    }
+    for event in &domain.events {
+        mark(&event.precondition);
+        quantified_guards(&event.effect, &mut mark);
+    }
+    for constraints in [&domain.constraints, &problem.constraints] {
+        let soft = constraints.preferences.iter().map(|preference| &preference.body);
+        constraints
+            .hard
+            .iter()
+            .chain(soft)
+            .for_each(|c| each_condition(c, &mut |c| each_quantified(c, &mut mark)));
+    }
+    each_quantified(&problem.goal, &mut mark);
+    problem.preferences.iter().for_each(|preference| each_quantified(&preference.body, &mut mark));
+    joined
+}
+
+fn quantified_guards(effect: &Effect, mark: &mut dyn FnMut(&Condition)) {
+    each_guard(effect, &mut |guard, universal| {
+        if universal {
+            mark(guard);
+        } else {
+            each_quantified(guard, mark);
+        }
+    });
+}
+
+/// The conditions of a constraint.
+fn each_condition(constraint: &Constraint, visit: &mut dyn FnMut(&Condition)) {
+    match &constraint.kind {
+        ConstraintKind::Holds(condition) => visit(condition),
+        ConstraintKind::And(parts) | ConstraintKind::Or(parts) => {
+            parts.iter().for_each(|part| each_condition(part, visit));
+        }
+        ConstraintKind::Imply(a, b)
+        | ConstraintKind::SometimeAfter(a, b)
+        | ConstraintKind::SometimeBefore(a, b)
+        | ConstraintKind::AlwaysWithin(_, a, b) => {
+            each_condition(a, visit);
+            each_condition(b, visit);
+        }
+        ConstraintKind::Not(part)
+        | ConstraintKind::Exists(_, part)
+        | ConstraintKind::Forall(_, part)
+        | ConstraintKind::AtEnd(part)
+        | ConstraintKind::Always(part)
+        | ConstraintKind::Sometime(part)
+        | ConstraintKind::Within(_, part)
+        | ConstraintKind::AtMostOnce(part)
+        | ConstraintKind::HoldDuring(_, _, part)
+        | ConstraintKind::HoldAfter(_, part) => each_condition(part, visit),
+    }
+}
+
+/// The outermost quantified conditions.
+fn each_quantified(condition: &Condition, visit: &mut dyn FnMut(&Condition)) {
+    match &condition.kind {
+        ConditionKind::And(parts) | ConditionKind::Or(parts) => {
+            for part in parts {
+                each_quantified(part, visit);
+            }
+        }
+        ConditionKind::Not(part) => each_quantified(part, visit),
+        ConditionKind::Imply(if_, then) => {
+            each_quantified(if_, visit);
+            each_quantified(then, visit);
+        }
+        ConditionKind::Exists(_, body) | ConditionKind::Forall(_, body) => visit(body),
+        ConditionKind::Atom(_)
+        | ConditionKind::HasType(..)
+        | ConditionKind::Same(..)
+        | ConditionKind::Compare(..)
+        | ConditionKind::FluentIs(..) => {}
+    }
+}
+
+/// The conditions of conditional effects, and whether a universal effect is around them.
+pub(crate) fn each_guard(effect: &Effect, visit: &mut dyn FnMut(&Condition, bool)) {
+    fn walk(effect: &Effect, universal: bool, visit: &mut dyn FnMut(&Condition, bool)) {
+        match &effect.kind {
+            EffectKind::And(parts) => {
+                for part in parts {
+                    walk(part, universal, visit);
+                }
+            }
+            EffectKind::Forall(_, body) => walk(body, true, visit),
+            EffectKind::When(guard, body) => {
+                visit(guard, universal);
+                walk(body, universal, visit);
+            }
+            EffectKind::Add(_) | EffectKind::Delete(_) | EffectKind::Assign(..) => {}
+        }
+    }
+    walk(effect, false, visit);
+}
+
+pub(crate) fn derived_in_effect(effect: &Effect, strata: &Strata) -> Result<(), IllFormed> {
+    match &effect.kind {
+        EffectKind::And(parts) => parts.iter().try_for_each(|part| derived_in_effect(part, strata)),
+        EffectKind::Forall(_, body) | EffectKind::When(_, body) => derived_in_effect(body, strata),
+        EffectKind::Add(atom) | EffectKind::Delete(atom) if strata.derives(atom.predicate) => {
+            Err(IllFormed::DerivedInEffect { predicate: atom.predicate, span: atom.span })
+        }
+        EffectKind::Add(_) | EffectKind::Delete(_) | EffectKind::Assign(..) => Ok(()),
+    }
+}

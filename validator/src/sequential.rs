@@ -1,0 +1,110 @@
+//! A plan without times, step by step. Its n-th state has the time n.
+
+use crate::cause::{Cause, Causes};
+use crate::demands::Demands;
+use crate::effect::Changes;
+use crate::number::Number;
+use crate::prepare::each_guard;
+use crate::run::{End, Validator, precondition};
+use crate::scene::{Binding, Clock};
+use crate::state::State;
+use crate::trace::{Diff, Happening, Trace};
+use crate::verdict::{Failure, StepFault, StepIndex, Valid};
+use pddl::model::{Action, ActionId, IndexVec};
+use pddl::{PlanStep, SequentialPlan};
+
+pub(crate) fn run(
+    validator: &Validator<'_>,
+    plan: &SequentialPlan,
+    mut trace: Option<&mut Trace>,
+) -> Result<Valid, Box<Failure>> {
+    let mut run = Run {
+        validator,
+        reads_derived: reads_derived(validator),
+        state: validator.initial.clone(),
+        demands: validator.demands(),
+        changes: Changes::default(),
+        binding: Binding::default(),
+    };
+    run.observe(0);
+    let mut steps = 0;
+    for step in &plan.steps {
+        let mut diff = trace.is_some().then(Diff::default);
+        run.step(StepIndex(steps), step, diff.as_mut())?;
+        if let (Some(trace), Some(diff)) = (&mut trace, diff) {
+            let time = Number::integer(i64::from(steps) + 1);
+            trace.happenings.push(Happening { time, causes: vec![Cause::Step(StepIndex(steps))], diff });
+        }
+        steps += 1;
+        run.observe(steps);
+    }
+    let end = End {
+        state: &mut run.state,
+        causes: Causes::Steps,
+        total_time: Number::integer(i64::from(steps)),
+        makespan: None,
+        steps,
+    };
+    validator.finish(end, run.demands)
+}
+
+/// Per action, whether its conditions read derived predicates.
+fn reads_derived(validator: &Validator<'_>) -> IndexVec<ActionId, bool> {
+    let strata = &validator.strata;
+    let reads = |action: &Action| {
+        let mut reads = strata.reads_derived(&action.precondition);
+        reads |= action.preferences.iter().any(|preference| strata.reads_derived(&preference.body));
+        each_guard(&action.effect, &mut |guard, _| reads |= strata.reads_derived(guard));
+        reads
+    };
+    validator.domain.actions.iter().map(reads).collect()
+}
+
+struct Run<'v, 'a> {
+    validator: &'v Validator<'a>,
+    reads_derived: IndexVec<ActionId, bool>,
+    state: State,
+    demands: Demands<'v>,
+    changes: Changes,
+    binding: Binding,
+}
+
+impl Run<'_, '_> {
+    fn observe(&mut self, steps: u32) {
+        if self.demands.read_derived() {
+            self.validator.derive(&mut self.state, steps);
+        }
+        self.demands.observe(Number::integer(i64::from(steps)), &self.validator.universe, &self.state);
+    }
+
+    fn step(
+        &mut self,
+        index: StepIndex,
+        step: &PlanStep,
+        diff: Option<&mut Diff>,
+    ) -> Result<(), Box<Failure>> {
+        let (validator, at) = (self.validator, Cause::Step(index));
+        let fault = |fault| Box::new(Failure::Step { step: index, fault });
+        let action =
+            validator.domain.actions.get(step.action).ok_or_else(|| fault(StepFault::UnknownAction))?;
+        validator.fits(&action.variables, &step.arguments).map_err(fault)?;
+        if self.reads_derived[step.action] {
+            validator.derive(&mut self.state, index.0);
+        }
+        self.binding.reset(&action.variables, &step.arguments);
+        let scene = validator.scene(&self.state, &action.variables, Clock::steps(index.0));
+        if !scene.holds(&action.precondition, &mut self.binding) {
+            let parts = validator.lacks(scene, Causes::Steps, &action.precondition, &mut self.binding);
+            return Err(precondition(at, parts));
+        }
+        for preference in &action.preferences {
+            let holds = |body: &_, binding: &mut Binding| scene.holds(body, binding);
+            self.demands.violations.judge(scene, preference, &mut self.binding, holds);
+        }
+        self.changes.clear();
+        self.changes
+            .collect(scene, &action.effect, &mut self.binding)
+            .and_then(|()| self.changes.apply(&mut self.state, index.0 + 1, diff))
+            .map_err(|fault| Box::new(Failure::Effect { at, fault }))
+    }
+}

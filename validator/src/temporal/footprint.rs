@@ -1,0 +1,177 @@
+//! What a happening needs and changes, and whether two at one time get in each other's way.
+//!
+//! Two happenings may be simultaneous only if their order does not matter: neither changes an atom that
+//! the other needs or changes the other way, nor a fluent that the other reads, and both may change a
+//! fluent only by increasing and decreasing it. What a condition needs is every atom and fluent in it,
+//! whether it matters to its truth or not, with quantifiers expanded; of a derived predicate, every atom
+//! of the predicates that it depends on. Cost: the size of the expanded conditions, so only what stands
+//! nearer to something else than the separation is looked at.
+//!
+//! Source: Fox & Long, "PDDL2.1", JAIR 2003, Definition 12 (mutex actions, the rule of no moving
+//! targets). Deviation: conditions of conditional effects count as needed; a duration's bound does too.
+
+use crate::axiom::{Strata, each_predicate};
+use crate::effect::{Changes, Write};
+use crate::scene::{Binding, Scene};
+use crate::state::GroundAtom;
+use crate::trajectory::each_instance;
+use crate::verdict::Shared;
+use pddl::model::{
+    AssignedValue, Condition, ConditionKind, Domain, Effect, EffectKind, Expression, ExpressionKind,
+    GroundApplication, PredicateId,
+};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// What something needs and changes.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Footprint {
+    needed: FxHashSet<GroundAtom>,
+    /// Predicates below a derived predicate that is needed, with that one.
+    below: FxHashMap<PredicateId, PredicateId>,
+    read: FxHashSet<GroundApplication>,
+    added: FxHashSet<GroundAtom>,
+    deleted: FxHashSet<GroundAtom>,
+    written: FxHashMap<GroundApplication, Write>,
+}
+
+/// For each derived predicate, the predicates that it depends on.
+#[derive(Clone, Debug)]
+pub(super) struct Dependencies(FxHashMap<PredicateId, FxHashSet<PredicateId>>);
+
+impl Dependencies {
+    pub(super) fn new(domain: &Domain) -> Self {
+        let mut below: FxHashMap<PredicateId, FxHashSet<PredicateId>> = FxHashMap::default();
+        for axiom in &domain.axioms {
+            let reads = below.entry(axiom.predicate).or_default();
+            each_predicate(&axiom.body, true, &mut |predicate, _| {
+                reads.insert(predicate);
+            });
+        }
+        loop {
+            let mut grown = false;
+            for derived in below.keys().copied().collect::<Vec<_>>() {
+                let further: Vec<PredicateId> =
+                    below[&derived].iter().filter_map(|p| below.get(p)).flatten().copied().collect();
+                if let Some(reads) = below.get_mut(&derived) {
+                    for predicate in further {
+                        grown |= reads.insert(predicate);
+                    }
+                }
+            }
+            if !grown {
+                return Self(below);
+            }
+        }
+    }
+}
+
+/// Collects a footprint.
+pub(super) struct Reader<'a> {
+    pub(super) scene: Scene<'a>,
+    pub(super) strata: &'a Strata,
+    pub(super) dependencies: &'a Dependencies,
+}
+
+impl Reader<'_> {
+    pub(super) fn condition(&self, condition: &Condition, binding: &mut Binding, into: &mut Footprint) {
+        match &condition.kind {
+            ConditionKind::And(parts) | ConditionKind::Or(parts) => {
+                parts.iter().for_each(|part| self.condition(part, binding, into));
+            }
+            ConditionKind::Not(part) => self.condition(part, binding, into),
+            ConditionKind::Imply(if_, then) => {
+                self.condition(if_, binding, into);
+                self.condition(then, binding, into);
+            }
+            ConditionKind::Exists(variables, body) | ConditionKind::Forall(variables, body) => {
+                each_instance(self.scene, variables, binding, &mut |binding| {
+                    self.condition(body, binding, into);
+                });
+            }
+            ConditionKind::Atom(atom) if self.strata.derives(atom.predicate) => {
+                if let Some(below) = self.dependencies.0.get(&atom.predicate) {
+                    into.below.extend(below.iter().map(|&base| (base, atom.predicate)));
+                }
+            }
+            ConditionKind::Atom(atom) => {
+                let arguments = atom.arguments.iter().map(|&t| binding.object(t)).collect();
+                into.needed.insert(GroundAtom { predicate: atom.predicate, arguments });
+            }
+            ConditionKind::Same(..) | ConditionKind::HasType(..) => {}
+            ConditionKind::Compare(_, left, right) => {
+                self.expression(left, binding, into);
+                self.expression(right, binding, into);
+            }
+            ConditionKind::FluentIs(application, _) => {
+                into.read.insert(self.scene.ground(application, binding));
+            }
+        }
+    }
+
+    pub(super) fn expression(&self, expression: &Expression, binding: &Binding, into: &mut Footprint) {
+        expression.each(&mut |part| {
+            if let ExpressionKind::Fluent(application) = &part.kind {
+                into.read.insert(self.scene.ground(application, binding));
+            }
+        });
+    }
+
+    /// What an effect reads: its conditions, and the fluents in its values.
+    pub(super) fn effect(&self, effect: &Effect, binding: &mut Binding, into: &mut Footprint) {
+        match &effect.kind {
+            EffectKind::And(parts) => parts.iter().for_each(|part| self.effect(part, binding, into)),
+            EffectKind::Forall(variables, body) => {
+                each_instance(self.scene, variables, binding, &mut |binding| {
+                    self.effect(body, binding, into)
+                });
+            }
+            EffectKind::When(guard, body) => {
+                self.condition(guard, binding, into);
+                self.effect(body, binding, into);
+            }
+            EffectKind::Assign(_, _, AssignedValue::Number(value)) => self.expression(value, binding, into),
+            EffectKind::Assign(..) | EffectKind::Add(_) | EffectKind::Delete(_) => {}
+        }
+    }
+}
+
+impl Footprint {
+    pub(super) fn changes(&mut self, changes: &Changes) {
+        changes.each_add(|atom| {
+            self.added.insert(atom);
+        });
+        changes.each_delete(|atom| {
+            self.deleted.insert(atom);
+        });
+        changes.each_write(|fluent, write| {
+            self.written.insert(fluent.clone(), write);
+        });
+    }
+
+    /// What keeps the two from happening at one time.
+    pub(super) fn interference(&self, other: &Self) -> Option<Shared> {
+        self.disturbs(other).or_else(|| other.disturbs(self))
+    }
+
+    /// What this one changes to the harm of `other`. The least atom is named, so that the same plan gives the same words.
+    fn disturbs(&self, other: &Self) -> Option<Shared> {
+        let changed = || self.added.iter().chain(&self.deleted);
+        let atom = changed()
+            .filter(|&atom| other.needed.contains(atom))
+            .chain(self.added.iter().filter(|&atom| other.deleted.contains(atom)))
+            .min();
+        if let Some(atom) = atom {
+            return Some(Shared::Atom(atom.clone()));
+        }
+        let derived = changed().filter_map(|atom| Some((atom, *other.below.get(&atom.predicate)?))).min();
+        if let Some((atom, predicate)) = derived {
+            return Some(Shared::Derived { predicate, atom: atom.clone() });
+        }
+        let fluents = self.written.iter().filter(|&(fluent, &write)| {
+            other.read.contains(fluent)
+                || other.written.get(fluent).is_some_and(|&w| w == Write::Other || write == Write::Other)
+        });
+        let first = fluents.map(|(fluent, _)| fluent).min_by_key(|f| (f.function, &f.arguments));
+        first.map(|fluent| Shared::Fluent(fluent.clone()))
+    }
+}

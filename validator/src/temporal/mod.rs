@@ -1,0 +1,325 @@
+//! A plan with times.
+//!
+//! The plan's starts and ends and the problem's timed changes are points on a time line. All that happens
+//! at one time is judged in the state just before, must not interfere, and then changes the state
+//! together. Between two times, what `over all` says must hold, and continuous effects run; a condition
+//! over fluents that run is asked at each instant at which it can change and once between any two of them.
+//!
+//! Invariant: `now` is the time of the last happening, and `state` is the state right after it.
+//!
+//! Cost: the conditions of each point, and of each running action once per happening; footprints only
+//! for points that are nearer to another one than the separation.
+//!
+//! Source: Fox & Long, "PDDL2.1", JAIR 2003, Definitions 16 to 20; Edelkamp & Hoffmann, "PDDL2.2", 2004.
+
+mod flow;
+mod footprint;
+mod nature;
+mod point;
+mod timeline;
+
+pub(crate) use timeline::{end, makespan, start};
+
+use crate::cause::{Cause, Causes};
+use crate::demands::Demands;
+use crate::expression::NumericFault;
+use crate::number::Number;
+use crate::run::{End, Validator};
+use crate::scene::{Binding, Clock};
+use crate::state::{Moment, State};
+use crate::trace::{Diff, Happening, Trace};
+use crate::verdict::{ChangeFault, Failure, StepIndex, Valid};
+use flow::{Flow, Present};
+use footprint::{Dependencies, Footprint};
+use nature::{Instance, Nature};
+use pddl::TemporalPlan;
+use pddl::model::{Condition, DurativeAction, Given, ProcessId, TimeSpecifier};
+use timeline::{Point, timeline};
+
+/// How often what happens by itself may begin and end at one instant.
+const MOST_UNRESTS: usize = 100;
+
+type Checked<T = ()> = Result<T, Box<Failure>>;
+
+pub(crate) fn run(
+    validator: &Validator<'_>,
+    plan: &TemporalPlan,
+    mut trace: Option<&mut Trace>,
+) -> Checked<Valid> {
+    let points = timeline(validator.problem, plan);
+    let mut run = Run {
+        validator,
+        plan,
+        dependencies: Dependencies::new(validator.domain),
+        state: validator.initial.clone(),
+        demands: validator.demands(),
+        now: Number::ZERO,
+        causes: Vec::new(),
+        active: Vec::new(),
+        recent: Vec::new(),
+    };
+    if run.has_nature() {
+        let due = run.nature(run.now).events;
+        run.events(due)?;
+    }
+    run.observe();
+    for happening in points.chunk_by(|a, b| a.time == b.time) {
+        run.flow_to(happening[0].time)?;
+        let mut diff = trace.is_some().then(Diff::default);
+        run.happening(happening, crowded(&points, happening, validator.precision.separation), diff.as_mut())?;
+        if run.has_nature() {
+            let due = run.nature(run.now).events;
+            run.events(due)?;
+        }
+        if let (Some(trace), Some(diff)) = (&mut trace, diff) {
+            let causes = happening.iter().map(|point| point.what).collect();
+            trace.happenings.push(Happening { time: run.now, causes, diff });
+        }
+        run.observe();
+    }
+    let steps = u32::try_from(plan.steps.len()).unwrap_or(u32::MAX);
+    let makespan = makespan(plan);
+    let end = End {
+        state: &mut run.state,
+        causes: Causes::Listed(&run.causes),
+        total_time: makespan,
+        makespan: Some(makespan),
+        steps,
+    };
+    validator.finish(end, run.demands)
+}
+
+/// Whether anything else happens at the time of a happening, or too near to it.
+fn crowded(points: &[Point], happening: &[Point], separation: Number) -> bool {
+    let time = happening[0].time;
+    let near = |other: &Point| {
+        let distance = if other.time > time { other.time.minus(time) } else { time.minus(other.time) };
+        distance.is_ok_and(|distance| distance < separation)
+    };
+    let first = points.partition_point(|p| p.time < time);
+    let before = first.checked_sub(1).and_then(|i| points.get(i));
+    let after = points.get(first + happening.len());
+    happening.len() > 1 || before.is_some_and(near) || after.is_some_and(near)
+}
+
+/// A durative action that runs.
+#[derive(Clone, Debug)]
+struct Active<'v> {
+    step: StepIndex,
+    action: &'v DurativeAction,
+    binding: Binding,
+    duration: Number,
+    /// Effects at the end whose conditions at the start held, each with its bindings.
+    armed: Vec<(usize, Binding)>,
+}
+
+/// Something begins or ends by itself.
+struct Unrest {
+    /// When, after the last happening.
+    after: Number,
+    nature: Nature,
+}
+
+/// Something that happened a moment ago.
+struct Recent {
+    time: Number,
+    what: Cause,
+    footprint: Footprint,
+}
+
+struct Run<'v, 'a> {
+    validator: &'v Validator<'a>,
+    plan: &'v TemporalPlan,
+    dependencies: Dependencies,
+    state: State,
+    demands: Demands<'v>,
+    now: Number,
+    causes: Vec<Cause>,
+    active: Vec<Active<'v>>,
+    recent: Vec<Recent>,
+}
+
+impl<'v> Run<'v, '_> {
+    fn moment(&self) -> Moment {
+        Moment::try_from(self.causes.len()).unwrap_or(Moment::MAX)
+    }
+
+    fn derive_for(&mut self, condition: &Condition) {
+        let moment = self.moment();
+        self.validator.derive_for(condition, &mut self.state, moment);
+    }
+
+    fn observe(&mut self) {
+        self.observe_at(self.now);
+    }
+
+    fn observe_at(&mut self, time: Number) {
+        if self.demands.read_derived() {
+            let moment = self.moment();
+            self.validator.derive(&mut self.state, moment);
+        }
+        self.demands.observe(time, &self.validator.universe, &self.state);
+    }
+
+    /// Lets time pass until just before `time`: what runs, runs; what must hold all the time, must hold;
+    /// what happens by itself, happens.
+    fn flow_to(&mut self, time: Number) -> Checked {
+        let mut processes = if self.has_nature() { self.nature(self.now).processes } else { Vec::new() };
+        let mut unrests = 0;
+        while self.now < time {
+            let running = self.running(&processes)?;
+            let present = Present { universe: &self.validator.universe, state: &self.state, now: self.now };
+            let flow = Flow::new(&running, present).map_err(|fault| self.change(fault))?;
+            if flow.is_still() {
+                self.invariants(self.now)?;
+                self.now = time;
+                break;
+            }
+            let length = time.minus(self.now).unwrap_or(Number::ZERO);
+            let Some(unrest) = self.flow_quietly(&flow, length, &processes)? else {
+                self.set(&flow, length)?;
+                self.now = time;
+                break;
+            };
+            // Conditions that end each other at one instant would take no time, for ever.
+            unrests = if unrest.after == Number::ZERO { unrests + 1 } else { 0 };
+            if unrests > MOST_UNRESTS {
+                return Err(self.change(ChangeFault::Unsteady));
+            }
+            self.set(&flow, unrest.after)?;
+            self.now = self.now.plus(unrest.after).unwrap_or(time);
+            let happened = !unrest.nature.events.is_empty();
+            self.events(unrest.nature.events)?;
+            processes = if happened { self.nature(self.now).processes } else { unrest.nature.processes };
+            self.observe();
+        }
+        if self.has_nature() {
+            let due = self.nature(self.now).events;
+            self.events(due)?;
+        }
+        Ok(())
+    }
+
+    /// Looks at every instant inside `0..length` at which something can change; answers where something
+    /// begins or ends by itself, if it does.
+    fn flow_quietly(
+        &mut self,
+        flow: &Flow,
+        length: Number,
+        processes: &[Instance<ProcessId>],
+    ) -> Checked<Option<Unrest>> {
+        let mut last = Number::ZERO;
+        for (instant, critical) in self.instants_of(flow, length) {
+            self.set(flow, instant)?;
+            let at = self.now.plus(instant).unwrap_or(self.now);
+            if self.has_nature() {
+                let nature = self.nature(at);
+                if !nature.events.is_empty() || nature.processes != processes {
+                    // What is first seen between two instants began at the earlier one.
+                    let after = if critical { instant } else { last };
+                    return Ok(Some(Unrest { after, nature }));
+                }
+            }
+            self.invariants(at)?;
+            self.observe_at(at);
+            if critical {
+                last = instant;
+            }
+        }
+        Ok(None)
+    }
+
+    fn set(&mut self, flow: &Flow, after: Number) -> Checked {
+        flow.apply(after, &mut self.state).map_err(|fault| {
+            let fault = NumericFault::of(fault, pddl::Span::default());
+            self.change(ChangeFault::Numeric(fault))
+        })
+    }
+
+    /// The instants inside `0..length` at which conditions must be asked: where one can change (`true`), and
+    /// one between any two of them.
+    fn instants_of(&mut self, flow: &Flow, length: Number) -> Vec<(Number, bool)> {
+        let mut critical = Vec::new();
+        for active in &self.active {
+            let clock = Clock { duration: Some(active.duration), ..Clock::at(self.now) };
+            let scene = self.validator.scene(&self.state, &active.action.variables, clock);
+            let mut binding = active.binding.clone();
+            for condition in over_all(active.action) {
+                flow.critical(condition, scene, &mut binding, length, &mut critical);
+            }
+        }
+        for (condition, variables, binding) in self.demands.conditions() {
+            let scene = self.validator.scene(&self.state, variables, Clock::at(self.now));
+            flow.critical(condition, scene, &mut binding.clone(), length, &mut critical);
+        }
+        if self.has_nature() {
+            self.critical_of_nature(flow, length, &mut critical);
+        }
+        critical.sort();
+        critical.dedup();
+        let mut instants = Vec::with_capacity(2 * critical.len() + 1);
+        let mut before = Number::ZERO;
+        for next in critical.into_iter().chain([length]) {
+            let middle = before.plus(next).and_then(|sum| sum.over(Number::integer(2)));
+            instants.extend(middle.map(|middle| (middle, false)));
+            instants.push((next, true));
+            before = next;
+        }
+        instants.pop();
+        instants
+    }
+
+    /// Asks for everything that must hold all the time.
+    fn invariants(&mut self, at: Number) -> Checked {
+        for index in 0..self.active.len() {
+            let Active { step, action, duration, .. } = self.active[index];
+            for condition in over_all(action) {
+                self.derive_for(condition);
+                let clock = Clock { duration: Some(duration), ..Clock::at(at) };
+                let scene = self.validator.scene(&self.state, &action.variables, clock);
+                let binding = &mut self.active[index].binding;
+                if !scene.holds(condition, binding) {
+                    let causes = Causes::Listed(&self.causes);
+                    let parts = self.validator.lacks(scene, causes, condition, binding);
+                    return Err(Box::new(Failure::Invariant { step, time: at, parts }));
+                }
+            }
+            self.disarm(index, at);
+        }
+        Ok(())
+    }
+}
+
+impl Run<'_, '_> {
+    /// Drops the effects at the end whose condition `over all` does not hold.
+    fn disarm(&mut self, index: usize, at: Number) {
+        let Active { action, duration, .. } = self.active[index];
+        let mut armed = std::mem::take(&mut self.active[index].armed);
+        let clock = Clock { duration: Some(duration), ..Clock::at(at) };
+        armed.retain_mut(|(effect, binding)| {
+            given(&action.effects[*effect].given, &TimeSpecifier::OverAll).all(|condition| {
+                self.derive_for(condition);
+                self.validator.scene(&self.state, &action.variables, clock).holds(condition, binding)
+            })
+        });
+        self.active[index].armed = armed;
+    }
+}
+
+/// The conditions at a time that stand around an effect of another time.
+fn given<'v>(given: &'v [Given], when: &TimeSpecifier) -> impl Iterator<Item = &'v Condition> {
+    let timed = given.iter().flat_map(|given| match given {
+        Given::When(conditions) => conditions.as_slice(),
+        Given::Forall(_) => &[],
+    });
+    timed.filter(move |timed| timed.when == *when).map(|timed| &timed.condition)
+}
+
+/// What must hold from just after the start until just before the end.
+fn over_all(action: &DurativeAction) -> impl Iterator<Item = &Condition> {
+    action
+        .conditions
+        .iter()
+        .filter(|timed| timed.when == TimeSpecifier::OverAll)
+        .map(|timed| &timed.condition)
+}

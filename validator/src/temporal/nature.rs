@@ -1,0 +1,221 @@
+//! What happens by itself: processes run as long as their condition holds, events happen when theirs begins to.
+//!
+//! At every instant at which a condition of either can change, and between any two of them, the processes
+//! that run and the events that are due are found by a query. An event that changes nothing of its own
+//! condition would happen for ever: whatever happens twice at one time is called endless. An event or a
+//! process whose condition holds only just after an instant (`>`, not `>=`) begins at that instant.
+//!
+//! Deviation: events at one time do not have to be free of interference; they see the same state, and
+//! change it in the order of the domain.
+//!
+//! Source: Fox & Long, "Modelling mixed discrete-continuous domains for planning", JAIR 2006, §4.
+
+use super::flow::{Flow, Running};
+use super::{Active, Checked, Run};
+use crate::cause::Cause;
+use crate::condition::Strictness;
+use crate::effect::Changes;
+use crate::expression::NumericFault;
+use crate::number::Number;
+use crate::scene::{Binding, Clock, Scene};
+use crate::state::Value;
+use crate::trajectory::each_instance;
+use crate::verdict::{ChangeFault, Failure};
+use pddl::model::{Condition, ContinuousEffect, FunctionTerm, ObjectId, ProcessId, Variables};
+use std::ops::ControlFlow;
+
+/// A process or event with its arguments.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Instance<I> {
+    pub(super) id: I,
+    pub(super) arguments: Vec<ObjectId>,
+}
+
+/// What happens by itself at an instant.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Nature {
+    pub(super) processes: Vec<Instance<ProcessId>>,
+    pub(super) events: Vec<Instance<pddl::model::EventId>>,
+}
+
+impl Run<'_, '_> {
+    /// Whether anything can happen by itself.
+    pub(super) fn has_nature(&self) -> bool {
+        !self.validator.domain.processes.is_empty() || !self.validator.domain.events.is_empty()
+    }
+
+    /// What runs and what is due in the present state.
+    pub(super) fn nature(&mut self, at: Number) -> Nature {
+        let mut nature = Nature::default();
+        let domain = self.validator.domain;
+        for (id, process) in domain.processes.enumerate() {
+            self.instances(
+                &process.variables,
+                &process.precondition,
+                Strictness::Certain,
+                at,
+                &mut |arguments| {
+                    nature.processes.push(Instance { id, arguments });
+                },
+            );
+        }
+        for (id, event) in domain.events.enumerate() {
+            self.instances(
+                &event.variables,
+                &event.precondition,
+                Strictness::Certain,
+                at,
+                &mut |arguments| {
+                    nature.events.push(Instance { id, arguments });
+                },
+            );
+        }
+        nature.processes.sort();
+        nature.events.sort();
+        nature
+    }
+
+    fn instances(
+        &mut self,
+        variables: &Variables,
+        condition: &Condition,
+        strictness: Strictness,
+        at: Number,
+        visit: &mut dyn FnMut(Vec<ObjectId>),
+    ) {
+        self.derive_for(condition);
+        let scene = self.validator.scene(&self.state, variables, Clock::at(at));
+        let mut binding = Binding::new(variables, &[]);
+        let parameters: Vec<_> = variables.parameter_ids().collect();
+        if parameters.is_empty() {
+            if scene.satisfied(condition, true, strictness, &mut binding) {
+                visit(Vec::new());
+            }
+            return;
+        }
+        let flow =
+            scene.each_binding(&parameters, &[(condition, true)], strictness, &mut binding, &mut |binding| {
+                visit(parameters.iter().filter_map(|&p| binding.get(p)).collect());
+                ControlFlow::Continue(())
+            });
+        debug_assert!(flow.is_continue());
+    }
+
+    /// Adds the instants inside `0..length` at which processes and events may begin or end.
+    pub(super) fn critical_of_nature(&mut self, flow: &Flow, length: Number, into: &mut Vec<Number>) {
+        let domain = self.validator.domain;
+        let processes = domain.processes.iter().map(|p| (&p.variables, &p.precondition));
+        let events = domain.events.iter().map(|e| (&e.variables, &e.precondition));
+        // Without the values of what flows, a comparison that reads it is possible: so all that may ever begin is found.
+        let present = self.state.clone();
+        for (variables, condition) in processes.chain(events) {
+            let mut candidates = Vec::new();
+            flow.forget(&mut self.state);
+            self.instances(variables, condition, Strictness::Possible, self.now, &mut |arguments| {
+                candidates.push(arguments);
+            });
+            self.state.clone_from(&present);
+            let scene = self.validator.scene(&self.state, variables, Clock::at(self.now));
+            for arguments in candidates {
+                flow.critical(condition, scene, &mut Binding::new(variables, &arguments), length, into);
+            }
+        }
+    }
+
+    /// Lets the events happen that are due, and those that they cause.
+    pub(super) fn events(&mut self, mut due: Vec<Instance<pddl::model::EventId>>) -> Checked {
+        let mut happened: Vec<Instance<pddl::model::EventId>> = Vec::new();
+        while !due.is_empty() {
+            let mut changes = Vec::with_capacity(due.len());
+            for instance in due {
+                let event = &self.validator.domain.events[instance.id];
+                let at = Cause::Event(instance.id);
+                if happened.contains(&instance) {
+                    return Err(Box::new(Failure::EndlessEvents { time: self.now, event: instance.id }));
+                }
+                crate::prepare::each_guard(&event.effect, &mut |guard, _| self.derive_for(guard));
+                let scene = self.validator.scene(&self.state, &event.variables, Clock::at(self.now));
+                let mut own = Changes::default();
+                own.collect(scene, &event.effect, &mut Binding::new(&event.variables, &instance.arguments))
+                    .map_err(|fault| Box::new(Failure::Effect { at, fault }))?;
+                changes.push((at, own));
+                happened.push(instance);
+            }
+            for (at, own) in changes {
+                self.causes.push(at);
+                let moment = self.moment();
+                own.apply(&mut self.state, moment, None)
+                    .map_err(|fault| Box::new(Failure::Effect { at, fault }))?;
+            }
+            due = self.nature(self.now).events;
+        }
+        Ok(())
+    }
+
+    /// Everything that changes continuously now.
+    pub(super) fn running(&self, processes: &[Instance<ProcessId>]) -> Checked<Vec<Running<'_>>> {
+        let mut running = Vec::new();
+        for Active { action, binding, duration, .. } in &self.active {
+            let clock = Clock { duration: Some(*duration), ..Clock::at(self.now) };
+            let scene = self.validator.scene(&self.state, &action.variables, clock);
+            for effect in &action.continuous {
+                each_running(scene, effect, binding.clone(), &mut running).map_err(|f| self.change(f))?;
+            }
+        }
+        for Instance { id, arguments } in processes {
+            let process = &self.validator.domain.processes[*id];
+            let scene = self.validator.scene(&self.state, &process.variables, Clock::at(self.now));
+            let binding = Binding::new(&process.variables, arguments);
+            for effect in &process.effects {
+                each_running(scene, effect, binding.clone(), &mut running).map_err(|f| self.change(f))?;
+            }
+        }
+        Ok(running)
+    }
+
+    pub(super) fn change(&self, fault: ChangeFault) -> Box<Failure> {
+        Box::new(Failure::Change { time: self.now, fault })
+    }
+}
+
+fn each_running<'v>(
+    scene: Scene<'v>,
+    effect: &'v ContinuousEffect,
+    mut binding: Binding,
+    running: &mut Vec<Running<'v>>,
+) -> Result<(), ChangeFault> {
+    let mut result = Ok(());
+    each_instance(scene, &effect.forall, &mut binding, &mut |binding| {
+        let mut binding = binding.clone();
+        if let Err(fault) = bind_functions(scene, &effect.functions, &mut binding) {
+            result = Err(ChangeFault::Numeric(fault));
+            return;
+        }
+        running.push(Running {
+            fluent: scene.ground(&effect.fluent, &binding),
+            direction: effect.direction,
+            rate: &effect.rate,
+            variables: scene.variables,
+            binding,
+            duration: scene.clock.duration,
+            span: effect.span,
+        });
+    });
+    result
+}
+
+/// Gives the slots of functions that stand as arguments their values.
+pub(super) fn bind_functions(
+    scene: Scene<'_>,
+    functions: &[FunctionTerm],
+    binding: &mut Binding,
+) -> Result<(), NumericFault> {
+    for term in functions {
+        let Some(Value::Object(object)) = scene.fluent(&term.application, binding) else {
+            let fluent = scene.ground(&term.application, binding);
+            return Err(NumericFault::Undefined { fluent, span: term.application.span });
+        };
+        binding.set(term.slot, Some(object));
+    }
+    Ok(())
+}

@@ -1,0 +1,357 @@
+//! What happens at one time.
+//!
+//! Every point's conditions are judged in the state before, and what it changes is collected there too;
+//! then the points are held against each other and against those a moment ago, and only then the state
+//! changes. So nothing sees half of a happening.
+
+use super::footprint::{Footprint, Reader};
+use super::nature::bind_functions;
+use super::timeline::{Point, end, start};
+use super::{Active, Checked, Recent, Run, given};
+use crate::cause::{Cause, Causes};
+use crate::condition::compares;
+use crate::effect::Changes;
+use crate::number::Number;
+use crate::prepare::each_guard;
+use crate::run::precondition;
+use crate::scene::{Binding, Clock, Scene};
+use crate::state::Value;
+use crate::trace::Diff;
+use crate::trajectory::each_instance;
+use crate::verdict::{Failure, StepFault, StepIndex};
+use crate::why::Why;
+use pddl::model::{
+    Comparison, Condition, DurativeAction, Effect, Given, TimeSpecifier, TimedChange, VariableId, Variables,
+};
+use pddl::{StepHead, TemporalStep};
+
+/// What one point does.
+struct Deed {
+    what: Cause,
+    changes: Changes,
+    footprint: Footprint,
+}
+
+/// What is asked and done of a schema at a point.
+struct Part<'v> {
+    variables: &'v Variables,
+    clock: Clock<'static>,
+    conditions: Vec<&'v Condition>,
+    effects: Vec<&'v Effect>,
+}
+
+impl<'v> Run<'v, '_> {
+    /// Everything that happens at `self.now`. If it is `crowded`, order may matter.
+    pub(super) fn happening(
+        &mut self,
+        points: &[Point],
+        crowded: bool,
+        mut diff: Option<&mut Diff>,
+    ) -> Checked {
+        let mut deeds = Vec::with_capacity(points.len());
+        let mut started = Vec::new();
+        for point in points {
+            deeds.push(match point.what {
+                Cause::Step(index) => self.step(index, crowded)?,
+                // Events are no points: they happen when they are due.
+                Cause::Event(_) => continue,
+                Cause::Start(index) => {
+                    let (deed, active) = self.start(index, crowded)?;
+                    started.push(active);
+                    deed
+                }
+                Cause::End(index) => self.end(index, &mut started, crowded)?,
+                Cause::Timed(index) => self.timed(index),
+            });
+        }
+        if crowded {
+            self.interference(&deeds)?;
+        }
+        for deed in &deeds {
+            self.causes.push(deed.what);
+            let moment = self.moment();
+            deed.changes
+                .apply(&mut self.state, moment, diff.as_deref_mut())
+                .map_err(|fault| Box::new(Failure::Effect { at: deed.what, fault }))?;
+        }
+        self.active.extend(started);
+        self.recent.retain(|recent| {
+            let age = self.now.minus(recent.time);
+            age.is_ok_and(|age| age < self.validator.precision.separation)
+        });
+        if crowded {
+            let time = self.now;
+            self.recent.extend(deeds.into_iter().map(|deed| Recent {
+                time,
+                what: deed.what,
+                footprint: deed.footprint,
+            }));
+        }
+        Ok(())
+    }
+
+    /// Two points that are at one time, or too near to each other, must not disturb each other.
+    fn interference(&self, deeds: &[Deed]) -> Checked {
+        for (index, second) in deeds.iter().enumerate() {
+            let near = self.recent.iter().filter(|recent| {
+                self.now.minus(recent.time).is_ok_and(|age| age < self.validator.precision.separation)
+            });
+            let before = near.map(|recent| (recent.what, &recent.footprint));
+            let beside = deeds[..index].iter().map(|deed| (deed.what, &deed.footprint));
+            for (first, footprint) in before.chain(beside) {
+                // The two ends of one step are never at one time: it takes some.
+                if first.step().is_some() && first.step() == second.what.step() {
+                    continue;
+                }
+                if let Some(over) = footprint.interference(&second.footprint) {
+                    return Err(Box::new(Failure::Interference { first, second: second.what, over }));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn plan_step(&self, index: StepIndex) -> &'v TemporalStep {
+        &self.plan.steps[index.0 as usize]
+    }
+
+    fn step(&mut self, index: StepIndex, crowded: bool) -> Checked<Deed> {
+        let step = self.plan_step(index);
+        let fault = |fault| Box::new(Failure::Step { step: index, fault });
+        let StepHead::Action(id) = step.head else { return Err(fault(StepFault::UnknownAction)) };
+        let action = self.validator.domain.actions.get(id).ok_or_else(|| fault(StepFault::UnknownAction))?;
+        self.validator.fits(&action.variables, &step.arguments).map_err(fault)?;
+        let part = Part {
+            variables: &action.variables,
+            clock: Clock::at(self.now),
+            conditions: vec![&action.precondition],
+            effects: vec![&action.effect],
+        };
+        let mut binding = Binding::new(&action.variables, &step.arguments);
+        let deed = self.deed(Cause::Step(index), &part, &mut binding, crowded)?;
+        for preference in &action.preferences {
+            self.derive_for(&preference.body);
+            let scene = self.validator.scene(&self.state, part.variables, part.clock);
+            let holds = |body: &_, binding: &mut Binding| scene.holds(body, binding);
+            self.demands.violations.judge(scene, preference, &mut binding, holds);
+        }
+        Ok(deed)
+    }
+
+    fn start(&mut self, index: StepIndex, crowded: bool) -> Checked<(Deed, Active<'v>)> {
+        let step = self.plan_step(index);
+        let fault = |fault| Box::new(Failure::Step { step: index, fault });
+        let StepHead::DurativeAction(id) = step.head else { return Err(fault(StepFault::UnknownAction)) };
+        let action =
+            self.validator.domain.durative_actions.get(id).ok_or_else(|| fault(StepFault::UnknownAction))?;
+        self.validator.fits(&action.variables, &step.arguments).map_err(fault)?;
+        if step.duration.is_none() {
+            return Err(fault(StepFault::NoDuration));
+        }
+        let duration = end(step).minus(start(step)).unwrap_or(Number::ZERO);
+        let mut active = Active {
+            step: index,
+            action,
+            binding: Binding::new(&action.variables, &step.arguments),
+            duration,
+            armed: Vec::new(),
+        };
+        let deed = self.half(&mut active, &TimeSpecifier::Start, crowded)?;
+        Ok((deed, active))
+    }
+
+    fn end(&mut self, index: StepIndex, started: &mut Vec<Active<'v>>, crowded: bool) -> Checked<Deed> {
+        let find = |list: &[Active<'_>]| list.iter().position(|active| active.step == index);
+        let mut active = match find(&self.active) {
+            Some(at) => self.active.remove(at),
+            None => started.remove(find(started).expect("an end comes after its start")),
+        };
+        self.half(&mut active, &TimeSpecifier::End, crowded)
+    }
+
+    /// The start or the end of a durative action.
+    fn half(&mut self, active: &mut Active<'v>, when: &TimeSpecifier, crowded: bool) -> Checked<Deed> {
+        let action = active.action;
+        let clock = Clock { duration: Some(active.duration), ..Clock::at(self.now) };
+        self.duration(active, when, clock)?;
+        let part = Part {
+            variables: &action.variables,
+            clock,
+            conditions: at(action, when).collect(),
+            effects: action
+                .effects
+                .iter()
+                .filter(|e| e.when == *when && e.given.is_empty())
+                .map(|e| &e.effect)
+                .collect(),
+        };
+        let what = match when {
+            TimeSpecifier::Start => Cause::Start(active.step),
+            _ => Cause::End(active.step),
+        };
+        let mut deed = self.deed(what, &part, &mut active.binding, crowded)?;
+        match when {
+            TimeSpecifier::Start => self.arm(active, &mut deed.footprint),
+            _ => self.discharge(active, &mut deed)?,
+        }
+        for preference in action.preferences.iter().filter(|p| p.body.when == *when) {
+            self.derive_for(&preference.body.condition);
+            let scene = self.validator.scene(&self.state, part.variables, part.clock);
+            self.demands.violations.judge(scene, preference, &mut active.binding, |body, binding| {
+                scene.holds(&body.condition, binding)
+            });
+        }
+        Ok(deed)
+    }
+
+    /// Notes which effects at the end have their conditions at the start, and for which bindings.
+    fn arm(&mut self, active: &mut Active<'v>, footprint: &mut Footprint) {
+        let action = active.action;
+        let clock = Clock { duration: Some(active.duration), ..Clock::at(self.now) };
+        for (index, timed) in action.effects.iter().enumerate().filter(|(_, timed)| !timed.given.is_empty()) {
+            given(&timed.given, &TimeSpecifier::Start).for_each(|condition| self.derive_for(condition));
+            let scene = self.validator.scene(&self.state, &action.variables, clock);
+            let reader = Reader { scene, strata: &self.validator.strata, dependencies: &self.dependencies };
+            let slots: Vec<VariableId> = timed
+                .given
+                .iter()
+                .flat_map(|given| match given {
+                    Given::Forall(slots) => slots.as_slice(),
+                    Given::When(_) => &[],
+                })
+                .copied()
+                .collect();
+            each_instance(scene, &slots, &mut active.binding, &mut |binding| {
+                let mut armed = true;
+                for condition in given(&timed.given, &TimeSpecifier::Start) {
+                    reader.condition(condition, binding, footprint);
+                    armed &= scene.holds(condition, binding);
+                }
+                if armed {
+                    active.armed.push((index, binding.clone()));
+                }
+            });
+        }
+    }
+
+    /// Collects the effects that were armed at the start.
+    fn discharge(&mut self, active: &mut Active<'v>, deed: &mut Deed) -> Checked {
+        let action = active.action;
+        let clock = Clock { duration: Some(active.duration), ..Clock::at(self.now) };
+        for (index, mut binding) in std::mem::take(&mut active.armed) {
+            let timed = &action.effects[index];
+            given(&timed.given, &TimeSpecifier::End).for_each(|condition| self.derive_for(condition));
+            each_guard(&timed.effect, &mut |guard, _| self.derive_for(guard));
+            let scene = self.validator.scene(&self.state, &action.variables, clock);
+            let reader = Reader { scene, strata: &self.validator.strata, dependencies: &self.dependencies };
+            let mut holds = true;
+            for condition in given(&timed.given, &TimeSpecifier::End) {
+                reader.condition(condition, &mut binding, &mut deed.footprint);
+                holds &= scene.holds(condition, &mut binding);
+            }
+            if holds {
+                reader.effect(&timed.effect, &mut binding, &mut deed.footprint);
+                deed.changes
+                    .collect(scene, &timed.effect, &mut binding)
+                    .map_err(|fault| Box::new(Failure::Effect { at: deed.what, fault }))?;
+            }
+        }
+        deed.footprint.changes(&deed.changes);
+        Ok(())
+    }
+
+    /// Whether the step takes as long as its action must, as far as that is asked for here.
+    fn duration(&mut self, active: &mut Active<'v>, when: &TimeSpecifier, clock: Clock<'_>) -> Checked {
+        let action = active.action;
+        for constraint in action.duration.iter().filter(|constraint| constraint.when == *when) {
+            let scene = self.validator.scene(&self.state, &action.variables, clock);
+            let bound = bind_functions(scene, &constraint.functions, &mut active.binding)
+                .and_then(|()| scene.number(&constraint.bound, &active.binding));
+            let fits = bound.as_ref().is_ok_and(|&bound| {
+                within(constraint.comparison, active.duration, bound, self.validator.precision.tolerance)
+            });
+            if !fits {
+                let why = Why { scene, strata: &self.validator.strata, causes: Causes::Listed(&self.causes) };
+                return Err(Box::new(Failure::Duration {
+                    step: active.step,
+                    actual: active.duration,
+                    comparison: constraint.comparison,
+                    bound: why.operand(&constraint.bound, &active.binding),
+                    span: constraint.span,
+                }));
+            }
+        }
+        Ok(())
+    }
+
+    fn timed(&self, index: u32) -> Deed {
+        let mut changes = Changes::default();
+        let timed = &self.validator.problem.timed[index as usize];
+        match &timed.change {
+            TimedChange::Add(fact) => changes.add(fact.predicate, &fact.arguments),
+            TimedChange::Delete(fact) => changes.delete(fact.predicate, &fact.arguments),
+            TimedChange::Assign(fact) => {
+                changes.set(fact.application.clone(), Value::of(fact.value), timed.span);
+            }
+            TimedChange::Undefine(fluent) => changes.set(fluent.clone(), None, timed.span),
+        }
+        let mut footprint = Footprint::default();
+        footprint.changes(&changes);
+        Deed { what: Cause::Timed(index), changes, footprint }
+    }
+
+    /// Judges the conditions and collects the changes.
+    fn deed(&mut self, what: Cause, part: &Part<'v>, binding: &mut Binding, crowded: bool) -> Checked<Deed> {
+        for condition in &part.conditions {
+            self.derive_for(condition);
+        }
+        for effect in &part.effects {
+            each_guard(effect, &mut |guard, _| self.derive_for(guard));
+        }
+        let scene = self.validator.scene(&self.state, part.variables, part.clock);
+        for condition in &part.conditions {
+            if !scene.holds(condition, binding) {
+                let causes = Causes::Listed(&self.causes);
+                return Err(precondition(what, self.validator.lacks(scene, causes, condition, binding)));
+            }
+        }
+        let mut changes = Changes::default();
+        for effect in &part.effects {
+            changes
+                .collect(scene, effect, binding)
+                .map_err(|fault| Box::new(Failure::Effect { at: what, fault }))?;
+        }
+        let mut footprint = Footprint::default();
+        if crowded {
+            self.read(scene, part, binding, &mut footprint);
+            footprint.changes(&changes);
+        }
+        Ok(Deed { what, changes, footprint })
+    }
+
+    fn read(&self, scene: Scene<'_>, part: &Part<'v>, binding: &mut Binding, into: &mut Footprint) {
+        let reader = Reader { scene, strata: &self.validator.strata, dependencies: &self.dependencies };
+        for condition in &part.conditions {
+            reader.condition(condition, binding, into);
+        }
+        for effect in &part.effects {
+            reader.effect(effect, binding, into);
+        }
+    }
+}
+
+/// The conditions at a time.
+fn at<'v>(action: &'v DurativeAction, when: &TimeSpecifier) -> impl Iterator<Item = &'v Condition> {
+    action.conditions.iter().filter(move |timed| timed.when == *when).map(|timed| &timed.condition)
+}
+
+/// Whether a duration compares with its bound, as nearly as planners write it.
+fn within(comparison: Comparison, duration: Number, bound: Number, tolerance: Number) -> bool {
+    let above = duration.minus(bound).unwrap_or(Number::MAX);
+    match comparison {
+        Comparison::Equal => above <= tolerance && above.negated() <= tolerance,
+        Comparison::LessEqual => above <= tolerance,
+        Comparison::GreaterEqual => above.negated() <= tolerance,
+        Comparison::Less | Comparison::Greater => compares(comparison, duration, bound),
+    }
+}
