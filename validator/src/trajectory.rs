@@ -138,7 +138,7 @@ impl<'a> Trajectory<'a> {
     ) -> Vec<Formula> {
         let mut instances = Vec::new();
         each_instance(scene, variables, binding, &mut |binding| {
-            instances.push(self.ground(scene, part, binding))
+            instances.push(self.ground(scene, part, binding));
         });
         instances
     }

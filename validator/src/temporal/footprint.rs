@@ -122,7 +122,7 @@ impl Reader<'_> {
             EffectKind::And(parts) => parts.iter().for_each(|part| self.effect(part, binding, into)),
             EffectKind::Forall(variables, body) => {
                 each_instance(self.scene, variables, binding, &mut |binding| {
-                    self.effect(body, binding, into)
+                    self.effect(body, binding, into);
                 });
             }
             EffectKind::When(guard, body) => {
