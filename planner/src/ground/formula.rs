@@ -9,7 +9,9 @@
 //! Source: Helmert, "Concise finite-domain representations", AIJ 2009, §4.
 
 use super::error::{Feature, GroundError, Origin};
+use super::universe::{Range, Universe};
 use pddl::model::{Condition, ConditionKind, PredicateId, Term, VariableId};
+use std::sync::Arc;
 
 /// An atom or its negation over terms.
 #[derive(Clone, Debug)]
@@ -27,7 +29,17 @@ pub(crate) enum Formula {
     Exists(Vec<VariableId>, Box<Formula>),
     Forall(Vec<VariableId>, Box<Formula>),
     Literal(Literal),
-    Same { positive: bool, left: Term, right: Term },
+    Same {
+        positive: bool,
+        left: Term,
+        right: Term,
+    },
+    /// Whether an object is of some types: the objects that are.
+    OneOf {
+        positive: bool,
+        term: Term,
+        range: Arc<Range>,
+    },
 }
 
 impl Formula {
@@ -36,28 +48,35 @@ impl Formula {
     }
 
     /// The normal form of `condition`, or of its negation.
-    pub(crate) fn of(condition: &Condition, positive: bool, origin: Origin) -> Result<Self, GroundError> {
+    pub(crate) fn of(
+        condition: &Condition,
+        positive: bool,
+        origin: Origin,
+        universe: &mut Universe<'_>,
+    ) -> Result<Self, GroundError> {
         let unsupported = |feature| Err(GroundError::Unsupported { feature, origin, span: condition.span });
-        let all = |parts: &[Condition], positive| {
-            parts.iter().map(|p| Self::of(p, positive, origin)).collect::<Result<Vec<_>, _>>()
+        let all = |parts: &[Condition], positive, universe: &mut Universe<'_>| {
+            parts.iter().map(|p| Self::of(p, positive, origin, universe)).collect::<Result<Vec<_>, _>>()
         };
         Ok(match (&condition.kind, positive) {
-            (ConditionKind::And(parts), true) => Self::and(all(parts, true)?),
-            (ConditionKind::And(parts), false) => Self::or(all(parts, false)?),
-            (ConditionKind::Or(parts), true) => Self::or(all(parts, true)?),
-            (ConditionKind::Or(parts), false) => Self::and(all(parts, false)?),
-            (ConditionKind::Not(inner), _) => Self::of(inner, !positive, origin)?,
-            (ConditionKind::Imply(left, right), true) => {
-                Self::or(vec![Self::of(left, false, origin)?, Self::of(right, true, origin)?])
-            }
-            (ConditionKind::Imply(left, right), false) => {
-                Self::and(vec![Self::of(left, true, origin)?, Self::of(right, false, origin)?])
-            }
+            (ConditionKind::And(parts), true) => Self::and(all(parts, true, universe)?),
+            (ConditionKind::And(parts), false) => Self::or(all(parts, false, universe)?),
+            (ConditionKind::Or(parts), true) => Self::or(all(parts, true, universe)?),
+            (ConditionKind::Or(parts), false) => Self::and(all(parts, false, universe)?),
+            (ConditionKind::Not(inner), _) => Self::of(inner, !positive, origin, universe)?,
+            (ConditionKind::Imply(left, right), true) => Self::or(vec![
+                Self::of(left, false, origin, universe)?,
+                Self::of(right, true, origin, universe)?,
+            ]),
+            (ConditionKind::Imply(left, right), false) => Self::and(vec![
+                Self::of(left, true, origin, universe)?,
+                Self::of(right, false, origin, universe)?,
+            ]),
             (ConditionKind::Exists(vs, inner), true) | (ConditionKind::Forall(vs, inner), false) => {
-                Self::Exists(vs.clone(), Box::new(Self::of(inner, positive, origin)?))
+                Self::Exists(vs.clone(), Box::new(Self::of(inner, positive, origin, universe)?))
             }
             (ConditionKind::Exists(vs, inner), false) | (ConditionKind::Forall(vs, inner), true) => {
-                Self::Forall(vs.clone(), Box::new(Self::of(inner, positive, origin)?))
+                Self::Forall(vs.clone(), Box::new(Self::of(inner, positive, origin, universe)?))
             }
             (ConditionKind::Atom(atom), _) => Self::Literal(Literal {
                 positive,
@@ -65,8 +84,8 @@ impl Formula {
                 arguments: atom.arguments.clone().into(),
             }),
             (&ConditionKind::Same(left, right), _) => Self::Same { positive, left, right },
-            (ConditionKind::HasType(..), _) => {
-                return unsupported(Feature::Language(pddl::model::Feature::TypePredicates));
+            (ConditionKind::HasType(term, types), _) => {
+                Self::OneOf { positive, term: *term, range: universe.range(types) }
             }
             (ConditionKind::Compare(..), _) => return unsupported(Feature::NumericFluents),
             (ConditionKind::FluentIs(..), _) => return unsupported(Feature::ObjectFluents),
@@ -102,7 +121,7 @@ impl Formula {
 
     fn rank(&self) -> u8 {
         match self {
-            Self::Same { .. } => 0,
+            Self::Same { .. } | Self::OneOf { .. } => 0,
             Self::Literal(_) => 1,
             Self::And(_) => 2,
             Self::Or(_) => 3,

@@ -59,6 +59,13 @@ impl<'a> Instantiator<'a> {
             Formula::Exists(vs, inner) => self.quantified(vs, inner, slots, binding, false),
             Formula::Forall(vs, inner) => self.quantified(vs, inner, slots, binding, true),
             Formula::Literal(literal) => self.literal(literal, binding),
+            Formula::OneOf { positive, term, range } => {
+                if range.contains(resolve(*term, binding)) == *positive {
+                    Ground::True
+                } else {
+                    Ground::False
+                }
+            }
             Formula::Same { positive, left, right } => {
                 if (resolve(*left, binding) == resolve(*right, binding)) == *positive {
                     Ground::True

@@ -205,6 +205,9 @@ impl Join<'_, '_> {
                     Filter::Same { positive, left, right } => {
                         (resolve(*left, binding) == resolve(*right, binding)) == *positive
                     }
+                    Filter::OneOf { positive, term, range } => {
+                        range.contains(resolve(*term, binding)) == *positive
+                    }
                     Filter::Absent { predicate, arguments } => self
                         .out
                         .table

@@ -64,7 +64,7 @@ pub fn ground(domain: &Domain, problem: &Problem, options: &GroundOptions<'_>) -
 
     let rules = rule::rules(&schemas, &is_static);
     let reached = join::reach(&schemas, &rules, table, statics, &is_static, problem.objects.len(), options)?;
-    let goal = Formula::of(&problem.goal, true, Origin::Problem)?;
+    let goal = Formula::of(&problem.goal, true, Origin::Problem, &mut universe)?;
     let slots = universe.slots(&problem.goal_variables);
     let raw = raw::instantiate(&schemas, &reached, &is_static, &costs, (&goal, &slots), options)?;
     finish::finish(domain, problem, &costs, reached.table, raw, statics, &initial, options)
@@ -84,7 +84,7 @@ fn refuse(domain: &Domain, problem: &Problem) -> Result<(), GroundError> {
     if let Some(span) = first(&problem.unsupported) {
         return refuse(Feature::OutsideTheModel, Origin::Problem, span);
     }
-    // Types in conditions are refused where they are read; methods are not.
+    // Types in conditions are looked up while grounding; methods are not read.
     let is_read = |feature| !matches!(feature, Language::TypePredicates | Language::NetworkConstraints);
     if let Some((feature, span)) = domain.features().into_iter().find(|(f, _)| is_read(*f)) {
         return refuse(Feature::Language(feature), Origin::Domain, span);

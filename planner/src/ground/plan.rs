@@ -7,8 +7,10 @@
 use super::atoms::AtomTable;
 use super::join::Indices;
 use super::rule::{BodyAtom, Rule};
+use super::universe::Range;
 use pddl::model::{PredicateId, Term};
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::sync::Arc;
 
 /// A test on bound variables.
 #[derive(Clone, Debug)]
@@ -17,6 +19,12 @@ pub(crate) enum Filter {
         positive: bool,
         left: Term,
         right: Term,
+    },
+    /// An object that must be, or must not be, in a range.
+    OneOf {
+        positive: bool,
+        term: Term,
+        range: Arc<Range>,
     },
     /// A static atom that must not hold.
     Absent {
@@ -29,6 +37,7 @@ impl Filter {
     fn is_bound(&self, bound: &[bool]) -> bool {
         match self {
             Self::Same { left, right, .. } => is_bound(*left, bound) && is_bound(*right, bound),
+            Self::OneOf { term, .. } => is_bound(*term, bound),
             Self::Absent { arguments, .. } => arguments.iter().all(|&t| is_bound(t, bound)),
         }
     }

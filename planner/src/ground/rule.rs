@@ -61,6 +61,10 @@ impl Rule {
                 &Formula::Same { positive, left, right } => {
                     self.filters.push(Filter::Same { positive, left, right });
                 }
+                Formula::OneOf { positive, term, range } => {
+                    let (positive, term, range) = (*positive, *term, range.clone());
+                    self.filters.push(Filter::OneOf { positive, term, range });
+                }
                 _ => {}
             }
         }

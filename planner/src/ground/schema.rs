@@ -70,9 +70,9 @@ fn of_action(
     costs: &CostModel<'_>,
 ) -> Result<Schema, GroundError> {
     let mut hoisted = Vec::new();
-    let condition = Formula::of(&action.precondition, true, Origin::Domain)?.hoisted(&mut hoisted);
+    let condition = Formula::of(&action.precondition, true, Origin::Domain, universe)?.hoisted(&mut hoisted);
     let mut product = (Vec::new(), Vec::new());
-    collect(&action.effect, &[], &Formula::always(), costs, &mut product)?;
+    collect(&action.effect, &[], &Formula::always(), costs, universe, &mut product)?;
     let (effects, costs) = product;
     Ok(Schema {
         name: action.name.clone(),
@@ -91,7 +91,7 @@ fn of_axiom(
     found: &mut Vec<Schema>,
 ) -> Result<(), GroundError> {
     let slots = universe.slots(&axiom.variables);
-    for disjunct in Formula::of(&axiom.body, true, Origin::Domain)?.disjuncts(RULES_PER_AXIOM) {
+    for disjunct in Formula::of(&axiom.body, true, Origin::Domain, universe)?.disjuncts(RULES_PER_AXIOM) {
         let mut hoisted = Vec::new();
         let condition = disjunct.hoisted(&mut hoisted);
         found.push(Schema {
@@ -114,6 +114,7 @@ fn collect(
     quantified: &[VariableId],
     condition: &Formula,
     costs: &CostModel<'_>,
+    universe: &mut Universe<'_>,
     out: &mut (Vec<SchemaEffect>, Vec<CostTerm>),
 ) -> Result<(), GroundError> {
     let mut push = |positive, atom: &pddl::model::Atom| {
@@ -128,7 +129,7 @@ fn collect(
     match &effect.kind {
         EffectKind::And(parts) => {
             for part in parts {
-                collect(part, quantified, condition, costs, out)?;
+                collect(part, quantified, condition, costs, universe, out)?;
             }
         }
         EffectKind::Add(atom) => push(true, atom),
@@ -136,13 +137,13 @@ fn collect(
         EffectKind::Forall(vs, inner) => {
             let mut all = quantified.to_vec();
             all.extend(vs);
-            collect(inner, &all, condition, costs, out)?;
+            collect(inner, &all, condition, costs, universe, out)?;
         }
         EffectKind::When(when, inner) => {
             let mut all = quantified.to_vec();
-            let when = Formula::of(when, true, Origin::Domain)?.hoisted(&mut all);
+            let when = Formula::of(when, true, Origin::Domain, universe)?.hoisted(&mut all);
             let both = Formula::and(vec![condition.clone(), when]);
-            collect(inner, &all, &both, costs, out)?;
+            collect(inner, &all, &both, costs, universe, out)?;
         }
         EffectKind::Assign(operator, application, value) => {
             let conditional = !quantified.is_empty() || !condition.conjuncts().is_empty();

@@ -32,7 +32,10 @@ pub(crate) fn plan(
     for object in problem.objects.iter().skip(domain.constants.len()) {
         world.add_object(object.clone());
     }
-    let knows_time = !domain.durative_actions.is_empty() || !problem.timed.is_empty();
+    let knows_time = !domain.durative_actions.is_empty()
+        || !problem.timed.is_empty()
+        || !domain.processes.is_empty()
+        || !domain.events.is_empty();
     let mut sink = sink;
     let plan = Reader { source, tree, domain, knows_time, body: Body::new(&world, &mut sink) }.plan();
     let finished = sink.finish();

@@ -1,0 +1,6 @@
+; expect: impossible (stamped b)
+(define (problem never)
+  (:domain post)
+  (:objects b - parcel v - van p - place)
+  (:init (at b p) (at v p))
+  (:goal (stamped b)))
