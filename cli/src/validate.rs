@@ -23,8 +23,8 @@ use pddl::{Plan, Severity, Source, parse_plan};
 use serde::Serialize;
 use std::path::PathBuf;
 use validator::{
-    Feature, File, Finding, Number, Place, Trace, Unsupported, Validator, Verdict, explain, show_cause,
-    show_diff, show_preference,
+    Feature, File, Finding, Number, Place, Precision, Trace, Unsupported, Validator, Verdict, explain,
+    show_cause, show_diff, show_preference,
 };
 
 /// What to validate.
@@ -40,6 +40,18 @@ pub(crate) struct Arguments {
     /// Show what each step changes.
     #[arg(short, long)]
     verbose: bool,
+    /// What is nearer than this, in seconds, must not interfere; 0 asks only of what happens at exactly one time.
+    #[arg(long, value_name = "SECONDS", default_value = "0.001", value_parser = seconds)]
+    epsilon: Number,
+    /// How far a duration may be from what it must be, in seconds: planners round what they write.
+    #[arg(long, value_name = "SECONDS", default_value = "0.01", value_parser = seconds)]
+    tolerance: Number,
+}
+
+/// A length of time, exactly as it is written.
+fn seconds(text: &str) -> Result<Number, &'static str> {
+    let decimal: pddl::Decimal = text.parse().map_err(|_| "a number of seconds such as 0.001 is wanted")?;
+    if decimal.is_negative() { Err("it must not be negative") } else { Ok(Number::from_decimal(decimal)) }
 }
 
 pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
@@ -47,7 +59,8 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         Ok(task) => task,
         Err(exit) => return exit,
     };
-    let validator = Validator::new(&task.domain, &task.problem);
+    let precision = Precision { tolerance: arguments.tolerance, separation: arguments.epsilon };
+    let validator = Validator::new(&task.domain, &task.problem).map(|v| v.with_precision(precision));
     let mut exit = Exit::Yes;
     for path in &arguments.plans {
         let judge = Judge { task: &task, validator: &validator, verbose: arguments.verbose };

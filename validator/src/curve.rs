@@ -17,6 +17,9 @@ use crate::number::{NoResult, Number};
 /// Halvings of an interval that ends at neighbouring doubles.
 const HALVINGS: usize = 80;
 
+/// Highest power in a curve: rates that multiply each other double it with each.
+const MOST_DEGREE: usize = 40;
+
 /// Largest denominator that an exact root is searched with.
 const MOST_DENOMINATOR: i64 = 1_000_000;
 
@@ -64,6 +67,9 @@ impl Curve {
     }
 
     pub(crate) fn times(&self, other: &Self) -> Result<Self> {
+        if self.coefficients.len() + other.coefficients.len() > MOST_DEGREE {
+            return Err(NoResult::Overflow);
+        }
         let mut product = vec![Number::ZERO; (self.coefficients.len() + other.coefficients.len()).max(1)];
         for (i, &a) in self.coefficients.iter().enumerate() {
             for (j, &b) in other.coefficients.iter().enumerate() {

@@ -8,7 +8,7 @@ use crate::number::Number;
 use crate::preference::Violations;
 use crate::scene::{Binding, Clock, Scene};
 use crate::state::State;
-use crate::trajectory::{Breach, Formula, Trajectory, each_instance};
+use crate::trajectory::{Breach, Formula, Since, Trajectory, each_instance};
 use crate::universe::Universe;
 use crate::words::File;
 use pddl::Span;
@@ -46,9 +46,9 @@ impl<'a> Demands<'a> {
     pub(crate) fn new(
         domain: &'a Domain,
         problem: &'a Problem,
-        universe: &'a Universe,
+        universe: &Universe,
         strata: &Strata,
-        state: &'a State,
+        state: &State,
     ) -> Self {
         let mut demands = Self {
             trajectory: Trajectory::default(),
@@ -64,12 +64,12 @@ impl<'a> Demands<'a> {
             let scene = Scene { universe, state, variables, clock: Clock::steps(0) };
             let mut binding = Binding::new(variables, &[]);
             for constraint in &constraints.hard {
-                let formula = demands.trajectory.ground(scene, constraint, &mut binding);
+                let formula = demands.trajectory.ground(scene, variables, constraint, &mut binding);
                 demands.hard.push((file, formula));
             }
             for preference in &constraints.preferences {
                 each_instance(scene, &preference.forall, &mut binding, &mut |binding| {
-                    let formula = demands.trajectory.ground(scene, &preference.body, binding);
+                    let formula = demands.trajectory.ground(scene, variables, &preference.body, binding);
                     demands.soft.push(Soft { preference, variables, binding: binding.clone(), formula });
                 });
             }
@@ -95,9 +95,9 @@ impl<'a> Demands<'a> {
     }
 
     /// Notes a state.
-    pub(crate) fn observe(&mut self, time: Number, universe: &Universe, state: &State) {
+    pub(crate) fn observe(&mut self, since: Since, universe: &Universe, state: &State) {
         if !self.are_none() {
-            self.trajectory.observe(time, universe, state);
+            self.trajectory.observe(since, universe, state);
         }
     }
 

@@ -23,7 +23,7 @@ use pddl::model::{
     Application, AssignOperator, AssignedValue, Atom, Condition, Effect, EffectKind, GroundApplication,
     ObjectId, PredicateId, VariableId,
 };
-use rustc_hash::{FxBuildHasher, FxHashSet};
+use rustc_hash::FxBuildHasher;
 use std::ops::ControlFlow;
 
 /// How a fluent is changed, as far as the order of changes matters.
@@ -111,17 +111,9 @@ impl Changes {
         self.adds.each(|predicate, arguments| visit(GroundAtom { predicate, arguments: arguments.into() }));
     }
 
-    /// The deletes that no add of the same atom undoes.
     pub(crate) fn each_delete(&self, mut visit: impl FnMut(GroundAtom)) {
-        let mut added = FxHashSet::default();
-        self.each_add(|atom| {
-            added.insert(atom);
-        });
         self.deletes.each(|predicate, arguments| {
-            let atom = GroundAtom { predicate, arguments: arguments.into() };
-            if !added.contains(&atom) {
-                visit(atom);
-            }
+            visit(GroundAtom { predicate, arguments: arguments.into() });
         });
     }
 

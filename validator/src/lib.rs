@@ -31,6 +31,7 @@ mod condition;
 mod curve;
 mod demands;
 mod effect;
+mod effort;
 mod expression;
 mod number;
 mod preference;

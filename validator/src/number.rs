@@ -211,18 +211,71 @@ impl PartialOrd for Number {
 
 impl Ord for Number {
     fn cmp(&self, other: &Self) -> Ordering {
-        if let (Form::Ratio { numerator: a, denominator: b }, Form::Ratio { numerator: c, denominator: d }) =
-            (self.0, other.0)
-        {
-            if b == d {
-                return a.cmp(&c);
+        match (self.0, other.0) {
+            (Form::Ratio { numerator: a, denominator: b }, Form::Ratio { numerator: c, denominator: d }) => {
+                compare_ratios((a, b), (c, d))
             }
-            if let (Some(left), Some(right)) = (a.checked_mul(d), c.checked_mul(b)) {
-                return left.cmp(&right);
+            (Form::Double(a), Form::Double(b)) => a.partial_cmp(&b).unwrap_or(Ordering::Equal),
+            (Form::Ratio { numerator, denominator }, Form::Double(double)) => {
+                compare_with_double((numerator, denominator), double)
+            }
+            (Form::Double(double), Form::Ratio { numerator, denominator }) => {
+                compare_with_double((numerator, denominator), double).reverse()
             }
         }
-        self.to_f64().partial_cmp(&other.to_f64()).unwrap_or(Ordering::Equal)
     }
+}
+
+/// Compares exactly; denominators are positive.
+fn compare_ratios((mut a, mut b): (i128, i128), (mut c, mut d): (i128, i128)) -> Ordering {
+    if b == d {
+        return a.cmp(&c);
+    }
+    if let (Some(left), Some(right)) = (a.checked_mul(d), c.checked_mul(b)) {
+        return left.cmp(&right);
+    }
+    // Digit by digit of the continued fractions, which never leave 128 bits.
+    let mut turned = false;
+    loop {
+        let order = a.div_euclid(b).cmp(&c.div_euclid(d));
+        let (rest, other) = (a.rem_euclid(b), c.rem_euclid(d));
+        let order = if order.is_ne() {
+            order
+        } else if rest == 0 || other == 0 {
+            rest.cmp(&other)
+        } else {
+            (a, b, c, d) = (b, rest, d, other);
+            turned = !turned;
+            continue;
+        };
+        return if turned { order.reverse() } else { order };
+    }
+}
+
+/// Compares a ratio with what a double stands for, not with a rounded ratio: else ratios that are not equal would
+/// both equal one double, and sorting could not rely on the order.
+fn compare_with_double(ratio: (i128, i128), double: f64) -> Ordering {
+    const LARGEST: f64 = 170_141_183_460_469_231_731_687_303_715_884_105_728.0; // 2^127
+    const BITS: i32 = 126;
+    if double >= LARGEST {
+        return Ordering::Less;
+    }
+    if double < -LARGEST {
+        return Ordering::Greater;
+    }
+    let (whole, mut fraction) = (double.floor(), double - double.floor());
+    #[expect(clippy::cast_possible_truncation, reason = "it is in the range of an i128")]
+    let integer = whole as i128;
+    let order = ratio.0.div_euclid(ratio.1).cmp(&integer);
+    if order.is_ne() {
+        return order;
+    }
+    // What lies below the last bit can only be more than nothing.
+    fraction *= 2.0_f64.powi(BITS);
+    #[expect(clippy::cast_possible_truncation, reason = "it is below 2^126")]
+    let bits = fraction.floor() as i128;
+    let order = compare_ratios((ratio.0.rem_euclid(ratio.1), ratio.1), (bits, 1 << BITS));
+    if order.is_eq() && fraction > fraction.floor() { Ordering::Less } else { order }
 }
 
 impl fmt::Display for Number {
@@ -277,6 +330,19 @@ mod tests {
         let large = number(1e30).times(number(1e30)).unwrap();
         assert!(!large.is_exact());
         assert!(large > number(1e59));
+    }
+
+    #[test]
+    fn order_is_exact_between_ratios_and_doubles() {
+        let third = number(1.0).over(number(3.0)).unwrap();
+        let double = Number(super::Form::Double(1.0 / 3.0));
+        assert!(double < third, "the double is 0.333333333333333314…");
+        assert!(number(1e300) > number(1e37));
+        assert!(Number(super::Form::Double(0.1)) > number(0.1));
+        assert!(Number(super::Form::Double(-0.5)) == number(-0.5));
+        let (near, nearer) =
+            (Number::ratio(i128::MAX / 2, i128::MAX), Number::ratio(i128::MAX / 2 + 1, i128::MAX));
+        assert!(near < nearer);
     }
 
     proptest! {

@@ -6,6 +6,7 @@
 use crate::axiom::Strata;
 use crate::cause::{Cause, Causes};
 use crate::demands::Demands;
+use crate::effort::Effort;
 use crate::number::Number;
 use crate::prepare::{derived_in_effect, initial_state};
 use crate::scene::{Binding, Clock, Scene};
@@ -14,8 +15,8 @@ use crate::trace::Trace;
 use crate::universe::Universe;
 use crate::verdict::{Failure, Feature, MetricValue, StepFault, Unsatisfied, Unsupported, Valid, Verdict};
 use crate::why::Why;
-use pddl::model::{Condition, Domain, ObjectId, Problem, Variables};
-use pddl::{HierarchicalPlan, Plan, SequentialPlan, TemporalPlan};
+use pddl::model::{Condition, Domain, Given, ObjectId, Problem, TimeSpecifier, TimedEffect, Variables};
+use pddl::{HierarchicalPlan, Plan, SequentialPlan, Span, TemporalPlan};
 
 /// A plan of any kind.
 #[derive(Clone, Copy, Debug)]
@@ -117,6 +118,11 @@ impl<'a> Validator<'a> {
             derived_in_effect(&action.effect, &strata).map_err(ill_formed)?;
         }
         for timed in domain.durative_actions.iter().flat_map(|action| &action.effects) {
+            if let Some(span) = later_condition(timed) {
+                let message = "a condition that is later than its effect is not supported".to_owned();
+                let feature = Feature::InDomain(message);
+                return Err(Box::new(Verdict::Unsupported(Unsupported { feature, span })));
+            }
             derived_in_effect(&timed.effect, &strata).map_err(ill_formed)?;
         }
         for event in &domain.events {
@@ -147,12 +153,18 @@ impl<'a> Validator<'a> {
     }
 
     fn run(&self, plan: PlanRef<'_>, trace: Option<&mut Trace>) -> Verdict {
+        let mut state = self.initial.clone();
+        state.effort = Effort::for_steps(plan.steps());
         let result = match plan {
             PlanRef::Sequential(plan) => match self.needs_times() {
+                // A plan without steps is one of any kind.
+                Some(_) if plan.steps.is_empty() => {
+                    crate::temporal::run(self, &TemporalPlan::default(), &mut state, trace)
+                }
                 Some(unsupported) => return Verdict::Unsupported(unsupported),
-                None => crate::sequential::run(self, plan, trace),
+                None => crate::sequential::run(self, plan, &mut state, trace),
             },
-            PlanRef::Temporal(plan) => crate::temporal::run(self, plan, trace),
+            PlanRef::Temporal(plan) => crate::temporal::run(self, plan, &mut state, trace),
             PlanRef::Hierarchical(plan) => {
                 return Verdict::Unsupported(Unsupported {
                     feature: Feature::HierarchicalPlan,
@@ -160,6 +172,12 @@ impl<'a> Validator<'a> {
                 });
             }
         };
+        if state.effort.is_spent() {
+            return Verdict::Unsupported(Unsupported {
+                feature: Feature::TooMuch,
+                span: self.problem.goal_span,
+            });
+        }
         match result {
             Ok(valid) => Verdict::Valid(valid),
             Err(failure) => Verdict::Invalid(*failure),
@@ -177,8 +195,8 @@ impl<'a> Validator<'a> {
     }
 
     /// The demands on a plan that has yet to begin.
-    pub(crate) fn demands(&self) -> Demands<'_> {
-        Demands::new(self.domain, self.problem, &self.universe, &self.strata, &self.initial)
+    pub(crate) fn demands(&self, state: &State) -> Demands<'a> {
+        Demands::new(self.domain, self.problem, &self.universe, &self.strata, state)
     }
 
     pub(crate) fn scene<'s>(
@@ -292,4 +310,14 @@ fn unsupported(domain: &Domain, problem: &Problem) -> Option<Unsupported> {
         let span = network.subtasks.first().map_or(problem.goal_span, |subtask| subtask.span);
         Unsupported { feature: Feature::TaskNetwork, span }
     })
+}
+
+/// Where an effect has a condition at a later time than its own.
+fn later_condition(effect: &TimedEffect) -> Option<Span> {
+    let given = effect.given.iter().flat_map(|given| match given {
+        Given::When(conditions) => conditions.as_slice(),
+        Given::Forall(_) => &[],
+    });
+    let mut given = given.filter(|_| effect.when != TimeSpecifier::End);
+    given.find(|condition| condition.when != effect.when).map(|condition| condition.condition.span)
 }

@@ -9,6 +9,7 @@ use crate::run::{End, Validator, precondition};
 use crate::scene::{Binding, Clock};
 use crate::state::State;
 use crate::trace::{Diff, Happening, Trace};
+use crate::trajectory::Since;
 use crate::verdict::{Failure, StepFault, StepIndex, Valid};
 use pddl::model::{Action, ActionId, IndexVec};
 use pddl::{PlanStep, SequentialPlan};
@@ -16,13 +17,14 @@ use pddl::{PlanStep, SequentialPlan};
 pub(crate) fn run(
     validator: &Validator<'_>,
     plan: &SequentialPlan,
+    state: &mut State,
     mut trace: Option<&mut Trace>,
 ) -> Result<Valid, Box<Failure>> {
     let mut run = Run {
         validator,
         reads_derived: reads_derived(validator),
-        state: validator.initial.clone(),
-        demands: validator.demands(),
+        demands: validator.demands(state),
+        state,
         changes: Changes::default(),
         binding: Binding::default(),
     };
@@ -39,7 +41,7 @@ pub(crate) fn run(
         run.observe(steps);
     }
     let end = End {
-        state: &mut run.state,
+        state: run.state,
         causes: Causes::Steps,
         total_time: Number::integer(i64::from(steps)),
         makespan: None,
@@ -60,21 +62,22 @@ fn reads_derived(validator: &Validator<'_>) -> IndexVec<ActionId, bool> {
     validator.domain.actions.iter().map(reads).collect()
 }
 
-struct Run<'v, 'a> {
+struct Run<'s, 'v, 'a> {
     validator: &'v Validator<'a>,
     reads_derived: IndexVec<ActionId, bool>,
-    state: State,
+    state: &'s mut State,
     demands: Demands<'v>,
     changes: Changes,
     binding: Binding,
 }
 
-impl Run<'_, '_> {
+impl Run<'_, '_, '_> {
     fn observe(&mut self, steps: u32) {
         if self.demands.read_derived() {
-            self.validator.derive(&mut self.state, steps);
+            self.validator.derive(self.state, steps);
         }
-        self.demands.observe(Number::integer(i64::from(steps)), &self.validator.universe, &self.state);
+        let since = Since::at(Number::integer(i64::from(steps)));
+        self.demands.observe(since, &self.validator.universe, self.state);
     }
 
     fn step(
@@ -89,10 +92,10 @@ impl Run<'_, '_> {
             validator.domain.actions.get(step.action).ok_or_else(|| fault(StepFault::UnknownAction))?;
         validator.fits(&action.variables, &step.arguments).map_err(fault)?;
         if self.reads_derived[step.action] {
-            validator.derive(&mut self.state, index.0);
+            validator.derive(self.state, index.0);
         }
         self.binding.reset(&action.variables, &step.arguments);
-        let scene = validator.scene(&self.state, &action.variables, Clock::steps(index.0));
+        let scene = validator.scene(self.state, &action.variables, Clock::steps(index.0));
         if !scene.holds(&action.precondition, &mut self.binding) {
             let parts = validator.lacks(scene, Causes::Steps, &action.precondition, &mut self.binding);
             return Err(precondition(at, parts));
@@ -104,7 +107,7 @@ impl Run<'_, '_> {
         self.changes.clear();
         self.changes
             .collect(scene, &action.effect, &mut self.binding)
-            .and_then(|()| self.changes.apply(&mut self.state, index.0 + 1, diff))
+            .and_then(|()| self.changes.apply(self.state, index.0 + 1, diff))
             .map_err(|fault| Box::new(Failure::Effect { at, fault }))
     }
 }

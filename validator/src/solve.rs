@@ -167,6 +167,9 @@ impl Scene<'_> {
         binding: &mut Binding,
         visit: &mut Visit<'_>,
     ) -> ControlFlow<()> {
+        if !self.state.effort.spend(1) {
+            return ControlFlow::Continue(());
+        }
         if !targets.is_empty() && targets.iter().all(|&v| binding.get(v).is_some()) {
             let witness = self.search(query, done, &[], binding, &mut |_| ControlFlow::Break(()));
             return if witness.is_break() { visit(binding) } else { ControlFlow::Continue(()) };

@@ -6,6 +6,7 @@
 //! axioms or universal effects look up by pattern also have an index per argument position. Cost: one
 //! hash of the arguments per look-up or change.
 
+use crate::effort::Effort;
 use crate::number::Number;
 use indexmap::IndexMap;
 use pddl::model::{Domain, FluentValue, GroundApplication, Idx, IndexVec, ObjectId, PredicateId};
@@ -148,6 +149,8 @@ pub(crate) struct State {
     fluents: FxHashMap<GroundApplication, Value>,
     /// Whether `derived` may lag behind the facts.
     pub(crate) stale: bool,
+    /// What may still be spent on the plan whose state this is.
+    pub(crate) effort: Effort,
 }
 
 impl State {
@@ -166,7 +169,13 @@ impl State {
                 })
                 .collect()
         };
-        Self { facts: relations(), derived: relations(), fluents: FxHashMap::default(), stale: true }
+        Self {
+            facts: relations(),
+            derived: relations(),
+            fluents: FxHashMap::default(),
+            stale: true,
+            effort: Effort::default(),
+        }
     }
 
     pub(crate) fn holds(&self, predicate: PredicateId, arguments: &[ObjectId]) -> bool {

@@ -5,9 +5,13 @@
 //! so that only plain conditions are left in them; while the plan runs, note for each of these whether
 //! it holds in each state; and then read the definitions off the notes as the paper writes them.
 //!
-//! A state lasts from its own time until before the next one's, and the last one for ever. A sequential
-//! plan's n-th state has the time n. Cost: one evaluation a condition a state, a bit of memory for it,
-//! and for an operator that is not nested one look at each state.
+//! A state lasts from its own time until before the next one's, and the last one for ever; one between two
+//! instants of continuous change begins just after the first. A sequential plan's n-th state has the time
+//! n. Cost: one evaluation a condition a state, a bit of memory for it, and one pass over the states for
+//! each operator: the truth of a part is known for every suffix of the trajectory before it is asked for.
+//!
+//! Deviation: the papers do not nest operators; here a nested one speaks of the rest of the trajectory, and
+//! its times count from the state in which it is asked.
 //!
 //! Source: Gerevini & Long, "Plan constraints and preferences in PDDL3", 2005, §3; Gerevini, Haslum,
 //! Long, Saetti & Dimopoulos, "Deterministic planning in the fifth international planning competition",
@@ -57,44 +61,75 @@ enum Kind {
     Hold { from: Number, until: Option<Number>, body: Box<Formula> },
 }
 
+/// When a state begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Since {
+    pub(crate) time: Number,
+    pub(crate) nearness: Nearness,
+}
+
+/// Whether a state begins at an instant, or has no first instant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Nearness {
+    At,
+    JustAfter,
+}
+
+impl Since {
+    /// At this time.
+    pub(crate) fn at(time: Number) -> Self {
+        Self { time, nearness: Nearness::At }
+    }
+
+    /// At every time after this one, as near as one likes.
+    pub(crate) fn just_after(time: Number) -> Self {
+        Self { time, nearness: Nearness::JustAfter }
+    }
+
+    fn later(self, by: Number) -> Self {
+        // Times of plans and limits of constraints are decimals of a file: their sums have a value.
+        Self { time: self.time.plus(by).unwrap_or(Number::MAX), ..self }
+    }
+}
+
 /// What is noted of the states.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Trajectory<'a> {
     leaves: Vec<Leaf<'a>>,
-    times: Vec<Number>,
+    times: Vec<Since>,
 }
 
 impl<'a> Trajectory<'a> {
     /// Prepares a constraint: from now on its conditions are noted. Before the first state.
     pub(crate) fn ground(
         &mut self,
-        scene: Scene<'a>,
+        scene: Scene<'_>,
+        variables: &'a Variables,
         constraint: &'a Constraint,
         binding: &mut Binding,
     ) -> Formula {
         let boxed = |this: &mut Self, part: &'a Constraint, binding: &mut Binding| {
-            Box::new(this.ground(scene, part, binding))
+            Box::new(this.ground(scene, variables, part, binding))
         };
         let time = Number::from_decimal;
         let kind = match &constraint.kind {
             ConstraintKind::Holds(condition) => {
-                let variables = scene.variables;
                 self.leaves.push(Leaf { condition, variables, binding: binding.clone(), truth: Vec::new() });
                 Kind::Leaf(self.leaves.len() - 1)
             }
-            ConstraintKind::And(parts) => Kind::And(self.ground_all(scene, parts, binding)),
-            ConstraintKind::Or(parts) => Kind::Or(self.ground_all(scene, parts, binding)),
+            ConstraintKind::And(parts) => Kind::And(self.ground_all(scene, variables, parts, binding)),
+            ConstraintKind::Or(parts) => Kind::Or(self.ground_all(scene, variables, parts, binding)),
             ConstraintKind::Not(part) => Kind::Not(boxed(self, part, binding)),
             ConstraintKind::Imply(if_, then) => {
                 let if_ = boxed(self, if_, binding);
                 let not = Formula { span: if_.span, kind: Kind::Not(if_) };
-                Kind::Or(vec![not, self.ground(scene, then, binding)])
+                Kind::Or(vec![not, self.ground(scene, variables, then, binding)])
             }
-            ConstraintKind::Exists(variables, part) => {
-                Kind::Or(self.ground_each(scene, variables, part, binding))
+            ConstraintKind::Exists(over, part) => {
+                Kind::Or(self.ground_each(scene, variables, over, part, binding))
             }
-            ConstraintKind::Forall(variables, part) => {
-                Kind::And(self.ground_each(scene, variables, part, binding))
+            ConstraintKind::Forall(over, part) => {
+                Kind::And(self.ground_each(scene, variables, over, part, binding))
             }
             ConstraintKind::AtEnd(part) => Kind::AtEnd(boxed(self, part, binding)),
             ConstraintKind::Always(part) => Kind::Always(boxed(self, part, binding)),
@@ -122,32 +157,38 @@ impl<'a> Trajectory<'a> {
 
     fn ground_all(
         &mut self,
-        scene: Scene<'a>,
+        scene: Scene<'_>,
+        variables: &'a Variables,
         parts: &'a [Constraint],
         binding: &mut Binding,
     ) -> Vec<Formula> {
-        parts.iter().map(|part| self.ground(scene, part, binding)).collect()
+        parts.iter().map(|part| self.ground(scene, variables, part, binding)).collect()
     }
 
     fn ground_each(
         &mut self,
-        scene: Scene<'a>,
-        variables: &[VariableId],
+        scene: Scene<'_>,
+        variables: &'a Variables,
+        over: &[VariableId],
         part: &'a Constraint,
         binding: &mut Binding,
     ) -> Vec<Formula> {
         let mut instances = Vec::new();
-        each_instance(scene, variables, binding, &mut |binding| {
-            instances.push(self.ground(scene, part, binding));
+        each_instance(scene, over, binding, &mut |binding| {
+            instances.push(self.ground(scene, variables, part, binding));
         });
         instances
     }
 
     /// Notes a state. Two states at one time are two states.
-    pub(crate) fn observe(&mut self, time: Number, universe: &Universe, state: &State) {
-        self.times.push(time);
+    pub(crate) fn observe(&mut self, since: Since, universe: &Universe, state: &State) {
+        self.times.push(since);
         for leaf in &mut self.leaves {
-            let scene = Scene { universe, state, variables: leaf.variables, clock: Clock::at(time) };
+            if !state.effort.spend(1) {
+                return;
+            }
+            let clock = Clock::at(since.time);
+            let scene = Scene { universe, state, variables: leaf.variables, clock };
             leaf.truth.push(scene.holds(leaf.condition, &mut leaf.binding));
         }
     }
@@ -159,11 +200,14 @@ impl<'a> Trajectory<'a> {
 
     /// The time of a state.
     pub(crate) fn time(&self, position: Position) -> Option<Number> {
-        self.times.get(position).copied()
+        self.times.get(position).map(|since| since.time)
     }
 }
 
-/// Visits each binding of `variables`; they are unbound again on return.
+/// What an instance costs at least, beside a step of a search: it is noted, and kept.
+const INSTANCE: u64 = 10;
+
+/// Visits each binding of `variables`, as long as the effort allows; they are unbound again on return.
 pub(crate) fn each_instance(
     scene: Scene<'_>,
     variables: &[VariableId],
@@ -172,6 +216,9 @@ pub(crate) fn each_instance(
 ) {
     let Some((&first, rest)) = variables.split_first() else { return visit(binding) };
     for &object in &scene.extent(first).objects {
+        if !scene.state.effort.spend(INSTANCE) {
+            break;
+        }
         binding.set(first, Some(object));
         each_instance(scene, rest, binding, visit);
     }
@@ -204,11 +251,6 @@ impl Breach {
 }
 
 impl Trajectory<'_> {
-    /// How often states were noted.
-    pub(crate) fn len(&self) -> Position {
-        self.times.len()
-    }
-
     /// Whether the trajectory satisfies the constraint.
     pub(crate) fn satisfies(&self, formula: &Formula) -> bool {
         self.breach(formula).is_none()
@@ -216,116 +258,158 @@ impl Trajectory<'_> {
 
     /// How the constraint is broken, if it is.
     pub(crate) fn breach(&self, formula: &Formula) -> Option<(Span, Breach)> {
-        let at = |breach| Some((formula.span, breach));
-        match &formula.kind {
-            Kind::And(parts) => parts.iter().find_map(|part| self.breach(part)),
-            _ if self.holds(formula, 0) => None,
-            Kind::Leaf(_) => at(Breach::Here(0)),
-            Kind::AtEnd(_) => at(Breach::Here(self.last())),
-            Kind::Always(body) => at(Breach::Here(self.first(0, |i| !self.holds(body, i))?)),
-            Kind::AtMostOnce(body) => at(Breach::Again(self.second_stretch(body, 0)?)),
-            Kind::SometimeAfter(if_, then) => at(Breach::NeverAfter(self.unanswered(if_, then, 0, None)?)),
-            Kind::AlwaysWithin(limit, if_, then) => {
-                at(Breach::NeverAfter(self.unanswered(if_, then, 0, Some(*limit))?))
-            }
-            Kind::SometimeBefore(if_, then) => at(Breach::NeverBefore(self.unprepared(if_, then, 0)?)),
-            Kind::Hold { from, until, body } => {
-                at(Breach::Here(self.broken_between(*from, *until, body, 0)?))
-            }
-            Kind::Sometime(_) | Kind::Within(..) | Kind::Or(_) | Kind::Not(_) => at(Breach::Nowhere),
+        if let Kind::And(parts) = &formula.kind {
+            return parts.iter().find_map(|part| self.breach(part));
         }
+        if self.truth(formula).first().copied().unwrap_or(false) {
+            return None;
+        }
+        let breach = match &formula.kind {
+            Kind::Leaf(_) => Some(Breach::Here(0)),
+            Kind::AtEnd(_) => Some(Breach::Here(self.last())),
+            Kind::Always(body) => first(&self.truth(body), false).map(Breach::Here),
+            Kind::AtMostOnce(body) => second_stretch(&self.truth(body)).map(Breach::Again),
+            Kind::SometimeAfter(if_, then) => {
+                first(&self.answered(if_, then, None), false).map(Breach::NeverAfter)
+            }
+            Kind::AlwaysWithin(limit, if_, then) => {
+                first(&self.answered(if_, then, Some(*limit)), false).map(Breach::NeverAfter)
+            }
+            Kind::SometimeBefore(if_, _) => first(&self.truth(if_), true).map(Breach::NeverBefore),
+            Kind::Hold { from, until, body } => {
+                let body = self.truth(body);
+                self.asked(0, *from, *until).find(|&i| !body[i]).map(Breach::Here)
+            }
+            Kind::And(_) | Kind::Sometime(_) | Kind::Within(..) | Kind::Or(_) | Kind::Not(_) => None,
+        };
+        Some((formula.span, breach.unwrap_or(Breach::Nowhere)))
     }
 
     fn last(&self) -> Position {
-        self.len().saturating_sub(1)
+        self.times.len().saturating_sub(1)
     }
 
-    fn first(&self, from: Position, test: impl Fn(Position) -> bool) -> Option<Position> {
-        (from..self.len()).find(|&i| test(i))
-    }
-
-    /// Whether it holds for the part of the trajectory that starts at `from`.
-    fn holds(&self, formula: &Formula, from: Position) -> bool {
+    /// For each position, whether it holds for the part of the trajectory that starts there.
+    fn truth(&self, formula: &Formula) -> Vec<bool> {
+        let length = self.times.len();
+        let join = |parts: &[Formula], all: bool| {
+            let mut truth = vec![all; length];
+            for part in parts {
+                for (sum, one) in truth.iter_mut().zip(self.truth(part)) {
+                    *sum = if all { *sum && one } else { *sum || one };
+                }
+            }
+            truth
+        };
         match &formula.kind {
-            Kind::Leaf(leaf) => self.leaves[*leaf].truth.get(from).copied().unwrap_or(false),
-            Kind::And(parts) => parts.iter().all(|part| self.holds(part, from)),
-            Kind::Or(parts) => parts.iter().any(|part| self.holds(part, from)),
-            Kind::Not(part) => !self.holds(part, from),
-            Kind::AtEnd(part) => self.holds(part, self.last()),
-            Kind::Always(body) => self.first(from, |i| !self.holds(body, i)).is_none(),
-            Kind::Sometime(body) => self.first(from, |i| self.holds(body, i)).is_some(),
-            Kind::Within(limit, body) => self
-                .first(from, |i| self.elapsed(from, i) > *limit || self.holds(body, i))
-                .is_some_and(|i| self.elapsed(from, i) <= *limit),
-            Kind::AtMostOnce(body) => self.second_stretch(body, from).is_none(),
-            Kind::SometimeAfter(if_, then) => self.unanswered(if_, then, from, None).is_none(),
-            Kind::AlwaysWithin(limit, if_, then) => self.unanswered(if_, then, from, Some(*limit)).is_none(),
-            Kind::SometimeBefore(if_, then) => self.unprepared(if_, then, from).is_none(),
-            Kind::Hold { from: start, until, body } => {
-                self.broken_between(*start, *until, body, from).is_none()
+            Kind::Leaf(leaf) => {
+                let mut truth = self.leaves[*leaf].truth.clone();
+                truth.resize(length, false);
+                truth
+            }
+            Kind::And(parts) => join(parts, true),
+            Kind::Or(parts) => join(parts, false),
+            Kind::Not(part) => self.truth(part).into_iter().map(|truth| !truth).collect(),
+            Kind::AtEnd(part) => vec![self.truth(part).last().copied().unwrap_or(false); length],
+            Kind::Always(body) => from_here_on(self.truth(body)),
+            Kind::Sometime(body) => next(&self.truth(body)).iter().map(Option::is_some).collect(),
+            Kind::Within(limit, body) => {
+                let next = next(&self.truth(body));
+                (0..length).map(|i| next[i].is_some_and(|j| self.is_within(i, j, *limit))).collect()
+            }
+            Kind::AtMostOnce(body) => {
+                let body = self.truth(body);
+                let mut truth = vec![true; length];
+                // How often it begins to hold in the part that is left, were it not to hold just before.
+                let mut stretches = 0;
+                for i in (0..length).rev() {
+                    if body[i] && !body.get(i + 1).copied().unwrap_or(false) {
+                        stretches += 1;
+                    }
+                    truth[i] = stretches <= 1;
+                }
+                truth
+            }
+            Kind::SometimeAfter(if_, then) => from_here_on(self.answered(if_, then, None)),
+            Kind::AlwaysWithin(limit, if_, then) => from_here_on(self.answered(if_, then, Some(*limit))),
+            Kind::SometimeBefore(if_, then) => {
+                let (if_, then) = (next(&self.truth(if_)), next(&self.truth(then)));
+                let prepared = |i: Position| if_[i].is_none_or(|wanted| then[i].is_some_and(|j| j < wanted));
+                (0..length).map(prepared).collect()
+            }
+            Kind::Hold { from, until, body } => {
+                let mut broken = vec![0_usize; length + 1];
+                for (i, truth) in self.truth(body).into_iter().enumerate() {
+                    broken[i + 1] = broken[i] + usize::from(!truth);
+                }
+                let whole = |i: Position| {
+                    let asked = self.asked(i, *from, *until);
+                    broken[asked.end] == broken[asked.start]
+                };
+                (0..length).map(whole).collect()
             }
         }
     }
 
-    fn elapsed(&self, from: Position, to: Position) -> Number {
-        // Times of plans are decimals of a file: their differences have a value.
-        self.times[to].minus(self.times[from]).unwrap_or(Number::ZERO)
+    fn is_within(&self, from: Position, to: Position, limit: Number) -> bool {
+        self.times[to] <= self.times[from].later(limit)
     }
 
-    /// Where `body` becomes true for the second time.
-    fn second_stretch(&self, body: &Formula, from: Position) -> Option<Position> {
-        let start = self.first(from, |i| self.holds(body, i))?;
-        let end = self.first(start, |i| !self.holds(body, i))?;
-        self.first(end, |i| self.holds(body, i))
+    /// For each state, whether it lacks `if_`, or it or a later one (in time) has `then`.
+    fn answered(&self, if_: &Formula, then: &Formula, limit: Option<Number>) -> Vec<bool> {
+        let (if_, next) = (self.truth(if_), next(&self.truth(then)));
+        let in_time = |i, j| limit.is_none_or(|limit| self.is_within(i, j, limit));
+        (0..if_.len()).map(|i| !if_[i] || next[i].is_some_and(|j| in_time(i, j))).collect()
     }
 
-    /// The first state with `if_` that no later one with `then` follows, or none in time.
-    fn unanswered(
-        &self,
-        if_: &Formula,
-        then: &Formula,
-        from: Position,
-        limit: Option<Number>,
-    ) -> Option<Position> {
-        // From the end on, the next state with `then` is known.
-        let mut next = None;
-        let mut found = None;
-        for i in (from..self.len()).rev() {
-            if self.holds(then, i) {
-                next = Some(i);
+    /// The states that begin inside `start..until` after that at `from`, and the one that lasts at `start`.
+    fn asked(&self, from: Position, start: Number, until: Option<Number>) -> std::ops::Range<Position> {
+        let times = &self.times;
+        let start = times[from].later(start);
+        let lasting = times.partition_point(|&since| since <= start).max(from + 1) - 1;
+        let end = match until {
+            Some(until) => {
+                let until = times[from].later(until);
+                times.partition_point(|&since| since < until)
             }
-            let answered = next.is_some_and(|j| limit.is_none_or(|limit| self.elapsed(i, j) <= limit));
-            if !answered && self.holds(if_, i) {
-                found = Some(i);
-            }
+            None => times.len(),
+        };
+        let begun = times.partition_point(|&since| since < start).max(from);
+        let first = if begun < end { begun.min(lasting) } else { lasting };
+        first..end.max(lasting + 1)
+    }
+}
+
+fn first(truth: &[bool], wanted: bool) -> Option<Position> {
+    truth.iter().position(|&truth| truth == wanted)
+}
+
+/// For each position, whether it and all later ones are true.
+fn from_here_on(mut truth: Vec<bool>) -> Vec<bool> {
+    let mut all = true;
+    for truth in truth.iter_mut().rev() {
+        all &= *truth;
+        *truth = all;
+    }
+    truth
+}
+
+/// For each position, the first one from there on that is true.
+fn next(truth: &[bool]) -> Vec<Option<Position>> {
+    let mut next = vec![None; truth.len()];
+    let mut nearest = None;
+    for i in (0..truth.len()).rev() {
+        if truth[i] {
+            nearest = Some(i);
         }
-        found
+        next[i] = nearest;
     }
+    next
+}
 
-    /// The first state with `if_` that no earlier one with `then` precedes.
-    fn unprepared(&self, if_: &Formula, then: &Formula, from: Position) -> Option<Position> {
-        let wanted = self.first(from, |i| self.holds(if_, i))?;
-        (from..wanted).all(|i| !self.holds(then, i)).then_some(wanted)
-    }
-
-    /// The first state that lasts into `start..until` without `body`.
-    fn broken_between(
-        &self,
-        start: Number,
-        until: Option<Number>,
-        body: &Formula,
-        from: Position,
-    ) -> Option<Position> {
-        self.first(from, |i| {
-            let begins_in_time = until.is_none_or(|until| self.elapsed(from, i) < until);
-            let lasts = i == self.last() || self.elapsed(from, i + 1) > start;
-            // Beyond the plan's end its last state stays.
-            let asked = if i == self.last() {
-                begins_in_time || self.elapsed(from, i) <= start
-            } else {
-                begins_in_time
-            };
-            asked && lasts && !self.holds(body, i)
-        })
-    }
+/// Where it becomes true for the second time.
+fn second_stretch(truth: &[bool]) -> Option<Position> {
+    let start = first(truth, true)?;
+    let end = start + first(&truth[start..], false)?;
+    Some(end + first(&truth[end..], true)?)
 }

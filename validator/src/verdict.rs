@@ -405,6 +405,8 @@ pub enum Feature {
     TimesMissingForProblem,
     /// A plan without times, where the domain has processes or events.
     TimesMissingForDomain,
+    /// Quantifiers and constraints for more objects than can be tried.
+    TooMuch,
 }
 
 /// Why a task has no meaning although each of its parts has.

@@ -164,7 +164,10 @@ impl Why<'_> {
                 found = (self.named(variables, binding), self.unsatisfied(body, wanted, binding));
                 ControlFlow::Break(())
             });
-        debug_assert!(flow.is_break(), "a universal condition that does not hold has a counterexample");
+        debug_assert!(
+            flow.is_break() || self.scene.state.effort.is_spent(),
+            "a universal condition that does not hold has a counterexample"
+        );
         Unsatisfied::Counterexample { binding: found.0, parts: found.1, span }
     }
 

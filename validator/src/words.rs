@@ -83,6 +83,11 @@ pub fn explain<'p>(
                     File::Domain,
                     "a plan without times is not supported where the domain has processes or events".into(),
                 ),
+                Feature::TooMuch => (
+                    File::Problem,
+                    "quantifiers over more combinations of objects than can be tried are not supported"
+                        .into(),
+                ),
                 Feature::HierarchicalPlan => {
                     (File::Plan, "a plan with its decomposition is not supported".into())
                 }

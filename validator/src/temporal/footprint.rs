@@ -17,8 +17,8 @@ use crate::state::GroundAtom;
 use crate::trajectory::each_instance;
 use crate::verdict::Shared;
 use pddl::model::{
-    AssignedValue, Condition, ConditionKind, Domain, Effect, EffectKind, Expression, ExpressionKind,
-    GroundApplication, PredicateId,
+    Application, AssignedValue, Condition, ConditionKind, Domain, Effect, EffectKind, Expression,
+    ExpressionKind, GroundApplication, PredicateId,
 };
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -106,6 +106,10 @@ impl Reader<'_> {
                 into.read.insert(self.scene.ground(application, binding));
             }
         }
+    }
+
+    pub(super) fn application(&self, application: &Application, binding: &Binding, into: &mut Footprint) {
+        into.read.insert(self.scene.ground(application, binding));
     }
 
     pub(super) fn expression(&self, expression: &Expression, binding: &Binding, into: &mut Footprint) {

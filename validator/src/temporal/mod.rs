@@ -28,6 +28,7 @@ use crate::run::{End, Validator};
 use crate::scene::{Binding, Clock};
 use crate::state::{Moment, State};
 use crate::trace::{Diff, Happening, Trace};
+use crate::trajectory::Since;
 use crate::verdict::{ChangeFault, Failure, StepIndex, Valid};
 use flow::{Flow, Present};
 use footprint::{Dependencies, Footprint};
@@ -39,11 +40,15 @@ use timeline::{Point, timeline};
 /// How often what happens by itself may begin and end at one instant.
 const MOST_UNRESTS: usize = 100;
 
+/// How often it may do so in the whole plan: times that come ever nearer to each other never pass.
+const MOST_UNRESTS_OF_ALL: usize = 10_000;
+
 type Checked<T = ()> = Result<T, Box<Failure>>;
 
 pub(crate) fn run(
     validator: &Validator<'_>,
     plan: &TemporalPlan,
+    state: &mut State,
     mut trace: Option<&mut Trace>,
 ) -> Checked<Valid> {
     let points = timeline(validator.problem, plan);
@@ -51,25 +56,26 @@ pub(crate) fn run(
         validator,
         plan,
         dependencies: Dependencies::new(validator.domain),
-        state: validator.initial.clone(),
-        demands: validator.demands(),
+        demands: validator.demands(state),
+        state,
         now: Number::ZERO,
         causes: Vec::new(),
         active: Vec::new(),
         recent: Vec::new(),
+        unrests: 0,
     };
     if run.has_nature() {
         let due = run.nature(run.now).events;
-        run.events(due)?;
+        run.events(due, None)?;
     }
     run.observe();
     for happening in points.chunk_by(|a, b| a.time == b.time) {
-        run.flow_to(happening[0].time)?;
         let mut diff = trace.is_some().then(Diff::default);
+        run.flow_to(happening[0].time, diff.as_mut())?;
         run.happening(happening, crowded(&points, happening, validator.precision.separation), diff.as_mut())?;
         if run.has_nature() {
             let due = run.nature(run.now).events;
-            run.events(due)?;
+            run.events(due, diff.as_mut())?;
         }
         if let (Some(trace), Some(diff)) = (&mut trace, diff) {
             let causes = happening.iter().map(|point| point.what).collect();
@@ -80,7 +86,7 @@ pub(crate) fn run(
     let steps = u32::try_from(plan.steps.len()).unwrap_or(u32::MAX);
     let makespan = makespan(plan);
     let end = End {
-        state: &mut run.state,
+        state: run.state,
         causes: Causes::Listed(&run.causes),
         total_time: makespan,
         makespan: Some(makespan),
@@ -111,6 +117,8 @@ struct Active<'v> {
     duration: Number,
     /// Effects at the end whose conditions at the start held, each with its bindings.
     armed: Vec<(usize, Binding)>,
+    /// Preferences over the whole time that have held until now, each with its bindings.
+    kept: Vec<(usize, Binding)>,
 }
 
 /// Something begins or ends by itself.
@@ -127,48 +135,50 @@ struct Recent {
     footprint: Footprint,
 }
 
-struct Run<'v, 'a> {
+struct Run<'s, 'v, 'a> {
     validator: &'v Validator<'a>,
     plan: &'v TemporalPlan,
     dependencies: Dependencies,
-    state: State,
+    state: &'s mut State,
     demands: Demands<'v>,
     now: Number,
     causes: Vec<Cause>,
     active: Vec<Active<'v>>,
     recent: Vec<Recent>,
+    /// How often something began or ended by itself.
+    unrests: usize,
 }
 
-impl<'v> Run<'v, '_> {
+impl<'v> Run<'_, 'v, '_> {
     fn moment(&self) -> Moment {
         Moment::try_from(self.causes.len()).unwrap_or(Moment::MAX)
     }
 
     fn derive_for(&mut self, condition: &Condition) {
         let moment = self.moment();
-        self.validator.derive_for(condition, &mut self.state, moment);
+        self.validator.derive_for(condition, self.state, moment);
     }
 
     fn observe(&mut self) {
-        self.observe_at(self.now);
+        self.observe_at(Since::at(self.now));
     }
 
-    fn observe_at(&mut self, time: Number) {
+    fn observe_at(&mut self, since: Since) {
         if self.demands.read_derived() {
             let moment = self.moment();
-            self.validator.derive(&mut self.state, moment);
+            self.validator.derive(self.state, moment);
         }
-        self.demands.observe(time, &self.validator.universe, &self.state);
+        self.demands.observe(since, &self.validator.universe, self.state);
     }
 
     /// Lets time pass until just before `time`: what runs, runs; what must hold all the time, must hold;
     /// what happens by itself, happens.
-    fn flow_to(&mut self, time: Number) -> Checked {
+    fn flow_to(&mut self, time: Number, mut diff: Option<&mut Diff>) -> Checked {
         let mut processes = if self.has_nature() { self.nature(self.now).processes } else { Vec::new() };
         let mut unrests = 0;
         while self.now < time {
             let running = self.running(&processes)?;
-            let present = Present { universe: &self.validator.universe, state: &self.state, now: self.now };
+            let present = Present { universe: &self.validator.universe, state: self.state, now: self.now };
             let flow = Flow::new(&running, present).map_err(|fault| self.change(fault))?;
             if flow.is_still() {
                 self.invariants(self.now)?;
@@ -183,19 +193,23 @@ impl<'v> Run<'v, '_> {
             };
             // Conditions that end each other at one instant would take no time, for ever.
             unrests = if unrest.after == Number::ZERO { unrests + 1 } else { 0 };
-            if unrests > MOST_UNRESTS {
+            self.unrests += 1;
+            if unrests > MOST_UNRESTS || self.unrests > MOST_UNRESTS_OF_ALL {
                 return Err(self.change(ChangeFault::Unsteady));
             }
             self.set(&flow, unrest.after)?;
             self.now = self.now.plus(unrest.after).unwrap_or(time);
             let happened = !unrest.nature.events.is_empty();
-            self.events(unrest.nature.events)?;
+            self.events(unrest.nature.events, diff.as_deref_mut())?;
             processes = if happened { self.nature(self.now).processes } else { unrest.nature.processes };
             self.observe();
         }
         if self.has_nature() {
             let due = self.nature(self.now).events;
-            self.events(due)?;
+            if !due.is_empty() {
+                self.events(due, diff)?;
+                self.observe();
+            }
         }
         Ok(())
     }
@@ -211,6 +225,7 @@ impl<'v> Run<'v, '_> {
         let mut last = Number::ZERO;
         for (instant, critical) in self.instants_of(flow, length) {
             self.set(flow, instant)?;
+            let began = self.now.plus(last).unwrap_or(self.now);
             let at = self.now.plus(instant).unwrap_or(self.now);
             if self.has_nature() {
                 let nature = self.nature(at);
@@ -221,7 +236,7 @@ impl<'v> Run<'v, '_> {
                 }
             }
             self.invariants(at)?;
-            self.observe_at(at);
+            self.observe_at(if critical { Since::at(at) } else { Since::just_after(began) });
             if critical {
                 last = instant;
             }
@@ -230,7 +245,7 @@ impl<'v> Run<'v, '_> {
     }
 
     fn set(&mut self, flow: &Flow, after: Number) -> Checked {
-        flow.apply(after, &mut self.state).map_err(|fault| {
+        flow.apply(after, self.state).map_err(|fault| {
             let fault = NumericFault::of(fault, pddl::Span::default());
             self.change(ChangeFault::Numeric(fault))
         })
@@ -242,14 +257,23 @@ impl<'v> Run<'v, '_> {
         let mut critical = Vec::new();
         for active in &self.active {
             let clock = Clock { duration: Some(active.duration), ..Clock::at(self.now) };
-            let scene = self.validator.scene(&self.state, &active.action.variables, clock);
+            let scene = self.validator.scene(self.state, &active.action.variables, clock);
             let mut binding = active.binding.clone();
             for condition in over_all(active.action) {
                 flow.critical(condition, scene, &mut binding, length, &mut critical);
             }
+            for (effect, binding) in &active.armed {
+                for condition in given(&active.action.effects[*effect].given, &TimeSpecifier::OverAll) {
+                    flow.critical(condition, scene, &mut binding.clone(), length, &mut critical);
+                }
+            }
+            for (preference, binding) in &active.kept {
+                let condition = &active.action.preferences[*preference].body.condition;
+                flow.critical(condition, scene, &mut binding.clone(), length, &mut critical);
+            }
         }
         for (condition, variables, binding) in self.demands.conditions() {
-            let scene = self.validator.scene(&self.state, variables, Clock::at(self.now));
+            let scene = self.validator.scene(self.state, variables, Clock::at(self.now));
             flow.critical(condition, scene, &mut binding.clone(), length, &mut critical);
         }
         if self.has_nature() {
@@ -276,7 +300,7 @@ impl<'v> Run<'v, '_> {
             for condition in over_all(action) {
                 self.derive_for(condition);
                 let clock = Clock { duration: Some(duration), ..Clock::at(at) };
-                let scene = self.validator.scene(&self.state, &action.variables, clock);
+                let scene = self.validator.scene(self.state, &action.variables, clock);
                 let binding = &mut self.active[index].binding;
                 if !scene.holds(condition, binding) {
                     let causes = Causes::Listed(&self.causes);
@@ -285,12 +309,13 @@ impl<'v> Run<'v, '_> {
                 }
             }
             self.disarm(index, at);
+            self.judge_kept(index, at);
         }
         Ok(())
     }
 }
 
-impl Run<'_, '_> {
+impl Run<'_, '_, '_> {
     /// Drops the effects at the end whose condition `over all` does not hold.
     fn disarm(&mut self, index: usize, at: Number) {
         let Active { action, duration, .. } = self.active[index];
@@ -299,10 +324,29 @@ impl Run<'_, '_> {
         armed.retain_mut(|(effect, binding)| {
             given(&action.effects[*effect].given, &TimeSpecifier::OverAll).all(|condition| {
                 self.derive_for(condition);
-                self.validator.scene(&self.state, &action.variables, clock).holds(condition, binding)
+                self.validator.scene(self.state, &action.variables, clock).holds(condition, binding)
             })
         });
         self.active[index].armed = armed;
+    }
+
+    /// Counts the preferences over the whole time that do not hold now; each is counted once.
+    fn judge_kept(&mut self, index: usize, at: Number) {
+        let Active { action, duration, .. } = self.active[index];
+        let mut kept = std::mem::take(&mut self.active[index].kept);
+        let clock = Clock { duration: Some(duration), ..Clock::at(at) };
+        kept.retain_mut(|(preference, binding)| {
+            let preference = &action.preferences[*preference];
+            let condition = &preference.body.condition;
+            self.derive_for(condition);
+            let scene = self.validator.scene(self.state, &action.variables, clock);
+            let holds = scene.holds(condition, binding);
+            if !holds {
+                self.demands.violations.add(preference, &action.variables, binding);
+            }
+            holds
+        });
+        self.active[index].kept = kept;
     }
 }
 

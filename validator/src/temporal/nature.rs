@@ -2,7 +2,7 @@
 //!
 //! At every instant at which a condition of either can change, and between any two of them, the processes
 //! that run and the events that are due are found by a query. An event that changes nothing of its own
-//! condition would happen for ever: whatever happens twice at one time is called endless. An event or a
+//! condition would happen for ever: what happens a hundred times at one time is called endless. An event or a
 //! process whose condition holds only just after an instant (`>`, not `>=`) begins at that instant.
 //!
 //! Deviation: events at one time do not have to be free of interference; they see the same state, and
@@ -18,14 +18,19 @@ use crate::effect::Changes;
 use crate::expression::NumericFault;
 use crate::number::Number;
 use crate::scene::{Binding, Clock, Scene};
-use crate::state::Value;
+use crate::state::{State, Value};
+use crate::trace::Diff;
 use crate::trajectory::each_instance;
 use crate::verdict::{ChangeFault, Failure};
 use pddl::model::{Condition, ContinuousEffect, FunctionTerm, ObjectId, ProcessId, Variables};
+use rustc_hash::FxHashMap;
 use std::ops::ControlFlow;
 
+/// How often one event may happen at one time.
+const MOST_OFTEN: usize = 100;
+
 /// A process or event with its arguments.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct Instance<I> {
     pub(super) id: I,
     pub(super) arguments: Vec<ObjectId>,
@@ -38,7 +43,7 @@ pub(super) struct Nature {
     pub(super) events: Vec<Instance<pddl::model::EventId>>,
 }
 
-impl Run<'_, '_> {
+impl Run<'_, '_, '_> {
     /// Whether anything can happen by itself.
     pub(super) fn has_nature(&self) -> bool {
         !self.validator.domain.processes.is_empty() || !self.validator.domain.events.is_empty()
@@ -84,7 +89,7 @@ impl Run<'_, '_> {
         visit: &mut dyn FnMut(Vec<ObjectId>),
     ) {
         self.derive_for(condition);
-        let scene = self.validator.scene(&self.state, variables, Clock::at(at));
+        let scene = self.validator.scene(self.state, variables, Clock::at(at));
         let mut binding = Binding::new(variables, &[]);
         let parameters: Vec<_> = variables.parameter_ids().collect();
         if parameters.is_empty() {
@@ -107,15 +112,17 @@ impl Run<'_, '_> {
         let processes = domain.processes.iter().map(|p| (&p.variables, &p.precondition));
         let events = domain.events.iter().map(|e| (&e.variables, &e.precondition));
         // Without the values of what flows, a comparison that reads it is possible: so all that may ever begin is found.
-        let present = self.state.clone();
+        let present = State::clone(self.state);
         for (variables, condition) in processes.chain(events) {
             let mut candidates = Vec::new();
-            flow.forget(&mut self.state);
+            flow.forget(self.state);
             self.instances(variables, condition, Strictness::Possible, self.now, &mut |arguments| {
                 candidates.push(arguments);
             });
+            let effort = self.state.effort.clone();
             self.state.clone_from(&present);
-            let scene = self.validator.scene(&self.state, variables, Clock::at(self.now));
+            self.state.effort = effort;
+            let scene = self.validator.scene(self.state, variables, Clock::at(self.now));
             for arguments in candidates {
                 flow.critical(condition, scene, &mut Binding::new(variables, &arguments), length, into);
             }
@@ -123,28 +130,33 @@ impl Run<'_, '_> {
     }
 
     /// Lets the events happen that are due, and those that they cause.
-    pub(super) fn events(&mut self, mut due: Vec<Instance<pddl::model::EventId>>) -> Checked {
-        let mut happened: Vec<Instance<pddl::model::EventId>> = Vec::new();
+    pub(super) fn events(
+        &mut self,
+        mut due: Vec<Instance<pddl::model::EventId>>,
+        mut diff: Option<&mut Diff>,
+    ) -> Checked {
+        let mut happened: FxHashMap<Instance<pddl::model::EventId>, usize> = FxHashMap::default();
         while !due.is_empty() {
             let mut changes = Vec::with_capacity(due.len());
             for instance in due {
                 let event = &self.validator.domain.events[instance.id];
                 let at = Cause::Event(instance.id);
-                if happened.contains(&instance) {
+                let often = happened.entry(instance.clone()).or_insert(0);
+                *often += 1;
+                if *often > MOST_OFTEN {
                     return Err(Box::new(Failure::EndlessEvents { time: self.now, event: instance.id }));
                 }
                 crate::prepare::each_guard(&event.effect, &mut |guard, _| self.derive_for(guard));
-                let scene = self.validator.scene(&self.state, &event.variables, Clock::at(self.now));
+                let scene = self.validator.scene(self.state, &event.variables, Clock::at(self.now));
                 let mut own = Changes::default();
                 own.collect(scene, &event.effect, &mut Binding::new(&event.variables, &instance.arguments))
                     .map_err(|fault| Box::new(Failure::Effect { at, fault }))?;
                 changes.push((at, own));
-                happened.push(instance);
             }
             for (at, own) in changes {
                 self.causes.push(at);
                 let moment = self.moment();
-                own.apply(&mut self.state, moment, None)
+                own.apply(self.state, moment, diff.as_deref_mut())
                     .map_err(|fault| Box::new(Failure::Effect { at, fault }))?;
             }
             due = self.nature(self.now).events;
@@ -157,14 +169,14 @@ impl Run<'_, '_> {
         let mut running = Vec::new();
         for Active { action, binding, duration, .. } in &self.active {
             let clock = Clock { duration: Some(*duration), ..Clock::at(self.now) };
-            let scene = self.validator.scene(&self.state, &action.variables, clock);
+            let scene = self.validator.scene(self.state, &action.variables, clock);
             for effect in &action.continuous {
                 each_running(scene, effect, binding.clone(), &mut running).map_err(|f| self.change(f))?;
             }
         }
         for Instance { id, arguments } in processes {
             let process = &self.validator.domain.processes[*id];
-            let scene = self.validator.scene(&self.state, &process.variables, Clock::at(self.now));
+            let scene = self.validator.scene(self.state, &process.variables, Clock::at(self.now));
             let binding = Binding::new(&process.variables, arguments);
             for effect in &process.effects {
                 each_running(scene, effect, binding.clone(), &mut running).map_err(|f| self.change(f))?;

@@ -40,7 +40,7 @@ struct Part<'v> {
     effects: Vec<&'v Effect>,
 }
 
-impl<'v> Run<'v, '_> {
+impl<'v> Run<'_, 'v, '_> {
     /// Everything that happens at `self.now`. If it is `crowded`, order may matter.
     pub(super) fn happening(
         &mut self,
@@ -71,7 +71,7 @@ impl<'v> Run<'v, '_> {
             self.causes.push(deed.what);
             let moment = self.moment();
             deed.changes
-                .apply(&mut self.state, moment, diff.as_deref_mut())
+                .apply(self.state, moment, diff.as_deref_mut())
                 .map_err(|fault| Box::new(Failure::Effect { at: deed.what, fault }))?;
         }
         self.active.extend(started);
@@ -99,10 +99,6 @@ impl<'v> Run<'v, '_> {
             let before = near.map(|recent| (recent.what, &recent.footprint));
             let beside = deeds[..index].iter().map(|deed| (deed.what, &deed.footprint));
             for (first, footprint) in before.chain(beside) {
-                // The two ends of one step are never at one time: it takes some.
-                if first.step().is_some() && first.step() == second.what.step() {
-                    continue;
-                }
                 if let Some(over) = footprint.interference(&second.footprint) {
                     return Err(Box::new(Failure::Interference { first, second: second.what, over }));
                 }
@@ -131,7 +127,7 @@ impl<'v> Run<'v, '_> {
         let deed = self.deed(Cause::Step(index), &part, &mut binding, crowded)?;
         for preference in &action.preferences {
             self.derive_for(&preference.body);
-            let scene = self.validator.scene(&self.state, part.variables, part.clock);
+            let scene = self.validator.scene(self.state, part.variables, part.clock);
             let holds = |body: &_, binding: &mut Binding| scene.holds(body, binding);
             self.demands.violations.judge(scene, preference, &mut binding, holds);
         }
@@ -155,6 +151,7 @@ impl<'v> Run<'v, '_> {
             binding: Binding::new(&action.variables, &step.arguments),
             duration,
             armed: Vec::new(),
+            kept: Vec::new(),
         };
         let deed = self.half(&mut active, &TimeSpecifier::Start, crowded)?;
         Ok((deed, active))
@@ -190,18 +187,49 @@ impl<'v> Run<'v, '_> {
             _ => Cause::End(active.step),
         };
         let mut deed = self.deed(what, &part, &mut active.binding, crowded)?;
+        if crowded {
+            self.read_bounds(active, when, clock, &mut deed.footprint);
+        }
         match when {
-            TimeSpecifier::Start => self.arm(active, &mut deed.footprint),
+            TimeSpecifier::Start => {
+                self.arm(active, &mut deed.footprint);
+                self.keep(active, clock);
+            }
             _ => self.discharge(active, &mut deed)?,
         }
         for preference in action.preferences.iter().filter(|p| p.body.when == *when) {
             self.derive_for(&preference.body.condition);
-            let scene = self.validator.scene(&self.state, part.variables, part.clock);
+            let scene = self.validator.scene(self.state, part.variables, part.clock);
             self.demands.violations.judge(scene, preference, &mut active.binding, |body, binding| {
                 scene.holds(&body.condition, binding)
             });
         }
         Ok(deed)
+    }
+
+    /// What the bounds of the duration read.
+    fn read_bounds(&self, active: &Active<'v>, when: &TimeSpecifier, clock: Clock<'_>, into: &mut Footprint) {
+        let scene = self.validator.scene(self.state, &active.action.variables, clock);
+        let reader = Reader { scene, strata: &self.validator.strata, dependencies: &self.dependencies };
+        for constraint in active.action.duration.iter().filter(|constraint| constraint.when == *when) {
+            reader.expression(&constraint.bound, &active.binding, into);
+            for term in &constraint.functions {
+                reader.application(&term.application, &active.binding, into);
+            }
+        }
+    }
+
+    /// Notes the preferences over the whole time.
+    fn keep(&self, active: &mut Active<'v>, clock: Clock<'_>) {
+        let action = active.action;
+        let scene = self.validator.scene(self.state, &action.variables, clock);
+        for (index, preference) in action.preferences.iter().enumerate() {
+            if preference.body.when == TimeSpecifier::OverAll {
+                each_instance(scene, &preference.forall, &mut active.binding, &mut |binding| {
+                    active.kept.push((index, binding.clone()));
+                });
+            }
+        }
     }
 
     /// Notes which effects at the end have their conditions at the start, and for which bindings.
@@ -210,7 +238,7 @@ impl<'v> Run<'v, '_> {
         let clock = Clock { duration: Some(active.duration), ..Clock::at(self.now) };
         for (index, timed) in action.effects.iter().enumerate().filter(|(_, timed)| !timed.given.is_empty()) {
             given(&timed.given, &TimeSpecifier::Start).for_each(|condition| self.derive_for(condition));
-            let scene = self.validator.scene(&self.state, &action.variables, clock);
+            let scene = self.validator.scene(self.state, &action.variables, clock);
             let reader = Reader { scene, strata: &self.validator.strata, dependencies: &self.dependencies };
             let slots: Vec<VariableId> = timed
                 .given
@@ -242,7 +270,7 @@ impl<'v> Run<'v, '_> {
             let timed = &action.effects[index];
             given(&timed.given, &TimeSpecifier::End).for_each(|condition| self.derive_for(condition));
             each_guard(&timed.effect, &mut |guard, _| self.derive_for(guard));
-            let scene = self.validator.scene(&self.state, &action.variables, clock);
+            let scene = self.validator.scene(self.state, &action.variables, clock);
             let reader = Reader { scene, strata: &self.validator.strata, dependencies: &self.dependencies };
             let mut holds = true;
             for condition in given(&timed.given, &TimeSpecifier::End) {
@@ -264,7 +292,7 @@ impl<'v> Run<'v, '_> {
     fn duration(&mut self, active: &mut Active<'v>, when: &TimeSpecifier, clock: Clock<'_>) -> Checked {
         let action = active.action;
         for constraint in action.duration.iter().filter(|constraint| constraint.when == *when) {
-            let scene = self.validator.scene(&self.state, &action.variables, clock);
+            let scene = self.validator.scene(self.state, &action.variables, clock);
             let bound = bind_functions(scene, &constraint.functions, &mut active.binding)
                 .and_then(|()| scene.number(&constraint.bound, &active.binding));
             let fits = bound.as_ref().is_ok_and(|&bound| {
@@ -308,7 +336,7 @@ impl<'v> Run<'v, '_> {
         for effect in &part.effects {
             each_guard(effect, &mut |guard, _| self.derive_for(guard));
         }
-        let scene = self.validator.scene(&self.state, part.variables, part.clock);
+        let scene = self.validator.scene(self.state, part.variables, part.clock);
         for condition in &part.conditions {
             if !scene.holds(condition, binding) {
                 let causes = Causes::Listed(&self.causes);

@@ -31,7 +31,7 @@ pub(crate) fn end(step: &TemporalStep) -> Number {
         _ => Number::ZERO,
     };
     // Two decimals of a file have a sum, if need be a rounded one.
-    start(step).plus(duration).unwrap_or(Number::MAX)
+    start(step).plus(duration).unwrap_or(Number::MAX).max(start(step))
 }
 
 /// When the last step ends.
@@ -39,7 +39,7 @@ pub(crate) fn makespan(plan: &TemporalPlan) -> Number {
     plan.steps.iter().map(end).max().unwrap_or(Number::ZERO)
 }
 
-/// Everything that happens, by time; what happens at one time in the order of the file, ends before starts.
+/// Everything that happens, by time; what happens at one time in the order of the file, a step's start before its end.
 pub(super) fn timeline(problem: &Problem, plan: &TemporalPlan) -> Vec<Point> {
     let mut points = Vec::with_capacity(2 * plan.steps.len() + problem.timed.len());
     for (index, timed) in (0..).zip(&problem.timed) {
