@@ -24,7 +24,7 @@ pub struct Hover {
 }
 
 /// What stands at a position: a name with its signature, comment and usage, or a word of the language; and what
-/// the findings there mean.
+/// the findings there mean; of lints only those that have run.
 pub fn hover(project: &Project, at: Position) -> Option<Hover> {
     let (mut span, mut parts) = (None, Vec::new());
     if let Some((entity, occurrence)) = entity_at(project, at) {
@@ -34,7 +34,9 @@ pub fn hover(project: &Project, at: Position) -> Option<Hover> {
         span = Some(word);
         parts.push(text);
     }
-    for finding in project.findings(at.source) {
+    // Lints may be slow: of theirs only what is known.
+    let lints = project.cached_lint_findings(at.source).iter().map(|linted| &linted.finding);
+    for finding in project.language_findings(at.source).iter().chain(lints) {
         let place = finding.place.span;
         let around = place.start <= at.offset && at.offset <= place.end;
         // What covers lines is not about the word.

@@ -9,6 +9,8 @@ use support::{apply, fixture};
 
 fn check(text: &str, expected: &Expect) {
     let (project, at) = fixture(text);
+    // Lints run before an author asks.
+    project.lint_findings(at.source);
     let actions = code_actions(&project, at.source, Span::new(at.offset, at.offset));
     let line = |a: &ide::CodeAction| {
         let mark = if a.preferred { "!" } else { "" };
@@ -198,6 +200,16 @@ fn what_has_no_type_does_not_get_one() {
             (define (problem q) (:domain d) (:objects a b - object zebra - lamp) (:init (p zebra)) (:goal ()))
         "#]],
     );
+}
+
+#[test]
+fn lints_that_have_not_run_are_not_waited_for() {
+    let (project, at) = fixture("(define (domain d) (:predicates (p) (un$0used)) (:action a :effect (p)))");
+    let actions = || code_actions(&project, at.source, Span::new(at.offset, at.offset)).len();
+    assert_eq!((actions(), project.cached_lint_findings(at.source).len()), (0, 0));
+    assert!(!project.lint_findings(at.source).is_empty());
+    assert_eq!(project.cached_lint_findings(at.source).len(), project.lint_findings(at.source).len());
+    assert!(actions() > 0);
 }
 
 #[test]

@@ -44,6 +44,7 @@ fn check(cursor: &str, expected: &Expect) {
 
 fn check_text(text: &str, expected: &Expect) {
     let (project, position) = fixture(text);
+    project.lint_findings(position.source);
     let found = hover(&project, position);
     expected.assert_eq(
         &found.map_or_else(String::new, |h| format!("{}\n{}\n", show(&project, h.place), h.markdown)),

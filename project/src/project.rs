@@ -297,6 +297,12 @@ impl Project {
         self.file(id).map_or(&[], |file| file.lints.get_or_init(|| judge::lints(self, id)))
     }
 
+    /// What lints say about a file if they have looked at it since it changed; nothing if they have not. For whoever
+    /// must not wait: lints may take longer than reading.
+    pub fn cached_lint_findings(&self, id: SourceId) -> &[Linted] {
+        self.file(id).and_then(|file| file.lints.get()).map_or(&[], Vec::as_slice)
+    }
+
     /// Everything to say about a file, in order of place.
     pub fn findings(&self, id: SourceId) -> Vec<Finding> {
         let lints = self.lint_findings(id).iter().map(|linted| &linted.finding);

@@ -38,7 +38,7 @@ pub struct CodeAction {
 }
 
 /// What can be done where `range` is: the nearest name for a mistyped one, a declaration for one that nothing
-/// declares, the requirement that is missing, and what lints know to mend.
+/// declares, the requirement that is missing, and what lints know to mend, if they have run.
 pub fn code_actions(project: &Project, source: SourceId, range: Span) -> Vec<CodeAction> {
     let touches = |span: Span| span.start <= range.end && range.start <= span.end;
     let mut actions = Vec::new();
@@ -53,7 +53,7 @@ pub fn code_actions(project: &Project, source: SourceId, range: Span) -> Vec<Cod
     for diagnostic in diagnostics.iter().filter(|d| touches(d.span) && !needs_domain) {
         of_diagnostic(project, source, diagnostic, &mut actions);
     }
-    for linted in project.lint_findings(source).iter().filter(|l| touches(l.finding.place.span)) {
+    for linted in project.cached_lint_findings(source).iter().filter(|l| touches(l.finding.place.span)) {
         of_lint(project, source, linted, &mut actions);
     }
     actions

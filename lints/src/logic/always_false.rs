@@ -3,7 +3,7 @@
 use pddl::Explanation;
 use pddl::model::{Comparison, Condition, ConditionKind, Expression, ExpressionKind, Term};
 
-use super::literals::{Fact, Group, Literal, groups};
+use super::literals::{Fact, Group, Literal, contradictions, groups};
 use crate::finding::Findings;
 use crate::lint::Check;
 use crate::shape;
@@ -63,15 +63,10 @@ fn check(groups: &[Group<'_>], place: fn(pddl::Span) -> Place, found: &mut Findi
         }
         let Group::All(parts) = group else { continue };
         let literals: Vec<Literal> = parts.iter().filter_map(|part| Literal::of(part)).collect();
-        for (i, literal) in literals.iter().enumerate() {
-            if let Some(earlier) = literals[..i].iter().find(|l| l.contradicts(literal)) {
-                let finding = Finding::new(
-                    &LINT,
-                    place(literal.span),
-                    "this can never hold together with another part",
-                );
-                found.report(finding.label(place(earlier.span), "with this"));
-            }
+        for (literal, earlier) in contradictions(&literals) {
+            let message = "this can never hold together with another part";
+            let finding = Finding::new(&LINT, place(literal.span), message);
+            found.report(finding.label(place(earlier.span), "with this"));
         }
     }
 }

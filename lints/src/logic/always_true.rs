@@ -3,7 +3,7 @@
 use pddl::Explanation;
 
 use super::always_false::verdict;
-use super::literals::{Group, Literal, groups};
+use super::literals::{Group, Literal, contradictions, groups};
 use crate::finding::Findings;
 use crate::lint::Check;
 use crate::view::{DomainView, ProblemView};
@@ -58,11 +58,9 @@ fn check(groups: &[Group<'_>], place: fn(pddl::Span) -> Place, found: &mut Findi
         }
         let Group::Any(parts) = group else { continue };
         let literals: Vec<Literal> = parts.iter().filter_map(|part| Literal::of(part)).collect();
-        for (i, literal) in literals.iter().enumerate() {
-            if let Some(earlier) = literals[..i].iter().find(|l| l.contradicts(literal)) {
-                let finding = Finding::new(&LINT, place(literal.span), "this or another part always holds");
-                found.report(finding.label(place(earlier.span), "or this"));
-            }
+        for (literal, earlier) in contradictions(&literals) {
+            let finding = Finding::new(&LINT, place(literal.span), "this or another part always holds");
+            found.report(finding.label(place(earlier.span), "or this"));
         }
     }
 }

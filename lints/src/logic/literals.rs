@@ -2,6 +2,7 @@
 
 use pddl::Span;
 use pddl::model::{Atom, Condition, ConditionKind, PredicateId, Term};
+use rustc_hash::FxHashMap;
 
 /// What is true or false.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -48,6 +49,16 @@ impl Literal {
     pub(super) fn repeats(&self, other: &Self) -> bool {
         self.fact == other.fact && self.positive == other.positive
     }
+}
+
+/// Literals that contradict an earlier one, with the first such.
+pub(super) fn contradictions(literals: &[Literal]) -> impl Iterator<Item = (&Literal, &Literal)> {
+    // A large goal is compared by hashing.
+    let mut first: FxHashMap<(&Fact, bool), &Literal> = FxHashMap::default();
+    literals.iter().filter_map(move |literal| {
+        first.entry((&literal.fact, literal.positive)).or_insert(literal);
+        first.get(&(&literal.fact, !literal.positive)).map(|&earlier| (literal, earlier))
+    })
 }
 
 /// The parts of a conjunction, conjunctions in it flattened.

@@ -98,14 +98,19 @@ impl Rows {
 struct Index {
     relation: RelationId,
     positions: Box<[usize]>,
-    buckets: FxHashMap<u64, Vec<u32>>,
+    /// The newest row of each key.
+    newest: FxHashMap<u64, u32>,
+    /// The next older row of the same key, by row.
+    older: Vec<u32>,
 }
 
 impl Index {
     fn file(&mut self, rows: &Rows, row: u32) {
         let values = rows.row(self.relation, row);
         let key = hash(self.positions.iter().map(|&p| values[p]));
-        self.buckets.entry(key).or_default().push(row);
+        let before = self.newest.insert(key, row).unwrap_or(NONE);
+        debug_assert_eq!(self.older.len(), row as usize, "rows are filed in order");
+        self.older.push(before);
     }
 }
 
@@ -137,7 +142,8 @@ impl Indices {
             return i;
         }
         own.push(self.all.len());
-        let mut index = Index { relation, positions: positions.into(), buckets: FxHashMap::default() };
+        let mut index =
+            Index { relation, positions: positions.into(), newest: FxHashMap::default(), older: Vec::new() };
         (0..visible).for_each(|row| index.file(rows, row));
         self.all.push(index);
         self.all.len() - 1
@@ -146,13 +152,18 @@ impl Indices {
     /// Rows per key, on average.
     pub(crate) fn fan_out(&self, index: usize, rows: &Rows) -> f64 {
         let index = &self.all[index];
-        f64::from(rows.count(index.relation)) / index.buckets.len().max(1) as f64
+        f64::from(rows.count(index.relation)) / index.newest.len().max(1) as f64
     }
 
-    /// Rows that may have these values at the index's positions.
-    pub(crate) fn bucket(&self, index: usize, values: impl Fn(usize) -> u32) -> &[u32] {
+    /// Rows that may have these values at the index's positions, the newest first.
+    pub(crate) fn bucket(
+        &self,
+        index: usize,
+        values: &dyn Fn(usize) -> u32,
+    ) -> impl Iterator<Item = u32> + use<'_> {
         let index = &self.all[index];
         let key = hash(index.positions.iter().map(|&p| values(p)));
-        index.buckets.get(&key).map_or(&[], Vec::as_slice)
+        let next = |&row: &u32| Some(index.older[row as usize]).filter(|&older| older != NONE);
+        std::iter::successors(index.newest.get(&key).copied(), next)
     }
 }

@@ -14,7 +14,7 @@ use super::database::{RelationId, Rows};
 use super::join::Exhausted;
 use super::relax::{Knowledge, expected};
 use super::rule::Check;
-use super::world::{Range, UNBOUND, World, resolve};
+use super::world::{Range, UNBOUND, World, resolve, with_row};
 
 /// What conditions are evaluated with, beside the rows.
 pub(crate) struct Evaluator<'a> {
@@ -42,8 +42,7 @@ impl Evaluator<'_> {
                 a != resolve(*b, binding) || self.world.is_abstract(a)
             }
             Check::Absent(pattern) => {
-                let row: Vec<u32> = pattern.arguments.iter().map(|&t| resolve(t, binding)).collect();
-                !rows.is_initial(pattern.relation, &row)
+                !with_row(&pattern.arguments, binding, |row| rows.is_initial(pattern.relation, row))
             }
             Check::Compare(polarity, comparison, sides, _) => {
                 let object = |t: Term| Some(resolve(t, binding)).filter(|&o| o != UNBOUND);
@@ -104,8 +103,7 @@ impl Evaluator<'_> {
             }
             (ConditionKind::Atom(atom), _) => {
                 let relation = self.predicates[atom.predicate.index()];
-                let row: Vec<u32> = atom.arguments.iter().map(|&t| resolve(t, binding)).collect();
-                Ok(self.literal(rows, relation, &row, polarity))
+                Ok(with_row(&atom.arguments, binding, |row| self.literal(rows, relation, row, polarity)))
             }
             (ConditionKind::FluentIs(application, value), _) => {
                 let relation = self.fluents[application.function.index()];

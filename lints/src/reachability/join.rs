@@ -10,7 +10,7 @@ use super::database::{Indices, RelationId, Rows};
 use super::evaluate::Evaluator;
 use super::relax::slots_of;
 use super::rule::{Check, Rule};
-use super::world::{UNBOUND, resolve};
+use super::world::{UNBOUND, resolve, with_row};
 
 /// One step of a plan.
 #[derive(Clone, Debug)]
@@ -173,10 +173,11 @@ impl<S: Sink> Join<'_, S> {
             }
             Step::Probe(atom) => {
                 let pattern = &self.rule.body[*atom];
-                let row: Vec<u32> = pattern.arguments.iter().map(|&t| resolve(t, binding)).collect();
-                match self.rows.find(pattern.relation, &row) {
-                    Some(_) => self.run(at + 1, decided, binding),
-                    None => Ok(false),
+                let known = |row: &[u32]| self.rows.find(pattern.relation, row).is_some();
+                if with_row(&pattern.arguments, binding, known) {
+                    self.run(at + 1, decided, binding)
+                } else {
+                    Ok(false)
                 }
             }
             Step::Enumerate(slot) => {
@@ -198,9 +199,9 @@ impl<S: Sink> Join<'_, S> {
             Step::Scan { atom, index, binds } => {
                 let pattern = &self.rule.body[*atom];
                 let value = |p: usize| resolve(pattern.arguments[p], binding);
-                let candidates = self.indices.bucket(*index, value);
+                let candidates = self.indices.bucket(*index, &value);
                 let mut any = false;
-                for &candidate in candidates {
+                for candidate in candidates {
                     *self.left = self.left.checked_sub(1).ok_or(Exhausted)?;
                     binds.iter().for_each(|&s| binding[s] = UNBOUND);
                     let row = self.rows.row(pattern.relation, candidate);

@@ -31,15 +31,19 @@ use crate::numbers::Numbers;
 use compile::Compiled;
 use database::{Indices, RelationId, Rows};
 use join::{Exhausted, Join, Sink, Step};
+use rule::Rule;
 pub(crate) use rule::{Origin, Part, Schema};
-use rule::{Pattern, Rule};
 pub(crate) use text::{Words, listed, shortened};
 pub(crate) use why::{Cause, DeadGoal, Link, Nature, Piece};
 pub(crate) use world::World;
-use world::{UNBOUND, resolve};
+use world::{UNBOUND, with_row};
 
-/// Join steps before there is no answer: about a tenth of a second when optimised.
+/// Join steps before there is no answer: some 50 ms when optimised.
 const STEPS: u64 = 4_000_000;
+/// Join steps of all questions for reasons together.
+const REASONS: u64 = 3_000_000;
+/// What a new row costs, in steps: it goes into the relation and all its indices, each somewhere else in memory.
+const ROW: u64 = 1;
 
 /// The fixpoint.
 pub(crate) struct Reachability<'a> {
@@ -48,13 +52,16 @@ pub(crate) struct Reachability<'a> {
     /// By rule.
     fired: Vec<bool>,
     left: u64,
+    /// Steps that questions may still take.
+    reasons: u64,
 }
 
 impl<'a> Reachability<'a> {
     /// Computes it; `None` if the budget does not suffice.
     pub(crate) fn new(world: &Rc<World<'a>>, numbers: &Rc<Numbers>) -> Option<Self> {
         let compiled = compile::compile(world, numbers);
-        let mut all = Self { compiled, indices: Indices::default(), fired: Vec::new(), left: STEPS };
+        let mut all =
+            Self { compiled, indices: Indices::default(), fired: Vec::new(), left: STEPS, reasons: REASONS };
         all.saturate(0).ok()?;
         let first = all.compiled.rules.len();
         all.compiled.hierarchy();
@@ -82,7 +89,7 @@ impl<'a> Reachability<'a> {
 
     /// Runs the rules from `first` on to their fixpoint; what others derive is complete by then.
     fn saturate(&mut self, first: usize) -> Result<(), Exhausted> {
-        let Self { compiled: Compiled { evaluator, rows, rules, .. }, indices, fired, left } = self;
+        let Self { compiled: Compiled { evaluator, rows, rules, .. }, indices, fired, left, .. } = self;
         fired.resize(rules.len(), false);
         let mut changing = vec![false; rows.relations()];
         for head in rules[first..].iter().flat_map(|r| &r.heads) {
@@ -129,15 +136,18 @@ impl<'a> Reachability<'a> {
             Join { rule, steps, rows, indices, evaluator, left, sink }.run(0, false, &mut binding)?;
         }
         let mut next = 0;
+        let mut binding = Vec::new();
         loop {
             while let Some(&(relation, row)) = queue.get(next) {
                 next += 1;
+                *left = left.checked_sub(ROW).ok_or(Exhausted)?;
                 indices.publish(rows, relation, row);
                 published[relation.0 as usize] = row + 1;
                 for trigger in &mut triggers[relation.0 as usize] {
                     let rule = &rules[trigger.rule];
                     *left = left.checked_sub(1).ok_or(Exhausted)?;
-                    let mut binding = vec![UNBOUND; rule.slots.len()];
+                    binding.clear();
+                    binding.resize(rule.slots.len(), UNBOUND);
                     if !join::unify(
                         rule,
                         &rule.body[trigger.atom].arguments,
@@ -204,19 +214,20 @@ struct Derive<'a> {
     pending: &'a mut FxHashSet<(usize, Box<[u32]>)>,
 }
 
-fn row_of(pattern: &Pattern, binding: &[u32]) -> Vec<u32> {
-    pattern.arguments.iter().map(|&t| resolve(t, binding)).collect()
-}
-
 impl Sink for Derive<'_> {
     fn wanted(&mut self, rows: &Rows, binding: &[u32]) -> bool {
-        !*self.fired || self.rule.heads.iter().any(|h| rows.find(h.relation, &row_of(h, binding)).is_none())
+        !*self.fired
+            || self
+                .rule
+                .heads
+                .iter()
+                .any(|h| with_row(&h.arguments, binding, |row| rows.find(h.relation, row).is_none()))
     }
 
     fn found(&mut self, rows: &mut Rows, binding: &[u32]) {
         *self.fired = true;
         for head in &self.rule.heads {
-            if let Some(row) = rows.insert(head.relation, &row_of(head, binding)) {
+            if let Some(row) = with_row(&head.arguments, binding, |row| rows.insert(head.relation, row)) {
                 self.queue.push((head.relation, row));
             }
         }

@@ -4,7 +4,7 @@
 //! everything behind it. Idea: of the atoms and checks of a rule find a smallest part that no binding
 //! satisfies. If it is one atom, ask the rules that could make it true, with the values that it gives
 //! them; if nothing could, that is the root. Cost: a join per atom and step of the chain, each with a
-//! budget; without an answer the chain ends with what is known.
+//! budget, and all together with one; without an answer the chain ends with what is known.
 //!
 //! Source: minimal unsatisfiable parts by deletion: Chinneck & Dravnieks, "Locating minimal
 //! infeasible constraint sets in linear programs", ORSA Journal on Computing 1991.
@@ -136,12 +136,17 @@ impl<'a> Reachability<'a> {
         let changing = vec![false; rows.relations()];
         let count = |relation: RelationId| rows.count(relation);
         let steps = plan(rule, &mut bound, None, &changing, rows, &mut self.indices, &count);
-        let (mut left, mut sink) = (STEPS, Exists(false));
+        let granted = STEPS.min(self.reasons);
+        let (mut left, mut sink) = (granted, Exists(false));
         let (steps, sink_) = (&steps[..], &mut sink);
         let indices = &self.indices;
-        Join { rule, steps, rows, indices, evaluator, left: &mut left, sink: sink_ }
-            .run(0, false, &mut given.to_vec())
-            .ok()?;
+        let whole = Join { rule, steps, rows, indices, evaluator, left: &mut left, sink: sink_ }.run(
+            0,
+            false,
+            &mut given.to_vec(),
+        );
+        self.reasons -= granted - left;
+        whole.ok()?;
         Some(sink.0)
     }
 

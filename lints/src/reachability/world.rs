@@ -101,6 +101,19 @@ impl<'a> World<'a> {
     }
 }
 
+/// Hands over the row that terms are under a binding. Joins do this all the time: short rows need no memory of
+/// their own.
+pub(crate) fn with_row<R>(terms: &[Term], binding: &[u32], then: impl FnOnce(&[u32]) -> R) -> R {
+    let mut short = [UNBOUND; 8];
+    match short.get_mut(..terms.len()) {
+        Some(row) => {
+            row.iter_mut().zip(terms).for_each(|(value, &term)| *value = resolve(term, binding));
+            then(row)
+        }
+        None => then(&terms.iter().map(|&term| resolve(term, binding)).collect::<Vec<u32>>()),
+    }
+}
+
 /// The object that a term is, [`UNBOUND`] for a variable without a value.
 pub(crate) fn resolve(term: Term, binding: &[u32]) -> u32 {
     match term {

@@ -62,8 +62,6 @@ pub(crate) static LINT: Lint = Lint {
 fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
     let (mut held, mut different) = (Vec::new(), Vec::new());
     literals(&view.problem.goal, &mut held, &mut different);
-    // A long goal has many pairs, and nobody writes a mistake a thousand times.
-    held.truncate(2_000);
     let domain = view.domain.domain;
     let variables = &view.problem.goal_variables;
     let Some((a, b, exclusion, instance)) = find(view.analysis(), domain, variables, &held, &different)

@@ -1,9 +1,13 @@
 //! Two atoms that an invariant lets never hold together.
 
 use pddl::model::{Atom, Domain, ObjectId, Term, Variables};
+use rustc_hash::FxHashMap;
 
 use crate::analysis::{Analysis, Exclusion};
 use crate::invariants::differ;
+
+/// Atoms of one instance that another one is compared with.
+const MOST: usize = 16;
 
 /// Two of the atoms that exclude each other, with the reason; `parameters` are in their terms.
 pub(crate) fn find<'a>(
@@ -14,14 +18,13 @@ pub(crate) fn find<'a>(
     different: &[(Term, Term)],
 ) -> Option<(&'a Atom, &'a Atom, &'a Exclusion, Vec<Term>)> {
     for exclusion in &analysis.exclusions {
-        let members: Vec<_> =
-            held.iter().filter_map(|a| Some((*a, exclusion.invariant.member(a.predicate)?))).collect();
-        for (i, (b, b_member)) in members.iter().enumerate() {
-            for (a, a_member) in &members[..i] {
-                let instance = a_member.instance(&a.arguments);
-                if instance != b_member.instance(&b.arguments) {
-                    continue;
-                }
+        let members = held.iter().filter_map(|a| Some((*a, exclusion.invariant.member(a.predicate)?)));
+        // A long goal is about many instances, and only within one can atoms exclude each other.
+        let mut instances: FxHashMap<Vec<Term>, Vec<&Atom>> = FxHashMap::default();
+        for (b, member) in members {
+            let instance = member.instance(&b.arguments);
+            let before = instances.entry(instance.clone()).or_default();
+            for &a in before.iter().take(MOST) {
                 let apart = a.predicate != b.predicate
                     || a.arguments
                         .iter()
@@ -31,6 +34,7 @@ pub(crate) fn find<'a>(
                     return Some((a, b, exclusion, instance));
                 }
             }
+            before.push(b);
         }
     }
     None
