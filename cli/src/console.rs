@@ -25,6 +25,33 @@ pub struct Console<'a> {
     result_width: Option<usize>,
 }
 
+/// What was said on another thread, to be said in its turn.
+#[derive(Debug, Default)]
+pub(crate) struct Said {
+    out: Vec<u8>,
+    err: Vec<u8>,
+}
+
+/// How a console says things.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Manner {
+    form: Form,
+    colour: bool,
+    result_colour: bool,
+}
+
+impl Manner {
+    /// A console that keeps what is said until [`Console::replay`].
+    pub(crate) fn console(self, said: &mut Said) -> Console<'_> {
+        let Said { out, err } = said;
+        let mut console = Console::new(out, err);
+        console.form = self.form;
+        console.colour = self.colour;
+        console.result_colour = self.result_colour;
+        console
+    }
+}
+
 impl<'a> Console<'a> {
     /// Writes to `out` and `err`, without colours.
     pub fn new(out: &'a mut dyn Write, err: &'a mut dyn Write) -> Self {
@@ -49,6 +76,17 @@ impl<'a> Console<'a> {
             result_colour: wanted && io::stdout().is_terminal(),
             result_width: terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| width.0.into()),
         }
+    }
+
+    /// How this one says things, for consoles on other threads.
+    pub(crate) fn manner(&self) -> Manner {
+        Manner { form: self.form, colour: self.colour, result_colour: self.result_colour }
+    }
+
+    /// Says what was kept.
+    pub(crate) fn replay(&mut self, said: &Said) {
+        dropped(self.err.write_all(&said.err));
+        dropped(self.out.write_all(&said.out));
     }
 
     /// The form of results.

@@ -17,7 +17,7 @@
 //!
 //! Members: `arguments` (the tree of commands), `run`, `plan`, `validate`, `check`, `test`, `fmt`, `lsp`, `explain` (one each),
 //! `task` (a domain with its problem, read from files), `assemble` (a mission, from its folder to what runs it),
-//! `scenario`, `files`, `disk` (mission folders), `memory`, `clock`, `render`
+//! `scenario`, `pool` (work on all cores), `files`, `disk` (mission folders), `memory`, `clock`, `render`
 //! (diagnostics as text with excerpts, or as JSON), `console` and `exit`.
 
 mod arguments;
@@ -33,6 +33,7 @@ mod fmt;
 mod lsp;
 mod memory;
 mod plan;
+mod pool;
 mod render;
 mod run;
 mod scenario;

@@ -62,6 +62,6 @@ pub use verdict::{
     StepIndex, Unsatisfied, Unsupported, Valid, Verdict,
 };
 pub use words::{
-    File, Finding, Place, explain, show_application, show_atom, show_cause, show_diff, show_preference,
-    show_step, show_timed_step,
+    File, Finding, Place, cause_place, cause_time, explain, show_application, show_atom, show_cause,
+    show_diff, show_object, show_preference, show_step, show_timed_step,
 };

@@ -8,7 +8,7 @@ use crate::prepare::each_guard;
 use crate::run::{End, Validator, precondition};
 use crate::scene::{Binding, Clock};
 use crate::state::State;
-use crate::trace::{Diff, Happening, Trace};
+use crate::trace::{Diff, Happening, Recorder, Trace};
 use crate::trajectory::Since;
 use crate::verdict::{Failure, StepFault, StepIndex, Valid};
 use pddl::model::{Action, ActionId, IndexVec};
@@ -28,12 +28,14 @@ pub(crate) fn run(
         changes: Changes::default(),
         binding: Binding::default(),
     };
+    let mut recorder = trace.as_mut().map(|trace| Recorder::new(validator, run.state, &mut trace.initial));
     run.observe(0);
     let mut steps = 0;
     for step in &plan.steps {
         let mut diff = trace.is_some().then(Diff::default);
         run.step(StepIndex(steps), step, diff.as_mut())?;
-        if let (Some(trace), Some(diff)) = (&mut trace, diff) {
+        if let (Some(trace), Some(recorder), Some(mut diff)) = (&mut trace, &mut recorder, diff) {
+            recorder.after(validator, run.state, steps + 1, &mut diff);
             let time = Number::integer(i64::from(steps) + 1);
             trace.happenings.push(Happening { time, causes: vec![Cause::Step(StepIndex(steps))], diff });
         }

@@ -107,6 +107,11 @@ impl Relation {
         }
     }
 
+    /// The tuples that hold, in order of first appearance.
+    pub(crate) fn holding(&self) -> impl Iterator<Item = &[ObjectId]> {
+        self.records.iter().filter(|(_, record)| record.holds).map(|(arguments, _)| &**arguments)
+    }
+
     pub(crate) fn clear(&mut self) {
         self.records.clear();
         for position in &mut self.positions {
@@ -184,6 +189,11 @@ impl State {
 
     pub(crate) fn fluent(&self, application: &GroundApplication) -> Option<Value> {
         self.fluents.get(application).copied()
+    }
+
+    /// All that have a value, in no order.
+    pub(crate) fn fluents(&self) -> impl Iterator<Item = (&GroundApplication, Value)> {
+        self.fluents.iter().map(|(fluent, &value)| (fluent, value))
     }
 
     /// Gives a fluent a value, or takes it away.

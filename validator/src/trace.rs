@@ -1,9 +1,15 @@
-//! What each step changed. Continuous change is seen in the next step's values only.
+//! What each step changed.
+//!
+//! Effects note what they change while they are made. What follows by axioms and what changes continuously is seen
+//! by a [`Recorder`], which compares the state with the one that it saw before: only a trace pays for that, and only
+//! where a domain has axioms, or a plan times.
 
 use crate::cause::Cause;
 use crate::number::Number;
-use crate::state::{GroundAtom, Value};
-use pddl::model::GroundApplication;
+use crate::run::Validator;
+use crate::state::{GroundAtom, Moment, Relation, State, Value};
+use pddl::model::{GroundApplication, IndexVec, PredicateId};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// A fluent that got another value.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -16,7 +22,7 @@ pub struct FluentChange {
     pub after: Option<Value>,
 }
 
-/// What one step changed, in the order of its effects. Derived atoms are not listed.
+/// What one step changed, in the order of its effects.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Diff {
     /// Atoms that did not hold and now do.
@@ -25,6 +31,12 @@ pub struct Diff {
     pub deleted: Vec<GroundAtom>,
     /// Fluents with another value.
     pub fluents: Vec<FluentChange>,
+    /// Atoms that follow by axioms now and did not.
+    pub derived: Vec<GroundAtom>,
+    /// Atoms that followed and no longer do.
+    pub no_longer_derived: Vec<GroundAtom>,
+    /// Fluents that no event set and that had another value just before than after the last happening.
+    pub flowed: Vec<FluentChange>,
 }
 
 /// What happened at one time: a step, or what a plan with times does at once.
@@ -41,6 +53,78 @@ pub struct Happening {
 /// Everything that happened before the plan ended or failed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Trace {
+    /// What holds before the first one: nothing is deleted, and no fluent has a value before.
+    pub initial: Diff,
     /// In order of time.
     pub happenings: Vec<Happening>,
+}
+
+/// Sees what happens to a state besides effects.
+#[derive(Debug)]
+pub(crate) struct Recorder {
+    derived: FxHashSet<GroundAtom>,
+    fluents: FxHashMap<GroundApplication, Value>,
+}
+
+impl Recorder {
+    /// Sees the initial state, and writes it down.
+    pub(crate) fn new(validator: &Validator<'_>, state: &mut State, initial: &mut Diff) -> Self {
+        let mut recorder = Self { derived: FxHashSet::default(), fluents: FxHashMap::default() };
+        initial.added = atoms(&state.facts);
+        recorder.after(validator, state, 0, initial);
+        recorder.before(state, initial);
+        initial.fluents = std::mem::take(&mut initial.flowed);
+        recorder.settle(state);
+        recorder
+    }
+
+    /// Sees the state just before a happening of a plan with times.
+    pub(crate) fn before(&self, state: &State, diff: &mut Diff) {
+        for (fluent, value) in state.fluents() {
+            let before = self.fluents.get(fluent).copied();
+            let noted = || diff.fluents.iter().any(|change| change.fluent == *fluent);
+            if before != Some(value) && !noted() {
+                let fluent = fluent.clone();
+                diff.flowed.push(FluentChange { fluent, before, after: Some(value) });
+            }
+        }
+        diff.flowed.sort_by(|a, b| {
+            let key = |change: &FluentChange| change.fluent.function;
+            key(a).cmp(&key(b)).then_with(|| a.fluent.arguments.cmp(&b.fluent.arguments))
+        });
+    }
+
+    /// Sees the state right after a happening.
+    pub(crate) fn after(
+        &mut self,
+        validator: &Validator<'_>,
+        state: &mut State,
+        now: Moment,
+        diff: &mut Diff,
+    ) {
+        if validator.domain.axioms.is_empty() {
+            return;
+        }
+        validator.derive(state, now);
+        let derived = atoms(&state.derived);
+        diff.derived = derived.iter().filter(|atom| !self.derived.contains(atom)).cloned().collect();
+        let derived: FxHashSet<GroundAtom> = derived.into_iter().collect();
+        diff.no_longer_derived = self.derived.difference(&derived).cloned().collect();
+        diff.no_longer_derived.sort();
+        self.derived = derived;
+    }
+
+    /// Remembers values for the next [`Recorder::before`].
+    pub(crate) fn settle(&mut self, state: &State) {
+        self.fluents.clear();
+        self.fluents.extend(state.fluents().map(|(fluent, value)| (fluent.clone(), value)));
+    }
+}
+
+fn atoms(relations: &IndexVec<PredicateId, Relation>) -> Vec<GroundAtom> {
+    let mut all = Vec::new();
+    for (predicate, relation) in relations.enumerate() {
+        all.extend(relation.holding().map(|arguments| GroundAtom { predicate, arguments: arguments.into() }));
+    }
+    all
 }

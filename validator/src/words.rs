@@ -11,7 +11,7 @@ use crate::preference::ViolatedPreference;
 use crate::run::PlanRef;
 use crate::state::{GroundAtom, Value};
 use crate::temporal;
-use crate::trace::Diff;
+use crate::trace::{Diff, FluentChange};
 use crate::trajectory::Breach;
 use crate::verdict::{
     ChangeFault, EffectFault, Failure, Feature, IllFormed, Operand, Shared, StepFault, StepIndex,
@@ -135,6 +135,26 @@ pub fn show_cause<'p>(
     Words { domain, problem, plan: plan.into() }.cause(cause)
 }
 
+/// Where what happened stands.
+pub fn cause_place<'p>(
+    domain: &Domain,
+    problem: &Problem,
+    plan: impl Into<PlanRef<'p>>,
+    cause: Cause,
+) -> Place {
+    Words { domain, problem, plan: plan.into() }.cause_place(cause)
+}
+
+/// When it happened, in seconds; `None` for events and in plans without times.
+pub fn cause_time<'p>(
+    domain: &Domain,
+    problem: &Problem,
+    plan: impl Into<PlanRef<'p>>,
+    cause: Cause,
+) -> Option<Number> {
+    Words { domain, problem, plan: plan.into() }.time(cause)
+}
+
 /// A violated preference: `p1 (?x = a)`.
 pub fn show_preference(problem: &Problem, violated: &ViolatedPreference) -> String {
     let name = violated.name.as_ref().map_or("a preference without a name", Name::as_str);
@@ -145,27 +165,41 @@ pub fn show_preference(problem: &Problem, violated: &ViolatedPreference) -> Stri
 }
 
 fn show_binding(problem: &Problem, binding: &[(Name, ObjectId)]) -> String {
-    let value = |(name, object): &(Name, ObjectId)| format!("?{name} = {}", show_object(*object, problem));
+    let value = |(name, object): &(Name, ObjectId)| format!("?{name} = {}", show_object(problem, *object));
     binding.iter().map(value).collect::<Vec<_>>().join(", ")
 }
 
-/// A step's changes, one a line: `+ (at b)`, `- (at a)`, `(fuel) 3 -> 2`.
+/// A step's changes, one a line: `+ (at b)`, `- (at a)`, `  (fuel) 3 -> 2`; what follows by axioms is
+/// `+ (near b), which follows`, what changed by itself before `  (level) 1 -> 2, continuously`.
 pub fn show_diff(domain: &Domain, problem: &Problem, diff: &Diff) -> Vec<String> {
     let value = |value: Option<Value>| match value {
         None => "undefined".to_owned(),
         Some(Value::Number(number)) => number.to_string(),
-        Some(Value::Object(object)) => show_object(object, problem),
+        Some(Value::Object(object)) => show_object(problem, object),
     };
-    let deleted = diff.deleted.iter().map(|atom| format!("- {}", show_atom(domain, problem, atom)));
-    let added = diff.added.iter().map(|atom| format!("+ {}", show_atom(domain, problem, atom)));
-    let fluents = diff.fluents.iter().map(|change| {
-        let fluent = show_application(domain, problem, &change.fluent);
-        format!("  {fluent} {} -> {}", value(change.before), value(change.after))
-    });
-    deleted.chain(added).chain(fluents).collect()
+    let atoms = |atoms: &[GroundAtom], sign: &str, how: &str| -> Vec<String> {
+        atoms.iter().map(|atom| format!("{sign} {}{how}", show_atom(domain, problem, atom))).collect()
+    };
+    let fluents = |changes: &[FluentChange], how: &str| -> Vec<String> {
+        let line = |change: &FluentChange| {
+            let fluent = show_application(domain, problem, &change.fluent);
+            format!("  {fluent} {} -> {}{how}", value(change.before), value(change.after))
+        };
+        changes.iter().map(line).collect()
+    };
+    [
+        fluents(&diff.flowed, ", continuously"),
+        atoms(&diff.deleted, "-", ""),
+        atoms(&diff.added, "+", ""),
+        fluents(&diff.fluents, ""),
+        atoms(&diff.no_longer_derived, "-", ", which no longer follows"),
+        atoms(&diff.derived, "+", ", which follows"),
+    ]
+    .concat()
 }
 
-fn show_object(object: ObjectId, problem: &Problem) -> String {
+/// An object's name.
+pub fn show_object(problem: &Problem, object: ObjectId) -> String {
     problem.objects.get(object).map_or_else(|| "?".to_owned(), |o| o.name.to_string())
 }
 
@@ -173,7 +207,7 @@ fn show_list(name: &Name, arguments: &[ObjectId], problem: &Problem) -> String {
     let mut text = format!("({name}");
     for &argument in arguments {
         text.push(' ');
-        text.push_str(&show_object(argument, problem));
+        text.push_str(&show_object(problem, argument));
     }
     text.push(')');
     text
@@ -205,7 +239,7 @@ impl Words<'_> {
     }
 
     fn object(&self, object: ObjectId) -> String {
-        show_object(object, self.problem)
+        show_object(self.problem, object)
     }
 
     fn binding(&self, binding: &[(Name, ObjectId)]) -> String {

@@ -17,7 +17,6 @@
 
 mod find;
 mod init;
-mod pool;
 mod report;
 mod watch;
 
@@ -26,6 +25,7 @@ use crate::console::Console;
 use crate::disk;
 use crate::exit::Exit;
 use crate::memory;
+use crate::pool;
 use crate::render::Message;
 use clap::Args;
 use project::Finding;

@@ -27,7 +27,7 @@ use crate::number::Number;
 use crate::run::{End, Validator};
 use crate::scene::{Binding, Clock};
 use crate::state::{Moment, State};
-use crate::trace::{Diff, Happening, Trace};
+use crate::trace::{Diff, Happening, Recorder, Trace};
 use crate::trajectory::Since;
 use crate::verdict::{ChangeFault, Failure, StepIndex, Valid};
 use flow::{Flow, Present};
@@ -64,6 +64,7 @@ pub(crate) fn run(
         recent: Vec::new(),
         unrests: 0,
     };
+    let mut recorder = trace.as_mut().map(|trace| Recorder::new(validator, run.state, &mut trace.initial));
     if run.has_nature() {
         let due = run.nature(run.now).events;
         run.events(due, None)?;
@@ -72,12 +73,18 @@ pub(crate) fn run(
     for happening in points.chunk_by(|a, b| a.time == b.time) {
         let mut diff = trace.is_some().then(Diff::default);
         run.flow_to(happening[0].time, diff.as_mut())?;
+        if let (Some(recorder), Some(diff)) = (&recorder, &mut diff) {
+            recorder.before(run.state, diff);
+        }
         run.happening(happening, crowded(&points, happening, validator.precision.separation), diff.as_mut())?;
         if run.has_nature() {
             let due = run.nature(run.now).events;
             run.events(due, diff.as_mut())?;
         }
-        if let (Some(trace), Some(diff)) = (&mut trace, diff) {
+        if let (Some(trace), Some(recorder), Some(mut diff)) = (&mut trace, &mut recorder, diff) {
+            let moment = run.moment();
+            recorder.after(validator, run.state, moment, &mut diff);
+            recorder.settle(run.state);
             let causes = happening.iter().map(|point| point.what).collect();
             trace.happenings.push(Happening { time: run.now, causes, diff });
         }

@@ -9,16 +9,20 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 
 /// How many pieces of work are done at once.
-pub(super) fn width() -> usize {
+pub(crate) fn width() -> usize {
     std::thread::available_parallelism().map_or(1, NonZero::get)
 }
 
 /// Does all the work.
-pub(super) fn in_order<W: Sync, A: Send>(
+pub(crate) fn in_order<W: Sync, A: Send>(
     work: &[W],
     answer: impl Fn(&W) -> A + Sync,
     mut done: impl FnMut(&W, A),
 ) {
+    if let [piece] = work {
+        done(piece, answer(piece));
+        return;
+    }
     let next = AtomicUsize::new(0);
     let (send, receive) = mpsc::channel();
     std::thread::scope(|scope| {
@@ -53,7 +57,7 @@ mod tests {
 
     #[test]
     fn answers_come_in_order() {
-        for count in [0, 1, 2, 100] {
+        for count in [0, 1, 2, 3, 100] {
             let work: Vec<u64> = (0..count).collect();
             let mut seen = Vec::new();
             // The first pieces take longest.

@@ -1,0 +1,127 @@
+//! One plan: read, judged, and what there is to say about it.
+
+use super::Outcome;
+use super::failure::Places;
+use super::record::{VerdictRecord, Word, happenings};
+use crate::console::{Console, Form};
+use crate::render::{At, Message, show_all};
+use crate::task::{TaskFiles, read_source};
+use pddl::{Plan, Severity, Source, parse_plan};
+use std::path::Path;
+use validator::{
+    Feature, File, Finding, Place, Trace, Unsupported, Validator, Verdict, explain, show_cause, show_diff,
+};
+
+/// A task that judges plans.
+#[derive(Clone, Copy)]
+pub(super) struct Judge<'a> {
+    pub(super) task: &'a TaskFiles,
+    pub(super) validator: &'a Result<Validator<'a>, Box<Verdict>>,
+    pub(super) trace: bool,
+}
+
+impl Judge<'_> {
+    /// Judges the plan in a file.
+    pub(super) fn plan(&self, path: &Path, console: &mut Console<'_>) -> Outcome {
+        match read_source(path, console) {
+            Ok(source) => self.source(&source, console),
+            Err(_) => {
+                VerdictRecord::of(&path.display().to_string(), Word::Unreadable).say(console);
+                Outcome { word: Word::Unreadable }
+            }
+        }
+    }
+
+    fn source(&self, source: &Source, console: &mut Console<'_>) -> Outcome {
+        let task = self.task;
+        let parsed = parse_plan(source, &task.domain, &task.problem);
+        let worst = show_all(source, &parsed.diagnostics, console);
+        let Some(plan) = parsed.model else {
+            let unsupported = worst == Some(Severity::Unsupported);
+            let word = if unsupported { Word::Unsupported } else { Word::Unreadable };
+            let mut record = VerdictRecord::of(source.name(), word);
+            record.message =
+                parsed.diagnostics.iter().find(|d| Some(d.severity) == worst).map(pddl::Diagnostic::message);
+            record.say(console);
+            return Outcome { word };
+        };
+        let (verdict, trace) = match self.validator {
+            Ok(validator) if self.trace => {
+                let (verdict, trace) = validator.trace(&plan);
+                (verdict, Some(trace))
+            }
+            Ok(validator) => (validator.validate(&plan), None),
+            Err(refusal) => ((**refusal).clone(), None),
+        };
+        let word = Word::of(&verdict);
+        let mut record = VerdictRecord::of(source.name(), word);
+        if let Verdict::Valid(valid) = &verdict {
+            record.fill(valid, &task.problem);
+        }
+        let places = Places { task, plan: &plan, source };
+        if let Some(trace) = &trace {
+            self.show_trace(&plan, trace, console);
+            let diffs = trace.happenings.iter().map(|h| show_diff(&task.domain, &task.problem, &h.diff));
+            record.trace = Some(diffs.collect());
+            record.happenings = (console.form() == Form::Json).then(|| happenings(&places, trace));
+        }
+        if let Some(finding) = explain(&task.domain, &task.problem, &plan, &verdict) {
+            if !reported_by_the_parser(&verdict) {
+                finding_message(&finding, &verdict, task, source).show(console);
+            }
+            record.message = Some(finding.sentence);
+        }
+        if let Verdict::Invalid(failure) = &verdict {
+            record.failure = (console.form() == Form::Json).then(|| places.failure(failure));
+        }
+        record.say(console);
+        Outcome { word }
+    }
+
+    fn show_trace(&self, plan: &Plan, trace: &Trace, console: &mut Console<'_>) {
+        if console.form() == Form::Json {
+            return;
+        }
+        let TaskFiles { domain, problem, .. } = self.task;
+        for happening in &trace.happenings {
+            for &cause in &happening.causes {
+                console.note(&show_cause(domain, problem, plan, cause));
+            }
+            for line in show_diff(domain, problem, &happening.diff) {
+                console.note(&format!("    {line}"));
+            }
+        }
+    }
+}
+
+/// Whether reading the files has said the same already.
+fn reported_by_the_parser(verdict: &Verdict) -> bool {
+    matches!(
+        verdict,
+        Verdict::Unsupported(Unsupported { feature: Feature::InDomain(_) | Feature::InProblem(_), .. })
+    )
+}
+
+/// A finding with its excerpts.
+pub(crate) fn finding_message<'a>(
+    finding: &Finding,
+    verdict: &Verdict,
+    task: &'a TaskFiles,
+    plan: &'a Source,
+) -> Message<'a> {
+    let at = |place: Place| At {
+        source: match place.file {
+            File::Domain => &task.domain_source,
+            File::Problem => &task.problem_source,
+            File::Plan => plan,
+        },
+        span: place.span,
+    };
+    let mut message = Message::error(finding.sentence.clone());
+    if matches!(verdict, Verdict::Unsupported(_)) {
+        message.severity = Severity::Unsupported;
+    }
+    message.at = Some(at(finding.place));
+    message.labels = finding.notes.iter().map(|(place, text)| (at(*place), text.clone())).collect();
+    message
+}

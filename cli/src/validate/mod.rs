@@ -1,0 +1,159 @@
+//! `pelea validate DOMAIN PROBLEM PLAN...` or `pelea validate FOLDER...`: one verdict a line.
+//!
+//! What is to be judged is gathered first (`gather`); then all cores judge (`judge`), and what they say comes out in
+//! the order of the plans. With several tasks a core takes a task with all its plans, so that no more tasks are in
+//! memory than there are cores; with one task it takes a plan. A last line counts the verdicts where there are
+//! several. Invariant: the exit code is 0 only if at least one plan was given and every one was read to its end
+//! and is valid.
+//!
+//! What is written as JSON is in `record` and `failure`.
+
+mod failure;
+mod gather;
+mod judge;
+mod record;
+
+pub(crate) use judge::finding_message;
+pub(crate) use record::Figure;
+
+use crate::console::{Console, Said};
+use crate::exit::Exit;
+use crate::pool;
+use crate::render::Message;
+use crate::task::TaskFiles;
+use clap::Args;
+use gather::{Fault, Group, gather};
+use judge::Judge;
+use record::{Tally, VerdictRecord, Word};
+use std::path::{Path, PathBuf};
+use validator::{Number, Precision, Validator};
+
+/// What to validate.
+#[derive(Debug, Args)]
+#[command(
+    override_usage = "pelea validate [OPTIONS] DOMAIN PROBLEM PLAN...\n       pelea validate [OPTIONS] FOLDER..."
+)]
+pub(crate) struct Arguments {
+    /// A domain, a problem and plans (`-` is standard input, a folder stands for the plan files in it); or folders
+    /// that hold domains, problems and plans.
+    #[arg(required = true, value_name = "PATH")]
+    paths: Vec<PathBuf>,
+    /// Show what each step changes.
+    #[arg(short = 'v', long, visible_alias = "verbose")]
+    trace: bool,
+    /// What is nearer than this, in seconds, must not interfere; 0 asks only of what happens at exactly one time.
+    #[arg(long, value_name = "SECONDS", default_value = "0.001", value_parser = seconds)]
+    epsilon: Number,
+    /// How far a duration may be from what it must be, in seconds: planners round what they write.
+    #[arg(long, value_name = "SECONDS", default_value = "0.01", value_parser = seconds)]
+    tolerance: Number,
+}
+
+/// A length of time, exactly as it is written.
+fn seconds(text: &str) -> Result<Number, &'static str> {
+    let decimal: pddl::Decimal = text.parse().map_err(|_| "a number of seconds such as 0.001 is wanted")?;
+    if decimal.is_negative() { Err("it must not be negative") } else { Ok(Number::from_decimal(decimal)) }
+}
+
+pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
+    let gathered = gather(arguments);
+    let mut tally = Tally::default();
+    let mut exit = Exit::Yes;
+    for fault in &gathered.faults {
+        exit = exit.and(refuse(fault, &mut tally, console));
+    }
+    if let [group] = gathered.groups.as_slice() {
+        one_task(group, arguments, Cores::All, console, |outcome| tally.count(outcome.word));
+    } else {
+        let manner = console.manner();
+        pool::in_order(
+            &gathered.groups,
+            |group| {
+                let mut said = Said::default();
+                let mut outcomes = Vec::new();
+                let mut console = manner.console(&mut said);
+                one_task(group, arguments, Cores::One, &mut console, |outcome| outcomes.push(outcome));
+                drop(console);
+                (outcomes, said)
+            },
+            |_, (outcomes, said)| {
+                console.replay(&said);
+                outcomes.iter().for_each(|outcome| tally.count(outcome.word));
+            },
+        );
+    }
+    if tally.plans() > 1 {
+        console.result(&tally.line());
+        console.record(&tally);
+    }
+    exit.and(tally.exit())
+}
+
+/// Says what cannot be judged.
+fn refuse(fault: &Fault, tally: &mut Tally, console: &mut Console<'_>) -> Exit {
+    Message::error(fault.to_string()).show(console);
+    if let Some(plan) = fault.plan() {
+        unreadable(plan, fault.to_string(), console);
+        tally.count(Word::Unreadable);
+    }
+    Exit::Unreadable
+}
+
+fn unreadable(plan: &Path, why: String, console: &mut Console<'_>) {
+    let mut record = VerdictRecord::of(&plan.display().to_string(), Word::Unreadable);
+    record.message = Some(why);
+    record.say(console);
+}
+
+/// What came of a plan.
+#[derive(Debug)]
+struct Outcome {
+    word: Word,
+}
+
+/// Who works on the plans of a task.
+#[derive(Clone, Copy, Debug)]
+enum Cores {
+    One,
+    All,
+}
+
+/// Reads a task and judges its plans; `done` is called for each of them in order.
+fn one_task(
+    group: &Group,
+    arguments: &Arguments,
+    cores: Cores,
+    console: &mut Console<'_>,
+    mut done: impl FnMut(Outcome),
+) {
+    let Ok(task) = TaskFiles::read(&group.domain, &group.problem, console) else {
+        for plan in &group.plans {
+            unreadable(plan, "its domain or problem cannot be read".to_owned(), console);
+            done(Outcome { word: Word::Unreadable });
+        }
+        return;
+    };
+    let precision = Precision { tolerance: arguments.tolerance, separation: arguments.epsilon };
+    let validator = Validator::new(&task.domain, &task.problem).map(|v| v.with_precision(precision));
+    let judge = Judge { task: &task, validator: &validator, trace: arguments.trace };
+    match cores {
+        Cores::One => group.plans.iter().for_each(|plan| done(judge.plan(plan, console))),
+        Cores::All => {
+            let manner = console.manner();
+            pool::in_order(
+                &group.plans,
+                |plan| {
+                    let mut said = Said::default();
+                    let mut console = manner.console(&mut said);
+                    let outcome = judge.plan(plan, &mut console);
+                    drop(console);
+                    (outcome, said)
+                },
+                |_, (outcome, said)| {
+                    console.replay(&said);
+                    done(outcome);
+                },
+            );
+        }
+    }
+}

@@ -1,0 +1,5 @@
+(define (problem morning)
+  (:domain rounds)
+  (:objects ward store - room bills - item)
+  (:init (at ward) (free) (in bills store) (door ward store) (door store ward))
+  (:goal (in bills ward)))

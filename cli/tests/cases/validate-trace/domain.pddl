@@ -1,0 +1,16 @@
+(define (domain bath)
+  (:requirements :durative-actions :numeric-fluents :continuous-effects :derived-predicates)
+  (:predicates (open) (dirty) (usable))
+  (:functions (level))
+  (:derived (usable)
+    (and (not (dirty)) (not (open))))
+  (:durative-action fill
+    :parameters ()
+    :duration (= ?duration 10)
+    :condition (at start (not (open)))
+    :effect (and (at start (open)) (at end (not (open))) (increase (level) (* #t 2))))
+  (:durative-action scrub
+    :parameters ()
+    :duration (= ?duration 4)
+    :condition ()
+    :effect (at end (not (dirty)))))

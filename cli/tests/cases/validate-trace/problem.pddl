@@ -1,0 +1,4 @@
+(define (problem evening)
+  (:domain bath)
+  (:init (dirty) (= (level) 0))
+  (:goal (and (usable) (>= (level) 20))))
