@@ -8,7 +8,8 @@
 //! nearer to something else than the separation is looked at.
 //!
 //! Source: Fox & Long, "PDDL2.1", JAIR 2003, Definition 12 (mutex actions, the rule of no moving
-//! targets). Deviation: conditions of conditional effects count as needed; a duration's bound does too.
+//! targets). Deviation: conditions of conditional effects and preferences count as
+//! needed; a duration's bound does too.
 
 use crate::axiom::{Strata, each_predicate};
 use crate::effect::{Changes, Write};

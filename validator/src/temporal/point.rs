@@ -124,8 +124,12 @@ impl<'v> Run<'_, 'v, '_> {
             effects: vec![&action.effect],
         };
         let mut binding = Binding::new(&action.variables, &step.arguments);
-        let deed = self.deed(Cause::Step(index), &part, &mut binding, crowded)?;
+        let mut deed = self.deed(Cause::Step(index), &part, &mut binding, crowded)?;
         for preference in &action.preferences {
+            if crowded {
+                let over = &preference.forall;
+                self.read_soft(&part, over, &preference.body, &mut binding, &mut deed.footprint);
+            }
             self.derive_for(&preference.body);
             let scene = self.validator.scene(self.state, part.variables, part.clock);
             let holds = |body: &_, binding: &mut Binding| scene.holds(body, binding);
@@ -198,6 +202,10 @@ impl<'v> Run<'_, 'v, '_> {
             _ => self.discharge(active, &mut deed)?,
         }
         for preference in action.preferences.iter().filter(|p| p.body.when == *when) {
+            if crowded {
+                let (over, body) = (&preference.forall, &preference.body.condition);
+                self.read_soft(&part, over, body, &mut active.binding, &mut deed.footprint);
+            }
             self.derive_for(&preference.body.condition);
             let scene = self.validator.scene(self.state, part.variables, part.clock);
             self.demands.violations.judge(scene, preference, &mut active.binding, |body, binding| {
@@ -205,6 +213,20 @@ impl<'v> Run<'_, 'v, '_> {
             });
         }
         Ok(deed)
+    }
+
+    /// What a preference reads: like the condition of an effect that counts its violation.
+    fn read_soft(
+        &self,
+        part: &Part<'v>,
+        over: &[VariableId],
+        body: &Condition,
+        binding: &mut Binding,
+        into: &mut Footprint,
+    ) {
+        let scene = self.validator.scene(self.state, part.variables, part.clock);
+        let reader = Reader { scene, strata: &self.validator.strata, dependencies: &self.dependencies };
+        each_instance(scene, over, binding, &mut |binding| reader.condition(body, binding, into));
     }
 
     /// What the bounds of the duration read.

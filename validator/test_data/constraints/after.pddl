@@ -1,0 +1,6 @@
+(define (problem after)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (sometime-after (at bath) (lit bath))))

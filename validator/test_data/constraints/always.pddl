@@ -1,0 +1,6 @@
+(define (problem always)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (always (not (at cell)))))

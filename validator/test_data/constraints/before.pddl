@@ -1,0 +1,6 @@
+(define (problem before)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (sometime-before (at bath) (lit hall))))

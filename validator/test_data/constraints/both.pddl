@@ -1,0 +1,6 @@
+(define (problem both)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (and (sometime (at bath)) (always (not (lit bath))))))

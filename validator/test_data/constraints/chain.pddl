@@ -1,0 +1,6 @@
+(define (problem chain)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (sometime-after (lit hall) (sometime-after (lit bath) (lit cell)))))

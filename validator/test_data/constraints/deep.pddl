@@ -1,0 +1,6 @@
+(define (problem deep)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (always (imply (at bath) (lit hall)))))

@@ -1,0 +1,6 @@
+(define (problem end)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (at end (at hall))))

@@ -1,0 +1,6 @@
+(define (problem every)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (forall (?r - room) (sometime (clean ?r)))))

@@ -1,0 +1,6 @@
+(define (problem later)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (hold-after 2 (at bath))))

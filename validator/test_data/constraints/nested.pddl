@@ -1,0 +1,6 @@
+(define (problem nested)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (sometime (and (at bath) (lit bath)))))

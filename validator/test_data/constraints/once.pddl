@@ -1,0 +1,6 @@
+(define (problem once)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (at-most-once (at bath))))

@@ -1,0 +1,6 @@
+(define (problem some)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (exists (?r - room) (always (not (at ?r))))))

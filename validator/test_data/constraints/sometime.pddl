@@ -1,0 +1,6 @@
+(define (problem sometime)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (sometime (at bath))))

@@ -1,0 +1,6 @@
+(define (problem soon)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (always-within 1 (lit hall) (lit bath))))

@@ -1,0 +1,6 @@
+(define (problem steps)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (within 2 (at bath))))

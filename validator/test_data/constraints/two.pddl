@@ -1,0 +1,6 @@
+(define (problem two)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (forall (?r - room) (at-most-once (lit ?r)))))

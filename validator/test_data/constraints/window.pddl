@@ -1,0 +1,6 @@
+(define (problem window)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (hold-during 1 3 (at bath))))

@@ -1,0 +1,35 @@
+(define (domain tanks)
+  (:requirements :durative-actions :duration-inequalities :numeric-fluents :continuous-effects)
+  (:predicates (full) (ready))
+  (:functions (level) (speed) (height) (energy))
+  (:durative-action fill
+    :parameters ()
+    :duration (>= ?duration 0)
+    :condition (over all (<= (level) 10))
+    :effect (increase (level) (* #t 2)))
+  (:durative-action leak
+    :parameters ()
+    :duration (>= ?duration 0)
+    :condition (over all (>= (level) 0))
+    :effect (decrease (level) (* #t 1)))
+  (:durative-action throw
+    :parameters ()
+    :duration (>= ?duration 0)
+    :condition (over all (>= (height) 0))
+    :effect (and
+      (at start (assign (speed) 20))
+      (decrease (speed) (* #t 10))
+      (increase (height) (* #t (speed)))))
+  (:durative-action charge
+    :parameters ()
+    :duration (>= ?duration 0)
+    :condition ()
+    :effect (increase (energy) (* #t (* (level) (speed)))))
+  (:durative-action grow
+    :parameters ()
+    :duration (>= ?duration 0)
+    :condition ()
+    :effect (increase (level) (* #t (level))))
+  (:action check-full :parameters () :precondition (>= (level) 8) :effect (full))
+  (:action check-top :parameters () :precondition (= (height) 20) :effect (ready))
+  (:action pour :parameters () :precondition () :effect (decrease (level) 5)))

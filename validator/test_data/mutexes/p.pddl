@@ -1,0 +1,4 @@
+(define (problem p)
+  (:domain mutexes)
+  (:init (a) (= (n) 2) (= (m) 0))
+  (:goal ()))

@@ -1,0 +1,4 @@
+(define (problem bright)
+  (:domain lamps)
+  (:init (powered) (lit))
+  (:goal (read)))

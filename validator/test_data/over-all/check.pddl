@@ -1,0 +1,4 @@
+(define (problem check)
+  (:domain lamps)
+  (:init (powered) (lit))
+  (:goal (spare)))

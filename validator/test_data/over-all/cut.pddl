@@ -1,0 +1,4 @@
+(define (problem cut)
+  (:domain lamps)
+  (:init (lit))
+  (:goal (read)))

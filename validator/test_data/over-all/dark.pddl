@@ -1,0 +1,4 @@
+(define (problem dark)
+  (:domain lamps)
+  (:init (powered))
+  (:goal (read)))

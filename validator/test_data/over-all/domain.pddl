@@ -1,0 +1,25 @@
+(define (domain lamps)
+  (:requirements :durative-actions :negative-preconditions)
+  (:predicates (lit) (read) (powered) (spare))
+  (:action switch-on :parameters () :precondition (powered) :effect (lit))
+  (:action switch-off :parameters () :precondition (lit) :effect (not (lit)))
+  (:durative-action read-book
+    :parameters ()
+    :duration (= ?duration 4)
+    :condition (over all (lit))
+    :effect (at end (read)))
+  (:durative-action read-own
+    :parameters ()
+    :duration (= ?duration 4)
+    :condition (over all (lit))
+    :effect (and (at start (lit)) (at end (not (lit))) (at end (read))))
+  (:durative-action inspect
+    :parameters ()
+    :duration (= ?duration 2)
+    :condition (and (at start (lit)) (at end (not (lit))))
+    :effect (at end (spare)))
+  (:durative-action flicker
+    :parameters ()
+    :duration (= ?duration 2)
+    :condition (at start (lit))
+    :effect (and (at start (not (lit))) (at end (lit)))))

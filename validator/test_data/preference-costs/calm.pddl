@@ -1,0 +1,10 @@
+(define (problem calm)
+  (:domain guests)
+  (:objects ann bob - guest)
+  (:init (quiet))
+  (:goal (served ann))
+  (:constraints (and
+    (preference always-quiet (always (quiet)))
+    (forall (?g - guest) (preference each-asked (sometime (asked ?g))))
+    (always (not (warm)))))
+  (:metric minimize (+ (* 10 (is-violated always-quiet)) (is-violated each-asked))))

@@ -1,0 +1,6 @@
+(define (problem meal)
+  (:domain guests)
+  (:objects ann bob - guest)
+  (:init (quiet))
+  (:goal (served ann))
+  (:metric minimize (+ (+ (* 100 (is-violated calm)) (* 10 (is-violated heated))) (total-time))))

@@ -1,0 +1,7 @@
+(define (problem two)
+  (:domain guests)
+  (:objects ann bob - guest)
+  (:init (quiet))
+  (:goal (and (preference warmth (warm)) (forall (?g - guest) (preference all (served ?g)))))
+  (:metric minimize (+ (+ (* 100 (is-violated warmth)) (* 10 (is-violated all)))
+                       (is-violated polite))))

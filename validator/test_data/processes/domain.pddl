@@ -1,0 +1,35 @@
+(define (domain kettles)
+  (:requirements :time :numeric-fluents :negative-preconditions)
+  (:predicates (on) (boils) (whistles) (heard) (open) (ping) (pong) (bouncing) (steps))
+  (:functions (heat) (high) (speed) (count))
+  (:action switch :parameters () :precondition (not (on)) :effect (on))
+  (:action listen :parameters () :precondition (whistles) :effect (heard))
+  (:action play :parameters () :precondition () :effect (ping))
+  (:action drop :parameters () :precondition () :effect (bouncing))
+  (:action climb :parameters () :precondition () :effect (steps))
+  (:process heating
+    :parameters ()
+    :precondition (and (on) (not (boils)))
+    :effect (increase (heat) (* #t 10)))
+  (:process falling
+    :parameters ()
+    :precondition (bouncing)
+    :effect (and (increase (high) (* #t (speed))) (decrease (speed) (* #t 10))))
+  (:event boiling :parameters () :precondition (and (>= (heat) 100) (not (boils))) :effect (boils))
+  (:event whistling :parameters () :precondition (and (boils) (not (whistles))) :effect (whistles))
+  (:event pinging
+    :parameters ()
+    :precondition (and (ping) (not (pong)))
+    :effect (and (not (ping)) (pong)))
+  (:event ponging
+    :parameters ()
+    :precondition (and (pong) (not (ping)))
+    :effect (and (not (pong)) (ping)))
+  (:event step
+    :parameters ()
+    :precondition (and (steps) (< (count) 5))
+    :effect (increase (count) 1))
+  (:event bounce
+    :parameters ()
+    :precondition (and (<= (high) 0) (< (speed) 0))
+    :effect (assign (speed) (* -0.5 (speed)))))

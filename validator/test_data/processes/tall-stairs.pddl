@@ -1,0 +1,4 @@
+(define (problem tall-stairs)
+  (:domain kettles)
+  (:init (= (heat) 20) (= (high) 5) (= (speed) 0) (= (count) 0))
+  (:goal (= (count) 6)))

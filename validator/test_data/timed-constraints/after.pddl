@@ -1,0 +1,6 @@
+(define (problem after)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (hold-after 4 (lit hall))))

@@ -1,0 +1,6 @@
+(define (problem answer)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (always-within 3 (lit hall) (at bath))))

@@ -1,0 +1,15 @@
+(define (domain rounds)
+  (:requirements :strips :typing :negative-preconditions :constraints :durative-actions
+                 :quantified-preconditions)
+  (:types room)
+  (:predicates (at ?r - room) (lit ?r - room) (clean ?r - room))
+  (:action go :parameters (?a ?b - room) :precondition (at ?a) :effect (and (at ?b) (not (at ?a))))
+  (:action light :parameters (?r - room) :precondition (at ?r) :effect (lit ?r))
+  (:action darken :parameters (?r - room) :precondition (at ?r) :effect (not (lit ?r)))
+  (:durative-action mop
+    :parameters (?r - room)
+    :duration (= ?duration 2)
+    :condition (over all (at ?r))
+    :effect (and (at start (not (clean ?r))) (at end (clean ?r))))
+  (:action sweep :parameters (?r - room) :precondition (at ?r) :effect (clean ?r))
+  (:action soil :parameters (?r - room) :precondition (at ?r) :effect (not (clean ?r))))

@@ -1,0 +1,6 @@
+(define (problem during)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (hold-during 2 6 (lit hall))))

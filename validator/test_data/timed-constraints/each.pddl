@@ -1,0 +1,6 @@
+(define (problem each)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (forall (?r - room) (always-within 2 (at ?r) (lit ?r)))))

@@ -1,0 +1,6 @@
+(define (problem either)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (or (within 1 (lit hall)) (within 9 (lit bath)))))

@@ -1,0 +1,6 @@
+(define (problem not-long)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (not (hold-during 3 5 (at bath)))))

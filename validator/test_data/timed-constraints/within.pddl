@@ -1,0 +1,6 @@
+(define (problem within)
+  (:domain rounds)
+  (:objects hall bath cell - room)
+  (:init (at hall))
+  (:goal ())
+  (:constraints (within 5 (clean hall))))
