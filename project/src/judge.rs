@@ -5,6 +5,8 @@
 //! them. Bound: with problems of more than [`MOST_LINTED`] bytes in sum the domain is looked at alone, and a
 //! larger problem not at all.
 
+use pddl::Severity;
+
 use crate::{FileKind, Finding, Linted, Place, Project, Reading, SourceId};
 
 /// Longest problems that are linted, in bytes.
@@ -13,7 +15,7 @@ const MOST_LINTED: usize = 2 << 20;
 /// What the language says, in order of place.
 pub(crate) fn language(project: &Project, id: SourceId, reading: &Reading) -> Vec<Finding> {
     let diagnostics = reading.diagnostics().iter();
-    if project.kind(id) != FileKind::Problem || project.domain_of(id).is_some() {
+    if project.kind(id) != FileKind::Problem || has_its_domain(project, id, reading) {
         return diagnostics.map(|d| Finding::of_pddl(id, d)).collect();
     }
     // Without its domain every name in it is unknown: what is said is what is missing, and what the text alone
@@ -34,6 +36,16 @@ pub(crate) fn language(project: &Project, id: SourceId, reading: &Reading) -> Ve
     }
     findings.sort_by_key(|finding| finding.place.span);
     findings
+}
+
+/// Whether a problem was read with the domain that it means. One of another name that stands beside it counts, as
+/// long as the problem has no errors with it.
+fn has_its_domain(project: &Project, id: SourceId, reading: &Reading) -> bool {
+    let wanted = project.header(id).and_then(|header| header.needs.first());
+    let found = project.domain_of(id).and_then(|domain| project.header(domain));
+    let Some(found) = found else { return false };
+    wanted.is_none_or(|wanted| wanted.name == found.name)
+        || reading.diagnostics().iter().all(|d| d.severity != Severity::Error)
 }
 
 /// What the lints say, in order of place.

@@ -23,7 +23,8 @@
 //! ```
 //!
 //! Map, from the ground up: `sources` (texts by number), `finding` (what is wrong, where), `header` (the names
-//! in a file's head), `links` (which file needs which), `file` (a file as it was read), `lint` (a domain with all
+//! in a file's head), `pairs` (which
+//! domain a problem means, which problem a plan), `links` (which file needs which), `file` (a file as it was read), `lint` (a domain with all
 //! its problems, looked at by lints), `judge` (what there is to say about a file), `project`.
 
 mod file;
@@ -32,6 +33,7 @@ mod header;
 mod judge;
 mod links;
 mod lint;
+mod pairs;
 mod project;
 mod sources;
 
@@ -39,5 +41,6 @@ pub use file::{FileKind, Reading};
 pub use finding::{Finding, Place};
 pub use header::{Header, Need};
 pub use lint::{Fix, Linted};
+pub use pairs::{Candidate, domain_for, problem_for};
 pub use project::Project;
 pub use sources::{SourceId, Sources};

@@ -3,15 +3,18 @@
 //! A problem needs the file that defines its domain, a domain those of its imports, a plan its problem. Where
 //! several files define a domain the nearest counts: in the same folder before others, then one with the same
 //! stem (`p01-domain.pddl` for `p01.pddl`), then the one whose folder has most in common, then the first. A
-//! plan belongs to the problem of its folder (or the one above) whose stem its own name starts with, or to the
-//! only problem there.
+//! problem asks `pairs` first, and where no domain near it has the name that it says, it means the only one
+//! beside it (or the one with its key) before a domain of that name far away. A plan belongs to a problem of
+//! its folder, or of the one above if there is none.
 //!
 //! Invariant: links have no cycle. Where imports go round, the one that closes the circle is left out, and the
 //! reader then says that it knows no such domain.
 
 use rustc_hash::FxHashMap;
 
+use crate::pairs::{self, Candidate};
 use crate::{FileKind, Header, SourceId};
+use std::path::Path;
 
 /// A file with its path and head.
 pub(crate) type Entry<'a> = (SourceId, &'a str, &'a Header);
@@ -42,15 +45,27 @@ pub(crate) fn links(entries: &[Entry<'_>]) -> FxHashMap<SourceId, Vec<Option<Sou
     for (i, (_, path, header)) in entries.iter().enumerate() {
         found.push(match header.kind {
             FileKind::Domain => header.needs.iter().map(|need| provider(i, &need.name)).collect(),
-            FileKind::Problem => vec![match header.needs.first() {
-                Some(need) => provider(i, &need.name),
-                None => only(&of_kind(folder(path), FileKind::Domain)),
-            }],
+            FileKind::Problem => {
+                let wanted = header.needs.first().map(|need| need.name.as_str());
+                let named = wanted.and_then(|name| domains.get(name)).map_or(&[][..], Vec::as_slice);
+                let near = near_domain(path, wanted, named, entries);
+                let beside = || {
+                    let here = of_kind(folder(path), FileKind::Domain);
+                    only(&here).or_else(|| {
+                        let key = |i: &usize| pairs::key(place(entries[*i].1));
+                        let own = pairs::key(place(path));
+                        here.iter().copied().find(|i| !own.is_empty() && key(i) == own)
+                    })
+                };
+                vec![near.or_else(beside).or_else(|| provider(i, wanted?))]
+            }
             FileKind::Plan => {
                 let here = of_kind(folder(path), FileKind::Problem);
-                let problems =
-                    if here.is_empty() { of_kind(folder(folder(path)), FileKind::Problem) } else { here };
-                vec![problem_of(path, &problems, entries)]
+                let above = if here.is_empty() { folder(folder(path)) } else { folder(path) };
+                let problems = of_kind(above, FileKind::Problem);
+                let paths: Vec<&Path> = problems.iter().map(|&i| place(entries[i].1)).collect();
+                let asked = Path::new(above).join(file_name(path));
+                vec![pairs::problem_for(&asked, &paths).map(|at| problems[at])]
             }
         });
     }
@@ -64,21 +79,22 @@ fn only(candidates: &[usize]) -> Option<usize> {
     if let [one] = candidates { Some(*one) } else { None }
 }
 
-/// The problem with the longest stem that the plan's name starts with, or the only one.
-fn problem_of(plan: &str, problems: &[usize], entries: &[Entry<'_>]) -> Option<usize> {
-    let name = file_name(plan);
-    let named = |&&i: &&usize| {
-        let rest = name.strip_prefix(stem(entries[i].1));
-        rest.is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric()))
-    };
-    let longest = problems.iter().filter(named).max_by_key(|&&i| stem(entries[i].1).len());
-    longest.copied().or_else(|| only(problems))
+/// The domain near the problem that is called as it says.
+fn near_domain(path: &str, wanted: Option<&str>, named: &[usize], entries: &[Entry<'_>]) -> Option<usize> {
+    let candidates: Vec<Candidate<'_>> =
+        named.iter().map(|&i| Candidate { path: place(entries[i].1), name: &entries[i].2.name }).collect();
+    pairs::domain_for(place(path), wanted, &candidates).map(|at| named[at])
 }
 
 /// Smaller is nearer.
 fn distance(from: &str, to: &str, order: usize) -> (bool, bool, std::cmp::Reverse<usize>, usize) {
     let shared = folder(from).split('/').zip(folder(to).split('/')).take_while(|(a, b)| a == b).count();
     (folder(from) != folder(to), !stem(to).contains(stem(from)), std::cmp::Reverse(shared), order)
+}
+
+/// `./a` is `a`.
+fn place(path: &str) -> &Path {
+    Path::new(path.trim_start_matches("./"))
 }
 
 fn folder(path: &str) -> &str {

@@ -69,7 +69,7 @@ fn the_nearest_domain_is_the_one() {
             a/b/p2-domain.pddl → 
             a/b/p2.pddl → a/b/p2-domain.pddl
             a/b/p3.pddl → a/b/p1-domain.pddl
-            a/c/p.pddl → a/b/p1-domain.pddl
+            a/c/p.pddl → a/other.pddl
             ./top.pddl → x/domain.pddl
             far/p.pddl → ?
             x/p.pddl → x/domain.pddl
@@ -257,4 +257,15 @@ fn names_are_kept_unless_they_are_not_wanted() {
     for id in [d, p, plan] {
         assert!(project.reading(id).is_some_and(|r| r.is_sound() && r.occurrences().is_empty()));
     }
+}
+
+#[test]
+fn a_domain_of_another_name_beside_a_problem_is_meant_before_one_far_away() {
+    let other = HALL.replace("domain hall", "domain room");
+    let far = "(define (domain hall) (:predicates (far)))";
+    let project = project(&[("b/p.pddl", DARK), ("b/d.pddl", &other), ("a/d.pddl", far)]);
+    expect![[r#"
+        b/p.pddl:1:33: warning[W0223]: this problem is for domain `hall`, but it is read with domain `room`
+    "#]]
+    .assert_eq(&said(&project, "b/p.pddl"));
 }

@@ -1,7 +1,7 @@
 //! `pelea check --summary PATH...`: which files of a collection can be read.
 //!
 //! A line a file, `parsed` or `failed` with the first reason, then totals by folder (the folders in the paths
-//! given) and kind. Domains are found by place and by what files are called (`pairs`), since a collection has many of one
+//! given) and kind. Domains are found by place and by what files are called (`project`), since a collection has many of one
 //! name. Nothing is looked at by lints, and missions are folders like others. A domain is a piece of work with
 //! all its problems and their plans; as many threads as the machine has cores take them one by one, and no more
 //! than one problem is in memory for each. As JSON:
@@ -14,17 +14,14 @@
 //!
 //! The last summary has `null` for its folder and counts everything.
 
-mod pairs;
-
 use crate::check::entries;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::files;
 use crate::render::Message;
-use pairs::Candidate;
 use pddl::model::{Domain, Problem};
 use pddl::{Diagnostic, Severity, Source, parse_domain, parse_plan, parse_problem};
-use project::{FileKind, Header};
+use project::{Candidate, FileKind, Header, domain_for, problem_for};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -172,13 +169,13 @@ impl<'a> Collection<'a> {
         let mut stray = Vec::new();
         for &problem in &problems {
             let wanted = entries[problem].needs.first().map(String::as_str);
-            match pairs::domain_for(&entries[problem].path, wanted, &candidates) {
+            match domain_for(&entries[problem].path, wanted, &candidates) {
                 Some(domain) => members[domains[domain]].push(problem),
                 None => stray.push(problem),
             }
         }
         for plan in of(FileKind::Plan) {
-            match pairs::problem_for(&entries[plan].path, &paths) {
+            match problem_for(&entries[plan].path, &paths) {
                 Some(problem) => members[problems[problem]].push(plan),
                 None => stray.push(plan),
             }

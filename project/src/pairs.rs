@@ -14,14 +14,16 @@ use std::path::Path;
 const WORDS: &[&str] = &["domain", "problem", "instance", "pfile", "prob", "task", "plan", "inst", "p", "d"];
 
 /// A domain that could be meant.
-pub(super) struct Candidate<'a> {
-    pub(super) path: &'a Path,
+#[derive(Clone, Copy, Debug)]
+pub struct Candidate<'a> {
+    /// Where it is.
+    pub path: &'a Path,
     /// What it is called inside.
-    pub(super) name: &'a str,
+    pub name: &'a str,
 }
 
 /// What tells files of a folder apart: `p01-domain.pddl` and `instance-1.pddl` have both the key `1`.
-pub(super) fn key(path: &Path) -> String {
+pub(crate) fn key(path: &Path) -> String {
     let stem = path.file_stem().map(|s| s.to_string_lossy().to_lowercase()).unwrap_or_default();
     let mut key = String::new();
     // Letters and digits apart: `p01` is `p` and `01`.
@@ -42,7 +44,7 @@ pub(super) fn key(path: &Path) -> String {
 }
 
 /// The domain of the problem at `path` that says that it is for the domain `wanted`; an index.
-pub(super) fn domain_for(path: &Path, wanted: Option<&str>, domains: &[Candidate<'_>]) -> Option<usize> {
+pub fn domain_for(path: &Path, wanted: Option<&str>, domains: &[Candidate<'_>]) -> Option<usize> {
     let problem_key = key(path);
     let score = |candidate: &Candidate<'_>| {
         let distance = distance(path, candidate.path)?;
@@ -55,14 +57,23 @@ pub(super) fn domain_for(path: &Path, wanted: Option<&str>, domains: &[Candidate
     scored.max_by_key(|&(score, index)| (score, std::cmp::Reverse(index))).map(|(_, index)| index)
 }
 
-/// The problem of the plan at `path`: the one with its key, else the only one in its folder.
-pub(super) fn problem_for(path: &Path, problems: &[&Path]) -> Option<usize> {
-    let beside = |p: &&Path| p.parent() == path.parent();
-    let same = problems.iter().position(|p| beside(p) && key(p) == key(path));
-    same.or_else(|| {
-        let mut here = problems.iter().enumerate().filter(|(_, p)| beside(p)).map(|(index, _)| index);
+/// The problem of the plan at `path`, of those in its folder: the one whose stem its name starts with
+/// (`p01-better.plan` for `p01.pddl`), else the one with its key, else the only one. An index.
+pub fn problem_for(path: &Path, problems: &[&Path]) -> Option<usize> {
+    let beside = || problems.iter().enumerate().filter(|(_, p)| p.parent() == path.parent());
+    let name = path.file_name().map(|n| n.to_string_lossy()).unwrap_or_default();
+    let stem = |p: &Path| p.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    let starts = |&(_, p): &(usize, &&Path)| {
+        let rest = name.strip_prefix(&*stem(p));
+        rest.is_some_and(|rest| !rest.starts_with(char::is_alphanumeric))
+    };
+    let longest = beside().filter(starts).max_by_key(|(_, p)| stem(p).len());
+    let same = longest.or_else(|| beside().find(|(_, p)| key(p) == key(path)));
+    let only = || {
+        let mut here = beside();
         here.next().filter(|_| here.next().is_none())
-    })
+    };
+    same.or_else(only).map(|(index, _)| index)
 }
 
 /// How far a domain is from a problem: steps up from the problem's folder and down again; `None` where nobody
