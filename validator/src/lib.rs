@@ -22,9 +22,11 @@
 //! From the ground up: `number` (exact arithmetic), `universe` (which objects a type has), `state`
 //! (facts and fluents, each with the step that changed it last), `expression`, `condition` and `solve`
 //! (what holds), `axiom` (what follows), `effect` (what an action does), `run` (the plan, step by step),
-//! [`Verdict`] with `why` (what was missing) and `words` (how to say it). Its cases are suites of `pelea test` in
+//! [`Verdict`] with `why` (what was missing) and `words` (how to say it). [`Repair`] is what to do about it,
+//! tried before it is said. Its cases are suites of `pelea test` in
 //! `test_data`, a folder per feature.
 
+mod advice;
 mod axiom;
 mod cause;
 mod condition;
@@ -49,6 +51,7 @@ mod verdict;
 mod why;
 mod words;
 
+pub use advice::{Budget, Repair, show_repair};
 pub use cause::Cause;
 pub use expression::NumericFault;
 pub use number::Number;

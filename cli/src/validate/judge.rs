@@ -2,14 +2,15 @@
 
 use super::Outcome;
 use super::failure::Places;
-use super::record::{VerdictRecord, Word, happenings};
+use super::record::{AdviceRecord, VerdictRecord, Word, happenings};
 use crate::console::{Console, Form};
 use crate::render::{At, Message, show_all};
 use crate::task::{TaskFiles, read_source};
 use pddl::{Plan, Severity, Source, parse_plan};
 use std::path::Path;
 use validator::{
-    Feature, File, Finding, Place, Trace, Unsupported, Validator, Verdict, explain, show_cause, show_diff,
+    Budget, Feature, File, Finding, Place, Repair, Trace, Unsupported, Validator, Verdict, explain,
+    show_cause, show_diff, show_repair,
 };
 
 /// A task that judges plans.
@@ -18,6 +19,7 @@ pub(super) struct Judge<'a> {
     pub(super) task: &'a TaskFiles,
     pub(super) validator: &'a Result<Validator<'a>, Box<Verdict>>,
     pub(super) trace: bool,
+    pub(super) advice: bool,
 }
 
 impl Judge<'_> {
@@ -65,9 +67,12 @@ impl Judge<'_> {
             record.trace = Some(diffs.collect());
             record.happenings = (console.form() == Form::Json).then(|| happenings(&places, trace));
         }
+        record.advice = self.advise(&plan, &verdict);
         if let Some(finding) = explain(&task.domain, &task.problem, &plan, &verdict) {
             if !reported_by_the_parser(&verdict) {
-                finding_message(&finding, &verdict, task, source).show(console);
+                let mut message = finding_message(&finding, &verdict, task, source);
+                message.help = record.advice.as_ref().map(|advice| advice.text.clone());
+                message.show(console);
             }
             record.message = Some(finding.sentence);
         }
@@ -76,6 +81,22 @@ impl Judge<'_> {
         }
         record.say(console);
         Outcome { word }
+    }
+
+    /// One change that was tried and helps, if that is asked for.
+    fn advise(&self, plan: &Plan, verdict: &Verdict) -> Option<AdviceRecord> {
+        let (Ok(validator), Verdict::Invalid(failure), true) = (self.validator, verdict, self.advice) else {
+            return None;
+        };
+        let repair = validator.advise(plan, failure, Budget::default())?;
+        let text = match &repair {
+            Repair::Without { span } => {
+                let part = self.task.domain_source.text().get(span.range()).unwrap_or_default();
+                format!("taking `{part}` out of the condition")
+            }
+            _ => show_repair(&self.task.domain, &self.task.problem, plan, &repair),
+        };
+        Some(AdviceRecord { change: change(&repair), text: format!("{text} makes the plan valid") })
     }
 
     fn show_trace(&self, plan: &Plan, trace: &Trace, console: &mut Console<'_>) {
@@ -91,6 +112,20 @@ impl Judge<'_> {
                 console.note(&format!("    {line}"));
             }
         }
+    }
+}
+
+/// What kind of change it is, in a word.
+const fn change(repair: &Repair) -> &'static str {
+    match repair {
+        Repair::Drop(_) => "drop",
+        Repair::Insert { .. } => "insert",
+        Repair::Move { .. } => "move",
+        Repair::Replace { .. } => "replace",
+        Repair::Shift { .. } => "shift",
+        Repair::Stretch { .. } => "stretch",
+        Repair::Initially(_) => "initially",
+        Repair::Without { .. } => "without",
     }
 }
 

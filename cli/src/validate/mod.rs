@@ -41,6 +41,9 @@ pub(crate) struct Arguments {
     /// Show what each step changes.
     #[arg(short = 'v', long, visible_alias = "verbose")]
     trace: bool,
+    /// Say of invalid plans which one change makes them valid, if one is found: it has been tried.
+    #[arg(long)]
+    advice: bool,
     /// What is nearer than this, in seconds, must not interfere; 0 asks only of what happens at exactly one time.
     #[arg(long, value_name = "SECONDS", default_value = "0.001", value_parser = seconds)]
     epsilon: Number,
@@ -135,7 +138,8 @@ fn one_task(
     };
     let precision = Precision { tolerance: arguments.tolerance, separation: arguments.epsilon };
     let validator = Validator::new(&task.domain, &task.problem).map(|v| v.with_precision(precision));
-    let judge = Judge { task: &task, validator: &validator, trace: arguments.trace };
+    let judge =
+        Judge { task: &task, validator: &validator, trace: arguments.trace, advice: arguments.advice };
     match cores {
         Cores::One => group.plans.iter().for_each(|plan| done(judge.plan(plan, console))),
         Cores::All => {

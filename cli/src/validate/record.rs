@@ -134,6 +134,8 @@ pub(super) struct VerdictRecord {
     pub(super) trace: Option<Vec<Vec<String>>>,
     pub(super) failure: Option<FailureRecord>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) advice: Option<AdviceRecord>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) happenings: Option<Vec<HappeningRecord>>,
 }
 
@@ -151,6 +153,7 @@ impl VerdictRecord {
             message: None,
             trace: None,
             failure: None,
+            advice: None,
             happenings: None,
         }
     }
@@ -190,6 +193,13 @@ impl VerdictRecord {
         console.result(&format!("{}: {}", self.plan, self.line()));
         console.record(self);
     }
+}
+
+/// A change that makes the plan valid.
+#[derive(Serialize)]
+pub(super) struct AdviceRecord {
+    pub(super) change: &'static str,
+    pub(super) text: String,
 }
 
 /// What happened at one time.
