@@ -5,7 +5,7 @@
 
 use std::rc::Rc;
 
-use pddl::model::{Domain, DurativeAction, Feature, Problem};
+use pddl::model::{Domain, DurativeAction, Problem};
 use rustc_hash::FxHashSet;
 
 use crate::invariants::{Counts, Invariant, invariants};
@@ -13,6 +13,7 @@ use crate::numbers::Numbers;
 use crate::reachability::{
     Cause, DeadGoal, Link, Nature, Origin, Part, Piece, Reachability, Schema, Words, World,
 };
+use crate::view::{all_is_seen, all_of_problem_is_seen};
 
 /// Conjuncts of a goal that are reported.
 const GOALS: usize = 5;
@@ -158,28 +159,8 @@ impl<'a> Analysis<'a> {
 }
 
 /// Whether the analyses know every part of the language that the models use.
-pub(crate) fn is_covered(words: &Words<'_>) -> bool {
-    let known = |f: &Feature| {
-        // A feature that comes later is unknown until it is named here.
-        matches!(
-            f,
-            Feature::Preferences
-                | Feature::TrajectoryConstraints
-                | Feature::TimedInitials
-                | Feature::NetworkConstraints
-                | Feature::TypePredicates
-                | Feature::Processes
-                | Feature::Events
-                | Feature::ContinuousEffects
-                | Feature::ConditionsAcrossTimes
-                | Feature::DurationAtEnd
-        )
-    };
-    let domain = words.domain.unsupported.is_empty() && words.domain.features().iter().all(|(f, _)| known(f));
-    domain
-        && words
-            .problem
-            .is_none_or(|p| p.unsupported.is_empty() && p.features().iter().all(|(f, _)| known(f)))
+fn is_covered(words: &Words<'_>) -> bool {
+    all_is_seen(words.domain) && words.problem.is_none_or(all_of_problem_is_seen)
 }
 
 /// The silent origin that a chain ends in, `i` itself if there is none but it.

@@ -2,8 +2,8 @@
 
 use pddl::Span;
 use pddl::model::{
-    Action, Axiom, Condition, Domain, DurativeAction, Effect, EffectKind, Method, SubtaskHead, TaskNetwork,
-    Term, TimeSpecifier, Variables,
+    Action, AssignOperator, Axiom, Condition, ContinuousEffect, Direction, Domain, DurativeAction, Effect,
+    EffectKind, Event, Given, Method, Process, SubtaskHead, TaskNetwork, Term, TimeSpecifier, Variables,
 };
 
 use crate::walk::{self, Part, Polarity};
@@ -15,6 +15,8 @@ pub(crate) enum Schema<'a> {
     Durative(&'a DurativeAction),
     Axiom(&'a Axiom),
     Method(&'a Method),
+    Event(&'a Event),
+    Process(&'a Process),
 }
 
 impl<'a> Schema<'a> {
@@ -26,6 +28,8 @@ impl<'a> Schema<'a> {
             Self::Durative(action) => format!("action `{}`", action.name),
             Self::Axiom(axiom) => format!("axiom of `{}`", domain.predicates[axiom.predicate].name),
             Self::Method(method) => format!("method `{}`", method.name),
+            Self::Event(event) => format!("event `{}`", event.name),
+            Self::Process(process) => format!("process `{}`", process.name),
         }
     }
 
@@ -35,6 +39,8 @@ impl<'a> Schema<'a> {
             Self::Durative(action) => &action.variables,
             Self::Axiom(axiom) => &axiom.variables,
             Self::Method(method) => &method.variables,
+            Self::Event(event) => &event.variables,
+            Self::Process(process) => &process.variables,
         }
     }
 
@@ -45,6 +51,8 @@ impl<'a> Schema<'a> {
             Self::Durative(action) => action.name_span,
             Self::Axiom(axiom) => axiom.span,
             Self::Method(method) => method.span,
+            Self::Event(event) => event.name_span,
+            Self::Process(process) => process.name_span,
         }
     }
 
@@ -64,6 +72,8 @@ impl<'a> Schema<'a> {
             }
             Self::Axiom(axiom) => vec![vec![&axiom.body]],
             Self::Method(method) => vec![vec![&method.precondition]],
+            Self::Event(event) => vec![vec![&event.precondition]],
+            Self::Process(process) => vec![vec![&process.precondition]],
         };
         for effect in self.effects().into_iter().flatten() {
             guards(effect, &mut groups);
@@ -77,15 +87,20 @@ impl<'a> Schema<'a> {
             Self::Action(action) => vec![vec![&action.effect]],
             Self::Durative(action) => {
                 let mut groups: Vec<(&TimeSpecifier, Vec<&Effect>)> = Vec::new();
-                for part in &action.effects {
+                // What hangs on another time may not happen with the rest.
+                let (plain, others): (Vec<_>, Vec<_>) =
+                    action.effects.iter().partition(|effect| effect.given.is_empty());
+                for part in plain {
                     match groups.iter_mut().find(|(when, _)| **when == part.when) {
                         Some((_, group)) => group.push(&part.effect),
                         None => groups.push((&part.when, vec![&part.effect])),
                     }
                 }
-                groups.into_iter().map(|(_, group)| group).collect()
+                let others = others.into_iter().map(|effect| vec![&effect.effect]);
+                groups.into_iter().map(|(_, group)| group).chain(others).collect()
             }
-            Self::Axiom(_) | Self::Method(_) => Vec::new(),
+            Self::Event(event) => vec![vec![&event.effect]],
+            Self::Axiom(_) | Self::Method(_) | Self::Process(_) => Vec::new(),
         }
     }
 
@@ -98,10 +113,26 @@ impl<'a> Schema<'a> {
                 walk::effect(&action.effect, f);
             }
             Self::Durative(action) => {
-                action.duration.iter().for_each(|d| walk::expression(&d.bound, f));
+                for bound in &action.duration {
+                    bound.functions.iter().for_each(|function| f(Part::Reads(&function.application)));
+                    walk::expression(&bound.bound, f);
+                }
                 action.conditions.iter().for_each(|c| walk::condition(&c.condition, Polarity::Positive, f));
                 action.preferences.iter().for_each(|p| walk::preference(p, &p.body.condition, f));
-                action.effects.iter().for_each(|e| walk::effect(&e.effect, f));
+                for effect in &action.effects {
+                    for given in &effect.given {
+                        match given {
+                            Given::Forall(bound) => f(Part::Binds(bound)),
+                            Given::When(asked) => {
+                                asked
+                                    .iter()
+                                    .for_each(|c| walk::condition(&c.condition, Polarity::Positive, f));
+                            }
+                        }
+                    }
+                    walk::effect(&effect.effect, f);
+                }
+                continuous(&action.continuous, f);
                 if let Some(rule) = &action.rule {
                     let arguments = rule.skill.iter().flat_map(|skill| &skill.arguments);
                     arguments.chain(&rule.claims).for_each(|&term| f(Part::Term(term)));
@@ -118,7 +149,31 @@ impl<'a> Schema<'a> {
                 walk::condition(&method.precondition, Polarity::Positive, f);
                 network(&method.network, f);
             }
+            Self::Event(event) => {
+                walk::condition(&event.precondition, Polarity::Positive, f);
+                walk::effect(&event.effect, f);
+            }
+            Self::Process(process) => {
+                walk::condition(&process.precondition, Polarity::Positive, f);
+                continuous(&process.effects, f);
+            }
         }
+    }
+}
+
+/// What changes with time.
+fn continuous<'a>(effects: &'a [ContinuousEffect], f: &mut dyn FnMut(Part<'a>)) {
+    for effect in effects {
+        if !effect.forall.is_empty() {
+            f(Part::Binds(&effect.forall));
+        }
+        effect.functions.iter().for_each(|function| f(Part::Reads(&function.application)));
+        let operator = match effect.direction {
+            Direction::Increase => AssignOperator::Increase,
+            Direction::Decrease => AssignOperator::Decrease,
+        };
+        f(Part::Writes(operator, &effect.fluent));
+        walk::expression(&effect.rate, f);
     }
 }
 

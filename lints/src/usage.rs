@@ -90,7 +90,7 @@ impl Usage {
                 usage.type_set(types);
             }
         }
-        walk::constraints(&domain.constraints, &mut |part| usage.part(part));
+        walk::constraints(&domain.constraints, &mut |part| usage.asked(part));
         usage.variables(&domain.constraints.variables);
         domain.constants.iter().for_each(|constant| usage.type_set(&constant.types));
         domain.tasks.iter().for_each(|task| usage.variables(&task.variables));
@@ -131,7 +131,7 @@ impl Usage {
         for preference in &problem.preferences {
             walk::preference(preference, &preference.body, &mut |part| usage.part(part));
         }
-        walk::constraints(&problem.constraints, &mut |part| usage.part(part));
+        walk::constraints(&problem.constraints, &mut |part| usage.asked(part));
         if let Some(metric) = &problem.metric {
             walk::expression(&metric.expression, &mut |part| usage.part(part));
         }
@@ -152,6 +152,15 @@ impl Usage {
         fact.application.arguments.iter().for_each(|&object| self.objects[object] = true);
         if let FluentValue::Object(object) = fact.value {
             self.objects[object] = true;
+        }
+    }
+
+    /// Part of a trajectory constraint. Whether it holds may not need an atom to be true: `at-most-once` and
+    /// `sometime-before` are content if it never is.
+    fn asked(&mut self, part: Part<'_>) {
+        match part {
+            Part::Needs(atom, _) => self.part(Part::Needs(atom, Polarity::Negative)),
+            part => self.part(part),
         }
     }
 

@@ -50,7 +50,8 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
     if !view.is_complete() || !tells_objects_apart(view) {
         return;
     }
-    let actions = view.schemas().filter(|s| matches!(s, Schema::Action(_) | Schema::Durative(_)));
+    let actions =
+        view.schemas().filter(|s| matches!(s, Schema::Action(_) | Schema::Durative(_) | Schema::Event(_)));
     for schema in actions {
         let variables = schema.variables();
         let (mut asked, mut changed) =

@@ -1,7 +1,7 @@
 //! A type that nothing is of.
 
 use pddl::Explanation;
-use pddl::model::TypeTable;
+use pddl::model::{Feature, TypeTable};
 
 use crate::finding::Findings;
 use crate::lint::Check;
@@ -41,7 +41,9 @@ pub(crate) static LINT: Lint = Lint {
 
 fn check(view: &DomainView<'_>, found: &mut Findings) {
     // What is an `object` somewhere may be of any type.
-    if !view.is_complete() || view.is_dictionary() || view.usage().types[TypeTable::OBJECT] {
+    // Conditions name types as well where they are predicates.
+    let named = view.domain.features().iter().any(|(f, _)| *f == Feature::TypePredicates);
+    if named || !view.is_complete() || view.is_dictionary() || view.usage().types[TypeTable::OBJECT] {
         return;
     }
     let (types, used) = (&view.domain.types, &view.usage().types);

@@ -48,7 +48,7 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
     for action in &view.domain.durative_actions {
         let throughout = action.conditions.iter().filter(|c| c.when == TimeSpecifier::OverAll);
         let asked = required(throughout.map(|c| &c.condition));
-        let at_start = action.effects.iter().filter(|e| e.when == TimeSpecifier::Start);
+        let at_start = action.effects.iter().filter(|e| e.when == TimeSpecifier::Start && e.given.is_empty());
         let changes = Changes::of(at_start.map(|e| &e.effect));
         // Adding wins over deleting.
         let added: Vec<Fact> = changes

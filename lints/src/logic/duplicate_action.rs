@@ -53,12 +53,17 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
         return;
     }
     let mut first: FxHashMap<String, (&Name, Span)> = FxHashMap::default();
-    let actions = view.domain.actions.iter().map(|action| {
+    // What is soft or continuous has no shape.
+    let plain = view.domain.actions.iter().filter(|action| action.preferences.is_empty());
+    let actions = plain.map(|action| {
         let body = format!("{} {}", shape::condition(&action.precondition), shape::effect(&action.effect));
         (types(&action.variables) + &body, &action.name, action.name_span)
     });
     // What a rule does also lies in its skill, which may well be the same for many.
-    let plain = view.domain.durative_actions.iter().filter(|action| action.rule.is_none());
+    let plain = view.domain.durative_actions.iter().filter(|action| {
+        let instant = action.continuous.is_empty() && action.effects.iter().all(|e| e.given.is_empty());
+        action.rule.is_none() && instant && action.preferences.is_empty()
+    });
     let durative = plain.map(|action| (durative(action), &action.name, action.name_span));
     for (shape, name, span) in actions.chain(durative) {
         if let Some((other, earlier)) = first.get(&shape) {
