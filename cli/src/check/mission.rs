@@ -1,6 +1,8 @@
 //! A mission checked as a whole: its files, what the layers do to each other, what they compile to, and all its
 //! scenarios.
 //!
+//! Lints look at its files as far as these are a project by themselves.
+//!
 //! It is the road of `pelea run` up to the point where something would move. As JSON there is, after its
 //! diagnostics, a line:
 //!
@@ -12,19 +14,21 @@
 //!
 //! `checked` is false, and the counts of what is in it are missing, where a file keeps the rest from being read.
 
-use super::{Tally, counted};
+use super::{Tally, counted, is_source};
 use crate::assemble::{LoadError, assemble, load};
 use crate::console::Console;
 use crate::disk::show;
 use crate::exit::Exit;
 use crate::scenario::{self, ScenarioError};
+use lints::Level;
 use mission::Mission;
-use project::Finding;
+use pddl::Source;
+use project::{Finding, Project, SourceId};
 use serde::Serialize;
 use std::path::Path;
 
 /// Checks the mission in a folder, or of the `mission.toml` at that path.
-pub(super) fn check(path: &Path, console: &mut Console<'_>) -> Exit {
+pub(super) fn check(path: &Path, level: Level, console: &mut Console<'_>) -> Exit {
     let folder = path.to_string_lossy();
     let mission = match load(path) {
         Ok(mission) => mission,
@@ -38,6 +42,7 @@ pub(super) fn check(path: &Path, console: &mut Console<'_>) -> Exit {
         }
     };
     let (assembly, mut findings) = assemble(&mission);
+    findings.extend(lints(&mission, level));
     show(&mission.sources, &findings, console);
     for name in mission.scenarios() {
         let read = scenario::read(&mission, name);
@@ -59,6 +64,30 @@ pub(super) fn check(path: &Path, console: &mut Console<'_>) -> Exit {
     console.result(&format!("{folder}: {} in {}", tally.verdict(), content.sentence()));
     console.record(&Record { kind: "checked", mission: &folder, content: Some(content), tally });
     if tally.errors == 0 { Exit::Yes } else { Exit::No }
+}
+
+/// What lints say of the mission's PDDL, by the mission's own numbers of the files. A layer whose names come from more
+/// than a domain that it names is no project's file by itself, and nothing is said of it.
+fn lints(mission: &Mission, level: Level) -> Vec<Finding> {
+    let mut project = Project::without_names();
+    project.set_lint_level(level);
+    let (own, sources): (Vec<SourceId>, Vec<Source>) = mission
+        .sources
+        .iter()
+        .filter(|(_, source)| is_source(Path::new(source.name())))
+        .map(|(id, source)| (id, source.clone()))
+        .unzip();
+    let ids = project.set_all(sources);
+    let back = |id: SourceId| ids.iter().position(|&i| i == id).map(|at| own[at]);
+    let moved = |mut finding: Finding| {
+        finding.place.source = back(finding.place.source)?;
+        for (place, _) in &mut finding.related {
+            place.source = back(place.source)?;
+        }
+        Some(finding)
+    };
+    let linted = ids.iter().flat_map(|&id| project.lint_findings(id));
+    linted.filter_map(|linted| moved(linted.finding.clone())).collect()
 }
 
 fn tally(findings: &[Finding]) -> Tally {

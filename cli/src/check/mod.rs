@@ -60,8 +60,9 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
             paths.push(path.clone());
         }
     }
+    let level = if arguments.pedantic { Level::Pedantic } else { Level::Default };
     for mission in missions {
-        exit = exit.and(mission::check(&mission, console));
+        exit = exit.and(mission::check(&mission, level, console));
     }
     let mut files: Vec<Candidate> = Vec::new();
     for path in paths {
@@ -74,9 +75,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     }
     find_needs(&mut files);
     let mut project = Project::without_names();
-    if arguments.pedantic {
-        project.set_lint_level(Level::Pedantic);
-    }
+    project.set_lint_level(level);
     let given: Vec<bool> = files.iter().map(|file| file.given).collect();
     let ids = project.set_all(files.into_iter().map(|file| file.source));
     let files: Vec<File> = ids.into_iter().zip(given).map(|(id, given)| File { id, given }).collect();

@@ -1,5 +1,6 @@
 //! W08: conditions, effects, initial states, goals.
 
+mod aliased_effect;
 mod always_false;
 mod always_true;
 mod broken_over_all;
@@ -18,6 +19,8 @@ mod repeated_condition;
 mod repeated_effect;
 mod repeated_fact;
 mod static_goal;
+mod static_when;
+mod timed_without_change;
 mod uninitialised_function;
 
 pub(crate) use duplicate_action::types;
@@ -42,4 +45,7 @@ pub(crate) static LINTS: &[&Lint] = &[
     &conflicting_value::LINT,
     &uninitialised_function::LINT,
     &constant_metric::LINT,
+    &aliased_effect::LINT,
+    &static_when::LINT,
+    &timed_without_change::LINT,
 ];

@@ -1,0 +1,89 @@
+//! `when` whose condition nothing ever changes.
+
+use pddl::Explanation;
+use pddl::model::{Condition, EffectKind, Idx, Term};
+
+use super::changes::Changes;
+use crate::finding::Findings;
+use crate::lint::Check;
+use crate::view::DomainView;
+use crate::walk::{self, Part, Polarity};
+use crate::{Finding, Level, Lint, Place};
+
+pub(crate) static LINT: Lint = Lint {
+    name: "static-when",
+    level: Level::Pedantic,
+    explanation: Explanation {
+        code: "W0819",
+        title: "condition of `when` never changes",
+        meaning: "The condition of a conditional effect asks only for what no action, event, axiom or time changes, \
+         and of parameters of the action alone.",
+        why: "For given parameters the effect happens always or never: two actions, or a condition of the action, say \
+         so more plainly. Often another predicate is meant.",
+        wrong: &["\
+(define (domain hall)
+  (:requirements :typing :conditional-effects)
+  (:types lamp)
+  (:predicates (lit ?x - lamp) (good ?x - lamp))
+  (:action switch
+    :parameters (?x - lamp)
+    :effect (when (good ?x) (lit ?x))))"],
+        right: &["\
+(define (domain hall)
+  (:requirements :typing :conditional-effects)
+  (:types lamp)
+  (:predicates (lit ?x - lamp) (good ?x - lamp))
+  (:action switch
+    :parameters (?x - lamp)
+    :effect (when (good ?x) (lit ?x)))
+  (:action break
+    :parameters (?x - lamp)
+    :effect (not (good ?x))))"],
+    },
+    checks: &[Check::Domain(check)],
+};
+
+fn check(view: &DomainView<'_>, found: &mut Findings) {
+    if !view.is_complete() {
+        return;
+    }
+    for schema in view.schemas() {
+        for effects in schema.effects() {
+            for when in &Changes::of(effects).whens {
+                // Without effect it is another mistake.
+                let empty = matches!(&when.effect.kind, EffectKind::And(parts) if parts.is_empty());
+                if !empty && is_fixed(view, when.condition, schema.variables().parameters) {
+                    let message = "nothing changes whether this holds";
+                    found.report(Finding::new(&LINT, Place::domain(when.condition.span), message));
+                }
+            }
+        }
+    }
+}
+
+/// Whether the condition asks for something, only of objects and parameters, and nothing changes it.
+fn is_fixed(view: &DomainView<'_>, condition: &Condition, parameters: usize) -> bool {
+    let usage = view.usage();
+    let (mut fixed, mut asks) = (true, false);
+    walk::condition(condition, Polarity::Positive, &mut |part| {
+        match part {
+            Part::Needs(atom, _) => {
+                let used = usage.predicates[atom.predicate];
+                asks = true;
+                fixed &= !used.fluent() && !used.timed;
+            }
+            Part::Reads(application) => {
+                let used = usage.functions[application.function];
+                asks = true;
+                fixed &= !used.written && !used.timed;
+            }
+            _ => {}
+        }
+        let own = |term: &Term| match term {
+            Term::Object(_) => true,
+            Term::Variable(variable) => variable.index() < parameters,
+        };
+        fixed &= part.terms().iter().all(own);
+    });
+    fixed && asks
+}

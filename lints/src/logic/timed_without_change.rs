@@ -1,0 +1,86 @@
+//! A timed initial literal that changes nothing.
+
+use pddl::Explanation;
+use pddl::model::{ObjectId, PredicateId, TimedChange};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use crate::finding::Findings;
+use crate::lint::Check;
+use crate::view::ProblemView;
+use crate::{Finding, Level, Lint, Place};
+
+pub(crate) static LINT: Lint = Lint {
+    name: "timed-without-change",
+    level: Level::Default,
+    explanation: Explanation {
+        code: "W0820",
+        title: "timed literal changes nothing",
+        meaning: "A fact that becomes true at a time is true already, or one that becomes false is false already: it is \
+         so initially or since another time, and no effect changes its predicate.",
+        why: "The line says nothing. Mostly its time, its object or a `not` is wrong, or the fact should not stand in \
+         the initial state.",
+        wrong: &[
+            "\
+(define (domain hall)
+  (:requirements :typing :durative-actions :timed-initial-literals)
+  (:types lamp)
+  (:predicates (lit ?x - lamp) (dark))
+  (:durative-action switch
+    :parameters (?x - lamp)
+    :duration (= ?duration 1)
+    :condition (at start (dark))
+    :effect (at end (lit ?x))))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:objects left - lamp)
+  (:init (dark) (at 5 (dark)))
+  (:goal (lit left)))",
+        ],
+        right: &[
+            "\
+(define (domain hall)
+  (:requirements :typing :durative-actions :timed-initial-literals)
+  (:types lamp)
+  (:predicates (lit ?x - lamp) (dark))
+  (:durative-action switch
+    :parameters (?x - lamp)
+    :duration (= ?duration 1)
+    :condition (at start (dark))
+    :effect (at end (lit ?x))))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:objects left - lamp)
+  (:init (at 5 (dark)))
+  (:goal (lit left)))",
+        ],
+    },
+    checks: &[Check::Problem(check)],
+};
+
+fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
+    if !view.is_complete() || view.problem.timed.is_empty() {
+        return;
+    }
+    let usage = view.domain.usage();
+    let init: FxHashSet<(PredicateId, &[ObjectId])> =
+        view.problem.init.iter().map(|fact| (fact.predicate, &*fact.arguments)).collect();
+    let mut timed: Vec<_> = view.problem.timed.iter().collect();
+    timed.sort_by_key(|t| t.time);
+    let mut since: FxHashMap<(PredicateId, &[ObjectId]), bool> = FxHashMap::default();
+    for change in timed {
+        let (fact, becomes) = match &change.change {
+            TimedChange::Add(fact) => (fact, true),
+            TimedChange::Delete(fact) => (fact, false),
+            TimedChange::Assign(_) | TimedChange::Undefine(_) => continue,
+        };
+        let key = (fact.predicate, &*fact.arguments);
+        let before = since.insert(key, becomes).unwrap_or_else(|| init.contains(&key));
+        if before == becomes && !usage.predicates[fact.predicate].fluent() {
+            let is = if becomes { "true" } else { "false" };
+            let message = format!("this is {is} already then, and no effect changes it");
+            found.report(Finding::new(&LINT, Place::problem(fact.span), message));
+        }
+    }
+}
