@@ -162,3 +162,120 @@ proptest! {
         prop_assert_eq!(verdict, judged(&problem_text(&plain(), &IN_ORDER), PLAN));
     }
 }
+
+/// Plans with times.
+mod temporal {
+    use super::*;
+    use pddl::{Decimal, Plan};
+    use validator::{Number, Precision};
+
+    const DOMAIN: &str = "(define (domain kitchen)
+  (:requirements :typing :durative-actions :numeric-fluents :negative-preconditions :timed-initial-literals
+    :duration-inequalities :continuous-effects :conditional-effects :preferences :constraints)
+  (:types pot plate) (:predicates (hot ?p - pot) (clean ?p - pot) (free ?s - plate) (odd)) (:functions (gas) (heat ?p - pot))
+  (:durative-action cook :parameters (?p - pot ?s - plate) :duration (and (>= ?duration 1) (<= ?duration 4))
+    :condition (and (at start (clean ?p)) (at start (free ?s)) (over all (>= (gas) 0)) (preference calm (over all (not (odd)))))
+    :effect (and (at start (not (free ?s))) (at end (free ?s)) (at end (hot ?p)) (at start (not (clean ?p)))
+      (decrease (gas) (* #t 1)) (increase (heat ?p) (* #t 2)) (when (at start (odd)) (at end (not (odd))))))
+  (:action wash :parameters (?p - pot) :precondition (not (clean ?p)) :effect (and (clean ?p) (not (hot ?p)))))";
+
+    const PLAN: [&str; 5] =
+        ["0: (cook a s) [2]", "1: (cook b t) [2]", "2.5: (wash a)", "3.5: (cook a t) [1]", "6: (wash b)"];
+
+    fn problem_text(names: [&str; 4], order: &[usize; 6], extra: &str) -> String {
+        let [a, b, s, t] = names;
+        let facts = [
+            format!("(clean {a})"),
+            format!("(clean {b})"),
+            format!("(free {s}) (free {t})"),
+            "(= (gas) 7)".to_owned(),
+            format!("(= (heat {a}) 0) (= (heat {b}) 0)"),
+            "(at 3.2 (odd))".to_owned(),
+        ];
+        let init: Vec<&str> = order.iter().map(|&k| facts[k].as_str()).collect();
+        format!(
+            "(define (problem p) (:domain kitchen) (:objects {a} {b} - pot {s} {t} - plate {extra})
+               (:init {}) (:goal (and (hot {a}) (clean {b})))
+               (:constraints (and (always-within 6 (hot {b}) (clean {b})) (forall (?p - pot) (at-most-once (hot ?p)))))
+               (:metric minimize (+ (heat {a}) (is-violated calm))))",
+            init.join(" ")
+        )
+    }
+
+    fn judged(problem: &str, plan: &str) -> Verdict {
+        let domain = parse_domain(&Source::new("domain", DOMAIN), &[]).model.unwrap();
+        let problem = parse_problem(&Source::new("problem", problem), &domain).model.unwrap();
+        let plan = parse_plan(&Source::new("plan", plan), &domain, &problem).model.unwrap();
+        validate(&domain, &problem, &plan)
+    }
+
+    const PLAIN: [&str; 4] = ["a", "b", "s", "t"];
+
+    #[test]
+    fn the_constraint_is_broken_and_else_it_is_valid() {
+        let verdict = judged(&problem_text(PLAIN, &[0, 1, 2, 3, 4, 5], ""), &PLAN.join("\n"));
+        assert!(matches!(verdict, Verdict::Invalid(Failure::Constraint { .. })), "{verdict:?}");
+        let shorter = [PLAN[0], PLAN[1], PLAN[4]].join("\n");
+        let Verdict::Valid(valid) = judged(&problem_text(PLAIN, &[0, 1, 2, 3, 4, 5], ""), &shorter) else {
+            panic!("valid without the second cooking");
+        };
+        assert_eq!(valid.cost().to_string(), "4");
+    }
+
+    /// The verdict without places, which names and order move.
+    fn outline(verdict: &Verdict) -> String {
+        match verdict {
+            Verdict::Valid(valid) => format!("valid {} {:?}", valid.cost(), valid.makespan),
+            Verdict::Invalid(failure) => format!("{:?}", std::mem::discriminant(failure)),
+            other => format!("{other:?}"),
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn names_order_and_what_is_irrelevant_do_not_matter(
+            order in Just([0, 1, 2, 3, 4, 5]).prop_shuffle(),
+            lines in Just(PLAN).prop_shuffle(),
+            dropped in 0_usize..6,
+        ) {
+            let kept: Vec<&str> = PLAN.iter().enumerate().filter(|&(i, _)| i != dropped).map(|(_, &l)| l).collect();
+            let plain = judged(&problem_text(PLAIN, &[0, 1, 2, 3, 4, 5], ""), &kept.join("\n"));
+            let moved: Vec<&str> = lines.iter().copied().filter(|line| kept.contains(line)).collect();
+            let extra = "unused - plate spare - plate";
+            let other = judged(&problem_text(PLAIN, &order, extra), &moved.join("\n"));
+            prop_assert_eq!(outline(&plain), outline(&other));
+            let renamed = moved.join("\n").replace(" a ", " first ").replace(" a)", " first)").replace(" t)", " tray)");
+            let other = judged(&problem_text(["first", "b", "s", "tray"], &order, ""), &renamed);
+            prop_assert_eq!(outline(&plain), outline(&other));
+        }
+
+        #[test]
+        fn any_times_get_a_verdict(
+            steps in prop::collection::vec((0_usize..5, 0_u32..9000, 0_u32..5000), 0..8),
+            separation in 0_i64..2,
+        ) {
+            let domain = parse_domain(&Source::new("domain", DOMAIN), &[]).model.unwrap();
+            let problem = problem_text(PLAIN, &[0, 1, 2, 3, 4, 5], "");
+            let problem = parse_problem(&Source::new("problem", problem), &domain).model.unwrap();
+            let plan = parse_plan(&Source::new("plan", PLAN.join("\n")), &domain, &problem).model.unwrap();
+            let Plan::Temporal(mut plan) = plan else { panic!("it has times") };
+            let decimal = |thousandths: u32| -> Decimal { format!("{thousandths}e-3").parse().unwrap() };
+            let all = std::mem::take(&mut plan.steps);
+            for (which, start, duration) in steps {
+                let mut step = all[which].clone();
+                step.start = decimal(start);
+                step.duration = step.duration.map(|_| decimal(duration));
+                plan.steps.push(step);
+            }
+            let precision = Precision { separation: Number::integer(separation), ..Precision::default() };
+            let validator = Validator::new(&domain, &problem).unwrap().with_precision(precision);
+            let (verdict, trace) = validator.trace(&plan);
+            prop_assert_eq!(&verdict, &validator.validate(&plan));
+            prop_assert!(trace.happenings.is_sorted_by_key(|happening| happening.time));
+            let plan = Plan::Temporal(plan);
+            prop_assert_eq!(verdict.is_valid(), explain(&domain, &problem, &plan, &verdict).is_none());
+        }
+    }
+}

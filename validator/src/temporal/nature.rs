@@ -1,9 +1,13 @@
 //! What happens by itself: processes run as long as their condition holds, events happen when theirs begins to.
 //!
 //! At every instant at which a condition of either can change, and between any two of them, the processes
-//! that run and the events that are due are found by a query. An event that changes nothing of its own
-//! condition would happen for ever: what happens a hundred times at one time is called endless. An event or a
+//! that run and the events that are due are found by a query. An event must make
+//! its own condition false, or it would happen for ever; what happens a hundred times at one time in a
+//! cascade is called endless too. An event or a
 //! process whose condition holds only just after an instant (`>`, not `>=`) begins at that instant.
+//!
+//! An event that is due at the time of a happening happens before it, and what is due because of the happening
+//! after it; neither counts as interference.
 //!
 //! Deviation: events at one time do not have to be free of interference; they see the same state, and
 //! change it in the order of the domain.
@@ -138,13 +142,13 @@ impl Run<'_, '_, '_> {
         let mut happened: FxHashMap<Instance<pddl::model::EventId>, usize> = FxHashMap::default();
         while !due.is_empty() {
             let mut changes = Vec::with_capacity(due.len());
-            for instance in due {
+            for instance in &due {
                 let event = &self.validator.domain.events[instance.id];
                 let at = Cause::Event(instance.id);
                 let often = happened.entry(instance.clone()).or_insert(0);
                 *often += 1;
                 if *often > MOST_OFTEN {
-                    return Err(Box::new(Failure::EndlessEvents { time: self.now, event: instance.id }));
+                    return Err(self.endless(instance));
                 }
                 crate::prepare::each_guard(&event.effect, &mut |guard, _| self.derive_for(guard));
                 let scene = self.validator.scene(self.state, &event.variables, Clock::at(self.now));
@@ -159,9 +163,17 @@ impl Run<'_, '_, '_> {
                 own.apply(self.state, moment, diff.as_deref_mut())
                     .map_err(|fault| Box::new(Failure::Effect { at, fault }))?;
             }
-            due = self.nature(self.now).events;
+            let next = self.nature(self.now).events;
+            if let Some(instance) = next.iter().find(|instance| due.contains(instance)) {
+                return Err(self.endless(instance));
+            }
+            due = next;
         }
         Ok(())
+    }
+
+    fn endless(&self, event: &Instance<pddl::model::EventId>) -> Box<Failure> {
+        Box::new(Failure::EndlessEvents { time: self.now, event: event.id })
     }
 
     /// Everything that changes continuously now.

@@ -1,11 +1,23 @@
 (define (domain kettles)
   (:requirements :time :numeric-fluents :negative-preconditions)
-  (:predicates (on) (boils) (whistles) (heard) (open) (ping) (pong) (bouncing) (steps))
+  (:predicates
+    (on)
+    (boils)
+    (whistles)
+    (heard)
+    (open)
+    (ping)
+    (pong)
+    (bouncing)
+    (steps)
+    (left)
+    (stuck))
   (:functions (heat) (high) (speed) (count))
   (:action switch :parameters () :precondition (not (on)) :effect (on))
   (:action listen :parameters () :precondition (whistles) :effect (heard))
   (:action play :parameters () :precondition () :effect (ping))
   (:action drop :parameters () :precondition () :effect (bouncing))
+  (:action stick :parameters () :precondition () :effect (stuck))
   (:action climb :parameters () :precondition () :effect (steps))
   (:process heating
     :parameters ()
@@ -25,9 +37,17 @@
     :parameters ()
     :precondition (and (pong) (not (ping)))
     :effect (and (not (pong)) (ping)))
-  (:event step
+  (:event step-left
     :parameters ()
-    :precondition (and (steps) (< (count) 5))
+    :precondition (and (steps) (not (left)) (< (count) 5))
+    :effect (and (left) (increase (count) 1)))
+  (:event step-right
+    :parameters ()
+    :precondition (and (steps) (left) (< (count) 5))
+    :effect (and (not (left)) (increase (count) 1)))
+  (:event sticking
+    :parameters ()
+    :precondition (and (stuck) (< (count) 3))
     :effect (increase (count) 1))
   (:event bounce
     :parameters ()
