@@ -1,8 +1,8 @@
 //! One plan: read, judged, and what there is to say about it.
 
-use super::Outcome;
 use super::failure::Places;
 use super::record::{AdviceRecord, VerdictRecord, Word, happenings};
+use super::{Outcome, page};
 use crate::console::{Console, Form};
 use crate::render::{At, Message, show_all};
 use crate::task::{TaskFiles, read_source};
@@ -20,6 +20,7 @@ pub(super) struct Judge<'a> {
     pub(super) validator: &'a Result<Validator<'a>, Box<Verdict>>,
     pub(super) trace: bool,
     pub(super) advice: bool,
+    pub(super) html: bool,
 }
 
 impl Judge<'_> {
@@ -28,8 +29,9 @@ impl Judge<'_> {
         match read_source(path, console) {
             Ok(source) => self.source(&source, console),
             Err(_) => {
-                VerdictRecord::of(&path.display().to_string(), Word::Unreadable).say(console);
-                Outcome { word: Word::Unreadable }
+                let record = VerdictRecord::of(&path.display().to_string(), Word::Unreadable);
+                record.say(console);
+                Outcome { word: Word::Unreadable, section: self.html.then(|| page::without_plan(&record)) }
             }
         }
     }
@@ -45,10 +47,10 @@ impl Judge<'_> {
             record.message =
                 parsed.diagnostics.iter().find(|d| Some(d.severity) == worst).map(pddl::Diagnostic::message);
             record.say(console);
-            return Outcome { word };
+            return Outcome { word, section: self.html.then(|| page::without_plan(&record)) };
         };
         let (verdict, trace) = match self.validator {
-            Ok(validator) if self.trace => {
+            Ok(validator) if self.trace || self.html => {
                 let (verdict, trace) = validator.trace(&plan);
                 (verdict, Some(trace))
             }
@@ -61,26 +63,31 @@ impl Judge<'_> {
             record.fill(valid, &task.problem);
         }
         let places = Places { task, plan: &plan, source };
-        if let Some(trace) = &trace {
+        if let Some(trace) = trace.as_ref().filter(|_| self.trace) {
             self.show_trace(&plan, trace, console);
             let diffs = trace.happenings.iter().map(|h| show_diff(&task.domain, &task.problem, &h.diff));
             record.trace = Some(diffs.collect());
             record.happenings = (console.form() == Form::Json).then(|| happenings(&places, trace));
         }
         record.advice = self.advise(&plan, &verdict);
-        if let Some(finding) = explain(&task.domain, &task.problem, &plan, &verdict) {
+        let finding = explain(&task.domain, &task.problem, &plan, &verdict);
+        if let Some(finding) = &finding {
             if !reported_by_the_parser(&verdict) {
-                let mut message = finding_message(&finding, &verdict, task, source);
+                let mut message = finding_message(finding, &verdict, task, source);
                 message.help = record.advice.as_ref().map(|advice| advice.text.clone());
                 message.show(console);
             }
-            record.message = Some(finding.sentence);
+            record.message = Some(finding.sentence.clone());
         }
         if let Verdict::Invalid(failure) = &verdict {
             record.failure = (console.form() == Form::Json).then(|| places.failure(failure));
         }
         record.say(console);
-        Outcome { word }
+        let section = self.html.then(|| match &trace {
+            Some(trace) => page::section(&places, &record, &verdict, finding.as_ref(), trace),
+            None => page::without_plan(&record),
+        });
+        Outcome { word, section }
     }
 
     /// One change that was tried and helps, if that is asked for.

@@ -6,11 +6,12 @@
 //! several. Invariant: the exit code is 0 only if at least one plan was given and every one was read to its end
 //! and is valid.
 //!
-//! What is written as JSON is in `record` and `failure`.
+//! What is written as JSON is in `record` and `failure`, as HTML in `page`.
 
 mod failure;
 mod gather;
 mod judge;
+mod page;
 mod record;
 
 pub(crate) use judge::finding_message;
@@ -18,6 +19,7 @@ pub(crate) use record::Figure;
 
 use crate::console::{Console, Said};
 use crate::exit::Exit;
+use crate::files;
 use crate::pool;
 use crate::render::Message;
 use crate::task::TaskFiles;
@@ -44,6 +46,9 @@ pub(crate) struct Arguments {
     /// Say of invalid plans which one change makes them valid, if one is found: it has been tried.
     #[arg(long)]
     advice: bool,
+    /// Write a page with charts, states and explanations.
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
     /// What is nearer than this, in seconds, must not interfere; 0 asks only of what happens at exactly one time.
     #[arg(long, value_name = "SECONDS", default_value = "0.001", value_parser = seconds)]
     epsilon: Number,
@@ -62,11 +67,15 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     let gathered = gather(arguments);
     let mut tally = Tally::default();
     let mut exit = Exit::Yes;
+    let mut sections = Vec::new();
     for fault in &gathered.faults {
         exit = exit.and(refuse(fault, &mut tally, console));
     }
     if let [group] = gathered.groups.as_slice() {
-        one_task(group, arguments, Cores::All, console, |outcome| tally.count(outcome.word));
+        one_task(group, arguments, Cores::All, console, |outcome| {
+            tally.count(outcome.word);
+            sections.extend(outcome.section);
+        });
     } else {
         let manner = console.manner();
         pool::in_order(
@@ -81,13 +90,22 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
             },
             |_, (outcomes, said)| {
                 console.replay(&said);
-                outcomes.iter().for_each(|outcome| tally.count(outcome.word));
+                outcomes.into_iter().for_each(|outcome| {
+                    tally.count(outcome.word);
+                    sections.extend(outcome.section);
+                });
             },
         );
     }
     if tally.plans() > 1 {
         console.result(&tally.line());
         console.record(&tally);
+    }
+    if let Some(path) = &arguments.html
+        && let Err(error) = files::write(path, &page::page(&sections))
+    {
+        Message::error(error.to_string()).show(console);
+        exit = exit.and(Exit::Unwritable);
     }
     exit.and(tally.exit())
 }
@@ -112,6 +130,8 @@ fn unreadable(plan: &Path, why: String, console: &mut Console<'_>) {
 #[derive(Debug)]
 struct Outcome {
     word: Word,
+    /// Its part of the page.
+    section: Option<String>,
 }
 
 /// Who works on the plans of a task.
@@ -132,14 +152,19 @@ fn one_task(
     let Ok(task) = TaskFiles::read(&group.domain, &group.problem, console) else {
         for plan in &group.plans {
             unreadable(plan, "its domain or problem cannot be read".to_owned(), console);
-            done(Outcome { word: Word::Unreadable });
+            done(Outcome { word: Word::Unreadable, section: None });
         }
         return;
     };
     let precision = Precision { tolerance: arguments.tolerance, separation: arguments.epsilon };
     let validator = Validator::new(&task.domain, &task.problem).map(|v| v.with_precision(precision));
-    let judge =
-        Judge { task: &task, validator: &validator, trace: arguments.trace, advice: arguments.advice };
+    let judge = Judge {
+        task: &task,
+        validator: &validator,
+        trace: arguments.trace,
+        advice: arguments.advice,
+        html: arguments.html.is_some(),
+    };
     match cores {
         Cores::One => group.plans.iter().for_each(|plan| done(judge.plan(plan, console))),
         Cores::All => {

@@ -174,6 +174,25 @@ impl VerdictRecord {
         });
     }
 
+    pub(super) fn plan(&self) -> &str {
+        &self.plan
+    }
+
+    pub(super) fn word(&self) -> &'static str {
+        self.verdict.text()
+    }
+
+    /// The figures that there are, by name.
+    pub(super) fn figures(&self) -> Vec<(&'static str, String)> {
+        let mut figures = Vec::new();
+        figures.extend(self.makespan.as_ref().map(|makespan| ("makespan", format!("{} s", makespan.0))));
+        figures.extend(self.metric.as_ref().map(|m| ("metric", format!("{} {}", m.objective, m.value.0))));
+        if !self.violated.is_empty() {
+            figures.push(("violated preferences", self.violated.join(", ")));
+        }
+        figures
+    }
+
     /// The verdict and its figures.
     pub(super) fn line(&self) -> String {
         let mut line = self.verdict.text().to_owned();

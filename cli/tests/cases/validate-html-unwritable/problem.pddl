@@ -1,0 +1,5 @@
+(define (problem morning)
+  (:domain rounds)
+  (:objects ward store - room pills - item)
+  (:init (at ward) (free) (in pills store) (door ward store) (door store ward))
+  (:goal (in pills ward)))
