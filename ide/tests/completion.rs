@@ -132,8 +132,8 @@ fn definitions_and_sections() {
         "SECTION",
         "(:requirements :ty$0)",
         &expect![[r#"
-        word: :action-costs :adl :agent-rules :conditional-effects :constraints :continuous-effects :derived-predicates :disjunctive-preconditions :duration-inequalities :durative-actions :equality :existential-preconditions :fluents :goal-utilities :hierarchy :method-preconditions :negative-preconditions :numeric-fluents :object-fluents :preferences :quantified-preconditions :strips :time :timed-initial-fluents :timed-initial-literals :typing :universal-preconditions :vocabulary
-    "#]],
+            word: :action-costs :adl :agent-rules :conditional-effects :constraints :continuous-effects :derived-predicates :disjunctive-preconditions :duration-inequalities :durative-actions :equality :existential-preconditions :factored-privacy :fluents :goal-utilities :hierarchy :method-preconditions :multi-agent :negative-preconditions :numeric-fluents :object-fluents :preferences :quantified-preconditions :strips :time :timed-initial-fluents :timed-initial-literals :typing :unfactored-privacy :universal-preconditions :vocabulary
+        "#]],
     );
     check(
         "METRIC",

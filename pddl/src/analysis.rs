@@ -153,8 +153,7 @@ pub fn analyze_problem(source: &Source, domain: &Domain, names: Names) -> Analys
 
 /// Reads a plan for `problem`; both models may be drafts.
 pub fn analyze_plan(source: &Source, domain: &Domain, problem: &Problem, names: Names) -> Analysis<Plan> {
-    let (tree, diagnostics) = syntax::parse(source);
-    finish(lower::plan(names.sink(diagnostics), source, &tree, domain, problem), Plan::default)
+    finish(lower::plan(|diagnostics| names.sink(diagnostics), source, domain, problem), Plan::default)
 }
 
 fn finish<M>(lowered: Lowered<M>, empty: impl FnOnce() -> M) -> Analysis<M> {

@@ -36,6 +36,5 @@ pub fn parse_problem(source: &Source, domain: &Domain) -> Parsed<Problem> {
 
 /// Reads a plan for `problem`: sequential, temporal or hierarchical, whichever the file holds.
 pub fn parse_plan(source: &Source, domain: &Domain, problem: &Problem) -> Parsed<Plan> {
-    let (tree, diagnostics) = syntax::parse(source);
-    lower::plan(Sink::new(diagnostics), source, &tree, domain, problem).parsed()
+    lower::plan(Sink::new, source, domain, problem).parsed()
 }

@@ -71,11 +71,6 @@ impl Number {
         Self(Form::Ratio { numerator, denominator })
     }
 
-    /// What is less than this, in seconds, is no time.
-    pub(crate) const fn billionth() -> Self {
-        Self(Form::Ratio { numerator: 1, denominator: 1_000_000_000 })
-    }
-
     /// A decimal as it was written.
     pub fn from_decimal(value: pddl::Decimal) -> Self {
         let (numerator, denominator) = value.fraction();

@@ -405,7 +405,7 @@ pub enum Feature {
     TimesMissingForProblem,
     /// A plan without times, where the domain has processes or events.
     TimesMissingForDomain,
-    /// Quantifiers and constraints for more objects than can be tried, or change that hardly ever rests.
+    /// Quantifiers and constraints for more objects than can be tried.
     TooMuch,
 }
 

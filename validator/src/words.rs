@@ -85,7 +85,7 @@ pub fn explain<'p>(
                 ),
                 Feature::TooMuch => (
                     File::Problem,
-                    "more combinations of objects, or change with less rest, than can be tried are not supported"
+                    "quantifiers over more combinations of objects than can be tried are not supported"
                         .into(),
                 ),
                 Feature::HierarchicalPlan => {

@@ -122,14 +122,35 @@ impl std::fmt::Display for FileKind {
 /// A language feature that is read but not modelled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum UnsupportedFeature {
-    /// `:vars` of actions (PDDL 1.2)
-    ActionVariables,
+    /// `(probabilistic 0.5 …)`, `(oneof …)` as effects (PPDDL)
+    UncertainEffects,
+    /// `(oneof …)`, `(unknown …)`, `(or …)` in `:init`
+    UncertainInitialStates,
+    /// `:observe` of actions
+    Observations,
+    /// `:goal-reward`, `:goal-probability` (PPDDL)
+    Rewards,
+    /// `:safety` (PDDL 1.2)
+    SafetyConditions,
+    /// `:expansion`, `:only-in-expansions` of actions (PDDL 1.2)
+    Expansions,
+    /// `:situation` of problems (PDDL 1.2)
+    Situations,
+    /// `(^ 2 3)`, `(sin 1)`
+    Operators,
 }
 
 impl std::fmt::Display for UnsupportedFeature {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
-            Self::ActionVariables => "variables of actions that are no parameters (`:vars`)",
+            Self::UncertainEffects => "probabilistic and non-deterministic effects",
+            Self::UncertainInitialStates => "uncertain initial states",
+            Self::Observations => "observations (`:observe`)",
+            Self::Rewards => "rewards and probabilities of goals",
+            Self::SafetyConditions => "safety conditions (`:safety`)",
+            Self::Expansions => "expansions of actions",
+            Self::Situations => "initial situations that stand elsewhere (`:situation`)",
+            Self::Operators => "operators other than `+`, `-`, `*` and `/`",
         })
     }
 }
@@ -155,6 +176,9 @@ pub enum DiagnosticKind {
         /// What was to be read.
         expected: FileKind,
     },
+    /// `domain x { … }`
+    #[error("this is RDDL, another language, and not PDDL")]
+    OtherLanguage,
     /// A plan file with other text than steps.
     #[error("this is not a plan")]
     NotAPlan,
@@ -204,6 +228,10 @@ pub enum DiagnosticKind {
     /// A plan file without anything in it.
     #[error("there is nothing in this file: it is read as the plan without steps")]
     EmptyPlan,
+
+    /// `(:private (p ?x))`
+    #[error("privacy is not looked at: all agents know what this holds, and are planned for together")]
+    PrivacyIgnored,
 
     /// A name that nothing declares.
     #[error("unknown {symbol} `{name}`")]
@@ -417,7 +445,7 @@ impl DiagnosticKind {
             Self::UnclosedParenthesis => "E0101",
             Self::UnmatchedParenthesis => "E0102",
             Self::NestingTooDeep { .. } => "E0103",
-            Self::NotADefinition { .. } | Self::NotAPlan => "E0104",
+            Self::NotADefinition { .. } | Self::OtherLanguage | Self::NotAPlan => "E0104",
             Self::Unexpected { .. } => "E0105",
             Self::Missing { .. } => "E0106",
             Self::UnknownSection { .. } => "E0107",
@@ -425,6 +453,7 @@ impl DiagnosticKind {
             Self::Repeated { .. } => "E0109",
             Self::TrailingText => "W0110",
             Self::EmptyPlan => "W0111",
+            Self::PrivacyIgnored => "W0112",
             Self::Unknown { symbol, .. } => match symbol {
                 SymbolKind::Type => "E0201",
                 SymbolKind::Predicate => "E0202",

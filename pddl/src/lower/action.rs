@@ -1,14 +1,24 @@
 //! `(:action name :parameters (…) :precondition … :effect …)`.
+//!
+//! The variables of PDDL 1.2's `:vars` are bound by the precondition. The model says so with what it has: the
+//! precondition is `(exists (?v) …)`, and the effect is that of each binding, `(forall (?v) (when … …))`. Deviation:
+//! PDDL 1.2 leaves open which binding is meant where there are several; here it is all of them.
+//!
+//! In MA-PDDL's `:agent ?a - t` the agent is the first parameter.
+//!
+//! Source: Ghallab et al., "PDDL: the planning domain definition language", 1998; Kovacs, "A multi-agent extension of
+//! PDDL3.1", 2012.
 
 use super::body::Body;
 use super::keys::Keys;
 use super::sink::{Sink, first_word};
+use super::typed_list::typed_list;
 use super::world::World;
 use crate::Span;
 use crate::analysis::NameKind;
 use crate::diagnostic::UnsupportedFeature;
-use crate::model::{Action, Condition, Effect, Name};
-use crate::syntax::Node;
+use crate::model::{Action, Condition, ConditionKind, Effect, EffectKind, Name, Preference, VariableId};
+use crate::syntax::{Node, NodeKind};
 
 /// The name behind the section's keyword, and what follows. Reports a missing name.
 pub(super) fn named<'t>(
@@ -36,10 +46,63 @@ pub(super) fn named<'t>(
 impl Body<'_> {
     /// `:parameters (…)`; none is like `()`.
     pub(super) fn parameters(&mut self, keys: &Keys<'_>) {
-        match keys.get(":parameters") {
-            Some(node) if node.is_list() => self.schema.parameters(self.world, self.sink, node.children()),
-            Some(node) => self.sink.unexpected(node, "a list of variables such as `(?x - type)`"),
-            None => {}
+        self.parameters_behind(&[], keys);
+    }
+
+    /// The same behind further ones.
+    pub(super) fn parameters_behind(&mut self, first: &[Node<'_>], keys: &Keys<'_>) {
+        let mut all = typed_list(self.sink, first.iter().copied());
+        if let Some(node) = self.variable_list(keys, ":parameters") {
+            all.extend(typed_list(self.sink, node.children()));
+        }
+        self.schema.bind_typed(self.world, self.sink, all);
+        self.schema.variables.parameters = self.schema.variables.slots.len();
+    }
+
+    /// The list of variables behind a key; reports what is none.
+    fn variable_list<'t>(&mut self, keys: &Keys<'t>, key: &str) -> Option<Node<'t>> {
+        let node = keys.get(key)?;
+        if !node.is_list() {
+            self.sink.unexpected(node, "a list of variables such as `(?x - type)`");
+        }
+        Some(node).filter(|node| node.is_list())
+    }
+
+    /// Makes what the precondition binds part of precondition and effect.
+    fn bound_by_precondition(&mut self, keys: &Keys<'_>, action: &mut Conditional) {
+        let Some(variables) = self.variable_list(keys, ":vars") else { return };
+        let span = variables.span();
+        let precondition = keys.get(":precondition");
+        let bind = |body: &mut Self| body.schema.bind(body.world, body.sink, variables.children());
+        let hard = |body: &mut Self| match precondition {
+            Some(node) => body.hard_condition(node),
+            None => Condition::always(span),
+        };
+        let exists = |bound: Vec<VariableId>, inner: Condition| Condition {
+            span: inner.span,
+            kind: ConditionKind::Exists(bound, Box::new(inner)),
+        };
+        // Each quantifier of the model has slots of its own, so what it holds is read once for each.
+        let bound = bind(self);
+        let inner = hard(self);
+        self.schema.unbind(bound.len());
+        action.precondition = exists(bound, inner);
+        for found in precondition.map(|node| self.preferences_in(node)).unwrap_or_default() {
+            let read = |body: &mut Self, node| {
+                let bound = bind(body);
+                let inner = body.condition(node);
+                body.schema.unbind(bound.len());
+                Some(exists(bound, inner))
+            };
+            action.preferences.extend(self.preference(&found, read));
+        }
+        if let Some(node) = keys.get(":effect") {
+            let bound = bind(self);
+            let when = hard(self);
+            let effect = Box::new(self.effect(node));
+            self.schema.unbind(bound.len());
+            let when = Effect { kind: EffectKind::When(when, effect), span: node.span() };
+            action.effect = Effect { kind: EffectKind::Forall(bound, Box::new(when)), span: node.span() };
         }
     }
 
@@ -52,24 +115,70 @@ impl Body<'_> {
     }
 }
 
+const KEYS: &[&str] =
+    &[":parameters", ":vars", ":precondition", ":effect", ":observe", ":expansion", ":only-in-expansions"];
+
+/// Keys that no model holds.
+const OTHERS: &[(&str, UnsupportedFeature)] = &[
+    (":observe", UnsupportedFeature::Observations),
+    (":expansion", UnsupportedFeature::Expansions),
+    (":only-in-expansions", UnsupportedFeature::Expansions),
+];
+
+/// What an action asks for and does.
+struct Conditional {
+    precondition: Condition,
+    preferences: Vec<Preference<Condition>>,
+    effect: Effect,
+}
+
+/// The words behind `:agent`, and everything else.
+pub(super) fn agent<'t>(nodes: impl Iterator<Item = Node<'t>>) -> (Vec<Node<'t>>, Vec<Node<'t>>) {
+    let (mut agent, mut rest) = (Vec::new(), Vec::new());
+    let mut inside = false;
+    for node in nodes {
+        if node.kind() == NodeKind::Keyword {
+            inside = node.is(":agent");
+        }
+        match inside {
+            true if node.is(":agent") => {}
+            true => agent.push(node),
+            // `:expansion :methods` says that methods do it.
+            false if node.is(":methods") => {}
+            false => rest.push(node),
+        }
+    }
+    (agent, rest)
+}
+
 pub(crate) fn action(world: &World, sink: &mut Sink, section: Node<'_>) -> Option<Action> {
     let (name, name_span, rest) = named(sink, section, NameKind::Action, "the action")?;
-    let keys = Keys::read(sink, rest, "an action", &[":parameters", ":vars", ":precondition", ":effect"]);
+    let (agent, rest) = agent(rest);
+    let keys = Keys::read(sink, rest.into_iter(), "an action", KEYS);
+    for (key, feature) in OTHERS {
+        if let Some(key) = keys.key(key) {
+            sink.unsupported(key.span(), *feature);
+        }
+    }
     let mut body = Body::new(world, sink);
     body.schema.scope = section.span();
-    body.parameters(&keys);
-    if let (Some(key), Some(node)) = (keys.key(":vars"), keys.get(":vars")) {
-        body.sink.unsupported(key.span(), UnsupportedFeature::ActionVariables);
-        body.schema.parameters(world, body.sink, node.children());
+    body.parameters_behind(&agent, &keys);
+    let mut conditional = Conditional {
+        precondition: Condition::always(first_word(section)),
+        preferences: Vec::new(),
+        effect: Effect::nothing(first_word(section)),
+    };
+    if keys.key(":vars").is_some() {
+        body.bound_by_precondition(&keys, &mut conditional);
+    } else {
+        if let Some(node) = keys.get(":precondition") {
+            (conditional.precondition, conditional.preferences) = body.soft_condition(node);
+        }
+        if let Some(node) = keys.get(":effect") {
+            conditional.effect = body.effect(node);
+        }
     }
-    let (precondition, preferences) = match keys.get(":precondition") {
-        Some(node) => body.soft_condition(node),
-        None => (Condition::always(first_word(section)), Vec::new()),
-    };
-    let effect = match keys.get(":effect") {
-        Some(node) => body.effect(node),
-        None => Effect::nothing(first_word(section)),
-    };
+    let Conditional { precondition, preferences, effect } = conditional;
     Some(Action {
         name,
         variables: body.schema.variables,

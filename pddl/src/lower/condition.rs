@@ -150,9 +150,18 @@ impl Body<'_> {
             }
             (Some(FunctionValue::Object(types)), _) => self.fluent_is(left, &types, right),
             (_, Some(FunctionValue::Object(types))) => self.fluent_is(right, &types, left),
+            (Some(FunctionValue::Number), _) if self.is_undefined(right) => self.no_number(left),
+            (_, Some(FunctionValue::Number)) if self.is_undefined(left) => self.no_number(right),
             _ if self.is_numeric(left) || self.is_numeric(right) => self.comparison(node, Comparison::Equal),
             _ => self.same(left, right),
         }
+    }
+
+    /// `(= (f) undefined)` of a numeric fluent: no comparison holds of what has no value, not even with itself.
+    fn no_number(&mut self, node: Node<'_>) -> Option<ConditionKind> {
+        let value = Box::new(self.expression(node)?);
+        let kind = ConditionKind::Compare(Comparison::Equal, value.clone(), value);
+        Some(ConditionKind::Not(Box::new(Condition { kind, span: node.span() })))
     }
 
     fn fluent_is(&mut self, fluent: Node<'_>, types: &TypeSet, value: Node<'_>) -> Option<ConditionKind> {

@@ -5,11 +5,11 @@
 //! them, as VAL has it). An imported constant may be repeated as it is, and only so.
 
 use super::sink::Sink;
-use super::typed_list::typed_list;
+use super::typed_list::{public, typed_list};
 use super::world::World;
 use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, Label, SymbolKind};
-use crate::model::{Domain, IndexVec, Name, Object, ObjectId, TypeSet};
+use crate::model::{Domain, IndexVec, Name, Object, ObjectId, Requirement, TypeSet};
 use crate::syntax::Node;
 
 /// How many of the first objects come from elsewhere: their spans are of other sources.
@@ -29,9 +29,20 @@ pub(crate) fn objects<'t>(
     foreign: Foreign<'_>,
 ) {
     for section in sections {
+        let mut items = Vec::new();
+        for (index, mut part) in public(sink, section).into_iter().enumerate() {
+            // The first name in an unfactored file is the agent's whose objects these are.
+            if index > 0
+                && world.has(Requirement::UnfactoredPrivacy)
+                && part.get(1).is_some_and(|second| !second.is("-"))
+            {
+                part.remove(0);
+            }
+            items.extend(typed_list(sink, part.into_iter()));
+        }
         // Runs of items share their type's node: it is resolved once a run.
         let mut last: Option<(Option<crate::Span>, TypeSet)> = None;
-        for (item, types) in typed_list(sink, section.children().skip(1)) {
+        for (item, types) in items {
             let at = types.map(Node::span);
             let types = match last.take() {
                 Some((place, set)) if place == at => set,

@@ -5,6 +5,7 @@
 //! operator above that says which.
 
 use super::body::Body;
+use super::keys::Keys;
 use super::sink::{Sink, first_word};
 use super::world::World;
 use crate::diagnostic::DiagnosticKind;
@@ -40,6 +41,7 @@ pub(crate) fn constraints<'t>(
     world: &World,
     sink: &mut Sink,
     sections: impl Iterator<Item = Node<'t>>,
+    global: impl Iterator<Item = Node<'t>>,
 ) -> Constraints {
     let mut body = Body::new(world, sink);
     let mut constraints = Constraints::default();
@@ -48,6 +50,9 @@ pub(crate) fn constraints<'t>(
         let Some([node]) = body.parts(section, "`(:constraints CONSTRAINT)`") else { continue };
         body.hard_constraints(node, &mut constraints.hard);
         found.extend(body.preferences_in(node));
+    }
+    for section in global {
+        constraints.hard.extend(body.global(section));
     }
     for found in found {
         let read = |body: &mut Body<'_>, node| body.constraint(node, Below::Nothing);
@@ -58,6 +63,32 @@ pub(crate) fn constraints<'t>(
 }
 
 impl Body<'_> {
+    /// `(:constraint NAME :parameters (…) :condition …)`, which some planners for PDDL+ know: it always holds.
+    fn global(&mut self, section: Node<'_>) -> Option<Constraint> {
+        let named = section.children().nth(1).is_some_and(Node::is_name);
+        let rest = section.children().skip(1 + usize::from(named));
+        let keys = Keys::read(self.sink, rest, "a constraint", &[":parameters", ":condition"]);
+        let span = section.span();
+        let bound = match keys.get(":parameters") {
+            Some(node) => self.schema.bind(self.world, self.sink, node.children()),
+            None => Vec::new(),
+        };
+        let condition = match keys.get(":condition") {
+            Some(node) => Some(self.condition(node)),
+            None => {
+                self.sink.missing(section, "the constraint", "`:condition`");
+                None
+            }
+        };
+        self.schema.unbind(bound.len());
+        let holds = Constraint { kind: ConstraintKind::Holds(condition?), span };
+        let always = Constraint { kind: ConstraintKind::Always(Box::new(holds)), span };
+        Some(match bound.is_empty() {
+            true => always,
+            false => Constraint { kind: ConstraintKind::Forall(bound, Box::new(always)), span },
+        })
+    }
+
     /// Appends what the conjunction at the top holds besides preferences.
     fn hard_constraints(&mut self, node: Node<'_>, into: &mut Vec<Constraint>) {
         if self.is_soft(node) || node.is_list() && node.head().is_none() {

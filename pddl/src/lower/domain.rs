@@ -5,13 +5,15 @@
 //! axioms; tasks, then methods, which may name all of them.
 
 use super::action::action;
-use super::axiom::{axiom, derived_predicate};
+use super::axiom::{axiom, derived_predicate, implication, implied_predicate};
+use super::body::Body;
 use super::constants::{Foreign, objects};
 use super::constraint::constraints;
 use super::durative::durative_action;
 use super::functions::functions;
 use super::header::{Header, header};
 use super::htn::{method, task};
+use super::init::Init;
 use super::permissions::permission;
 use super::predicates::predicates;
 use super::process::{event, process};
@@ -19,9 +21,9 @@ use super::requirements::requirements;
 use super::sink::{Lowered, Sink};
 use super::types::types;
 use super::world::World;
-use super::{imports, sink};
+use super::{htn, imports, sink};
 use crate::Span;
-use crate::diagnostic::{DiagnosticKind, FileKind, Label, SymbolKind};
+use crate::diagnostic::{DiagnosticKind, FileKind, Label, SymbolKind, UnsupportedFeature};
 use crate::model::{Domain, Event, Idx, IndexVec, Name, Process, SubtaskHead};
 use crate::syntax::Tree;
 
@@ -39,6 +41,14 @@ const SECTIONS: &[&str] = &[
     ":method",
     ":writes",
     ":constraints",
+    // PDDL 1.2.
+    ":axiom",
+    ":timeless",
+    ":safety",
+    ":extends",
+    // Planners for PDDL+ know it.
+    ":constraint",
+    ":tasks",
     ":process",
     ":event",
 ];
@@ -65,6 +75,18 @@ fn read(sink: &mut Sink, header: &Header<'_>, given: &[&Domain]) -> Domain {
     predicates(&mut world, sink, header.all(":predicates"), count, &origins);
     let count = world.functions.len();
     functions(&mut world, sink, header.all(":functions"), count, &origins);
+    for section in header.all(":axiom") {
+        if let Some(id) = implied_predicate(&world, section) {
+            world.predicates[id].derived = true;
+        }
+    }
+    for section in header.all(":safety") {
+        sink.unsupported(sink::first_word(section), UnsupportedFeature::SafetyConditions);
+    }
+    let mut timeless = Init::default();
+    for section in header.all(":timeless") {
+        Body::new(&world, sink).init(section.children().skip(1), &mut timeless);
+    }
     for section in header.all(":derived") {
         if let Some(id) = derived_predicate(&world, section) {
             world.predicates[id].derived = true;
@@ -94,8 +116,17 @@ fn read(sink: &mut Sink, header: &Header<'_>, given: &[&Domain]) -> Domain {
     let events = header.all(":event").filter_map(|s| event(&world, sink, s)).collect();
     distinct(sink, SymbolKind::Process, &processes, |p: &Process| (&p.name, p.name_span));
     distinct(sink, SymbolKind::Event, &events, |e: &Event| (&e.name, e.name_span));
-    let constraints = constraints(&world, sink, header.all(":constraints"));
-    let axioms = header.all(":derived").filter_map(|s| axiom(&world, sink, s)).collect();
+    let constraints = constraints(&world, sink, header.all(":constraints"), header.all(":constraint"));
+    let mut axioms: Vec<_> = header.all(":derived").filter_map(|s| axiom(&world, sink, s)).collect();
+    axioms.extend(header.all(":axiom").filter_map(|s| implication(&world, sink, s)));
+    for section in header.all(":tasks") {
+        for task in htn::tasks(&world, sink, section) {
+            let (name, parameters) = (task.name.clone(), task.variables.parameters().to_vec());
+            unique(&world, sink, SymbolKind::Task, &name, task.span);
+            let head = SubtaskHead::Task(tasks.push(task));
+            world.add_signature(&name, head, &parameters);
+        }
+    }
     for section in header.all(":task") {
         if let Some(task) = task(&world, sink, section) {
             let (name, parameters) = (task.name.clone(), task.variables.parameters().to_vec());
@@ -135,6 +166,7 @@ fn read(sink: &mut Sink, header: &Header<'_>, given: &[&Domain]) -> Domain {
         tasks,
         methods,
         permissions,
+        timeless: timeless.facts,
         unsupported: Vec::new(),
     }
 }

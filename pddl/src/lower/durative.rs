@@ -3,7 +3,7 @@
 //! The keys `:skill`, `:results`, `:claims`, `:priority` make it a rule; they need `:agent-rules`.
 //! Results are read right after the parameters, wherever they stand, for effects may name them.
 
-use super::action::named;
+use super::action::{agent, named};
 use super::body::Body;
 use super::keys::Keys;
 use super::schema::Owner;
@@ -24,10 +24,11 @@ const KEYS: &[&str] =
 
 pub(crate) fn durative_action(world: &World, sink: &mut Sink, section: Node<'_>) -> Option<DurativeAction> {
     let (name, name_span, rest) = named(sink, section, NameKind::Action, "the durative action")?;
-    let keys = Keys::read(sink, rest, "a durative action", KEYS);
+    let (agent, rest) = agent(rest);
+    let keys = Keys::read(sink, rest.into_iter(), "a durative action", KEYS);
     let mut body = Body::new(world, sink);
     body.schema.scope = section.span();
-    body.parameters(&keys);
+    body.parameters_behind(&agent, &keys);
     body.schema.owner = Owner::Durative;
     let results = body.results(&keys);
     let mut duration = Vec::new();
@@ -102,7 +103,16 @@ impl Body<'_> {
             () if head.is(">=") => Comparison::GreaterEqual,
             () => return self.sink.unexpected(node, EXPECTED),
         };
-        let Some([left, right]) = self.parts(node, EXPECTED) else { return };
+        let Some([mut left, mut right]) = self.parts(node, EXPECTED) else { return };
+        let mut comparison = comparison;
+        if right.is("?duration") && !left.is("?duration") {
+            (left, right) = (right, left);
+            comparison = match comparison {
+                Comparison::LessEqual => Comparison::GreaterEqual,
+                Comparison::GreaterEqual => Comparison::LessEqual,
+                other => other,
+            };
+        }
         if !left.is("?duration") {
             self.sink.unexpected(left, "`?duration`");
         }

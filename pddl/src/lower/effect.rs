@@ -1,7 +1,8 @@
 //! Effects: add, delete, assign, `forall`, `when`.
 
 use super::body::Body;
-use crate::diagnostic::DiagnosticKind;
+use super::sink::first_word;
+use crate::diagnostic::{DiagnosticKind, UnsupportedFeature};
 use crate::model::{Application, AssignOperator, AssignedValue, Effect, EffectKind, FunctionValue, TypeSet};
 use crate::syntax::Node;
 
@@ -37,8 +38,22 @@ impl Body<'_> {
             () if head.is("not") => self.delete(node),
             () if head.is("forall") => self.for_all(node),
             () if head.is("when") => self.conditional(node),
+            () if (head.is("probabilistic") || head.is("oneof"))
+                && self.world.predicate(head.text()).is_none() =>
+            {
+                self.uncertain(node)
+            }
             () => self.add_or_assign(node, head),
         }
+    }
+
+    /// `(probabilistic 0.5 (p) …)`, `(oneof (p) …)`: the effects are checked, and not kept.
+    fn uncertain(&mut self, node: Node<'_>) -> Option<EffectKind> {
+        self.sink.unsupported(first_word(node), UnsupportedFeature::UncertainEffects);
+        for part in node.children().skip(1).filter(|part| part.is_list()) {
+            self.effect(part);
+        }
+        None
     }
 
     fn all_effects(&mut self, node: Node<'_>) -> EffectKind {

@@ -3,9 +3,13 @@
 use super::body::{Applied, Body};
 use super::schema::Owner;
 use crate::analysis::NameKind;
-use crate::diagnostic::{DiagnosticKind, SymbolKind};
+use crate::diagnostic::{DiagnosticKind, SymbolKind, UnsupportedFeature};
 use crate::model::{Application, ArithmeticOperator, Expression, ExpressionKind, FunctionValue, Name};
 use crate::syntax::{Node, NodeKind};
+
+/// Operators that some planners know besides those of the language.
+const OPERATORS: &[&str] =
+    &["^", "abs", "sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "min", "max"];
 
 impl Body<'_> {
     /// Reads a numeric expression; `None` if something in it is wrong.
@@ -88,6 +92,16 @@ impl Body<'_> {
                 self.sink.mention(NameKind::Preference, name, None);
                 return self.of_metric(node, ExpressionKind::IsViolated(Name::new(name.text())));
             }
+        }
+        if OPERATORS.iter().any(|operator| head.is(operator))
+            && self.world.function(head.text()).is_none()
+            && node.children().count() > 1
+        {
+            self.sink.unsupported(head.span(), UnsupportedFeature::Operators);
+            for operand in node.children().skip(1) {
+                self.expression(operand);
+            }
+            return Some(ExpressionKind::Number(0.0));
         }
         self.fluent(node)
     }

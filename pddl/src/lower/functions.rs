@@ -2,7 +2,7 @@
 
 use super::predicates::{Earlier, parameters, repeated, same_parameters};
 use super::sink::Sink;
-use super::typed_list::typed_list;
+use super::typed_list::{public, typed_list, without_agent};
 use super::world::World;
 use crate::analysis::NameKind;
 use crate::diagnostic::SymbolKind;
@@ -17,7 +17,9 @@ pub(crate) fn functions<'t>(
     imports: &[&Domain],
 ) {
     for section in sections {
-        for (node, value) in typed_list(sink, section.children().skip(1)) {
+        let parts = public(sink, section).into_iter().map(without_agent);
+        let items: Vec<_> = parts.flat_map(|part| typed_list(sink, part.into_iter())).collect();
+        for (node, value) in items {
             let head = if node.is_list() { node.head() } else { Some(node) };
             let Some(head) = head.filter(|h| h.is_name()) else {
                 sink.unexpected(node, "a function such as `(f ?x - type)`");

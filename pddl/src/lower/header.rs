@@ -32,6 +32,14 @@ impl<'t> Header<'t> {
     }
 }
 
+/// Whether the file starts like `domain x {`, as RDDL does.
+fn is_rddl(tree: &Tree<'_>) -> bool {
+    let first: Vec<Node<'_>> = tree.roots().take(4).collect();
+    let starts = |word: &str| first.first().is_some_and(|n| n.is(word));
+    (starts("domain") || starts("non-fluents") || starts("instance"))
+        && first.iter().skip(1).any(|n| !n.is_list() && n.text().contains('{'))
+}
+
 /// The first definition of that kind in the file. Others of the other kind may stand around it.
 pub(crate) fn header<'t>(
     sink: &mut Sink,
@@ -44,7 +52,11 @@ pub(crate) fn header<'t>(
     let of_kind = |n: &Node<'t>| is_define(n) && n.children().nth(1).is_some_and(|h| h.is_headed(&word));
     let Some(define) = tree.roots().find(of_kind) else {
         let span = tree.roots().next().map_or(Span::new(0, 0), super::sink::first_word);
-        sink.report(span, DiagnosticKind::NotADefinition { expected: kind });
+        let kind = match is_rddl(tree) {
+            true => DiagnosticKind::OtherLanguage,
+            false => DiagnosticKind::NotADefinition { expected: kind },
+        };
+        sink.report(span, kind);
         return None;
     };
     for root in tree.roots().skip_while(|n| n.span().start <= define.span().start) {

@@ -32,6 +32,7 @@ const METHOD_KEYS: &[&str] = &[
     ":ordered-subtasks",
     ":ordered-tasks",
     ":ordering",
+    ":order",
     ":constraints",
 ];
 
@@ -42,6 +43,7 @@ const NETWORK_KEYS: &[&str] = &[
     ":ordered-subtasks",
     ":ordered-tasks",
     ":ordering",
+    ":order",
     ":constraints",
 ];
 
@@ -53,6 +55,32 @@ pub(crate) fn task(world: &World, sink: &mut Sink, section: Node<'_>) -> Option<
     body.schema.scope = section.span();
     body.parameters(&keys);
     Some(CompoundTask { name, variables: body.schema.variables, span: section.span() })
+}
+
+/// `(:tasks (name ?x - t …) …)`: tasks beside each other.
+pub(crate) fn tasks(world: &World, sink: &mut Sink, section: Node<'_>) -> Vec<CompoundTask> {
+    let mut tasks = Vec::new();
+    for node in section.children().skip(1) {
+        let Some(name) = node.head().filter(|h| h.is_name()) else {
+            sink.unexpected(node, "a task such as `(task ?x - type)`");
+            continue;
+        };
+        sink.declare(NameKind::Task, name, None);
+        let mut body = Body::new(world, sink);
+        body.schema.scope = node.span();
+        if node.children().nth(1).is_some_and(|second| second.is(":parameters")) {
+            let keys = Keys::read(body.sink, node.children().skip(1), "a task", &[":parameters"]);
+            body.parameters(&keys);
+        } else {
+            body.schema.parameters(world, body.sink, node.children().skip(1));
+        }
+        tasks.push(CompoundTask {
+            name: Name::new(name.text()),
+            variables: body.schema.variables,
+            span: node.span(),
+        });
+    }
+    tasks
 }
 
 pub(crate) fn method(world: &World, sink: &mut Sink, section: Node<'_>) -> Option<Method> {
@@ -143,7 +171,7 @@ impl Body<'_> {
                 network.orderings.extend(chain.map(|(before, after)| Ordering { before, after }));
             }
         }
-        if let Some(node) = keys.get(":ordering") {
+        if let Some(node) = keys.get(":ordering").or_else(|| keys.get(":order")) {
             self.orderings(node, given, &mut network);
         }
         self.check_acyclic(&network, keys);
@@ -213,14 +241,17 @@ impl Body<'_> {
     }
 
     fn orderings(&mut self, node: Node<'_>, subtasks: Option<Node<'_>>, network: &mut TaskNetwork) {
-        if !node.is_list() || !(node.head().is_none() || node.is_headed("and") || node.is_headed("<")) {
+        // `((< a b) …)` has no `and` before its parts.
+        let bare = node.head().is_some_and(Node::is_list);
+        if !node.is_list() || !(bare || node.head().is_none() || node.is_headed("and") || node.is_headed("<"))
+        {
             self.sink.unexpected(node, "`(and (< BEFORE AFTER) …)`");
             return;
         }
         if node.is_headed("<") {
             return self.ordering(node, subtasks, network);
         }
-        for part in node.children().skip(1) {
+        for part in node.children().skip(usize::from(!bare)) {
             if part.is_headed("<") {
                 self.ordering(part, subtasks, network);
             } else {
@@ -268,7 +299,10 @@ impl Body<'_> {
             let subtask = &network.subtasks[i];
             subtask.id.clone().unwrap_or_else(|| Name::new(&format!("{}", i + 1)))
         };
-        let place = keys.get(":ordering").map_or_else(|| network.subtasks[cycle[0]].span, first_word);
+        let place = keys
+            .get(":ordering")
+            .or_else(|| keys.get(":order"))
+            .map_or_else(|| network.subtasks[cycle[0]].span, first_word);
         let cycle = cycle.iter().map(name).collect();
         self.sink.report(place, DiagnosticKind::CyclicOrdering { cycle });
     }

@@ -21,7 +21,7 @@ pub(crate) fn imports<'d>(
     given: &[&'d Domain],
 ) -> Vec<(&'d Domain, Span)> {
     let mut found: Vec<(&Domain, Span)> = Vec::new();
-    for section in header.all(":import") {
+    for section in header.all(":import").chain(header.all(":extends")) {
         for node in section.children().skip(1) {
             if !node.is_name() {
                 sink.unexpected(node, "the name of a domain");

@@ -3,8 +3,9 @@
 //! This is where files are long, so a fact costs one lookup a word and one vector, and no schema.
 
 use super::body::{Applied, Body};
+use super::sink::first_word;
 use crate::analysis::NameKind;
-use crate::diagnostic::SymbolKind;
+use crate::diagnostic::{SymbolKind, UnsupportedFeature};
 use crate::model::{
     Fact, FluentFact, FluentValue, FunctionValue, GroundApplication, ObjectId, PredicateId, Term,
     TimedChange, TimedInitial,
@@ -48,6 +49,8 @@ impl Body<'_> {
                 self.negative_fact(node);
             } else if head.is("and") {
                 self.init(node.children().skip(1), into);
+            } else if ["oneof", "unknown", "or"].iter().any(|word| head.is(word)) {
+                self.uncertain_facts(node);
             } else if self.is_timed(node) {
                 self.timed_initial(node, into);
             } else if head.is_name() {
@@ -56,6 +59,12 @@ impl Body<'_> {
                 self.sink.unexpected(head, "a predicate");
             }
         }
+    }
+
+    /// `(oneof (p) (q))`: the facts are checked, and not kept.
+    fn uncertain_facts(&mut self, node: Node<'_>) {
+        self.sink.unsupported(first_word(node), UnsupportedFeature::UncertainInitialStates);
+        self.init(node.children().skip(1), &mut Init::default());
     }
 
     /// `(at 5 (p))`: a predicate called `at` has no list as argument.

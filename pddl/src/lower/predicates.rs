@@ -2,6 +2,7 @@
 
 use super::schema::Schema;
 use super::sink::Sink;
+use super::typed_list::{public, without_agent};
 use super::world::World;
 use crate::Span;
 use crate::analysis::NameKind;
@@ -17,7 +18,7 @@ pub(crate) fn predicates<'t>(
     imports: &[&Domain],
 ) {
     for section in sections {
-        for node in section.children().skip(1) {
+        for node in public(sink, section).into_iter().flat_map(without_agent) {
             let Some(head) = node.head().filter(|h| h.is_name()) else {
                 sink.unexpected(node, "a predicate such as `(p ?x - type)`");
                 continue;

@@ -11,9 +11,10 @@ use super::requirements::requirements;
 use super::sink::{Lowered, Sink, first_word};
 use super::world::World;
 use crate::analysis::NameKind;
-use crate::diagnostic::{DiagnosticKind, FileKind};
-use crate::model::{Condition, Domain, Name, Preference, Problem, Variables};
+use crate::diagnostic::{DiagnosticKind, FileKind, UnsupportedFeature};
+use crate::model::{Condition, Domain, Fact, Name, ObjectId, PredicateId, Preference, Problem, Variables};
 use crate::syntax::{Node, Tree};
+use rustc_hash::FxHashSet;
 
 const SECTIONS: &[&str] = &[
     ":domain",
@@ -24,6 +25,9 @@ const SECTIONS: &[&str] = &[
     ":metric",
     ":htn",
     ":constraints",
+    ":situation",
+    ":goal-reward",
+    ":goal-probability",
     // Says how long a plan may be; PDDL 1.2 only, and no planner reads it.
     ":length",
 ];
@@ -50,7 +54,13 @@ fn read(sink: &mut Sink, header: &Header<'_>, domain: &Domain) -> Problem {
     if let Some(section) = header.one(body.sink, ":init") {
         body.init(section.children().skip(1), &mut init);
     }
-    let constraints = constraints(&world, sink, header.all(":constraints"));
+    timeless(domain, header, &mut init);
+    for (key, feature) in OTHERS {
+        for section in header.all(key) {
+            sink.unsupported(first_word(section), *feature);
+        }
+    }
+    let constraints = constraints(&world, sink, header.all(":constraints"), std::iter::empty());
     let network = header.one(sink, ":htn");
     let htn = network.map(|section| initial_network(&world, sink, section));
     let ((goal, preferences), goal_variables, goal_span) = goal(&world, sink, header, network);
@@ -76,6 +86,25 @@ fn read(sink: &mut Sink, header: &Header<'_>, domain: &Domain) -> Problem {
         goal_span,
         objects: super::constants::take(&mut world),
     }
+}
+
+/// Sections that no model holds.
+const OTHERS: &[(&str, UnsupportedFeature)] = &[
+    (":situation", UnsupportedFeature::Situations),
+    (":goal-reward", UnsupportedFeature::Rewards),
+    (":goal-probability", UnsupportedFeature::Rewards),
+];
+
+/// Adds what the domain says holds always, where `:init` does not say so itself.
+fn timeless(domain: &Domain, header: &Header<'_>, init: &mut Init) {
+    if domain.timeless.is_empty() {
+        return;
+    }
+    let known: FxHashSet<(PredicateId, Vec<ObjectId>)> =
+        init.facts.iter().map(|f| (f.predicate, f.arguments.clone())).collect();
+    let place = header.all(":init").next().unwrap_or(header.define);
+    let more = domain.timeless.iter().filter(|f| !known.contains(&(f.predicate, f.arguments.clone())));
+    init.facts.extend(more.map(|f| Fact { span: first_word(place), ..f.clone() }));
 }
 
 fn check_domain(sink: &mut Sink, header: &Header<'_>, domain: &Domain) {

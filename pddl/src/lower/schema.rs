@@ -1,7 +1,7 @@
 //! The variables of the schema that is being read: slots, and which of them are in sight.
 
 use super::sink::Sink;
-use super::typed_list::typed_list;
+use super::typed_list::{Typed, typed_list};
 use super::world::{World, fold};
 use crate::Span;
 use crate::analysis::NameKind;
@@ -74,8 +74,19 @@ impl Schema {
         sink: &mut Sink,
         nodes: impl Iterator<Item = Node<'t>>,
     ) -> Vec<VariableId> {
+        let items = typed_list(sink, nodes);
+        self.bind_typed(world, sink, items)
+    }
+
+    /// The same with a list that is split already.
+    pub(crate) fn bind_typed(
+        &mut self,
+        world: &World,
+        sink: &mut Sink,
+        items: Vec<Typed<'_>>,
+    ) -> Vec<VariableId> {
         let mut bound: Vec<VariableId> = Vec::new();
-        for (item, types) in typed_list(sink, nodes) {
+        for (item, types) in items {
             if item.kind() != NodeKind::Variable || item.text().len() < 2 {
                 sink.unexpected(item, "a variable such as `?x`");
                 continue;

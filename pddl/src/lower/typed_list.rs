@@ -1,9 +1,9 @@
 //! `a b - t c - (either t u) d`: items with their types.
 
-use super::sink::Sink;
+use super::sink::{Sink, first_word};
 use super::world::World;
 use crate::analysis::NameKind;
-use crate::diagnostic::SymbolKind;
+use crate::diagnostic::{DiagnosticKind, SymbolKind};
 use crate::model::{TypeId, TypeSet};
 use crate::syntax::Node;
 use smallvec::SmallVec;
@@ -37,6 +37,30 @@ pub(crate) fn typed_list<'t>(sink: &mut Sink, nodes: impl Iterator<Item = Node<'
         untyped = items.len();
     }
     items
+}
+
+/// What stands in a section, with the lists that MA-PDDL puts into `(:private …)`; each of those is a list of its
+/// own, for no type reaches over its end. Says that privacy is not looked at.
+///
+/// Source: Komenda, Stolba & Kovacs, "The international competition of distributed and multiagent planners", 2016.
+pub(crate) fn public<'t>(sink: &mut Sink, section: Node<'t>) -> Vec<Vec<Node<'t>>> {
+    let (private, open): (Vec<Node<'t>>, Vec<Node<'t>>) =
+        section.children().skip(1).partition(|node| node.is_headed(":private"));
+    let mut parts = vec![open];
+    for node in private {
+        sink.report(first_word(node), DiagnosticKind::PrivacyIgnored);
+        parts.push(node.children().skip(1).collect());
+    }
+    parts
+}
+
+/// Without the agent that MA-PDDL names before what is private to it, `?a - t (p) …`.
+pub(crate) fn without_agent(mut nodes: Vec<Node<'_>>) -> Vec<Node<'_>> {
+    if nodes.first().is_some_and(|first| !first.is_list() && !first.is_name()) {
+        let agent = nodes.iter().position(|node| node.is_list()).unwrap_or(nodes.len());
+        nodes.drain(..agent);
+    }
+    nodes
 }
 
 /// The names that a type's node holds: itself, or those of `(either …)`.

@@ -139,6 +139,8 @@ pub struct Domain {
     pub methods: IndexVec<MethodId, Method>,
     /// Who may write what.
     pub permissions: Vec<Permission>,
+    /// Facts that hold in the initial state of every problem (`:timeless` of PDDL 1.2).
+    pub timeless: Vec<super::Fact>,
     /// Language features that the model does not hold, with their places; a command that needs the
     /// whole meaning refuses by name.
     pub unsupported: Vec<crate::Diagnostic>,

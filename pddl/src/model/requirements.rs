@@ -73,6 +73,12 @@ requirements! {
     Hierarchy = ":hierarchy",
     /// HDDL method preconditions.
     MethodPreconditions = ":method-preconditions",
+    /// MA-PDDL: several agents.
+    MultiAgent = ":multi-agent",
+    /// MA-PDDL: one file for all agents, which says what is private to whom.
+    UnfactoredPrivacy = ":unfactored-privacy",
+    /// MA-PDDL: a file for each agent, which says what is private.
+    FactoredPrivacy = ":factored-privacy",
     /// Ours: durative actions are agents' rules, with skills, claims, priorities and outcomes.
     AgentRules = ":agent-rules",
     /// Ours: `:writes` says which agent may write which token.
@@ -87,6 +93,13 @@ impl Requirement {
         (":htn-method-prec", Self::MethodPreconditions),
         (":equality-preconditions", Self::Equality),
         (":domain-axioms", Self::DerivedPredicates),
+        (":axioms", Self::DerivedPredicates),
+        (":true-negation", Self::NegativePreconditions),
+        (":expression-evaluation", Self::Fluents),
+        (":processes", Self::Time),
+        (":events", Self::Time),
+        (":continous-effects", Self::ContinuousEffects),
+        (":duration-inequality", Self::DurationInequalities),
     ];
 }
 

@@ -17,6 +17,14 @@ impl<'m> Printer<'m> {
         self.predicate_section();
         self.function_sections();
         self.permission_sections();
+        if !domain.timeless.is_empty() {
+            self.push("\n  (:timeless");
+            for fact in &domain.timeless {
+                self.push("\n    ");
+                self.ground(&domain.predicates[fact.predicate].name, &fact.arguments);
+            }
+            self.push(")");
+        }
         self.constraint_section(&domain.constraints);
         for axiom in &domain.axioms {
             self.axiom(axiom);

@@ -86,7 +86,7 @@ impl Printer<'_> {
         }
     }
 
-    fn ground(&mut self, name: &str, arguments: &[ObjectId]) {
+    pub(super) fn ground(&mut self, name: &str, arguments: &[ObjectId]) {
         self.push("(");
         self.push(name);
         for &argument in arguments {

@@ -15,15 +15,31 @@ use super::token::{TokenKind, Tokens};
 use crate::Span;
 
 /// Keywords of sections that hold keys and their values.
-const KEYED: &[&str] = &[":action", ":durative-action", ":event", ":htn", ":method", ":process", ":task"];
+const KEYED: &[&str] = &[
+    ":action",
+    ":axiom",
+    ":constraint",
+    ":durative-action",
+    ":event",
+    ":htn",
+    ":method",
+    ":process",
+    ":task",
+];
 
 /// Keys that stand in such sections only, and directly.
 const KEYS: &[&str] = &[
+    ":agent",
     ":claims",
     ":condition",
     ":constraints",
+    ":context",
     ":duration",
     ":effect",
+    ":expansion",
+    ":implies",
+    ":observe",
+    ":order",
     ":ordered-subtasks",
     ":ordered-tasks",
     ":ordering",

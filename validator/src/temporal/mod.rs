@@ -40,8 +40,8 @@ use timeline::{Point, timeline};
 /// How often what happens by itself may begin and end at one instant.
 const MOST_UNRESTS: usize = 100;
 
-/// What one more beginning or end costs of the plan's effort.
-const UNREST: u64 = 100;
+/// How often it may do so in the whole plan: times that come ever nearer to each other never pass.
+const MOST_UNRESTS_OF_ALL: usize = 10_000;
 
 type Checked<T = ()> = Result<T, Box<Failure>>;
 
@@ -62,6 +62,7 @@ pub(crate) fn run(
         causes: Vec::new(),
         active: Vec::new(),
         recent: Vec::new(),
+        unrests: 0,
     };
     let mut recorder = trace.as_mut().map(|trace| Recorder::new(validator, run.state, &mut trace.initial));
     if run.has_nature() {
@@ -151,6 +152,8 @@ struct Run<'s, 'v, 'a> {
     causes: Vec<Cause>,
     active: Vec<Active<'v>>,
     recent: Vec<Recent>,
+    /// How often something began or ended by itself.
+    unrests: usize,
 }
 
 impl<'v> Run<'_, 'v, '_> {
@@ -196,10 +199,9 @@ impl<'v> Run<'_, 'v, '_> {
                 break;
             };
             // Conditions that end each other at one instant would take no time, for ever.
-            // Times that come ever nearer to each other never pass either.
-            let at_once = unrest.after < Number::billionth();
-            unrests = if at_once { unrests + 1 } else { 0 };
-            if unrests > MOST_UNRESTS || !self.state.effort.spend(UNREST) {
+            unrests = if unrest.after == Number::ZERO { unrests + 1 } else { 0 };
+            self.unrests += 1;
+            if unrests > MOST_UNRESTS || self.unrests > MOST_UNRESTS_OF_ALL {
                 return Err(self.change(ChangeFault::Unsteady));
             }
             self.set(&flow, unrest.after)?;

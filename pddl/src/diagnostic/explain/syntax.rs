@@ -59,7 +59,7 @@ pub(super) const EXPLANATIONS: &[Explanation] = &[
         title: "this is not a definition",
         meaning: "The file holds no `(define (domain …) …)` where a domain is to be read, or no `(define \
          (problem …) …)` where a problem is. Or it \
-         should be a plan and holds no step.",
+         should be a plan and holds no step. A file in RDDL is told by its name.",
         why: "Either the wrong file was given, for instance the problem in the place of the domain, or \
          the first line is misspelled. A text that is no plan must not pass for the empty one.",
         wrong: &["\
@@ -198,5 +198,19 @@ pub(super) const EXPLANATIONS: &[Explanation] = &[
   (:goal (lit)))",
             "(switch)",
         ],
+    },
+    Explanation {
+        code: "W0112",
+        title: "privacy is not looked at",
+        meaning: "The domain is in MA-PDDL and says with `:private` what only one agent knows. That is read, and \
+         then known to all: a plan is made for all agents together.",
+        why: "A plan that is found may need one agent to know what is private to another.",
+        wrong: &["\
+(define (domain hall)
+  (:requirements :factored-privacy)
+  (:predicates (lit) (:private (tired))))"],
+        right: &["\
+(define (domain hall)
+  (:predicates (lit) (tired)))"],
     },
 ];

@@ -5,10 +5,13 @@
 //! whole numbers before all steps (`0: (a)`, `1: (b)`) count them, unless the domain knows time, where they
 //! are times.
 //!
+//! A text that is no plan as it stands may be a planner's output with one in it (`output`).
+//!
 //! A text without any step is no plan, and never read as the empty one; a file without any text is, with a
 //! warning.
 
 mod hierarchical;
+mod output;
 mod steps;
 
 use super::body::Body;
@@ -16,18 +19,33 @@ use super::sink::{Lowered, Sink, found_text};
 use super::world::World;
 use crate::diagnostic::{DiagnosticKind, SymbolKind};
 use crate::model::{Domain, Name, ObjectId, Problem, Term, Variable};
-use crate::syntax::{Node, TokenKind, Tree};
-use crate::{ClaimedCost, Plan, SequentialPlan, Source, Span};
+use crate::syntax::{self, Node, TokenKind, Tree};
+use crate::{ClaimedCost, Diagnostic, Plan, SequentialPlan, Source, Span};
 
 const STEP: &str = "a step such as `(action object)`";
 
+/// Reads a plan, or the one in a planner's output. Each reading has a sink of its own from `sink`.
 pub(crate) fn plan(
-    sink: Sink,
+    sink: impl Fn(Vec<Diagnostic>) -> Sink,
     source: &Source,
-    tree: &Tree<'_>,
     domain: &Domain,
     problem: &Problem,
 ) -> Lowered<Plan> {
+    let read = |source: &Source| {
+        let (tree, diagnostics) = syntax::parse(source);
+        whole(sink(diagnostics), source, &tree, domain, problem)
+    };
+    let lowered = read(source);
+    if lowered.sound {
+        return lowered;
+    }
+    match output::within_output(source.text()) {
+        Some(text) => read(&Source::new(source.name(), text)),
+        None => lowered,
+    }
+}
+
+fn whole(sink: Sink, source: &Source, tree: &Tree<'_>, domain: &Domain, problem: &Problem) -> Lowered<Plan> {
     let mut world = World::of(domain);
     for object in problem.objects.iter().skip(domain.constants.len()) {
         world.add_object(object.clone());

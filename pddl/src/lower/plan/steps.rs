@@ -112,6 +112,17 @@ impl<'a> Reader<'a> {
                         duration = Some((value, open.to(*close)));
                         next += 3;
                     }
+                    // LPG's `[D:1.00; C:0.10]`: what stands behind `;` is a comment, its bracket too.
+                    Some([(Piece::Word, letter), (Piece::Colon, _)])
+                        if self.source.slice(*letter).eq_ignore_ascii_case("D")
+                            && matches!(pieces.get(next + 3), Some((Piece::Word, _))) =>
+                    {
+                        let span = pieces[next + 3].1;
+                        let (value, _) = self.figure(span, DURATION);
+                        duration = Some((value, open.to(span)));
+                        next += 4;
+                        next += usize::from(matches!(pieces.get(next), Some((Piece::Close, _))));
+                    }
                     _ => {
                         duration = Some((None, *open));
                         next = self.skip_line(&pieces, next, DURATION);

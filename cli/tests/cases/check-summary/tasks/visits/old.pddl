@@ -1,3 +1,3 @@
 (define (domain old)
   (:predicates (p ?x))
-  (:action a :parameters (?x) :vars (?y) :effect (p ?y)))
+  (:action a :parameters (?x) :observe (p ?x) :effect (p ?x)))

@@ -1,0 +1,4 @@
+domain reservoir_mdp {
+  requirements = { reward-deterministic };
+  types { res: object; };
+}

@@ -1,0 +1,6 @@
+(define (domain map)
+  (:constants a b)
+  (:timeless (road a b) (road b a))
+  (:predicates (road ?x ?y) (at ?x))
+  (:action go :parameters (?x ?y) :precondition (and (at ?x) (road ?x ?y)) :effect (and (at ?y) (not (at ?x)))))
+(define (problem map-1) (:domain map) (:init (at a) (road a b)) (:goal (at b)))

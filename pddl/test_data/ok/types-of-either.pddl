@@ -1,0 +1,6 @@
+(define (domain kinds)
+  (:types a - (either b) b - c e f - (either c d) object)
+  (:constants k1 - (either a) k2 k3 - (either e f))
+  (:predicates (p ?x - (either a) ?y - (either c d)) (q))
+  (:action act :parameters (?x - (either a b)) :precondition () :effect (q)))
+(define (problem kinds-1) (:domain kinds) (:objects) (:init) (:goal (and)))

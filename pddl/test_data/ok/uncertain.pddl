@@ -1,0 +1,6 @@
+(define (domain dice)
+  (:predicates (p) (q))
+  (:action roll :parameters () :precondition (p) :effect (probabilistic 0.5 (q) 1/2 (and (not (p)))))
+  (:action spin :parameters () :precondition (p) :effect (oneof (q) (not (p))))
+  (:action look :parameters () :precondition (p) :observe (q)))
+(define (problem dice-1) (:domain dice) (:init (p) (oneof (p) (q)) (unknown (q)) (or (p) (q))) (:goal (q)) (:goal-reward 100))
