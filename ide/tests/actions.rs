@@ -52,7 +52,7 @@ fn mistyped_names() {
     check(
         "//- p.pddl\n(define (problem p) (:domain hal$0) (:goal ()))\n//- d.pddl\n(define (domain hall))\n",
         &expect![[r#"
-            !E0212 Change to `hall`
+            !W0223 Change to `hall`
             //- p.pddl
             (define (problem p) (:domain hall) (:goal ()))
         "#]],

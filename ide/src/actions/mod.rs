@@ -4,7 +4,7 @@ mod declare;
 mod insert;
 mod remove;
 
-use pddl::{Diagnostic, DiagnosticKind, Span};
+use pddl::{Diagnostic, DiagnosticKind, Severity, Span};
 use project::{FileKind, Linted, Place, Project, Reading, SourceId};
 
 use crate::{Edits, TextEdit};
@@ -44,10 +44,13 @@ pub fn code_actions(project: &Project, source: SourceId, range: Span) -> Vec<Cod
     let mut actions = Vec::new();
     let diagnostics = project.reading(source).map_or(&[][..], Reading::diagnostics);
     let needs_domain = project.kind(source) == FileKind::Problem && project.domain_of(source).is_none();
-    if needs_domain {
-        actions.extend(
-            other_domain(project, source).filter(|action| action.fixes.is_some_and(|(_, s)| touches(s))),
-        );
+    // A domain of another name that stands beside the problem is read with a warning.
+    let misnamed = diagnostics.iter().any(|d| d.code() == "W0223");
+    if needs_domain || misnamed {
+        let is_read = !needs_domain && diagnostics.iter().all(|d| d.severity != Severity::Error);
+        let code = if is_read { "W0223" } else { "E0212" };
+        let offered = other_domain(project, source, code);
+        actions.extend(offered.filter(|action| action.fixes.is_some_and(|(_, s)| touches(s))));
     }
     // Without a domain every name is unknown; that is not what is wrong.
     for diagnostic in diagnostics.iter().filter(|d| touches(d.span) && !needs_domain) {
@@ -116,7 +119,7 @@ fn of_diagnostic(
 }
 
 /// The nearest domain for a problem that names one that is nowhere.
-fn other_domain(project: &Project, source: SourceId) -> impl Iterator<Item = CodeAction> {
+fn other_domain(project: &Project, source: SourceId, code: &'static str) -> impl Iterator<Item = CodeAction> {
     let need = project.header(source).and_then(|header| header.needs.first());
     let domains = project.ids().filter(|&id| project.kind(id) == FileKind::Domain);
     let names: Vec<&str> = domains.filter_map(|id| Some(project.header(id)?.name.as_str())).collect();
@@ -124,7 +127,7 @@ fn other_domain(project: &Project, source: SourceId) -> impl Iterator<Item = Cod
     found.into_iter().map(move |(need, near)| CodeAction {
         title: format!("Change to `{near}`"),
         kind: ActionKind::Fix,
-        fixes: Some(("E0212", need.span)),
+        fixes: Some((code, need.span)),
         preferred: true,
         edits: of_one(source, TextEdit { span: need.span, text: near }),
     })
