@@ -36,6 +36,26 @@ pub enum Fault {
     Constraint,
     /// The goal does not hold in the end.
     Goal,
+    /// The decomposition does not begin with the problem's task network.
+    Root,
+    /// A task's method is one of another task, or not for its arguments.
+    Method,
+    /// A task's subtasks are not those of its method.
+    Subtasks,
+    /// The constraints of a task network do not hold.
+    MethodConstraint,
+    /// A method's precondition does not hold where its task is carried out.
+    MethodPrecondition,
+    /// Steps are in an order that a task network forbids.
+    Ordering,
+    /// An action or task of the plan comes out of no task.
+    Orphan,
+    /// An action or task of the plan is used twice.
+    Shared,
+    /// A task is a subtask of itself.
+    Cycle,
+    /// The task network cannot become these steps.
+    Decomposition,
     /// Domain and problem have no meaning under which a plan could be valid.
     IllFormed,
 }
@@ -57,6 +77,16 @@ impl Fault {
         Self::Change,
         Self::Constraint,
         Self::Goal,
+        Self::Root,
+        Self::Method,
+        Self::Subtasks,
+        Self::MethodConstraint,
+        Self::MethodPrecondition,
+        Self::Ordering,
+        Self::Orphan,
+        Self::Shared,
+        Self::Cycle,
+        Self::Decomposition,
         Self::IllFormed,
     ];
 
@@ -77,6 +107,16 @@ impl Fault {
             Self::Change => "change",
             Self::Constraint => "constraint",
             Self::Goal => "goal",
+            Self::Root => "root",
+            Self::Method => "method",
+            Self::Subtasks => "subtasks",
+            Self::MethodConstraint => "method-constraint",
+            Self::MethodPrecondition => "method-precondition",
+            Self::Ordering => "ordering",
+            Self::Orphan => "orphan",
+            Self::Shared => "shared",
+            Self::Cycle => "cycle",
+            Self::Decomposition => "decomposition",
             Self::IllFormed => "ill-formed",
         }
     }

@@ -7,7 +7,8 @@ use crate::suite::{PlanCase, Suite};
 use pddl::{Severity, Source, Span, parse_plan};
 use project::{Finding, Place, SourceId};
 use validator::{
-    Cause, Failure, File, Number, StepFault, StepIndex, Unsatisfied, Verdict, explain, validate,
+    Cause, Failure, File, NetworkFault, Number, Parent, StepFault, StepIndex, Unsatisfied, Verdict, explain,
+    validate,
 };
 
 /// What there is to say.
@@ -91,7 +92,9 @@ impl Suite {
         let (fault, step) = kind(&failure);
         let mut missing = Vec::new();
         match &failure {
-            Failure::Precondition { parts, .. } | Failure::Invariant { parts, .. } => {
+            Failure::Precondition { parts, .. }
+            | Failure::Invariant { parts, .. }
+            | Failure::Network { fault: NetworkFault::Precondition { parts, .. } } => {
                 Literals { suite: self, task, file: task.files.domain }.of(parts, &mut missing);
             }
             Failure::Goal { parts } => {
@@ -103,7 +106,8 @@ impl Suite {
             | Failure::Effect { .. }
             | Failure::Change { .. }
             | Failure::EndlessEvents { .. }
-            | Failure::Constraint { .. } => {}
+            | Failure::Constraint { .. }
+            | Failure::Network { .. } => {}
         }
         Found::Invalid { fault, step, missing, says }
     }
@@ -226,7 +230,26 @@ fn kind(failure: &Failure) -> (Fault, Option<u64>) {
         }
         Failure::Change { .. } | Failure::EndlessEvents { .. } => (Fault::Change, None),
         Failure::Constraint { .. } => (Fault::Constraint, None),
+        Failure::Network { fault } => (network(fault), None),
         Failure::Goal { .. } => (Fault::Goal, None),
+    }
+}
+
+fn network(fault: &NetworkFault) -> Fault {
+    match fault {
+        NetworkFault::Subtasks { of: Parent::Root, .. } | NetworkFault::NoNetwork => Fault::Root,
+        NetworkFault::Subtasks { of: Parent::Task(_), .. } => Fault::Subtasks,
+        NetworkFault::Unknown { .. }
+        | NetworkFault::Arguments { .. }
+        | NetworkFault::Method { .. }
+        | NetworkFault::MethodArguments { .. } => Fault::Method,
+        NetworkFault::Cycle { .. } => Fault::Cycle,
+        NetworkFault::Shared { .. } => Fault::Shared,
+        NetworkFault::Orphan { .. } => Fault::Orphan,
+        NetworkFault::Constraints { .. } => Fault::MethodConstraint,
+        NetworkFault::Ordering { .. } => Fault::Ordering,
+        NetworkFault::Precondition { .. } => Fault::MethodPrecondition,
+        NetworkFault::NoDecomposition { .. } => Fault::Decomposition,
     }
 }
 

@@ -54,6 +54,9 @@ fn joined(domain: &Domain, problem: &Problem) -> Vec<bool> {
         mark(&event.precondition);
         quantified_guards(&event.effect, &mut mark);
     }
+    for method in &domain.methods {
+        mark(&method.precondition);
+    }
     for constraints in [&domain.constraints, &problem.constraints] {
         let soft = constraints.preferences.iter().map(|preference| &preference.body);
         constraints

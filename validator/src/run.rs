@@ -7,6 +7,7 @@ use crate::axiom::Strata;
 use crate::cause::{Cause, Causes};
 use crate::demands::Demands;
 use crate::effort::Effort;
+use crate::htn::Stop;
 use crate::number::Number;
 use crate::prepare::{derived_in_effect, initial_state};
 use crate::scene::{Binding, Clock, Scene};
@@ -153,24 +154,31 @@ impl<'a> Validator<'a> {
     }
 
     fn run(&self, plan: PlanRef<'_>, trace: Option<&mut Trace>) -> Verdict {
+        let network = self.problem.htn.as_ref();
+        let unsupported = |feature, span| Verdict::Unsupported(Unsupported { feature, span });
         let mut state = self.initial.clone();
         state.effort = Effort::for_steps(plan.steps());
-        let result = match plan {
-            PlanRef::Sequential(plan) => match self.needs_times() {
-                // A plan without steps is one of any kind.
-                Some(_) if plan.steps.is_empty() => {
-                    crate::temporal::run(self, &TemporalPlan::default(), &mut state, trace)
-                }
-                Some(unsupported) => return Verdict::Unsupported(unsupported),
-                None => crate::sequential::run(self, plan, &mut state, trace),
+        let result = match (plan, self.needs_times()) {
+            (PlanRef::Temporal(plan), _) => match network {
+                Some(_) => return unsupported(Feature::TimedTaskNetwork, self.problem.goal_span),
+                None => crate::temporal::run(self, plan, &mut state, trace),
             },
-            PlanRef::Temporal(plan) => crate::temporal::run(self, plan, &mut state, trace),
-            PlanRef::Hierarchical(plan) => {
-                return Verdict::Unsupported(Unsupported {
-                    feature: Feature::HierarchicalPlan,
-                    span: plan.root_span,
-                });
+            // A plan without steps is one of any kind.
+            (PlanRef::Sequential(plan), Some(_)) if plan.steps.is_empty() && network.is_none() => {
+                crate::temporal::run(self, &TemporalPlan::default(), &mut state, trace)
             }
+            (_, Some(unsupported)) => return Verdict::Unsupported(unsupported),
+            (PlanRef::Sequential(_), None) if network.is_some() => {
+                return unsupported(Feature::DecompositionLimit, self.problem.goal_span);
+            }
+            (PlanRef::Sequential(plan), None) => {
+                crate::sequential::run(self, plan.steps.iter(), &mut state, trace, &mut |_, _| ())
+            }
+            (PlanRef::Hierarchical(plan), None) => match crate::htn::run(self, plan, &mut state, trace) {
+                Ok(valid) => Ok(valid),
+                Err(Stop::Failure(failure)) => Err(failure),
+                Err(Stop::Unsupported(unsupported)) => return Verdict::Unsupported(unsupported),
+            },
         };
         if state.effort.is_spent() {
             return Verdict::Unsupported(Unsupported {
@@ -306,10 +314,7 @@ fn unsupported(domain: &Domain, problem: &Problem) -> Option<Unsupported> {
         let feature = Feature::InProblem(diagnostic.message());
         return Some(Unsupported { feature, span: diagnostic.span });
     }
-    problem.htn.as_ref().map(|(_, network)| {
-        let span = network.subtasks.first().map_or(problem.goal_span, |subtask| subtask.span);
-        Unsupported { feature: Feature::TaskNetwork, span }
-    })
+    None
 }
 
 /// Where an effect has a condition at a later time than its own.

@@ -15,11 +15,13 @@ use crate::verdict::{Failure, StepFault, StepIndex, Valid};
 use pddl::model::{Action, ActionId, IndexVec};
 use pddl::{PlanStep, SequentialPlan};
 
-pub(crate) fn run(
+/// Carries out the steps; `visit` is shown each state that they go through, with the number of steps before it.
+pub(crate) fn run<'p>(
     validator: &Validator<'_>,
-    plan: &SequentialPlan,
+    plan: impl Iterator<Item = &'p PlanStep>,
     state: &mut State,
     mut trace: Option<&mut Trace>,
+    visit: &mut dyn FnMut(u32, &mut State),
 ) -> Result<Valid, Box<Failure>> {
     let mut run = Run {
         validator,
@@ -31,8 +33,9 @@ pub(crate) fn run(
     };
     let mut recorder = trace.as_mut().map(|trace| Recorder::new(validator, run.state, &mut trace.initial));
     run.observe(0);
+    visit(0, run.state);
     let mut steps = 0;
-    for step in &plan.steps {
+    for step in plan {
         let mut diff = trace.is_some().then(Diff::default);
         run.step(StepIndex(steps), step, diff.as_mut())?;
         if let (Some(trace), Some(recorder), Some(mut diff)) = (&mut trace, &mut recorder, diff) {
@@ -42,6 +45,7 @@ pub(crate) fn run(
         }
         steps += 1;
         run.observe(steps);
+        visit(steps, run.state);
     }
     let end = End {
         state: run.state,

@@ -54,6 +54,15 @@ impl Universe {
         for axiom in &domain.axioms {
             universe.index(domain, problem, &axiom.variables);
         }
+        for method in &domain.methods {
+            universe.index(domain, problem, &method.variables);
+        }
+        for task in &domain.tasks {
+            universe.index(domain, problem, &task.variables);
+        }
+        if let Some((variables, _)) = &problem.htn {
+            universe.index(domain, problem, variables);
+        }
         universe.index(domain, problem, &domain.constraints.variables);
         universe.index(domain, problem, &problem.constraints.variables);
         universe.index(domain, problem, &problem.goal_variables);

@@ -2,6 +2,7 @@
 
 use crate::cause::Cause;
 use crate::expression::NumericFault;
+use crate::htn::NetworkFault;
 use crate::number::Number;
 use crate::preference::Violations;
 use crate::state::GroundAtom;
@@ -152,6 +153,11 @@ pub enum Failure {
         breach: Breach,
         /// When, in seconds or steps; `None` if it is nowhere satisfied.
         time: Option<Number>,
+    },
+    /// The plan does not come out of the problem's task network.
+    Network {
+        /// Why.
+        fault: NetworkFault,
     },
     /// The goal does not hold in the end.
     Goal {
@@ -397,10 +403,16 @@ pub enum Feature {
     LanguageOfDomain(pddl::model::Feature),
     /// A part of the language that the problem uses.
     LanguageOfProblem(pddl::model::Feature),
-    /// A plan for a task network must come with its decomposition.
-    TaskNetwork,
-    /// A plan with its decomposition.
-    HierarchicalPlan,
+    /// A plan with times for a task network.
+    TimedTaskNetwork,
+    /// An action that takes time among the subtasks of the problem.
+    DurativeSubtaskOfProblem,
+    /// An action that takes time among the subtasks of a method.
+    DurativeSubtaskOfDomain,
+    /// Which subtask is which takes too long to find out.
+    MatchLimit,
+    /// How the task network becomes these steps takes too long to find out.
+    DecompositionLimit,
     /// A plan without times, where the problem has timed changes.
     TimesMissingForProblem,
     /// A plan without times, where the domain has processes or events.

@@ -71,9 +71,24 @@ pub fn explain<'p>(
                 Feature::InProblem(what) => (File::Problem, what.clone()),
                 Feature::LanguageOfDomain(what) => (File::Domain, format!("{what} are not supported")),
                 Feature::LanguageOfProblem(what) => (File::Problem, format!("{what} are not supported")),
-                Feature::TaskNetwork => (
+                Feature::TimedTaskNetwork => {
+                    (File::Problem, "a plan with times for a task network is not supported".into())
+                }
+                Feature::DurativeSubtaskOfProblem => (
                     File::Problem,
-                    "not supported: a plan for a task network without its decomposition".into(),
+                    "an action that takes time is not supported as a subtask of this plan".into(),
+                ),
+                Feature::DurativeSubtaskOfDomain => (
+                    File::Domain,
+                    "an action that takes time is not supported as a subtask of this plan".into(),
+                ),
+                Feature::MatchLimit => {
+                    (File::Plan, "limit reached: the subtasks can be read in too many ways".into())
+                }
+                Feature::DecompositionLimit => (
+                    File::Problem,
+                    "limit reached: no decomposition was found; a plan with its decomposition can be judged"
+                        .into(),
                 ),
                 Feature::TimesMissingForProblem => (
                     File::Problem,
@@ -88,9 +103,6 @@ pub fn explain<'p>(
                     "quantifiers over more combinations of objects than can be tried are not supported"
                         .into(),
                 ),
-                Feature::HierarchicalPlan => {
-                    (File::Plan, "a plan with its decomposition is not supported".into())
-                }
             };
             Some(Finding { sentence, place: Place { file, span: unsupported.span }, notes: Vec::new() })
         }
@@ -203,7 +215,7 @@ pub fn show_object(problem: &Problem, object: ObjectId) -> String {
     problem.objects.get(object).map_or_else(|| "?".to_owned(), |o| o.name.to_string())
 }
 
-fn show_list(name: &Name, arguments: &[ObjectId], problem: &Problem) -> String {
+pub(crate) fn show_list(name: &Name, arguments: &[ObjectId], problem: &Problem) -> String {
     let mut text = format!("({name}");
     for &argument in arguments {
         text.push(' ');
@@ -223,10 +235,10 @@ const fn symbol(comparison: Comparison) -> &'static str {
     }
 }
 
-struct Words<'a> {
-    domain: &'a Domain,
-    problem: &'a Problem,
-    plan: PlanRef<'a>,
+pub(crate) struct Words<'a> {
+    pub(crate) domain: &'a Domain,
+    pub(crate) problem: &'a Problem,
+    pub(crate) plan: PlanRef<'a>,
 }
 
 impl Words<'_> {
@@ -238,7 +250,7 @@ impl Words<'_> {
         show_application(self.domain, self.problem, fluent)
     }
 
-    fn object(&self, object: ObjectId) -> String {
+    pub(crate) fn object(&self, object: ObjectId) -> String {
         show_object(self.problem, object)
     }
 
@@ -263,7 +275,7 @@ impl Words<'_> {
         }
     }
 
-    fn step_place(&self, step: StepIndex) -> Place {
+    pub(crate) fn step_place(&self, step: StepIndex) -> Place {
         Place { file: File::Plan, span: self.step_text(step).map_or_else(Span::default, |(_, span)| span) }
     }
 
@@ -449,6 +461,7 @@ impl Words<'_> {
                 };
                 Finding { sentence, place: self.cause_place(*at), notes }
             }
+            Failure::Network { fault } => self.network_fault(fault),
             Failure::Goal { parts } => {
                 let sentence = match self.plan.steps() {
                     0 => "the goal does not hold, and the plan is empty".to_owned(),
@@ -490,7 +503,7 @@ impl Words<'_> {
         }
     }
 
-    fn notes(&self, parts: &[Unsatisfied], file: File) -> Vec<(Place, String)> {
+    pub(crate) fn notes(&self, parts: &[Unsatisfied], file: File) -> Vec<(Place, String)> {
         let mut notes = Vec::new();
         for part in parts {
             notes.push((Place { file, span: part.span() }, self.part(part)));

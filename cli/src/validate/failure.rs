@@ -10,8 +10,8 @@ use pddl::model::{Comparison, GroundApplication, Name, ObjectId, TypeId};
 use pddl::{Plan, Source, Span};
 use serde::Serialize;
 use validator::{
-    Cause, Failure, File, GroundAtom, Operand, Place, Shared, StepIndex, Unsatisfied, cause_place,
-    cause_time, show_application, show_atom, show_cause, show_object,
+    Cause, Failure, File, GroundAtom, NetworkFault, Operand, Parent, Place, Shared, StepIndex, Unsatisfied,
+    cause_place, cause_time, show_application, show_atom, show_cause, show_object,
 };
 
 /// Where names and spans of a verdict are looked up.
@@ -202,6 +202,17 @@ impl Places<'_> {
                 record.reason = "constraint";
                 record.time = time.map(Figure);
                 record.place = self.at(*file, *span);
+            }
+            Failure::Network { fault } => {
+                record.reason = "task network";
+                record.parts = match fault {
+                    NetworkFault::Precondition { parts, .. }
+                    | NetworkFault::Constraints { parts, of: Parent::Task(_) } => {
+                        self.parts(parts, File::Domain)
+                    }
+                    NetworkFault::Constraints { parts, of: Parent::Root } => self.parts(parts, File::Problem),
+                    _ => Vec::new(),
+                };
             }
             Failure::Goal { parts } => {
                 record.reason = "goal";

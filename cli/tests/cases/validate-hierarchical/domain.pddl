@@ -1,3 +1,0 @@
-(define (domain hall)
-  (:predicates (lit))
-  (:action light :effect (lit)))

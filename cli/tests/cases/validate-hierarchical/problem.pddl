@@ -1,4 +1,0 @@
-(define (problem evening)
-  (:domain hall)
-  (:init)
-  (:goal (lit)))
