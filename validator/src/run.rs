@@ -169,7 +169,7 @@ impl<'a> Validator<'a> {
             }
             (_, Some(unsupported)) => return Verdict::Unsupported(unsupported),
             (PlanRef::Sequential(_), None) if network.is_some() => {
-                return unsupported(Feature::DecompositionLimit, self.problem.goal_span);
+                return unsupported(Feature::DecompositionMissing, self.problem.goal_span);
             }
             (PlanRef::Sequential(plan), None) => {
                 crate::sequential::run(self, plan.steps.iter(), &mut state, trace, &mut |_, _| ())

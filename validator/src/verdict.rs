@@ -411,8 +411,8 @@ pub enum Feature {
     DurativeSubtaskOfDomain,
     /// Which subtask is which takes too long to find out.
     MatchLimit,
-    /// How the task network becomes these steps takes too long to find out.
-    DecompositionLimit,
+    /// A plan for a task network that comes without its decomposition: nothing is searched for.
+    DecompositionMissing,
     /// A plan without times, where the problem has timed changes.
     TimesMissingForProblem,
     /// A plan without times, where the domain has processes or events.

@@ -85,11 +85,9 @@ pub fn explain<'p>(
                 Feature::MatchLimit => {
                     (File::Plan, "limit reached: the subtasks can be read in too many ways".into())
                 }
-                Feature::DecompositionLimit => (
-                    File::Problem,
-                    "limit reached: no decomposition was found; a plan with its decomposition can be judged"
-                        .into(),
-                ),
+                Feature::DecompositionMissing => {
+                    (File::Problem, "a plan for a task network is judged with its decomposition only".into())
+                }
                 Feature::TimesMissingForProblem => (
                     File::Problem,
                     "a plan without times is not supported where the problem has timed changes".into(),

@@ -69,6 +69,7 @@ impl Body<'_> {
         let rest = section.children().skip(1 + usize::from(named));
         let keys = Keys::read(self.sink, rest, "a constraint", &[":parameters", ":condition"]);
         let span = section.span();
+        self.schema.scope = span;
         let bound = match keys.get(":parameters") {
             Some(node) => self.schema.bind(self.world, self.sink, node.children()),
             None => Vec::new(),
