@@ -65,10 +65,8 @@ pub(crate) fn run(
         unrests: 0,
     };
     let mut recorder = trace.as_mut().map(|trace| Recorder::new(validator, run.state, &mut trace.initial));
-    if run.has_nature() {
-        let due = run.nature(run.now).events;
-        run.events(due, None)?;
-    }
+    let due = run.due(run.now);
+    run.events(due, None)?;
     run.observe();
     for happening in points.chunk_by(|a, b| a.time == b.time) {
         let mut diff = trace.is_some().then(Diff::default);
@@ -77,10 +75,8 @@ pub(crate) fn run(
             recorder.before(run.state, diff);
         }
         run.happening(happening, crowded(&points, happening, validator.precision.separation), diff.as_mut())?;
-        if run.has_nature() {
-            let due = run.nature(run.now).events;
-            run.events(due, diff.as_mut())?;
-        }
+        let due = run.due(run.now);
+        run.events(due, diff.as_mut())?;
         if let (Some(trace), Some(recorder), Some(mut diff)) = (&mut trace, &mut recorder, diff) {
             let moment = run.moment();
             recorder.after(validator, run.state, moment, &mut diff);
@@ -181,7 +177,7 @@ impl<'v> Run<'_, 'v, '_> {
     /// Lets time pass until just before `time`: what runs, runs; what must hold all the time, must hold;
     /// what happens by itself, happens.
     fn flow_to(&mut self, time: Number, mut diff: Option<&mut Diff>) -> Checked {
-        let mut processes = if self.has_nature() { self.nature(self.now).processes } else { Vec::new() };
+        let mut processes = self.processes(self.now);
         let mut unrests = 0;
         while self.now < time {
             let running = self.running(&processes)?;
@@ -208,15 +204,13 @@ impl<'v> Run<'_, 'v, '_> {
             self.now = self.now.plus(unrest.after).unwrap_or(time);
             let happened = !unrest.nature.events.is_empty();
             self.events(unrest.nature.events, diff.as_deref_mut())?;
-            processes = if happened { self.nature(self.now).processes } else { unrest.nature.processes };
+            processes = if happened { self.processes(self.now) } else { unrest.nature.processes };
             self.observe();
         }
-        if self.has_nature() {
-            let due = self.nature(self.now).events;
-            if !due.is_empty() {
-                self.events(due, diff)?;
-                self.observe();
-            }
+        let due = self.due(self.now);
+        if !due.is_empty() {
+            self.events(due, diff)?;
+            self.observe();
         }
         Ok(())
     }
@@ -230,7 +224,7 @@ impl<'v> Run<'_, 'v, '_> {
         processes: &[Instance<ProcessId>],
     ) -> Checked<Option<Unrest>> {
         let mut last = Number::ZERO;
-        for (instant, critical) in self.instants_of(flow, length) {
+        for (instant, critical) in self.instants_of(flow, length)? {
             self.set(flow, instant)?;
             let began = self.now.plus(last).unwrap_or(self.now);
             let at = self.now.plus(instant).unwrap_or(self.now);
@@ -260,7 +254,7 @@ impl<'v> Run<'_, 'v, '_> {
 
     /// The instants inside `0..length` at which conditions must be asked: where one can change (`true`), and
     /// one between any two of them.
-    fn instants_of(&mut self, flow: &Flow, length: Number) -> Vec<(Number, bool)> {
+    fn instants_of(&mut self, flow: &Flow, length: Number) -> Checked<Vec<(Number, bool)>> {
         let mut critical = Vec::new();
         for active in &self.active {
             let clock = Clock { duration: Some(active.duration), ..Clock::at(self.now) };
@@ -284,7 +278,7 @@ impl<'v> Run<'_, 'v, '_> {
             flow.critical(condition, scene, &mut binding.clone(), length, &mut critical);
         }
         if self.has_nature() {
-            self.critical_of_nature(flow, length, &mut critical);
+            self.critical_of_nature(flow, length, &mut critical)?;
         }
         critical.sort();
         critical.dedup();
@@ -297,7 +291,7 @@ impl<'v> Run<'_, 'v, '_> {
             before = next;
         }
         instants.pop();
-        instants
+        Ok(instants)
     }
 
     /// Asks for everything that must hold all the time.

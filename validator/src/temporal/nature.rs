@@ -22,11 +22,11 @@ use crate::effect::Changes;
 use crate::expression::NumericFault;
 use crate::number::Number;
 use crate::scene::{Binding, Clock, Scene};
-use crate::state::{State, Value};
+use crate::state::Value;
 use crate::trace::Diff;
 use crate::trajectory::each_instance;
 use crate::verdict::{ChangeFault, Failure};
-use pddl::model::{Condition, ContinuousEffect, FunctionTerm, ObjectId, ProcessId, Variables};
+use pddl::model::{Condition, ContinuousEffect, EventId, FunctionTerm, ObjectId, ProcessId, Variables};
 use rustc_hash::FxHashMap;
 use std::ops::ControlFlow;
 
@@ -44,7 +44,7 @@ pub(super) struct Instance<I> {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Nature {
     pub(super) processes: Vec<Instance<ProcessId>>,
-    pub(super) events: Vec<Instance<pddl::model::EventId>>,
+    pub(super) events: Vec<Instance<EventId>>,
 }
 
 impl Run<'_, '_, '_> {
@@ -55,33 +55,29 @@ impl Run<'_, '_, '_> {
 
     /// What runs and what is due in the present state.
     pub(super) fn nature(&mut self, at: Number) -> Nature {
-        let mut nature = Nature::default();
-        let domain = self.validator.domain;
-        for (id, process) in domain.processes.enumerate() {
-            self.instances(
-                &process.variables,
-                &process.precondition,
-                Strictness::Certain,
-                at,
-                &mut |arguments| {
-                    nature.processes.push(Instance { id, arguments });
-                },
-            );
+        Nature { processes: self.processes(at), events: self.due(at) }
+    }
+
+    /// The processes that run in the present state.
+    pub(super) fn processes(&mut self, at: Number) -> Vec<Instance<ProcessId>> {
+        let mut found = Vec::new();
+        for (id, process) in self.validator.domain.processes.enumerate() {
+            let mut visit = |arguments| found.push(Instance { id, arguments });
+            self.instances(&process.variables, &process.precondition, Strictness::Certain, at, &mut visit);
         }
-        for (id, event) in domain.events.enumerate() {
-            self.instances(
-                &event.variables,
-                &event.precondition,
-                Strictness::Certain,
-                at,
-                &mut |arguments| {
-                    nature.events.push(Instance { id, arguments });
-                },
-            );
+        found.sort();
+        found
+    }
+
+    /// The events that are due in the present state.
+    pub(super) fn due(&mut self, at: Number) -> Vec<Instance<EventId>> {
+        let mut found = Vec::new();
+        for (id, event) in self.validator.domain.events.enumerate() {
+            let mut visit = |arguments| found.push(Instance { id, arguments });
+            self.instances(&event.variables, &event.precondition, Strictness::Certain, at, &mut visit);
         }
-        nature.processes.sort();
-        nature.events.sort();
-        nature
+        found.sort();
+        found
     }
 
     fn instances(
@@ -111,35 +107,34 @@ impl Run<'_, '_, '_> {
     }
 
     /// Adds the instants inside `0..length` at which processes and events may begin or end.
-    pub(super) fn critical_of_nature(&mut self, flow: &Flow, length: Number, into: &mut Vec<Number>) {
+    pub(super) fn critical_of_nature(
+        &mut self,
+        flow: &Flow,
+        length: Number,
+        into: &mut Vec<Number>,
+    ) -> Checked {
         let domain = self.validator.domain;
         let processes = domain.processes.iter().map(|p| (&p.variables, &p.precondition));
         let events = domain.events.iter().map(|e| (&e.variables, &e.precondition));
         // Without the values of what flows, a comparison that reads it is possible: so all that may ever begin is found.
-        let present = State::clone(self.state);
+        flow.forget(self.state);
+        let mut candidates = Vec::new();
         for (variables, condition) in processes.chain(events) {
-            let mut candidates = Vec::new();
-            flow.forget(self.state);
             self.instances(variables, condition, Strictness::Possible, self.now, &mut |arguments| {
-                candidates.push(arguments);
+                candidates.push((variables, condition, arguments));
             });
-            let effort = self.state.effort.clone();
-            self.state.clone_from(&present);
-            self.state.effort = effort;
-            let scene = self.validator.scene(self.state, variables, Clock::at(self.now));
-            for arguments in candidates {
-                flow.critical(condition, scene, &mut Binding::new(variables, &arguments), length, into);
-            }
         }
+        self.set(flow, Number::ZERO)?;
+        for (variables, condition, arguments) in candidates {
+            let scene = self.validator.scene(self.state, variables, Clock::at(self.now));
+            flow.critical(condition, scene, &mut Binding::new(variables, &arguments), length, into);
+        }
+        Ok(())
     }
 
     /// Lets the events happen that are due, and those that they cause.
-    pub(super) fn events(
-        &mut self,
-        mut due: Vec<Instance<pddl::model::EventId>>,
-        mut diff: Option<&mut Diff>,
-    ) -> Checked {
-        let mut happened: FxHashMap<Instance<pddl::model::EventId>, usize> = FxHashMap::default();
+    pub(super) fn events(&mut self, mut due: Vec<Instance<EventId>>, mut diff: Option<&mut Diff>) -> Checked {
+        let mut happened: FxHashMap<Instance<EventId>, usize> = FxHashMap::default();
         while !due.is_empty() {
             let mut changes = Vec::with_capacity(due.len());
             for instance in &due {
@@ -163,7 +158,7 @@ impl Run<'_, '_, '_> {
                 own.apply(self.state, moment, diff.as_deref_mut())
                     .map_err(|fault| Box::new(Failure::Effect { at, fault }))?;
             }
-            let next = self.nature(self.now).events;
+            let next = self.due(self.now);
             if let Some(instance) = next.iter().find(|instance| due.contains(instance)) {
                 return Err(self.endless(instance));
             }
@@ -172,7 +167,7 @@ impl Run<'_, '_, '_> {
         Ok(())
     }
 
-    fn endless(&self, event: &Instance<pddl::model::EventId>) -> Box<Failure> {
+    fn endless(&self, event: &Instance<EventId>) -> Box<Failure> {
         Box::new(Failure::EndlessEvents { time: self.now, event: event.id })
     }
 
