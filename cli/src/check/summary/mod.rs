@@ -18,6 +18,7 @@ use crate::check::entries;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::files;
+use crate::pool;
 use crate::render::Message;
 use pddl::model::{Domain, Problem};
 use pddl::{Diagnostic, Severity, Source, parse_domain, parse_plan, parse_problem};
@@ -25,8 +26,6 @@ use project::{Candidate, FileKind, Header, domain_for, problem_for};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
 
 /// A file of the collection.
 struct Entry {
@@ -124,7 +123,7 @@ fn below(root: &Path, folder: &Path, found: &mut Vec<(PathBuf, String)>) {
     for path in entries(folder) {
         if path.is_dir() && !path.is_symlink() {
             below(root, &path, found);
-        } else if path.is_file() && (super::is_source(&path) || FileKind::is_plan(&path.to_string_lossy())) {
+        } else if path.is_file() && FileKind::is_source(&path.to_string_lossy()) {
             let folder = folder_of(root, &path);
             found.push((path, folder));
         }
@@ -185,20 +184,8 @@ impl<'a> Collection<'a> {
 
     /// Reads everything, on all cores.
     fn read(&self, outcomes: &mut [Outcome]) {
-        let next = AtomicUsize::new(0);
-        let results = Mutex::new(Vec::new());
-        let threads = std::thread::available_parallelism().map_or(1, usize::from);
-        std::thread::scope(|scope| {
-            for _ in 0..threads.min(self.domains.len()) {
-                scope.spawn(|| {
-                    while let Some(&domain) = self.domains.get(next.fetch_add(1, Ordering::Relaxed)) {
-                        let of_domain = self.domain(domain);
-                        results.lock().unwrap_or_else(PoisonError::into_inner).extend(of_domain);
-                    }
-                });
-            }
-        });
-        let results = results.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let mut results = Vec::new();
+        pool::in_order(&self.domains, |&domain| self.domain(domain), |_, found| results.extend(found));
         let strays = self.stray.iter().flat_map(|&index| {
             let what = if self.entries[index].kind == FileKind::Plan { "problem" } else { "domain" };
             self.fail(index, &format!("there is no {what} for it"))
