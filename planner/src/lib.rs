@@ -44,6 +44,6 @@ pub use search::{
     Width, solve,
 };
 pub use task::{
-    AtomStatus, AxiomRule, ConditionalEffect, Fact, Goal, GroundAtom, Impossible, Literals, Operator, State,
-    Task,
+    AtomStatus, AxiomRule, ConditionalEffect, Fact, Goal, GroundAtom, Impossible, Literals, ObjectValue,
+    Operator, State, Task,
 };

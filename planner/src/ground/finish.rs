@@ -10,7 +10,7 @@ use super::raw::{RawEffects, RawOperator, RawTask, marked};
 use crate::ids::{FactId, id32};
 use crate::task::{
     AtomStatus, AxiomProgram, AxiomRule, ConditionalEffect, Fact, Goal, GroundAtom, Impossible, Literals,
-    Names, Operator, Relaxation, State, SuccessorTree, Task,
+    Names, ObjectValue, Operator, Relaxation, State, SuccessorTree, Task,
 };
 use pddl::model::{Domain, IndexVec, Problem};
 
@@ -26,6 +26,7 @@ pub(crate) fn finish(
     raw: RawTask,
     statics: u32,
     initial: &[u32],
+    names: Names,
     options: &GroundOptions<'_>,
 ) -> Result<Task, GroundError> {
     let known = id32(table.len());
@@ -45,7 +46,10 @@ pub(crate) fn finish(
         if kept {
             let atom = (a < known)
                 .then(|| GroundAtom { predicate: table.predicate(a), arguments: table.objects(a) });
-            numbers[i] = facts.push(Fact { atom, derived: derived[i] }).0;
+            let value = atom.as_ref().and_then(|a| names.values().value(a.predicate, &a.arguments));
+            let value = value.map(|(fluent, object)| ObjectValue { fluent, object });
+            let atom = atom.filter(|_| value.is_none());
+            numbers[i] = facts.push(Fact { atom, value, derived: derived[i] }).0;
         }
         if a < known {
             status.push(match kept {
@@ -56,7 +60,7 @@ pub(crate) fn finish(
             });
         }
     }
-    let goal = goal(&raw, &pruned, &numbers, &table);
+    let goal = goal(&raw, &pruned, &numbers, &table, &names);
     let view = View { pruned: &pruned, numbers: &numbers };
     let mut rules: Vec<AxiomRule> = Vec::new();
     for (head, body) in raw.rules.iter().filter(|(h, _)| numbers[*h as usize] != NONE) {
@@ -96,7 +100,7 @@ pub(crate) fn finish(
         goal,
         atoms: table,
         status,
-        names: Names::of(domain, problem),
+        names,
         cost_scale,
     })
 }
@@ -163,11 +167,12 @@ impl View<'_> {
     }
 }
 
-fn goal(raw: &RawTask, pruned: &Pruned, numbers: &[u32], table: &AtomTable) -> Goal {
+fn goal(raw: &RawTask, pruned: &Pruned, numbers: &[u32], table: &AtomTable, names: &Names) -> Goal {
     let mut atoms = Vec::new();
     let mut negated = Vec::new();
     let mut formula = false;
-    let mut blame = |atom: Option<GroundAtom>, positive: bool| match atom {
+    let is_value = |atom: &GroundAtom| names.values().function(atom.predicate).is_some();
+    let mut blame = |atom: Option<GroundAtom>, positive: bool| match atom.filter(|a| !is_value(a)) {
         Some(atom) if positive => atoms.push(atom),
         Some(atom) => negated.push(atom),
         None => formula = true,

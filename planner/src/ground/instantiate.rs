@@ -152,6 +152,21 @@ impl<'a> Instantiator<'a> {
         consistent(literals)
     }
 
+    /// The precondition with that none of the conjunctions in `never` holds; `None` if it cannot be.
+    pub(crate) fn without(&mut self, precondition: Vec<Lit>, never: &[Vec<Lit>]) -> Option<Vec<Lit>> {
+        let mut all = precondition;
+        for conjunction in never {
+            if conjunction.iter().any(|l| all.contains(&(l ^ 1))) {
+                continue;
+            }
+            let mut options: Vec<Ground> =
+                conjunction.iter().filter(|l| !all.contains(l)).map(|l| Ground::Literal(l ^ 1)).collect();
+            let one = if options.len() == 1 { options.remove(0) } else { Ground::Or(options) };
+            all.extend(self.conjunction(one)?);
+        }
+        consistent(all)
+    }
+
     fn collect(&mut self, ground: Ground, out: &mut Vec<Lit>) -> bool {
         match ground {
             Ground::True => true,

@@ -1,6 +1,6 @@
 //! From a domain and a problem to a grounded task.
 //!
-//! Stages, each a module: conditions to negation normal form (`formula`, `schema`), the metric to
+//! Stages, each a module: object fluents to predicates (`values`), conditions to negation normal form (`formula`, `schema`), the metric to
 //! operator costs (`cost`), relaxed reachability by ordered joins (`rule`, `plan`, `join`), instances
 //! with quantifiers expanded and disjunctions split (`instantiate`, `raw`), constants and irrelevant
 //! atoms dropped (`prune`), and the final task (`finish`). Invariant: every plan of the problem is a
@@ -21,17 +21,19 @@ mod raw;
 mod rule;
 mod schema;
 mod universe;
+mod values;
 
 pub(crate) use atoms::AtomTable;
 pub use error::{Feature, GroundError, GroundOptions, Origin};
 
-use crate::task::Task;
+use crate::task::{Names, Task};
 use cost::CostModel;
 use formula::Formula;
 use pddl::Diagnostic;
 use pddl::model::Feature as Language;
 use pddl::model::{Domain, Effect, EffectKind, Idx, PredicateId, Problem};
 use universe::Universe;
+pub(crate) use values::ValuePredicates;
 
 /// Grounds `problem` of `domain`.
 ///
@@ -39,6 +41,11 @@ use universe::Universe;
 /// A feature that the planner does not support, a limit of `options`, or its interruption.
 pub fn ground(domain: &Domain, problem: &Problem, options: &GroundOptions<'_>) -> Result<Task, GroundError> {
     refuse(domain, problem)?;
+    let compiled = values::compile(domain, problem);
+    let (domain, problem, values) = match &compiled {
+        Some((domain, problem, values)) => (domain, problem, values.clone()),
+        None => (domain, problem, ValuePredicates::none(domain)),
+    };
     let costs = CostModel::new(domain, problem)?;
     let mut universe = Universe::new(domain, problem);
     let schemas = schema::schemas(domain, &mut universe, &costs)?;
@@ -66,8 +73,9 @@ pub fn ground(domain: &Domain, problem: &Problem, options: &GroundOptions<'_>) -
     let reached = join::reach(&schemas, &rules, table, statics, &is_static, problem.objects.len(), options)?;
     let goal = Formula::of(&problem.goal, true, Origin::Problem, &mut universe)?;
     let slots = universe.slots(&problem.goal_variables);
-    let raw = raw::instantiate(&schemas, &reached, &is_static, &costs, (&goal, &slots), options)?;
-    finish::finish(domain, problem, &costs, reached.table, raw, statics, &initial, options)
+    let raw = raw::instantiate(&schemas, &reached, &is_static, &costs, &values, (&goal, &slots), options)?;
+    let names = Names::of(domain, problem, values);
+    finish::finish(domain, problem, &costs, reached.table, raw, statics, &initial, names, options)
 }
 
 fn ids_of(table: &AtomTable) -> u32 {

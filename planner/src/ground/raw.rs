@@ -4,12 +4,14 @@
 //! table; conditional and universal effects are expanded, and literals that the precondition already
 //! decides are dropped from effects' conditions.
 
+use super::atoms::AtomTable;
 use super::cost::{CostModel, CostTerm, resolve};
 use super::error::{Feature, GroundError, GroundOptions, Origin};
 use super::formula::Formula;
 use super::instantiate::{Ground, Instantiator, Lit, consistent};
 use super::join::{Bindings, Reached};
 use super::schema::{Product, Schema, SchemaEffect};
+use super::values::ValuePredicates;
 use crate::ids::id32;
 use pddl::model::{ActionId, ObjectId, VariableId};
 use rustc_hash::FxHashSet;
@@ -53,6 +55,7 @@ pub(crate) fn instantiate(
     reached: &Reached,
     is_static: &[bool],
     costs: &CostModel<'_>,
+    values: &ValuePredicates,
     goal: (&Formula, &[std::sync::Arc<super::universe::Range>]),
     options: &GroundOptions<'_>,
 ) -> Result<RawTask, GroundError> {
@@ -85,7 +88,9 @@ pub(crate) fn instantiate(
                     let arguments: Box<[ObjectId]> = arguments.iter().map(|&o| ObjectId(o)).collect();
                     let cost = cost(costs, terms, &binding)?;
                     let all = expand(&mut work, schema, effects, &mut binding);
+                    let clashes = clashes(work.table, values, &all);
                     for precondition in alternatives {
+                        let Some(precondition) = work.without(precondition, &clashes) else { continue };
                         // Hoisted variables may leave no trace: one operator of equals is enough.
                         if !schema.hoisted.is_empty()
                             && !seen.insert((arguments.clone(), precondition.clone()))
@@ -165,6 +170,36 @@ fn expand(
         });
     }
     found
+}
+
+/// Conditions under which an object fluent would get two values at once.
+fn clashes(table: &AtomTable, values: &ValuePredicates, effects: &[(Vec<Lit>, bool, u32)]) -> Vec<Vec<Lit>> {
+    let given = |(condition, positive, atom): &(Vec<Lit>, bool, u32)| {
+        let is_value = *positive && values.function(table.predicate(*atom)).is_some();
+        is_value.then(|| (condition.clone(), *atom))
+    };
+    let given: Vec<(Vec<Lit>, u32)> = effects.iter().filter_map(given).collect();
+    let mut found = Vec::new();
+    for (i, (first, a)) in given.iter().enumerate() {
+        for (second, b) in &given[i + 1..] {
+            if are_rivals(table, values, *a, *b) {
+                found.extend(consistent(first.iter().chain(second).copied().collect()));
+            }
+        }
+    }
+    found.retain(|both| {
+        let positive: Vec<u32> = both.iter().filter(|&l| l & 1 == 0).map(|l| l >> 1).collect();
+        !positive.iter().any(|&a| positive.iter().any(|&b| are_rivals(table, values, a, b)))
+    });
+    found
+}
+
+/// Whether both are values of one fluent, and different.
+fn are_rivals(table: &AtomTable, values: &ValuePredicates, a: u32, b: u32) -> bool {
+    let is_atom = |x: u32| (x as usize) < table.len();
+    let same = is_atom(a) && is_atom(b) && a != b && table.predicate(a) == table.predicate(b);
+    same && values.function(table.predicate(a)).is_some()
+        && table.row(a).split_last().map(|(_, fluent)| fluent) == table.row(b).split_last().map(|(_, f)| f)
 }
 
 fn each_binding(vs: &[VariableId], schema: &Schema, binding: &mut [u32], f: &mut dyn FnMut(&mut [u32])) {

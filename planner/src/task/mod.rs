@@ -24,7 +24,7 @@ pub(crate) use successors::SuccessorTree;
 
 use crate::ground::AtomTable;
 use crate::ids::{FactId, OperatorId};
-use pddl::model::{IndexVec, ObjectId, PredicateId};
+use pddl::model::{GroundApplication, IndexVec, ObjectId, PredicateId};
 
 /// A ground atom.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -35,11 +35,22 @@ pub struct GroundAtom {
     pub arguments: Box<[ObjectId]>,
 }
 
+/// An object fluent has a value.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct ObjectValue {
+    /// The fluent.
+    pub fluent: GroundApplication,
+    /// Its value.
+    pub object: ObjectId,
+}
+
 /// A bit of a state.
 #[derive(Clone, Debug)]
 pub struct Fact {
-    /// What it says; `None` for a fact that grounding made up for a disjunction.
+    /// The atom; `None` for the value of a fluent and for what grounding made up for a disjunction.
     pub atom: Option<GroundAtom>,
+    /// The object fluent whose value it tells, if it does.
+    pub value: Option<ObjectValue>,
     /// Whether axioms decide it.
     pub derived: bool,
 }
@@ -117,6 +128,14 @@ impl Task {
             AtomStatus::Fact(fact) => Some(fact),
             _ => None,
         }
+    }
+
+    /// The fact that an object fluent has this value, if it is one that changes.
+    pub fn value_fact(&self, fluent: &GroundApplication, value: ObjectId) -> Option<FactId> {
+        let predicate = self.names.values().predicate(fluent.function)?;
+        let mut arguments = fluent.arguments.clone();
+        arguments.push(value);
+        self.fact(predicate, &arguments)
     }
 
     /// The state in which of the basic facts exactly these hold; derived ones follow by the axioms

@@ -1,8 +1,9 @@
 //! Names of a task's parts, for plans and reports.
 
-use super::{GroundAtom, Operator, Task};
+use super::{GroundAtom, ObjectValue, Operator, Task};
+use crate::ground::ValuePredicates;
 use crate::ids::{FactId, OperatorId};
-use pddl::model::{Domain, IndexVec, Name, ObjectId, PredicateId, Problem};
+use pddl::model::{Domain, FunctionId, GroundApplication, IndexVec, Name, ObjectId, PredicateId, Problem};
 use std::fmt::Write;
 
 /// The names that a grounded task needs of its domain and problem.
@@ -10,16 +11,30 @@ use std::fmt::Write;
 pub(crate) struct Names {
     actions: Vec<Name>,
     predicates: IndexVec<PredicateId, Name>,
+    functions: IndexVec<FunctionId, Name>,
     objects: IndexVec<ObjectId, Name>,
+    values: ValuePredicates,
 }
 
 impl Names {
-    pub(crate) fn of(domain: &Domain, problem: &Problem) -> Self {
+    pub(crate) fn of(domain: &Domain, problem: &Problem, values: ValuePredicates) -> Self {
         Self {
             actions: domain.actions.iter().map(|a| a.name.clone()).collect(),
             predicates: domain.predicates.iter().map(|p| p.name.clone()).collect(),
+            functions: domain.functions.iter().map(|f| f.name.clone()).collect(),
             objects: problem.objects.iter().map(|o| o.name.clone()).collect(),
+            values,
         }
+    }
+
+    /// Which predicates stand for object fluents.
+    pub(crate) fn values(&self) -> &ValuePredicates {
+        &self.values
+    }
+
+    /// `(f a b)`.
+    pub(crate) fn fluent(&self, fluent: &GroundApplication) -> String {
+        self.list(&self.functions[fluent.function], &fluent.arguments)
     }
 
     fn list(&self, head: &Name, arguments: &[ObjectId]) -> String {
@@ -46,9 +61,12 @@ impl Task {
 
     /// A fact as PDDL writes it; facts that grounding made up are `(auxiliary-N)`.
     pub fn fact_name(&self, fact: FactId) -> String {
-        match &self.facts[fact].atom {
-            Some(atom) => self.atom_name(atom),
-            None => format!("(auxiliary-{})", fact.0),
+        match (&self.facts[fact].atom, &self.facts[fact].value) {
+            (Some(atom), _) => self.atom_name(atom),
+            (None, Some(ObjectValue { fluent, object })) => {
+                format!("(= {} {})", self.names.fluent(fluent), self.names.objects[*object])
+            }
+            (None, None) => format!("(auxiliary-{})", fact.0),
         }
     }
 }
