@@ -5,10 +5,11 @@
 
 use std::rc::Rc;
 
+use invariants::{Counts, Invariant, invariants};
 use pddl::model::{Domain, DurativeAction, Problem};
 use rustc_hash::FxHashSet;
 
-use crate::invariants::{Counts, Invariant, invariants};
+use crate::happening::happenings;
 use crate::numbers::Numbers;
 use crate::reachability::{
     Cause, DeadGoal, Link, Nature, Origin, Part, Piece, Reachability, Schema, Words, World,
@@ -103,7 +104,9 @@ impl<'a> Analysis<'a> {
         if domain.durative_actions.iter().any(elsewhere) {
             return;
         }
-        self.exclusions = invariants(domain)
+        let happenings: Vec<invariants::Happening<'_>> =
+            happenings(domain).into_iter().map(Into::into).collect();
+        self.exclusions = invariants(domain, &happenings)
             .into_iter()
             .filter_map(|invariant| {
                 let counts = Counts::new(&invariant, problem)?;

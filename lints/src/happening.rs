@@ -5,10 +5,7 @@
 //! happening's conditions are at most those of any plan in which it happens, so that an analysis that
 //! follows the list misses nothing.
 
-use pddl::model::{
-    Application, AssignOperator, AssignedValue, Atom, Condition, Domain, Effect, EffectKind, TimeSpecifier,
-    VariableId, Variables,
-};
+use pddl::model::{Condition, Domain, Effect, TimeSpecifier, Variables};
 
 use crate::reachability::{Part, Schema};
 
@@ -26,6 +23,12 @@ pub(crate) struct Happening<'a> {
     pub(crate) just_before: Vec<&'a Condition>,
     /// What it does.
     pub(crate) effects: Vec<&'a Effect>,
+}
+
+impl<'a> From<Happening<'a>> for invariants::Happening<'a> {
+    fn from(of: Happening<'a>) -> Self {
+        Self { variables: of.variables, just_before: of.just_before, effects: of.effects }
+    }
 }
 
 /// All that a domain has.
@@ -91,49 +94,4 @@ pub(crate) fn happenings(domain: &Domain) -> Vec<Happening<'_>> {
         }
     }
     all
-}
-
-/// An effect without its connectives.
-pub(crate) enum Change<'a> {
-    /// An atom becomes true.
-    Add(&'a Atom),
-    /// An atom becomes false.
-    Delete(&'a Atom),
-    /// A fluent changes.
-    Assign(AssignOperator, &'a Application, &'a AssignedValue),
-}
-
-/// Where a change stands: under which conditions, for all values of which slots.
-#[derive(Clone, Default)]
-pub(crate) struct Context<'a> {
-    /// The conditions of the `when`s around it.
-    pub(crate) when: Vec<&'a Condition>,
-    /// The slots of the `forall`s around it.
-    pub(crate) forall: Vec<VariableId>,
-}
-
-/// Visits every change of an effect.
-pub(crate) fn changes<'a>(effect: &'a Effect, visit: &mut dyn FnMut(&Context<'a>, &Change<'a>)) {
-    walk(effect, &mut Context::default(), visit);
-}
-
-fn walk<'a>(effect: &'a Effect, context: &mut Context<'a>, visit: &mut dyn FnMut(&Context<'a>, &Change<'a>)) {
-    match &effect.kind {
-        EffectKind::And(parts) => parts.iter().for_each(|p| walk(p, context, visit)),
-        EffectKind::Add(atom) => visit(context, &Change::Add(atom)),
-        EffectKind::Delete(atom) => visit(context, &Change::Delete(atom)),
-        EffectKind::Assign(operator, application, value) => {
-            visit(context, &Change::Assign(*operator, application, value));
-        }
-        EffectKind::Forall(variables, inner) => {
-            context.forall.extend(variables);
-            walk(inner, context, visit);
-            context.forall.truncate(context.forall.len() - variables.len());
-        }
-        EffectKind::When(condition, inner) => {
-            context.when.push(condition);
-            walk(inner, context, visit);
-            context.when.pop();
-        }
-    }
 }

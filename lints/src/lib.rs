@@ -34,7 +34,6 @@
 //! | `happening` | what changes the state, as one list |
 //! | `numbers` | which values fluents may take |
 //! | `reachability` | what can become true, and why something cannot |
-//! | `invariants` | sets of atoms of which at most one holds |
 //! | `analysis` | these, computed once for all that ask |
 
 mod allow;
@@ -43,7 +42,6 @@ mod declarations;
 mod finding;
 mod happening;
 mod hierarchy;
-mod invariants;
 mod lint;
 mod linter;
 mod logic;

@@ -338,7 +338,7 @@ fn what_is_called_impossible_never_happens() {
                         *counts.entry(member.instance(&arguments)).or_insert(0) += 1;
                     }
                     for (instance, count) in counts {
-                        let said = exclusion.invariant.words(&domain, &[]);
+                        let said = crate::semantics::exclusion::words(&exclusion.invariant, &domain, &[]);
                         let kept = count <= 1 || !exclusion.counts.is_exclusive(&instance);
                         prop_assert!(kept, "{said}\n{domain_text}\n{problem_text}");
                     }

@@ -1,12 +1,12 @@
 //! An effect that contradicts itself where two parameters are the same object.
 
+use invariants::differ;
 use pddl::Explanation;
 use pddl::model::{Atom, EffectKind, Term};
 
 use super::changes::Changes;
 use super::literals::{Fact, Literal, required};
 use crate::finding::Findings;
-use crate::invariants::differ;
 use crate::lint::Check;
 use crate::view::DomainView;
 use crate::{Finding, Level, Lint, Place};

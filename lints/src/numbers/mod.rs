@@ -12,13 +12,14 @@
 
 mod interval;
 
+use invariants::{Change, changes};
 use pddl::model::{
     ArithmeticOperator, AssignOperator, AssignedValue, Comparison, Domain, Expression, ExpressionKind,
     FluentValue, FunctionId, FunctionValue, IndexVec, Problem, Term, TimedChange,
 };
 use rustc_hash::FxHashMap;
 
-use crate::happening::{Change, changes, happenings};
+use crate::happening::happenings;
 pub(crate) use interval::Interval;
 
 /// Rounds after which a bound that still moves becomes infinite.

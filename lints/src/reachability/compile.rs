@@ -7,12 +7,13 @@
 
 use std::rc::Rc;
 
+use invariants::{Change, changes};
 use pddl::model::{
     AssignedValue, Condition, FluentFact, FluentValue, FunctionValue, Idx, ObjectId, PredicateId,
     SubtaskHead, TaskNetwork, Term, TimedChange, VariableId, Variables,
 };
 
-use crate::happening::{Change, Happening, changes, happenings};
+use crate::happening::{Happening, happenings};
 use crate::numbers::Numbers;
 use crate::walk::Polarity;
 

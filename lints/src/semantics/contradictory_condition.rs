@@ -1,18 +1,18 @@
 //! Two conditions that exclude each other.
 
+use invariants::{Change, changes, literals};
 use pddl::Explanation;
 use pddl::model::{Condition, Term, Variables};
 
 use crate::analysis::place;
 use crate::finding::Findings;
-use crate::happening::{Change, changes, happenings};
-use crate::invariants::literals;
+use crate::happening::happenings;
 use crate::lint::Check;
 use crate::reachability::{Schema, shortened};
 use crate::view::{ProblemView, is_here};
 use crate::{Finding, Level, Lint, Place};
 
-use super::exclusion::find;
+use super::exclusion::{find, words};
 
 pub(crate) static LINT: Lint = Lint {
     name: "contradictory-condition",
@@ -114,10 +114,10 @@ fn judge(
         Term::Object(o) => view.problem.objects[*o].name.to_string(),
         Term::Variable(v) => format!("?{}", variables[*v].name),
     };
-    let words = exclusion.invariant.words(domain, &instance.iter().map(term).collect::<Vec<_>>());
+    let reason = words(&exclusion.invariant, domain, &instance.iter().map(term).collect::<Vec<_>>());
     let text = |span| shortened(view.domain.source.slice(span));
     let message = format!(
-        "`{}` and `{}` of {} never hold together: {words}",
+        "`{}` and `{}` of {} never hold together: {reason}",
         text(a.span),
         text(b.span),
         view.words().schema(schema)

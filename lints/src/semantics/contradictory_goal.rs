@@ -1,16 +1,16 @@
 //! Two goals that exclude each other.
 
+use invariants::literals;
 use pddl::Explanation;
 use pddl::model::Term;
 
 use crate::finding::Findings;
-use crate::invariants::literals;
 use crate::lint::Check;
 use crate::reachability::shortened;
 use crate::view::ProblemView;
 use crate::{Finding, Level, Lint, Place};
 
-use super::exclusion::find;
+use super::exclusion::{find, words};
 
 pub(crate) static LINT: Lint = Lint {
     name: "contradictory-goal",
@@ -72,9 +72,9 @@ fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
         Term::Object(o) => view.problem.objects[*o].name.to_string(),
         Term::Variable(v) => format!("?{}", variables[*v].name),
     };
-    let words = exclusion.invariant.words(domain, &instance.iter().map(term).collect::<Vec<_>>());
+    let reason = words(&exclusion.invariant, domain, &instance.iter().map(term).collect::<Vec<_>>());
     let text = |span| shortened(view.source.slice(span));
-    let message = format!("goals `{}` and `{}` exclude each other: {words}", text(a.span), text(b.span));
+    let message = format!("goals `{}` and `{}` exclude each other: {reason}", text(a.span), text(b.span));
     found.report(
         Finding::new(&LINT, Place::problem(b.span), message).label(Place::problem(a.span), "excludes it"),
     );

@@ -1,10 +1,11 @@
 //! A divisor that is zero for ever.
 
+use invariants::{Change, changes};
 use pddl::Explanation;
 use pddl::model::{ArithmeticOperator, AssignedValue, Condition, ConditionKind, Expression, ExpressionKind};
 
 use crate::finding::Findings;
-use crate::happening::{Change, changes, happenings};
+use crate::happening::happenings;
 use crate::lint::Check;
 use crate::numbers::{Interval, Numbers, Value, each_part};
 use crate::reachability::shortened;

@@ -1,10 +1,11 @@
 //! Two atoms that an invariant lets never hold together.
 
+use invariants::{Invariant, Member, differ};
 use pddl::model::{Atom, Domain, ObjectId, Term, Variables};
 use rustc_hash::FxHashMap;
 
 use crate::analysis::{Analysis, Exclusion};
-use crate::invariants::differ;
+use crate::reachability::listed;
 
 /// Atoms of one instance that another one is compared with.
 const MOST: usize = 16;
@@ -50,4 +51,18 @@ fn exclusive(exclusion: &Exclusion, instance: &[Term]) -> bool {
         })
         .collect();
     ground.map_or(exclusion.counts.all_exclusive(), |g| exclusion.counts.is_exclusive(&g))
+}
+
+/// The invariant in words, with these terms for its parameters.
+pub(crate) fn words(invariant: &Invariant, domain: &Domain, parameters: &[String]) -> String {
+    let atom = |m: &Member| {
+        let mut arguments = vec!["_".to_owned(); m.parameters.len() + usize::from(m.counted.is_some())];
+        for (&at, name) in m.parameters.iter().zip(parameters) {
+            arguments[at].clone_from(name);
+        }
+        arguments.insert(0, domain.predicates[m.predicate].name.to_string());
+        format!("`({})`", arguments.join(" "))
+    };
+    let atoms: Vec<String> = invariant.members.iter().map(atom).collect();
+    format!("at most one of {} holds at a time", listed(&atoms))
 }

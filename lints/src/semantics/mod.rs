@@ -10,7 +10,7 @@ mod dead_axiom;
 mod dead_conditional_effect;
 mod dead_method;
 mod division_by_zero;
-mod exclusion;
+pub(crate) mod exclusion;
 mod idle_schema;
 mod impossible_task;
 mod negative_duration;

@@ -1,7 +1,7 @@
 //! How many atoms of each instance of an invariant hold initially.
 //!
-//! Idea: an invariant only says that the number does not grow; a problem's initial state says where it
-//! starts. Invariant: an instance without initial atoms is not listed, and none of its atoms ever holds.
+//! Idea: an invariant only says that one does not become two; a problem's initial state says where the
+//! number starts. Invariant: an instance without initial atoms is not listed, and none of its atoms ever holds.
 
 use pddl::model::{ObjectId, Problem, TimedChange, TimedInitial};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -9,7 +9,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::Invariant;
 
 /// The numbers of one invariant.
-pub(crate) struct Counts {
+pub struct Counts {
     of: FxHashMap<Vec<ObjectId>, u32>,
     most: u32,
 }
@@ -17,7 +17,7 @@ pub(crate) struct Counts {
 impl Counts {
     /// Of a problem; `None` if something happens by itself that may break the invariant, or if an
     /// object of several types may.
-    pub(crate) fn new(invariant: &Invariant, problem: &Problem) -> Option<Self> {
+    pub fn new(invariant: &Invariant, problem: &Problem) -> Option<Self> {
         let breaks = |t: &TimedInitial| match &t.change {
             TimedChange::Add(fact) => invariant.member(fact.predicate).is_some(),
             _ => false,
@@ -39,12 +39,12 @@ impl Counts {
     }
 
     /// Whether at most one atom of the instance ever holds.
-    pub(crate) fn is_exclusive(&self, instance: &[ObjectId]) -> bool {
+    pub fn is_exclusive(&self, instance: &[ObjectId]) -> bool {
         self.of.get(instance).copied().unwrap_or(0) <= 1
     }
 
     /// Whether that is so of every instance.
-    pub(crate) fn all_exclusive(&self) -> bool {
+    pub fn all_exclusive(&self) -> bool {
         self.most <= 1
     }
 }
