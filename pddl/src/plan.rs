@@ -80,7 +80,7 @@ impl Plan {
 }
 
 /// A ground instantaneous action; name, arity and types fit the domain.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlanStep {
     /// Which action.
     pub action: ActionId,
@@ -190,7 +190,7 @@ impl Idx for DecompositionId {
 }
 
 /// `0 action a b`
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LabelledStep {
     /// Its number.
     pub label: PlanLabel,
@@ -219,7 +219,7 @@ pub struct PlanReference {
 }
 
 /// `5 task a b -> method 6 7`
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Decomposition {
     /// Its number.
     pub label: PlanLabel,
@@ -240,7 +240,7 @@ pub struct Decomposition {
 }
 
 /// Actions, and how they come out of the tasks of the problem.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct HierarchicalPlan {
     /// The actions in the order in which they are taken.
     pub steps: IndexVec<LabelledStepId, LabelledStep>,

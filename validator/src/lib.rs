@@ -55,7 +55,7 @@ mod words;
 pub use advice::{Budget, Repair, show_repair};
 pub use cause::Cause;
 pub use expression::NumericFault;
-pub use htn::{NetworkFault, Parent};
+pub use htn::{NetworkFault, Parent, Shortfall};
 pub use number::Number;
 pub use preference::{ViolatedPreference, Violations};
 pub use run::{PlanRef, Precision, Validator, validate};

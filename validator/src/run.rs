@@ -168,8 +168,12 @@ impl<'a> Validator<'a> {
                 crate::temporal::run(self, &TemporalPlan::default(), &mut state, trace)
             }
             (_, Some(unsupported)) => return Verdict::Unsupported(unsupported),
-            (PlanRef::Sequential(_), None) if network.is_some() => {
-                return unsupported(Feature::DecompositionMissing, self.problem.goal_span);
+            (PlanRef::Sequential(plan), None) if network.is_some() => {
+                match crate::htn::run_undecomposed(self, plan, &mut state, trace) {
+                    Ok(valid) => Ok(valid),
+                    Err(Stop::Failure(failure)) => Err(failure),
+                    Err(Stop::Unsupported(unsupported)) => return Verdict::Unsupported(unsupported),
+                }
             }
             (PlanRef::Sequential(plan), None) => {
                 crate::sequential::run(self, plan.steps.iter(), &mut state, trace, &mut |_, _| ())
@@ -287,7 +291,7 @@ impl<'a> Validator<'a> {
             let value = scene.number(&metric.expression, &binding).ok()?;
             Some(MetricValue { objective: metric.objective, value })
         });
-        Ok(Valid { steps, makespan, metric, violations })
+        Ok(Valid { steps, makespan, metric, violations, decomposition: None })
     }
 }
 

@@ -8,10 +8,10 @@ use crate::preference::Violations;
 use crate::state::GroundAtom;
 use crate::trajectory::Breach;
 use crate::words::File;
-use pddl::Span;
 use pddl::model::{
     Comparison, EventId, GroundApplication, Name, ObjectId, Objective, PredicateId, VariableId,
 };
+use pddl::{HierarchicalPlan, Span};
 
 /// A step's position in the plan, from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -55,6 +55,8 @@ pub struct Valid {
     pub metric: Option<MetricValue>,
     /// The preferences that it does not satisfy.
     pub violations: Violations,
+    /// How the steps come out of the problem's task network, if the plan did not say so and it was found.
+    pub decomposition: Option<Box<HierarchicalPlan>>,
 }
 
 impl Valid {
@@ -411,8 +413,8 @@ pub enum Feature {
     DurativeSubtaskOfDomain,
     /// Which subtask is which takes too long to find out.
     MatchLimit,
-    /// A plan for a task network that comes without its decomposition: nothing is searched for.
-    DecompositionMissing,
+    /// Whether the steps come out of the task network takes too long to find out.
+    DecompositionLimit,
     /// A plan without times, where the problem has timed changes.
     TimesMissingForProblem,
     /// A plan without times, where the domain has processes or events.

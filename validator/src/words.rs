@@ -85,9 +85,10 @@ pub fn explain<'p>(
                 Feature::MatchLimit => {
                     (File::Plan, "limit reached: the subtasks can be read in too many ways".into())
                 }
-                Feature::DecompositionMissing => {
-                    (File::Problem, "a plan for a task network is judged with its decomposition only".into())
-                }
+                Feature::DecompositionLimit => (
+                    File::Problem,
+                    "limit reached: whether the task network can become these steps was not found out".into(),
+                ),
                 Feature::TimesMissingForProblem => (
                     File::Problem,
                     "a plan without times is not supported where the problem has timed changes".into(),

@@ -1,6 +1,6 @@
 //! What can be wrong with a decomposition, as data.
 
-use crate::verdict::{StepFault, Unsatisfied};
+use crate::verdict::{StepFault, StepIndex, Unsatisfied};
 use pddl::model::ObjectId;
 use pddl::{DecompositionId, PlanNode, PlanReference, Span};
 
@@ -99,9 +99,20 @@ pub enum NetworkFault {
         /// What it lacks there.
         parts: Vec<Unsatisfied>,
     },
-    /// Nothing that the task network can become has these steps.
+    /// Nothing that the task network can become has these steps, and no others, in this order.
     NoDecomposition {
-        /// The most steps that some decomposition begins with.
-        explained: u32,
+        /// How far it goes.
+        shortfall: Shortfall,
     },
+}
+
+/// How far a task network can become the steps of a plan.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Shortfall {
+    /// Some subtasks of the problem's network cannot be carried out with actions of the plan alone.
+    Subtasks(Vec<Span>),
+    /// Nothing that the network can become has this step, wherever it stands.
+    Step(StepIndex),
+    /// Some decomposition begins with so many steps, and none was found that begins with more.
+    Explained(u32),
 }

@@ -1,6 +1,6 @@
 //! Plans of task networks.
 //!
-//! A plan with its decomposition is checked in four passes: the numbers make a tree ([`tree`]); the subtasks of each
+//! A plan without its decomposition is given one ([`search`]). A plan with its decomposition is checked in four passes: the numbers make a tree ([`tree`]); the subtasks of each
 //! task are those of its method, under some values of the method's variables and in an order that the method allows
 //! ([`schema`], [`matching`]); the steps can be taken one after the other, as in any plan; and each method's
 //! precondition holds at a moment that its task's place in the order allows ([`placing`]). What is found is exact
@@ -13,10 +13,11 @@ mod fault;
 mod matching;
 mod placing;
 mod schema;
+mod search;
 mod tree;
 mod words;
 
-pub use fault::{NetworkFault, Parent};
+pub use fault::{NetworkFault, Parent, Shortfall};
 
 use crate::cause::Causes;
 use crate::effort::Effort;
@@ -27,7 +28,7 @@ use crate::trace::Trace;
 use crate::verdict::{Failure, Feature, StepFault, Unsupported, Valid};
 use matching::{Assignment, Child, Limit, Match, Matching};
 use pddl::model::{IndexVec, MethodId, SubtaskHead};
-use pddl::{DecompositionId, HierarchicalPlan, PlanNode, Span};
+use pddl::{DecompositionId, HierarchicalPlan, PlanNode, SequentialPlan, Span};
 use placing::{Reading, Slot, place};
 use rustc_hash::FxHashMap;
 use schema::{Schema, unify};
@@ -48,6 +49,54 @@ pub(crate) enum Stop {
 impl From<NetworkFault> for Stop {
     fn from(fault: NetworkFault) -> Self {
         Self::Failure(Box::new(Failure::Network { fault }))
+    }
+}
+
+/// Judges a plan that does not say how it comes out of the problem's task network: finds a decomposition, and judges that.
+pub(crate) fn run_undecomposed(
+    validator: &Validator<'_>,
+    plan: &SequentialPlan,
+    state: &mut State,
+    trace: Option<&mut Trace>,
+) -> Result<Valid, Stop> {
+    let unsupported = |feature, span| Err(Stop::Unsupported(Unsupported { feature, span }));
+    let goal_span = validator.problem.goal_span;
+    let Some((variables, network)) = &validator.problem.htn else {
+        return Err(NetworkFault::NoNetwork.into());
+    };
+    if let Some(span) = Schema::of_problem(variables, network).durative() {
+        return unsupported(Feature::DurativeSubtaskOfProblem, span);
+    }
+    crate::sequential::run(validator, plan.steps.iter(), state, trace, &mut |_, _| ())
+        .map_err(Stop::Failure)?;
+    if state.effort.is_spent() {
+        return unsupported(Feature::TooMuch, goal_span);
+    }
+    let span = network.subtasks.first().map_or(goal_span, |subtask| subtask.span);
+    match search::search(validator, plan) {
+        search::Outcome::Found(found) => {
+            let mut state = validator.initial.clone();
+            state.effort = Effort::for_steps(plan.steps.len());
+            match run(validator, &found, &mut state, None) {
+                Ok(valid) if !state.effort.is_spent() => {
+                    Ok(Valid { decomposition: Some(Box::new(found)), ..valid })
+                }
+                other => {
+                    let refused = matches!(other, Err(Stop::Failure(_)));
+                    debug_assert!(!refused, "what was found is a decomposition: {other:?}");
+                    unsupported(Feature::DecompositionLimit, span)
+                }
+            }
+        }
+        search::Outcome::None(shortfall) => {
+            // A method was left out of the search if one of its actions takes time.
+            let mut methods = validator.domain.methods.iter();
+            match methods.find_map(|method| Schema::of_method(method).durative()) {
+                Some(span) => unsupported(Feature::DurativeSubtaskOfDomain, span),
+                None => Err(NetworkFault::NoDecomposition { shortfall }.into()),
+            }
+        }
+        search::Outcome::Limit => unsupported(Feature::DecompositionLimit, span),
     }
 }
 

@@ -13,6 +13,8 @@ pub(super) struct Schema<'a> {
     pub(super) variables: &'a Variables,
     pub(super) task_arguments: &'a [Term],
     pub(super) network: &'a TaskNetwork,
+    /// The parameters that the task's arguments and the subtasks determine.
+    pub(super) determined: Vec<VariableId>,
     /// The constraints, for some value of each parameter that no task determines.
     pub(super) constraints: Condition,
     /// The same with the precondition; `None` where there is none.
@@ -52,12 +54,8 @@ impl<'a> Schema<'a> {
                 *place = true;
             }
         }
-        let free: Vec<VariableId> = variables
-            .parameter_ids()
-            .zip(&determined)
-            .filter(|(_, known)| !**known)
-            .map(|(variable, _)| variable)
-            .collect();
+        let (determined, free): (Vec<VariableId>, Vec<VariableId>) =
+            variables.parameter_ids().partition(|variable| determined[variable.0 as usize]);
         let span = network.constraints.first().or(precondition).map_or_else(Default::default, |c| c.span);
         let some = |mut parts: Vec<Condition>| {
             let body = match parts.len() {
@@ -88,7 +86,18 @@ impl<'a> Schema<'a> {
             let key = (subtask.head, &subtask.arguments, &before[index], &after[index]);
             twin[index] = seen.insert(key, place);
         }
-        Self { variables, task_arguments, network, constraints, precondition, before, after, order, twin }
+        Self {
+            variables,
+            task_arguments,
+            network,
+            determined,
+            constraints,
+            precondition,
+            before,
+            after,
+            order,
+            twin,
+        }
     }
 
     /// The subtask that takes time, if one does: no plan without times has such steps.

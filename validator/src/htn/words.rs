@@ -1,8 +1,9 @@
 //! What is wrong with a decomposition, in words.
 
-use super::fault::{NetworkFault, Parent};
+use super::fault::{NetworkFault, Parent, Shortfall};
 use super::node_span;
 use crate::run::PlanRef;
+use crate::verdict::StepIndex;
 use crate::words::{File, Finding, Place, Words, show_list, show_step};
 use pddl::model::Name;
 use pddl::{DecompositionId, HierarchicalPlan, PlanNode, Span};
@@ -16,26 +17,49 @@ impl Words<'_> {
     }
 
     fn no_decomposition(&self, fault: &NetworkFault) -> Finding {
-        let explained = if let NetworkFault::NoDecomposition { explained } = fault { *explained } else { 0 };
+        let network = Place { file: File::Problem, span: self.network_span() };
+        let NetworkFault::NoDecomposition { shortfall } = fault else {
+            let sentence = "the task network cannot become these steps".to_owned();
+            return Finding { sentence, place: network, notes: Vec::new() };
+        };
         let steps = self.plan.steps();
-        let sentence = match (explained as usize, steps) {
-            (_, 0) => "the task network cannot become nothing, and the plan is empty".to_owned(),
-            (known, n) if known == n => "the task network needs more steps than these".to_owned(),
-            _ => "nothing that the task network can become has these steps".to_owned(),
-        };
-        let step = crate::verdict::StepIndex(explained);
-        let place = if (explained as usize) < steps {
-            self.step_place(step)
-        } else {
-            Place { file: File::Problem, span: self.network_span() }
-        };
-        let mut notes = Vec::new();
-        if (explained as usize) < steps {
-            let what =
-                "it can begin with the steps before this one, and not with this one as well".to_owned();
-            notes.push((Place { file: File::Problem, span: self.network_span() }, what));
+        match shortfall {
+            Shortfall::Subtasks(spans) => {
+                let sentence = match steps {
+                    0 => "no decomposition of the task network is empty, and the plan is",
+                    _ => "no decomposition of the task network yields these steps, in whatever order",
+                };
+                let note = |&span: &Span| {
+                    let what = "no way to carry this out with these steps alone".to_owned();
+                    (Place { file: File::Problem, span }, what)
+                };
+                // That all do so together says nothing of one.
+                let notes = if spans.len() == 1 { spans.iter().map(note).collect() } else { Vec::new() };
+                let place = spans.first().map_or(network, |&span| Place { file: File::Problem, span });
+                Finding { sentence: sentence.to_owned(), place, notes }
+            }
+            Shortfall::Step(step) => {
+                let sentence = format!(
+                    "nothing that the task network can become has step {}, beside the others",
+                    step.number()
+                );
+                Finding { sentence, place: self.step_place(*step), notes: Vec::new() }
+            }
+            Shortfall::Explained(explained) => {
+                let sentence = "no decomposition of the task network yields these steps".to_owned();
+                if *explained as usize >= steps {
+                    let notes = vec![(network, "it needs more steps than these".to_owned())];
+                    return Finding { sentence, place: network, notes };
+                }
+                let place = self.step_place(StepIndex(*explained));
+                let what = match explained {
+                    0 => "nothing that it can become begins with this".to_owned(),
+                    _ => "it can begin with the steps before this one, and not with this one as well"
+                        .to_owned(),
+                };
+                Finding { sentence, place, notes: vec![(place, what)] }
+            }
         }
-        Finding { sentence, place, notes }
     }
 
     fn network_span(&self) -> Span {

@@ -1,0 +1,130 @@
+//! What can become what: tasks of objects, and the ways to carry them out, as far as the steps of one plan go.
+//!
+//! A [`Rule`] is a method (or the problem's network) with objects for all variables that its subtasks need. Its
+//! precondition is one more node, before all others: a guard, which takes no step and asks for a moment at which the
+//! precondition holds. So everything later on knows nodes and orders only, and can be read from either end:
+//! [`Grammar::reversed`] is the same question of the plan read backwards.
+//!
+//! Source: Höller et al., "HDDL", AAAI 2020, §3 (preconditions of methods as actions); Barták, Maillard & Cardoso,
+//! "Validation of hierarchical plans via parsing of attribute grammars", ICAPS 2018 (decomposition as a grammar).
+
+use pddl::model::{Idx, IndexVec, MethodId, ObjectId, TaskId};
+
+/// Moments are numbers of steps before them.
+pub(super) type Slot = u32;
+
+/// A task with its objects, an action of the plan, or a guard.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) struct SymbolId(pub(super) u32);
+
+/// A way to carry out a task.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct RuleId(pub(super) u32);
+
+impl Idx for SymbolId {
+    fn from_index(index: usize) -> Self {
+        Self(u32::try_from(index).expect("the work that makes symbols is bounded below 2^32"))
+    }
+    fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+impl Idx for RuleId {
+    fn from_index(index: usize) -> Self {
+        Self(u32::try_from(index).expect("the work that makes rules is bounded below 2^32"))
+    }
+    fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+#[derive(Clone, Debug)]
+pub(super) enum Symbol {
+    /// What the whole plan must come out of.
+    Root,
+    Task {
+        task: TaskId,
+        arguments: Box<[ObjectId]>,
+    },
+    /// An action with its objects, by its number among those of the plan.
+    Action(u32),
+    /// At which moments it holds.
+    Guard(Box<[bool]>),
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Rule {
+    /// `None` is the problem's network.
+    pub(super) method: Option<MethodId>,
+    pub(super) head: SymbolId,
+    /// None before one that must come before it.
+    pub(super) nodes: Vec<SymbolId>,
+    /// Per node, those directly before it.
+    pub(super) before: Vec<Vec<u32>>,
+    /// Per node, which subtask of the network it is; `None` is the guard.
+    pub(super) subtask: Vec<Option<u32>>,
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Grammar {
+    pub(super) symbols: IndexVec<SymbolId, Symbol>,
+    pub(super) rules: IndexVec<RuleId, Rule>,
+    /// Per symbol, the rules for it.
+    pub(super) ways: IndexVec<SymbolId, Vec<RuleId>>,
+    pub(super) root: SymbolId,
+    /// Per step of the plan, its action.
+    pub(super) steps: Vec<SymbolId>,
+    /// How many different actions there are.
+    pub(super) actions: usize,
+}
+
+impl Grammar {
+    /// The number of the last moment.
+    pub(super) fn end(&self) -> Slot {
+        Slot::try_from(self.steps.len()).unwrap_or(Slot::MAX - 1)
+    }
+
+    /// The same for the plan read from its end.
+    pub(super) fn reversed(&self) -> Self {
+        let mut other = self.clone();
+        other.steps.reverse();
+        for symbol in 0..other.symbols.len() {
+            if let Symbol::Guard(holds) = &mut other.symbols[SymbolId::from_index(symbol)] {
+                holds.reverse();
+            }
+        }
+        for rule in 0..other.rules.len() {
+            let rule = &mut other.rules[RuleId::from_index(rule)];
+            let last = rule.nodes.len().wrapping_sub(1);
+            let mut before = vec![Vec::new(); rule.nodes.len()];
+            for (after, nodes) in (0u32..).zip(&rule.before) {
+                for &node in nodes {
+                    // What came before comes after, and both are counted from the other end.
+                    let place = u32::try_from(last).unwrap_or(u32::MAX) - after;
+                    before[last - node as usize].push(place);
+                }
+            }
+            before.iter_mut().for_each(|nodes| nodes.sort_unstable());
+            rule.before = before;
+            rule.nodes.reverse();
+            rule.subtask.reverse();
+        }
+        other
+    }
+}
+
+/// What a search may still cost, counted and never timed, so that the same plan always gets the same verdict.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Purse(pub(super) u64);
+
+/// The purse is empty.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Spent;
+
+impl Purse {
+    pub(super) fn spend(&mut self, price: usize) -> Result<(), Spent> {
+        self.0 = self.0.checked_sub(price as u64).ok_or(Spent)?;
+        Ok(())
+    }
+}

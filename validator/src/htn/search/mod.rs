@@ -1,0 +1,91 @@
+//! Whether a task network can become the steps of a plan that does not say how.
+//!
+//! The plan's steps can be taken; that was judged before. [`ground`] writes down what can become what, as far as these
+//! steps go ([`grammar`]); [`outlook`] says what each task can and must become; [`progress`] looks for a decomposition
+//! from the first step on, and, since what is easy from one end may be hard from the other, from the last step back,
+//! in turns; [`rebuild`] makes it a plan. What is found is judged like any given decomposition before anybody is told.
+//!
+//! Invariant: "none" is said only where everything was looked at. A limit is counted, not timed, and is no answer.
+
+mod grammar;
+mod ground;
+mod outlook;
+mod progress;
+mod rebuild;
+mod situation;
+
+use super::fault::Shortfall;
+use crate::run::Validator;
+use crate::verdict::StepIndex;
+use grammar::{Grammar, Purse, Spent, Symbol, SymbolId};
+use ground::{Ground, ground};
+use outlook::Outlook;
+use pddl::{HierarchicalPlan, SequentialPlan};
+use progress::{Ahead, Answer, Search};
+use rebuild::{Direction, rebuild};
+
+/// What making the grammar may cost.
+const GROUND: u64 = 6_000_000;
+/// What each round of the search may cost from each end.
+const ROUNDS: [u64; 3] = [60_000, 600_000, 6_000_000];
+
+/// What a search for a decomposition comes to.
+pub(super) enum Outcome {
+    /// One decomposition.
+    Found(HierarchicalPlan),
+    /// There is none.
+    None(Shortfall),
+    /// That could not be found out within the limit.
+    Limit,
+}
+
+pub(super) fn search(validator: &Validator<'_>, plan: &SequentialPlan) -> Outcome {
+    decide(validator, plan).unwrap_or(Outcome::Limit)
+}
+
+fn decide(validator: &Validator<'_>, plan: &SequentialPlan) -> Result<Outcome, Spent> {
+    let mut purse = Purse(GROUND);
+    let grammar = match ground(validator, plan, &mut purse)? {
+        Ground::Grammar(grammar) => grammar,
+        Ground::Impossible(spans) => return Ok(Outcome::None(Shortfall::Subtasks(spans))),
+    };
+    let outlook = Outlook::new(&grammar, &mut purse)?;
+    let reversed = grammar.reversed();
+    let reversed_outlook = Outlook::new(&reversed, &mut purse)?;
+    let sides =
+        [(Direction::Forward, &grammar, &outlook), (Direction::Backward, &reversed, &reversed_outlook)];
+    for round in ROUNDS {
+        for (direction, grammar, outlook) in sides {
+            let mut purse = Purse(round);
+            let mut search = Search::new(grammar, outlook, Ahead::Far, &mut Purse(GROUND))?;
+            match search.run(&mut purse) {
+                Answer::Found(events) => {
+                    let found = rebuild(plan, grammar, outlook, direction, events, &mut Purse(GROUND))?;
+                    return Ok(Outcome::Found(found));
+                }
+                Answer::None => return Ok(Outcome::None(shortfall(sides[0].1, sides[0].2))),
+                Answer::Spent => {}
+            }
+        }
+    }
+    Ok(Outcome::Limit)
+}
+
+/// What is best said of a plan that has no decomposition.
+fn shortfall(grammar: &Grammar, outlook: &Outlook) -> Shortfall {
+    let alien = |step: &SymbolId| match grammar.symbols[*step] {
+        Symbol::Action(action) => !outlook.may.has(grammar.root, action),
+        Symbol::Root | Symbol::Task { .. } | Symbol::Guard(_) => false,
+    };
+    let alien = grammar.steps.iter().position(alien).filter(|_| outlook.least[grammar.root] < u32::MAX);
+    if let Some(step) = alien.and_then(|step| u32::try_from(step).ok()) {
+        return Shortfall::Step(StepIndex(step));
+    }
+    let search = Search::new(grammar, outlook, Ahead::Near, &mut Purse(GROUND));
+    let explained = search.map(|mut search| {
+        // Whatever it comes to, it got so far.
+        let _ = search.run(&mut Purse(ROUNDS[0]));
+        search.explained
+    });
+    Shortfall::Explained(explained.unwrap_or(0))
+}
