@@ -247,6 +247,9 @@ pub(crate) fn why_unsolvable(task: &Task, reason: &UnsolvableReason) -> String {
         UnsolvableReason::Impossible(Impossible::NegatedAtoms(atoms)) => {
             format!("the goal needs {} to become false, which nothing can bring about", named(atoms))
         }
+        UnsolvableReason::Impossible(Impossible::Exclusive(atoms)) => {
+            format!("the goal needs {} together, which exclude each other", named(atoms))
+        }
         UnsolvableReason::Impossible(_) => "nothing can bring the goal about".to_owned(),
     }
 }

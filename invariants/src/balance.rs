@@ -73,6 +73,11 @@ impl Moves<'_> {
         }
         let mut equal = Equal::default();
         a.1.iter().zip(b.1).for_each(|(&x, &y)| equal.join(x, y));
+        // Where the parameters are equal, the two may be one and the same atom.
+        let arguments = |atom: &Atom| atom.arguments.iter().map(|&t| equal.of(t)).collect::<Vec<_>>();
+        if a.0.atom.predicate == b.0.atom.predicate && arguments(a.0.atom) == arguments(b.0.atom) {
+            return false;
+        }
         let instance: Vec<Term> = a.1.iter().map(|&t| equal.of(t)).collect();
         let mut inside: Vec<&Atom> = Vec::new();
         for &atom in known.iter().flat_map(|k| &k.held) {

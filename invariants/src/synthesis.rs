@@ -169,6 +169,16 @@ mod tests {
     }
 
     #[test]
+    fn an_atom_that_is_added_twice_is_one() {
+        let all = found(
+            "(define (domain d) (:predicates (peg ?x) (hole ?x))
+             (:action jump :parameters (?a ?b ?c) :precondition (and (peg ?a) (peg ?b) (hole ?c))
+              :effect (and (not (peg ?a)) (not (peg ?b)) (not (hole ?c)) (hole ?a) (hole ?b) (peg ?c))))",
+        );
+        assert!(all.contains(&"peg 0, hole 0".to_owned()), "{all:?}");
+    }
+
+    #[test]
     fn what_two_adds_may_meet_in_is_none() {
         let all = found(
             "(define (domain d) (:predicates (at ?x ?y) (far ?x ?y))

@@ -20,12 +20,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let task = ground(&domain, &problem, &GroundOptions { interrupted: &late, ..GroundOptions::default() })?;
     let grounded = start.elapsed();
     println!(
-        "parse {:.2} ms\tground {:.2} ms\t{} facts\t{} operators\t{} rules",
+        "parse {:.2} ms\tground {:.2} ms\t{} facts\t{} operators\t{} rules\t{} groups\t{} variables, {} single",
         parsed.as_secs_f64() * 1e3,
         grounded.as_secs_f64() * 1e3,
         task.facts().len(),
         task.operators().len(),
-        task.axioms().len()
+        task.axioms().len(),
+        task.mutexes().len(),
+        task.variables().len(),
+        task.variables().iter().filter(|v| v.facts.len() == 1).count()
     );
     Ok(())
 }

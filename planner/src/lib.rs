@@ -32,6 +32,9 @@ mod heuristics;
 mod ids;
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test")]
+mod lifted_tests;
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test")]
 mod random_tests;
 mod search;
 mod task;
@@ -44,6 +47,6 @@ pub use search::{
     Width, solve,
 };
 pub use task::{
-    AtomStatus, AxiomRule, ConditionalEffect, Fact, Goal, GroundAtom, Impossible, Literals, ObjectValue,
-    Operator, State, Task,
+    AtomStatus, AxiomRule, ConditionalEffect, Fact, Goal, GroundAtom, Impossible, Literals, Mutexes,
+    ObjectValue, Operator, State, Task, Variable,
 };

@@ -79,6 +79,10 @@ fn check(case: &Case, task: &Task, configuration: &SearchConfiguration, outcome:
             let names: Vec<String> = atoms.iter().map(|a| task.atom_name(a)).collect();
             format!("impossible {}", names.join(" "))
         }
+        Outcome::Unsolvable(UnsolvableReason::Impossible(Impossible::Exclusive(atoms))) => {
+            let names: Vec<String> = atoms.iter().map(|a| task.atom_name(a)).collect();
+            format!("exclusive {}", names.join(" "))
+        }
         Outcome::Unsolvable(UnsolvableReason::Impossible(other)) => format!("impossible {other:?}"),
         Outcome::Solved(plan) => {
             let steps = plan.operators.iter().map(|&o| {

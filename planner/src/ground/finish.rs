@@ -3,6 +3,7 @@
 use super::atoms::AtomTable;
 use super::cost::{CostModel, scale};
 use super::error::{Feature, GroundError, GroundOptions, Origin};
+use super::exclusion::Exclusions;
 use super::formula::Formula;
 use super::instantiate::Lit;
 use super::prune::{Pruned, prune};
@@ -10,7 +11,7 @@ use super::raw::{RawEffects, RawOperator, RawTask, marked};
 use crate::ids::{FactId, id32};
 use crate::task::{
     AtomStatus, AxiomProgram, AxiomRule, ConditionalEffect, Fact, Goal, GroundAtom, Impossible, Literals,
-    Names, ObjectValue, Operator, Relaxation, State, SuccessorTree, Task,
+    Mutexes, Names, ObjectValue, Operator, Relaxation, State, SuccessorTree, Task, variables,
 };
 use pddl::model::{Domain, IndexVec, Problem};
 
@@ -24,6 +25,7 @@ pub(crate) fn finish(
     costs: &CostModel<'_>,
     table: AtomTable,
     raw: RawTask,
+    exclusions: &Exclusions,
     statics: u32,
     initial: &[u32],
     names: Names,
@@ -90,7 +92,12 @@ pub(crate) fn finish(
         }
     }
     axioms.close(state.words_mut());
+    let groups = groups(exclusions, &numbers, known);
+    let mutexes = Mutexes::new(facts.len(), &groups, &operators, &state);
+    let is_derived: Vec<bool> = facts.iter().map(|f| f.derived).collect();
     Ok(Task {
+        variables: variables(&mutexes, &is_derived),
+        mutexes,
         successors: SuccessorTree::new(facts.len(), &operators),
         relaxation: Relaxation::new(&facts, &operators, &axioms, &goal),
         facts,
@@ -103,6 +110,21 @@ pub(crate) fn finish(
         names,
         cost_scale,
     })
+}
+
+/// The groups of which at least two atoms are facts.
+fn groups(exclusions: &Exclusions, numbers: &[u32], known: u32) -> Vec<Vec<u32>> {
+    let mut groups: Vec<Vec<u32>> = vec![Vec::new(); exclusions.len()];
+    for atom in (0..known).filter(|&a| numbers[a as usize] != NONE) {
+        for &group in exclusions.of(atom) {
+            groups[group as usize].push(numbers[atom as usize]);
+        }
+    }
+    groups.retain(|g| g.len() > 1);
+    // Different groups of atoms may be the same group of facts.
+    groups.sort_unstable();
+    groups.dedup();
+    groups
 }
 
 struct View<'a> {
@@ -196,7 +218,14 @@ fn goal(raw: &RawTask, pruned: &Pruned, numbers: &[u32], table: &AtomTable, name
             .then(|| GroundAtom { predicate: table.predicate(a), arguments: table.objects(a) });
         blame(atom, l & 1 == 0);
     }
-    let impossible = if !atoms.is_empty() {
+    let exclusive = raw.exclusive.map(|(a, b)| [a, b].map(|a| (table.predicate(a), table.objects(a))));
+    let impossible = if let Some(pair) = exclusive {
+        let named = pair.map(|(predicate, arguments)| GroundAtom { predicate, arguments });
+        match named.iter().any(is_value) {
+            true => Some(Impossible::Formula),
+            false => Some(Impossible::Exclusive(named.into())),
+        }
+    } else if !atoms.is_empty() {
         Some(Impossible::Atoms(atoms))
     } else if !negated.is_empty() {
         Some(Impossible::NegatedAtoms(negated))

@@ -7,6 +7,7 @@
 
 use super::atoms::AtomTable;
 use super::cost::resolve;
+use super::exclusion::{Exclusions, Marks};
 use super::formula::{Formula, Literal};
 use super::universe::Range;
 use crate::ids::id32;
@@ -31,6 +32,8 @@ pub(crate) enum Ground {
 pub(crate) struct Instantiator<'a> {
     pub(crate) table: &'a AtomTable,
     pub(crate) is_static: &'a [bool],
+    pub(crate) exclusions: &'a Exclusions,
+    pub(crate) marks: Marks,
     auxiliary: FxHashMap<Vec<Vec<Lit>>, u32>,
     /// Rules of the auxiliary atoms: head, body.
     pub(crate) rules: Vec<(u32, Vec<Lit>)>,
@@ -38,9 +41,10 @@ pub(crate) struct Instantiator<'a> {
 }
 
 impl<'a> Instantiator<'a> {
-    pub(crate) fn new(table: &'a AtomTable, is_static: &'a [bool]) -> Self {
-        let next = id32(table.len());
-        Self { table, is_static, auxiliary: FxHashMap::default(), rules: Vec::new(), next }
+    pub(crate) fn new(table: &'a AtomTable, is_static: &'a [bool], exclusions: &'a Exclusions) -> Self {
+        let (next, marks) = (id32(table.len()), Marks::new(exclusions));
+        let (auxiliary, rules) = (FxHashMap::default(), Vec::new());
+        Self { table, is_static, exclusions, marks, auxiliary, rules, next }
     }
 
     /// Atoms of the table, then auxiliary ones.
@@ -142,14 +146,25 @@ impl<'a> Instantiator<'a> {
                 },
             }
         }
-        rows.into_iter().filter_map(consistent).collect()
+        rows.into_iter().filter_map(|row| self.possible(row)).collect()
     }
 
     /// Literals equivalent to the formula; `None` if they contradict each other.
     pub(crate) fn conjunction(&mut self, ground: Ground) -> Option<Vec<Lit>> {
         let mut literals = Vec::new();
         self.collect(ground, &mut literals).then_some(())?;
-        consistent(literals)
+        self.possible(literals)
+    }
+
+    /// The conjunction in order, unless a literal contradicts or excludes another.
+    fn possible(&mut self, literals: Vec<Lit>) -> Option<Vec<Lit>> {
+        consistent(literals).filter(|l| self.marks.take(self.exclusions, l))
+    }
+
+    /// Takes out negative literals that the positive ones of the same conjunction imply.
+    pub(crate) fn without_implied(&mut self, literals: &mut Vec<Lit>) {
+        self.marks.take(self.exclusions, literals);
+        literals.retain(|&l| l & 1 == 0 || !self.marks.exclude(self.exclusions, l >> 1));
     }
 
     /// The precondition with that none of the conjunctions in `never` holds; `None` if it cannot be.
@@ -164,7 +179,7 @@ impl<'a> Instantiator<'a> {
             let one = if options.len() == 1 { options.remove(0) } else { Ground::Or(options) };
             all.extend(self.conjunction(one)?);
         }
-        consistent(all)
+        self.possible(all)
     }
 
     fn collect(&mut self, ground: Ground, out: &mut Vec<Lit>) -> bool {

@@ -1,9 +1,10 @@
 //! From a domain and a problem to a grounded task.
 //!
-//! Stages, each a module: object fluents to predicates (`values`), conditions to negation normal form (`formula`, `schema`), the metric to
-//! operator costs (`cost`), relaxed reachability by ordered joins (`rule`, `plan`, `join`), instances
-//! with quantifiers expanded and disjunctions split (`instantiate`, `raw`), constants and irrelevant
-//! atoms dropped (`prune`), and the final task (`finish`). Invariant: every plan of the problem is a
+//! Stages, each a module: object fluents to predicates (`values`), conditions to negation normal form
+//! (`formula`, `schema`), the metric to operator costs (`cost`), relaxed reachability by ordered joins
+//! (`rule`, `plan`, `join`), atoms that exclude each other (`exclusion`), instances with quantifiers
+//! expanded and disjunctions split (`instantiate`, `raw`), constants and irrelevant atoms dropped
+//! (`prune`), and the final task (`finish`). Invariant: every plan of the problem is a
 //! sequence of the task's operators, and every plan of the task is a plan of the problem.
 //!
 //! Source: Helmert, "Concise finite-domain representations for PDDL planning tasks", AIJ 2009.
@@ -11,6 +12,7 @@
 mod atoms;
 mod cost;
 mod error;
+mod exclusion;
 mod finish;
 mod formula;
 mod instantiate;
@@ -28,6 +30,7 @@ pub use error::{Feature, GroundError, GroundOptions, Origin};
 
 use crate::task::{Names, Task};
 use cost::CostModel;
+use exclusion::Exclusions;
 use formula::Formula;
 use pddl::Diagnostic;
 use pddl::model::Feature as Language;
@@ -73,9 +76,31 @@ pub fn ground(domain: &Domain, problem: &Problem, options: &GroundOptions<'_>) -
     let reached = join::reach(&schemas, &rules, table, statics, &is_static, problem.objects.len(), options)?;
     let goal = Formula::of(&problem.goal, true, Origin::Problem, &mut universe)?;
     let slots = universe.slots(&problem.goal_variables);
-    let raw = raw::instantiate(&schemas, &reached, &is_static, &costs, &values, (&goal, &slots), options)?;
+    let exclusions =
+        Exclusions::new(domain, problem, &values, options.exogenous, &reached.table, statics, &initial);
+    let raw = raw::instantiate(
+        &schemas,
+        &reached,
+        &is_static,
+        &exclusions,
+        &costs,
+        &values,
+        (&goal, &slots),
+        options,
+    )?;
     let names = Names::of(domain, problem, values);
-    finish::finish(domain, problem, &costs, reached.table, raw, statics, &initial, names, options)
+    finish::finish(
+        domain,
+        problem,
+        &costs,
+        reached.table,
+        raw,
+        &exclusions,
+        statics,
+        &initial,
+        names,
+        options,
+    )
 }
 
 fn ids_of(table: &AtomTable) -> u32 {

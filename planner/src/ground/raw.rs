@@ -7,6 +7,7 @@
 use super::atoms::AtomTable;
 use super::cost::{CostModel, CostTerm, resolve};
 use super::error::{Feature, GroundError, GroundOptions, Origin};
+use super::exclusion::Exclusions;
 use super::formula::Formula;
 use super::instantiate::{Ground, Instantiator, Lit, consistent};
 use super::join::{Bindings, Reached};
@@ -14,7 +15,7 @@ use super::schema::{Product, Schema, SchemaEffect};
 use super::values::ValuePredicates;
 use crate::ids::id32;
 use pddl::model::{ActionId, ObjectId, VariableId};
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 
 /// Copies of an operator, one for each way to satisfy its precondition, before an axiom is used.
@@ -45,21 +46,25 @@ pub(crate) struct RawTask {
     pub(crate) goal: Vec<Lit>,
     /// Whether some part of the goal folded to false.
     pub(crate) refuted: Vec<Formula>,
+    /// Two atoms of the goal that never hold together.
+    pub(crate) exclusive: Option<(u32, u32)>,
     /// Atoms of the table, then auxiliary ones.
     pub(crate) atoms: u32,
 }
 
 /// Instantiates everything.
+#[expect(clippy::too_many_arguments, reason = "a stage takes what the stages before it made")]
 pub(crate) fn instantiate(
     schemas: &[Schema],
     reached: &Reached,
     is_static: &[bool],
+    exclusions: &Exclusions,
     costs: &CostModel<'_>,
     values: &ValuePredicates,
     goal: (&Formula, &[std::sync::Arc<super::universe::Range>]),
     options: &GroundOptions<'_>,
 ) -> Result<RawTask, GroundError> {
-    let mut work = Instantiator::new(&reached.table, is_static);
+    let mut work = Instantiator::new(&reached.table, is_static, exclusions);
     let mut operators = Vec::new();
     let mut rules = Vec::new();
     for (schema, bindings) in schemas.iter().zip(&reached.bindings) {
@@ -97,7 +102,8 @@ pub(crate) fn instantiate(
                         {
                             continue;
                         }
-                        operators.push(operator(*id, &arguments, precondition, &all, cost));
+                        let new = operator(&mut work, *id, &arguments, precondition, &all, cost);
+                        operators.push(new);
                     }
                 }
             }
@@ -116,15 +122,32 @@ pub(crate) fn instantiate(
             None => refuted.push(conjunct.clone()),
         }
     }
+    let mut exclusive = None;
     match consistent(literals) {
-        Some(sorted) => literals = sorted,
+        Some(sorted) => {
+            exclusive = rivals(exclusions, &sorted);
+            literals = sorted;
+        }
         None => {
             literals = Vec::new();
             refuted.push(goal.0.clone());
         }
     }
     rules.append(&mut work.rules);
-    Ok(RawTask { operators, rules, goal: literals, refuted, atoms: work.atoms() })
+    Ok(RawTask { operators, rules, goal: literals, refuted, exclusive, atoms: work.atoms() })
+}
+
+/// Two of the literals that exclude each other.
+fn rivals(exclusions: &Exclusions, literals: &[Lit]) -> Option<(u32, u32)> {
+    let mut by_group = FxHashMap::default();
+    for atom in literals.iter().filter(|&&l| l & 1 == 0).map(|l| l >> 1) {
+        for &group in exclusions.of(atom) {
+            if let Some(other) = by_group.insert(group, atom) {
+                return Some((other, atom));
+            }
+        }
+    }
+    None
 }
 
 fn bind(schema: &Schema, bindings: &Bindings, row: usize, binding: &mut [u32]) {
@@ -215,20 +238,31 @@ fn each_binding(vs: &[VariableId], schema: &Schema, binding: &mut [u32], f: &mut
 }
 
 fn operator(
+    work: &mut Instantiator<'_>,
     action: ActionId,
     arguments: &[ObjectId],
-    precondition: Vec<Lit>,
+    mut precondition: Vec<Lit>,
     effects: &[(Vec<Lit>, bool, u32)],
     cost: f64,
 ) -> RawOperator {
     let mut always = RawEffects::default();
     let mut by_condition: BTreeMap<Vec<Lit>, RawEffects> = BTreeMap::new();
+    // Leaves the groups of the precondition marked.
+    work.without_implied(&mut precondition);
     for (condition, positive, atom) in effects {
+        // What the precondition excludes does not hold, and need not be deleted.
+        let is_absent = |atom: u32| {
+            precondition.binary_search(&(atom << 1)).is_err() && work.marks.exclude(work.exclusions, atom)
+        };
+        let refuted = |&l: &Lit| l & 1 == 0 && is_absent(l >> 1);
+        if (!positive && is_absent(*atom)) || condition.iter().any(refuted) {
+            continue;
+        }
         if condition.iter().any(|l| precondition.binary_search(&(l ^ 1)).is_ok()) {
             continue;
         }
-        let open: Vec<Lit> =
-            condition.iter().copied().filter(|l| precondition.binary_search(l).is_err()).collect();
+        let given = |l: Lit| precondition.binary_search(&l).is_ok() || (l & 1 == 1 && is_absent(l >> 1));
+        let open: Vec<Lit> = condition.iter().copied().filter(|&l| !given(l)).collect();
         let into = if open.is_empty() { &mut always } else { by_condition.entry(open).or_default() };
         (if *positive { &mut into.adds } else { &mut into.deletes }).push(*atom);
     }

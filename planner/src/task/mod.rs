@@ -7,6 +7,7 @@
 //! under its axioms.
 
 mod axioms;
+mod mutexes;
 mod names;
 mod operator;
 mod relaxation;
@@ -15,6 +16,8 @@ mod successors;
 
 pub(crate) use axioms::AxiomProgram;
 pub use axioms::AxiomRule;
+pub(crate) use mutexes::variables;
+pub use mutexes::{Mutexes, Variable};
 pub(crate) use names::Names;
 pub use operator::{ConditionalEffect, Goal, Impossible, Literals, Operator};
 pub(crate) use relaxation::{AXIOM, Relaxation, Rows};
@@ -80,6 +83,8 @@ pub struct Task {
     pub(crate) status: Vec<AtomStatus>,
     pub(crate) names: Names,
     pub(crate) cost_scale: u32,
+    pub(crate) mutexes: Mutexes,
+    pub(crate) variables: Vec<Variable>,
     pub(crate) successors: SuccessorTree,
     pub(crate) relaxation: Relaxation,
 }
@@ -98,6 +103,16 @@ impl Task {
     /// All rules of axioms.
     pub fn axioms(&self) -> &[AxiomRule] {
         self.axioms.rules()
+    }
+
+    /// Groups of facts of which at most one holds.
+    pub fn mutexes(&self) -> &Mutexes {
+        &self.mutexes
+    }
+
+    /// Finite-domain variables: each fact that is not derived is a value of one of them.
+    pub fn variables(&self) -> &[Variable] {
+        &self.variables
     }
 
     /// The initial state.

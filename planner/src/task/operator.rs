@@ -98,6 +98,8 @@ pub enum Impossible {
     Atoms(Vec<GroundAtom>),
     /// These conjuncts forbid what holds in every reachable state.
     NegatedAtoms(Vec<GroundAtom>),
+    /// These conjuncts exclude each other.
+    Exclusive(Vec<GroundAtom>),
     /// A disjunction or quantified part cannot be satisfied.
     Formula,
 }

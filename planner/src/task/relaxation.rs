@@ -20,7 +20,7 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    fn push(&mut self, row: impl IntoIterator<Item = u32>) {
+    pub(crate) fn push(&mut self, row: impl IntoIterator<Item = u32>) {
         if self.starts.is_empty() {
             self.starts.push(0);
         }

@@ -1,4 +1,4 @@
-; expect: exhausted
+; expect: exclusive (at b1 a) (at b1 b)
 (define (problem two-places) (:domain gripper)
   (:objects a b b1 left)
   (:init (room a) (room b) (ball b1) (gripper left) (at-robby a) (free left) (at b1 a))

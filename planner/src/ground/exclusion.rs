@@ -1,0 +1,176 @@
+//! Which reachable atoms exclude each other.
+//!
+//! Problem: relaxed reachability lets a robot be in two rooms, so that it finds instances that no
+//! state can apply. Idea: the domain's invariants, counted in the initial state, give groups of atoms
+//! of which at most one ever holds; a conjunction with two atoms of a group is impossible, and where
+//! one holds the others do not. Invariant: an invariant over a predicate that the outside changes gives
+//! no group, so what is left is kept by the operators alone. Cost: one hash look-up for each atom of
+//! each invariant, bounded; then a few array reads a literal.
+//!
+//! Source: Helmert, "Concise finite-domain representations for PDDL planning tasks", AIJ 2009, §5.
+
+use super::atoms::{AtomTable, Packing};
+use super::instantiate::Lit;
+use super::values::ValuePredicates;
+use crate::ids::id32;
+use invariants::{Happening, Invariant, Member, invariants};
+use pddl::model::{Domain, PredicateId, Problem};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// Atoms in groups, over all of them; invariants beyond that are left out.
+const ENTRIES: usize = 20_000_000;
+
+/// Groups of atoms of which at most one holds.
+#[derive(Default)]
+pub(crate) struct Exclusions {
+    /// The groups of atom `a` are `groups[starts[a]..starts[a + 1]]`.
+    starts: Vec<u32>,
+    groups: Vec<u32>,
+    count: usize,
+}
+
+impl Exclusions {
+    /// Of the atoms that were reached. `initial` are those that change and hold at first.
+    pub(crate) fn new(
+        domain: &Domain,
+        problem: &Problem,
+        values: &ValuePredicates,
+        exogenous: &[PredicateId],
+        table: &AtomTable,
+        statics: u32,
+        initial: &[u32],
+    ) -> Self {
+        // Invariants take an object to be of one type.
+        if problem.objects.iter().any(|o| o.types.0.len() > 1) {
+            return Self::default();
+        }
+        let happenings: Vec<Happening<'_>> = domain.actions.iter().map(Happening::of_action).collect();
+        let mut found = invariants(domain, &happenings);
+        found.extend(of_values(domain, values));
+        found.retain(|i| i.members.iter().all(|m| !exogenous.contains(&m.predicate)));
+        if found.is_empty() {
+            return Self::default();
+        }
+        let atoms = id32(table.len());
+        let mut by_predicate: Vec<Vec<u32>> = vec![Vec::new(); domain.predicates.len()];
+        for atom in statics..atoms {
+            by_predicate[table.predicate(atom).0 as usize].push(atom);
+        }
+        let holds: FxHashSet<u32> = initial.iter().copied().collect();
+        let mut pairs: Vec<(u32, u32)> = Vec::new();
+        let mut count = 0;
+        let mut known: FxHashSet<Vec<u32>> = FxHashSet::default();
+        for invariant in &found {
+            for group in instances(invariant, table, &by_predicate, &holds, problem.objects.len()) {
+                if pairs.len() + group.len() > ENTRIES || known.contains(&group) {
+                    continue;
+                }
+                pairs.extend(group.iter().map(|&atom| (atom, count)));
+                count += 1;
+                known.insert(group);
+            }
+        }
+        let mut starts = vec![0_u32; atoms as usize + 1];
+        pairs.iter().for_each(|&(atom, _)| starts[atom as usize + 1] += 1);
+        for i in 0..atoms as usize {
+            starts[i + 1] += starts[i];
+        }
+        let mut fill = starts.clone();
+        let mut groups = vec![0; pairs.len()];
+        for (atom, group) in pairs {
+            groups[fill[atom as usize] as usize] = group;
+            fill[atom as usize] += 1;
+        }
+        Self { starts, groups, count: count as usize }
+    }
+
+    /// The groups of an atom.
+    pub(crate) fn of(&self, atom: u32) -> &[u32] {
+        let i = atom as usize;
+        match self.starts.get(i + 1) {
+            Some(&end) => &self.groups[self.starts[i] as usize..end as usize],
+            None => &[],
+        }
+    }
+
+    /// How many groups.
+    pub(crate) fn len(&self) -> usize {
+        self.count
+    }
+}
+
+/// An object fluent has one value: the compilation sees to it.
+fn of_values(domain: &Domain, values: &ValuePredicates) -> Vec<Invariant> {
+    let is_value = |&p: &PredicateId| values.function(p).is_some();
+    let one = |predicate: PredicateId| {
+        let value = domain.predicates[predicate].variables.parameters.saturating_sub(1);
+        Invariant {
+            members: vec![Member { predicate, parameters: (0..value).collect(), counted: Some(value) }],
+        }
+    };
+    domain.predicates.ids().filter(is_value).map(one).collect()
+}
+
+/// The instances of which one atom holds initially and more are known.
+fn instances(
+    invariant: &Invariant,
+    table: &AtomTable,
+    by_predicate: &[Vec<u32>],
+    holds: &FxHashSet<u32>,
+    objects: usize,
+) -> Vec<Vec<u32>> {
+    let mut packing = Packing::new(objects);
+    let mut numbers: FxHashMap<u64, usize> = FxHashMap::default();
+    let mut found: Vec<(u32, Vec<u32>)> = Vec::new();
+    for member in &invariant.members {
+        for &atom in &by_predicate[member.predicate.0 as usize] {
+            let row = table.row(atom);
+            let key = packing.key(member.parameters.iter().map(|&p| row[p]));
+            let next = found.len();
+            let number = *numbers.entry(key).or_insert(next);
+            if number == next {
+                found.push((0, Vec::new()));
+            }
+            let (held, group) = &mut found[number];
+            *held += u32::from(holds.contains(&atom));
+            group.push(atom);
+        }
+    }
+    found.into_iter().filter(|(held, group)| *held <= 1 && group.len() > 1).map(|(_, group)| group).collect()
+}
+
+/// Which groups the conjunction at hand has an atom of.
+#[derive(Default)]
+pub(crate) struct Marks {
+    generation: u32,
+    of: Vec<u32>,
+}
+
+impl Marks {
+    pub(crate) fn new(exclusions: &Exclusions) -> Self {
+        Self { generation: 0, of: vec![0; exclusions.len()] }
+    }
+
+    /// Marks the groups of the positive literals; `false` if two are of one group.
+    pub(crate) fn take(&mut self, exclusions: &Exclusions, literals: &[Lit]) -> bool {
+        self.generation += 1;
+        self.add(exclusions, literals)
+    }
+
+    /// Marks more.
+    fn add(&mut self, exclusions: &Exclusions, literals: &[Lit]) -> bool {
+        let mut possible = true;
+        for &l in literals.iter().filter(|&&l| l & 1 == 0) {
+            for &group in exclusions.of(l >> 1) {
+                possible &=
+                    std::mem::replace(&mut self.of[group as usize], self.generation) != self.generation;
+            }
+        }
+        possible
+    }
+
+    /// Whether one of the marked literals excludes an atom that is not among them.
+    pub(crate) fn exclude(&self, exclusions: &Exclusions, atom: u32) -> bool {
+        exclusions.of(atom).iter().any(|&g| self.of[g as usize] == self.generation)
+    }
+}

@@ -1,0 +1,157 @@
+//! Facts of which at most one holds, and finite-domain variables made of them.
+//!
+//! Problem: facts are not independent: what is in one room is in no other. Idea: groups come from the
+//! domain's invariants; the largest group whose facts have no variable yet becomes a variable, and so
+//! on greedily; a fact in no group is a variable of its own. Invariant: in every state that operators
+//! reach from the initial one, at most one fact of a group holds, exactly one where that is said. A
+//! state that a caller makes up may break it; [`Mutexes::hold_in`] tells.
+//!
+//! Source: Helmert, "Concise finite-domain representations for PDDL planning tasks", AIJ 2009, §5–6.
+
+use super::{Operator, Rows, State};
+use crate::ids::{FactId, OperatorId, id32};
+use pddl::model::{Idx, IndexVec};
+
+/// The groups.
+#[derive(Clone, Debug, Default)]
+pub struct Mutexes {
+    /// The facts of each group, sorted.
+    groups: Rows,
+    /// The groups of each fact, sorted.
+    of: Rows,
+    /// Whether always one of the group holds.
+    exact: Vec<bool>,
+}
+
+impl Mutexes {
+    /// From groups of facts; operators and the initial state tell which are exact.
+    pub(crate) fn new(
+        facts: usize,
+        groups: &[Vec<u32>],
+        operators: &IndexVec<OperatorId, Operator>,
+        initial: &State,
+    ) -> Self {
+        let mut rows = Rows::default();
+        groups.iter().for_each(|g| rows.push(g.iter().copied()));
+        let of = rows.transposed(facts);
+        let one = |group: &Vec<u32>| group.iter().filter(|&&f| initial.contains(FactId(f))).count() == 1;
+        let mut mutexes = Self { groups: rows, of, exact: groups.iter().map(one).collect() };
+        if !groups.is_empty() {
+            operators.iter().for_each(|o| mutexes.leave(o));
+        }
+        mutexes
+    }
+
+    /// Notes the groups of which no fact may hold after the operator.
+    fn leave(&mut self, operator: &Operator) {
+        let Self { of, exact, .. } = self;
+        let covered = |g: u32| operator.adds.iter().any(|a| of.row(a.0).contains(&g));
+        for f in &operator.deletes {
+            for &g in of.row(f.0) {
+                exact[g as usize] = exact[g as usize] && covered(g);
+            }
+        }
+        for f in operator.conditional.iter().flat_map(|e| &e.deletes) {
+            of.row(f.0).iter().for_each(|&g| exact[g as usize] = false);
+        }
+    }
+
+    /// How many groups.
+    pub fn len(&self) -> usize {
+        self.exact.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.exact.is_empty()
+    }
+
+    /// The facts of a group, in order.
+    pub fn group(&self, group: usize) -> impl ExactSizeIterator<Item = FactId> + '_ {
+        self.groups.row(id32(group)).iter().map(|&f| FactId(f))
+    }
+
+    /// Whether one fact of the group holds in every state that is reached, and not none.
+    pub fn is_exact(&self, group: usize) -> bool {
+        self.exact[group]
+    }
+
+    /// The groups that hold a fact, in order.
+    pub fn groups_of(&self, fact: FactId) -> impl ExactSizeIterator<Item = usize> + '_ {
+        self.of(fact).iter().map(|&g| g as usize)
+    }
+
+    fn of(&self, fact: FactId) -> &[u32] {
+        if self.is_empty() { &[] } else { self.of.row(fact.0) }
+    }
+
+    /// Whether two facts never hold together. A fact and itself are no such pair. Cost: the facts'
+    /// groups, mostly one or two.
+    pub fn are_mutex(&self, a: FactId, b: FactId) -> bool {
+        if a == b {
+            return false;
+        }
+        let (mut left, mut right) = (self.of(a), self.of(b));
+        while let ([x, after_x @ ..], [y, after_y @ ..]) = (left, right) {
+            match x.cmp(y) {
+                std::cmp::Ordering::Equal => return true,
+                std::cmp::Ordering::Less => left = after_x,
+                std::cmp::Ordering::Greater => right = after_y,
+            }
+        }
+        false
+    }
+
+    /// Whether a state keeps all groups.
+    pub fn hold_in(&self, state: &State) -> bool {
+        (0..self.len()).all(|g| {
+            let held = self.group(g).filter(|&f| state.contains(f)).count();
+            held == 1 || (held == 0 && !self.exact[g])
+        })
+    }
+}
+
+/// A finite-domain variable: its values are facts, and "none of them" unless it is complete.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Variable {
+    /// Its facts, in order.
+    pub facts: Box<[FactId]>,
+    /// Whether one of them holds in every state that is reached.
+    pub complete: bool,
+}
+
+impl Variable {
+    /// How many values it has.
+    pub fn size(&self) -> usize {
+        self.facts.len() + usize::from(!self.complete)
+    }
+}
+
+/// Each of the facts in one variable: the largest groups first. Derived facts are in none.
+pub(crate) fn variables(mutexes: &Mutexes, derived: &[bool]) -> Vec<Variable> {
+    let mut taken = derived.to_vec();
+    let mut left: Vec<usize> = (0..mutexes.len()).map(|g| mutexes.group(g).len()).collect();
+    let most = left.iter().copied().max().unwrap_or(0);
+    let mut by_size: Vec<Vec<usize>> = vec![Vec::new(); most + 1];
+    (0..mutexes.len()).rev().for_each(|g| by_size[left[g]].push(g));
+    let mut found = Vec::new();
+    for size in (2..=most).rev() {
+        while let Some(group) = by_size[size].pop() {
+            if left[group] < size {
+                by_size[left[group]].push(group);
+                continue;
+            }
+            let facts: Vec<FactId> = mutexes.group(group).filter(|f| !taken[f.index()]).collect();
+            for &f in &facts {
+                taken[f.index()] = true;
+                mutexes.of(f).iter().for_each(|&g| left[g as usize] -= 1);
+            }
+            // What is left of an exact group may hold nothing.
+            let complete = mutexes.is_exact(group) && facts.len() == mutexes.group(group).len();
+            found.push(Variable { facts: facts.into(), complete });
+        }
+    }
+    let single = (0..taken.len()).filter(|&f| !taken[f]).map(FactId::from_index);
+    found.extend(single.map(|f| Variable { facts: Box::new([f]), complete: false }));
+    found
+}
