@@ -6,7 +6,6 @@ use rustc_hash::FxHashMap;
 
 use crate::finding::Findings;
 use crate::lint::Check;
-use crate::logic::types;
 use crate::view::DomainView;
 use crate::{Finding, Level, Lint, Place, shape};
 
@@ -61,10 +60,11 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
     }
     let mut first: FxHashMap<(TaskId, String), (&Name, Span)> = FxHashMap::default();
     for method in &view.domain.methods {
-        let shape = types(&method.variables)
-            + &shape::terms(&method.task_arguments)
-            + &shape::condition(&method.precondition)
-            + &shape::network(&method.network);
+        let shape = shape::schema(&method.variables, |shape| {
+            shape.terms(&method.task_arguments)
+                + &shape.condition(&method.precondition)
+                + &shape.network(&method.network)
+        });
         if let Some((other, earlier)) = first.get(&(method.task, shape.clone())) {
             let message = format!("method `{}` says the same as `{other}`", method.name);
             let finding = Finding::new(&LINT, Place::domain(method.span), message);

@@ -6,7 +6,7 @@ use pddl::model::{Comparison, Condition, ConditionKind, Expression, ExpressionKi
 use super::literals::{Fact, Group, Literal, contradictions, groups};
 use crate::finding::Findings;
 use crate::lint::Check;
-use crate::shape;
+use crate::shape::Shape;
 use crate::view::{DomainView, ProblemView};
 use crate::{Finding, Level, Lint, Place};
 
@@ -97,7 +97,7 @@ pub(super) fn verdict(condition: &Condition) -> Option<bool> {
             }
             let reflexive =
                 matches!(how, Comparison::LessEqual | Comparison::Equal | Comparison::GreaterEqual);
-            (shape::expression(left) == shape::expression(right)).then_some(reflexive)
+            (Shape::PLAIN.expression(left) == Shape::PLAIN.expression(right)).then_some(reflexive)
         }
         _ => None,
     }

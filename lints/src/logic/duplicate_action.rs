@@ -1,13 +1,14 @@
 //! Two actions that do the same.
 
-use pddl::model::{DurativeAction, Name, Variables};
+use pddl::model::{DurativeAction, Name};
 use pddl::{Explanation, Span};
 use rustc_hash::FxHashMap;
 
 use crate::finding::Findings;
 use crate::lint::Check;
+use crate::shape::{self, Shape};
 use crate::view::DomainView;
-use crate::{Finding, Level, Lint, Place, shape};
+use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "duplicate-action",
@@ -16,7 +17,7 @@ pub(crate) static LINT: Lint = Lint {
         code: "W0809",
         title: "action stands twice",
         meaning: "Two actions have parameters of the same types, the same conditions and the same effects; only \
-         names differ.",
+         names differ, or the order of the parameters.",
         why: "A planner tries everything twice. Mostly one was copied from the other and not finished.",
         wrong: &["\
 (define (domain hall)
@@ -56,15 +57,20 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
     // What is soft or continuous has no shape.
     let plain = view.domain.actions.iter().filter(|action| action.preferences.is_empty());
     let actions = plain.map(|action| {
-        let body = format!("{} {}", shape::condition(&action.precondition), shape::effect(&action.effect));
-        (types(&action.variables) + &body, &action.name, action.name_span)
+        let body = |shape: &Shape| {
+            format!("{} {}", shape.condition(&action.precondition), shape.effect(&action.effect))
+        };
+        (shape::schema(&action.variables, body), &action.name, action.name_span)
     });
     // What a rule does also lies in its skill, which may well be the same for many.
     let plain = view.domain.durative_actions.iter().filter(|action| {
         let instant = action.continuous.is_empty() && action.effects.iter().all(|e| e.given.is_empty());
         action.rule.is_none() && instant && action.preferences.is_empty()
     });
-    let durative = plain.map(|action| (durative(action), &action.name, action.name_span));
+    let durative = plain.map(|action| {
+        let shape = shape::schema(&action.variables, |shape| durative(action, shape));
+        (shape, &action.name, action.name_span)
+    });
     for (shape, name, span) in actions.chain(durative) {
         if let Some((other, earlier)) = first.get(&shape) {
             let message = format!("action `{name}` does the same as `{other}`");
@@ -76,25 +82,12 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
     }
 }
 
-/// The types of all variables.
-pub(crate) fn types(variables: &Variables) -> String {
-    let mut text = format!("{} ", variables.parameters);
-    for variable in &variables.slots {
-        let mut types: Vec<u32> = variable.types.0.iter().map(|t| t.0).collect();
-        types.sort_unstable();
-        text += &format!("{types:?}");
-    }
-    text
-}
-
-fn durative(action: &DurativeAction) -> String {
+fn durative(action: &DurativeAction, shape: &Shape) -> String {
     let mut parts: Vec<String> = Vec::new();
-    parts.extend(
-        action.duration.iter().map(|d| format!("{:?} {}", d.comparison, shape::expression(&d.bound))),
-    );
     parts
-        .extend(action.conditions.iter().map(|c| format!("{:?} {}", c.when, shape::condition(&c.condition))));
-    parts.extend(action.effects.iter().map(|e| format!("do {:?} {}", e.when, shape::effect(&e.effect))));
+        .extend(action.duration.iter().map(|d| format!("{:?} {}", d.comparison, shape.expression(&d.bound))));
+    parts.extend(action.conditions.iter().map(|c| format!("{:?} {}", c.when, shape.condition(&c.condition))));
+    parts.extend(action.effects.iter().map(|e| format!("do {:?} {}", e.when, shape.effect(&e.effect))));
     parts.sort_unstable();
-    types(&action.variables) + &parts.join(" ")
+    parts.join(" ")
 }

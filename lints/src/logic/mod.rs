@@ -23,8 +23,6 @@ mod static_when;
 mod timed_without_change;
 mod uninitialised_function;
 
-pub(crate) use duplicate_action::types;
-
 use crate::Lint;
 
 pub(crate) static LINTS: &[&Lint] = &[

@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 use super::changes::Changes;
 use crate::finding::Findings;
 use crate::lint::Check;
-use crate::shape;
+use crate::shape::Shape;
 use crate::view::DomainView;
 use crate::{Finding, Level, Lint, Place};
 
@@ -47,7 +47,7 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
         let mut first: FxHashMap<(usize, String), pddl::Span> = FxHashMap::default();
         for change in &changes {
             let span = change.effect.span;
-            let key = (change.context, shape::effect(change.effect));
+            let key = (change.context, Shape::PLAIN.effect(change.effect));
             if let Some(&earlier) = first.get(&key) {
                 let finding =
                     Finding::new(&LINT, Place::domain(span), "this effect stands here a second time");
