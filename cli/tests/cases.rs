@@ -155,3 +155,22 @@ fn a_closed_pipe_is_no_error() {
     drop(child.stderr.take());
     assert_eq!(child.wait().unwrap().code(), Some(0));
 }
+
+#[test]
+fn a_repaired_plan_is_written_and_valid() {
+    let folder = tempfile::tempdir().unwrap();
+    copy(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/validate-advice"), folder.path());
+    let code = |plans: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_pelea"))
+            .args(["validate", "domain.pddl", "problem.pddl"])
+            .args(plans)
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        output.status.code()
+    };
+    assert_eq!(code(&["bad.plan", "--fix", "good.plan"]), Some(1), "the plan that was given is invalid");
+    assert_eq!(code(&["good.plan"]), Some(0));
+    assert_eq!(code(&["bad.plan", "good.plan", "--fix", "other.plan"]), Some(2), "one plan only");
+    assert!(!folder.path().join("other.plan").exists());
+}

@@ -3,7 +3,6 @@
 use crate::cause::{Cause, Causes};
 use crate::demands::Demands;
 use crate::effect::Changes;
-use crate::effort::Effort;
 use crate::number::Number;
 use crate::prepare::each_guard;
 use crate::run::{End, Validator, precondition};
@@ -12,8 +11,8 @@ use crate::state::State;
 use crate::trace::{Diff, Happening, Recorder, Trace};
 use crate::trajectory::Since;
 use crate::verdict::{Failure, StepFault, StepIndex, Valid};
+use pddl::PlanStep;
 use pddl::model::{Action, ActionId, IndexVec};
-use pddl::{PlanStep, SequentialPlan};
 
 /// Carries out the steps; `visit` is shown each state that they go through, with the number of steps before it.
 pub(crate) fn run<'p>(
@@ -55,34 +54,6 @@ pub(crate) fn run<'p>(
         steps,
     };
     validator.finish(end, run.demands)
-}
-
-/// Takes the first steps, as far as they can be taken, and shows the state before each and after the last.
-pub(crate) fn before_each(
-    validator: &Validator<'_>,
-    plan: &SequentialPlan,
-    steps: usize,
-    visit: &mut dyn FnMut(usize, &State),
-) {
-    let mut state = validator.initial.clone();
-    state.effort = Effort::for_steps(plan.steps.len());
-    let mut run = Run {
-        validator,
-        reads_derived: reads_derived(validator),
-        demands: validator.demands(&state),
-        state: &mut state,
-        changes: Changes::default(),
-        binding: Binding::default(),
-    };
-    for (position, step) in (0..).zip(&plan.steps[..steps.min(plan.steps.len())]) {
-        validator.derive(run.state, position);
-        visit(position as usize, run.state);
-        if run.step(StepIndex(position), step, None).is_err() {
-            return;
-        }
-    }
-    validator.derive(run.state, u32::try_from(steps).unwrap_or(u32::MAX));
-    visit(steps, run.state);
 }
 
 /// Per action, whether its conditions read derived predicates.

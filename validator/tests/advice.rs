@@ -19,8 +19,8 @@ fn advice_in(domain: &str, problem: &str, plan: &str, budget: Budget) -> Option<
     let plan = parse_plan(&Source::new("plan", plan), &domain, &problem).model.unwrap();
     let validator = Validator::new(&domain, &problem).unwrap();
     let Verdict::Invalid(failure) = validator.validate(&plan) else { panic!("the plan is valid") };
-    let repair = validator.advise(&plan, &failure, budget)?;
-    Some(show_repair(&domain, &problem, &plan, &repair))
+    let repairs = validator.advise(&plan, &failure, budget);
+    Some(show_repair(&domain, &problem, &plan, repairs.first()?))
 }
 
 fn house(plan: &str) -> Option<String> {
@@ -39,7 +39,7 @@ fn one_change_of_the_plan() {
     );
     assert_eq!(
         advice("(light hall) (fetch) (go hall cellar) (unlock cellar) (light cellar)"),
-        "moving step 3 before step 5"
+        "moving step 4 before step 3"
     );
     assert_eq!(
         advice("(light hall) (fetch) (unlock cellar) (go hall attic) (light cellar)"),

@@ -1,16 +1,17 @@
 //! One plan: read, judged, and what there is to say about it.
 
+use super::advice::AdviceRecord;
 use super::failure::Places;
-use super::record::{AdviceRecord, VerdictRecord, Word, happenings};
+use super::record::{VerdictRecord, Word, happenings};
 use super::{Outcome, page};
 use crate::console::{Console, Form};
 use crate::render::{At, Message, show_all};
 use crate::task::{TaskFiles, read_source};
-use pddl::{Plan, Severity, Source, parse_plan};
+use pddl::{Plan, Severity, Source, parse_plan, print_plan};
 use std::path::Path;
 use validator::{
     Budget, Feature, File, Finding, Place, Repair, Trace, Unsupported, Validator, Verdict, explain,
-    show_cause, show_diff, show_repair,
+    show_cause, show_diff,
 };
 
 /// A task that judges plans.
@@ -31,7 +32,11 @@ impl Judge<'_> {
             Err(_) => {
                 let record = VerdictRecord::of(&path.display().to_string(), Word::Unreadable);
                 record.say(console);
-                Outcome { word: Word::Unreadable, section: self.html.then(|| page::without_plan(&record)) }
+                Outcome {
+                    word: Word::Unreadable,
+                    section: self.html.then(|| page::without_plan(&record)),
+                    fixed: None,
+                }
             }
         }
     }
@@ -47,7 +52,7 @@ impl Judge<'_> {
             record.message =
                 parsed.diagnostics.iter().find(|d| Some(d.severity) == worst).map(pddl::Diagnostic::message);
             record.say(console);
-            return Outcome { word, section: self.html.then(|| page::without_plan(&record)) };
+            return Outcome { word, section: self.html.then(|| page::without_plan(&record)), fixed: None };
         };
         let (verdict, trace) = match self.validator {
             Ok(validator) if self.trace || self.html => {
@@ -69,12 +74,19 @@ impl Judge<'_> {
             record.trace = Some(diffs.collect());
             record.happenings = (console.form() == Form::Json).then(|| happenings(&places, trace));
         }
-        record.advice = self.advise(&plan, &verdict);
+        let repairs = self.advise(&plan, &verdict);
+        let mut advice: Vec<AdviceRecord> =
+            repairs.iter().map(|repair| AdviceRecord::of(task, &plan, repair)).collect();
+        let help = help(&advice);
+        if !advice.is_empty() {
+            record.advice = Some(advice.remove(0));
+            record.other_advice = advice;
+        }
         let finding = explain(&task.domain, &task.problem, &plan, &verdict);
         if let Some(finding) = &finding {
             if !reported_by_the_parser(&verdict) {
                 let mut message = finding_message(finding, &verdict, task, source);
-                message.help = record.advice.as_ref().map(|advice| advice.text.clone());
+                message.help = help;
                 message.show(console);
             }
             record.message = Some(finding.sentence.clone());
@@ -87,23 +99,19 @@ impl Judge<'_> {
             Some(trace) => page::section(&places, &record, &verdict, finding.as_ref(), trace),
             None => page::without_plan(&record),
         });
-        Outcome { word, section }
+        let repaired = repairs.iter().find_map(|repair| repair.applied(&plan));
+        let fixed = repaired.map(|plan| print_plan(&plan, &task.domain, &task.problem));
+        Outcome { word, section, fixed }
     }
 
-    /// One change that was tried and helps, if that is asked for.
-    fn advise(&self, plan: &Plan, verdict: &Verdict) -> Option<AdviceRecord> {
-        let (Ok(validator), Verdict::Invalid(failure), true) = (self.validator, verdict, self.advice) else {
-            return None;
-        };
-        let repair = validator.advise(plan, failure, Budget::default())?;
-        let text = match &repair {
-            Repair::Without { span } => {
-                let part = self.task.domain_source.text().get(span.range()).unwrap_or_default();
-                format!("taking `{part}` out of the condition")
+    /// Changes that were tried and help, if that is asked for.
+    fn advise(&self, plan: &Plan, verdict: &Verdict) -> Vec<Repair> {
+        match (self.validator, verdict, self.advice) {
+            (Ok(validator), Verdict::Invalid(failure), true) => {
+                validator.advise(plan, failure, Budget::default())
             }
-            _ => show_repair(&self.task.domain, &self.task.problem, plan, &repair),
-        };
-        Some(AdviceRecord { change: change(&repair), text: format!("{text} makes the plan valid") })
+            _ => Vec::new(),
+        }
     }
 
     fn show_trace(&self, plan: &Plan, trace: &Trace, console: &mut Console<'_>) {
@@ -122,18 +130,10 @@ impl Judge<'_> {
     }
 }
 
-/// What kind of change it is, in a word.
-const fn change(repair: &Repair) -> &'static str {
-    match repair {
-        Repair::Drop(_) => "drop",
-        Repair::Insert { .. } => "insert",
-        Repair::Move { .. } => "move",
-        Repair::Replace { .. } => "replace",
-        Repair::Shift { .. } => "shift",
-        Repair::Stretch { .. } => "stretch",
-        Repair::Initially(_) => "initially",
-        Repair::Without { .. } => "without",
-    }
+/// The advice as the help of an error: one sentence, or a line for each.
+fn help(advice: &[AdviceRecord]) -> Option<String> {
+    let texts: Vec<&str> = advice.iter().map(|advice| advice.text.as_str()).collect();
+    (!texts.is_empty()).then(|| texts.join("\nor "))
 }
 
 /// Whether reading the files has said the same already.

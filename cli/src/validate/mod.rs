@@ -8,6 +8,7 @@
 //!
 //! What is written as JSON is in `record` and `failure`, as HTML in `page`.
 
+mod advice;
 mod failure;
 mod gather;
 mod judge;
@@ -43,9 +44,12 @@ pub(crate) struct Arguments {
     /// Show what each step changes.
     #[arg(short = 'v', long, visible_alias = "verbose")]
     trace: bool,
-    /// Say of invalid plans which one change makes them valid, if one is found: it has been tried.
+    /// Say of invalid plans which single changes make them valid, if some are found: they have been tried.
     #[arg(long)]
     advice: bool,
+    /// Write the one plan that is given, after the first change of it that makes it valid.
+    #[arg(long, value_name = "FILE")]
+    fix: Option<PathBuf>,
     /// Write a page with charts, states and explanations.
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
@@ -68,6 +72,12 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     let mut tally = Tally::default();
     let mut exit = Exit::Yes;
     let mut sections = Vec::new();
+    let mut fixed = None;
+    let plans: usize = gathered.groups.iter().map(|group| group.plans.len()).sum();
+    if arguments.fix.is_some() && plans > 1 {
+        Message::error("`--fix` takes one plan").show(console);
+        return Exit::Unreadable;
+    }
     for fault in &gathered.faults {
         exit = exit.and(refuse(fault, &mut tally, console));
     }
@@ -75,6 +85,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         one_task(group, arguments, Cores::All, console, |outcome| {
             tally.count(outcome.word);
             sections.extend(outcome.section);
+            fixed = outcome.fixed;
         });
     } else {
         let manner = console.manner();
@@ -107,6 +118,12 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         Message::error(error.to_string()).show(console);
         exit = exit.and(Exit::Unwritable);
     }
+    if let (Some(path), Some(plan)) = (&arguments.fix, &fixed)
+        && let Err(error) = files::write(path, plan)
+    {
+        Message::error(error.to_string()).show(console);
+        exit = exit.and(Exit::Unwritable);
+    }
     exit.and(tally.exit())
 }
 
@@ -132,6 +149,8 @@ struct Outcome {
     word: Word,
     /// Its part of the page.
     section: Option<String>,
+    /// The plan after a change that makes it valid.
+    fixed: Option<String>,
 }
 
 /// Who works on the plans of a task.
@@ -152,7 +171,7 @@ fn one_task(
     let Ok(task) = TaskFiles::read(&group.domain, &group.problem, console) else {
         for plan in &group.plans {
             unreadable(plan, "its domain or problem cannot be read".to_owned(), console);
-            done(Outcome { word: Word::Unreadable, section: None });
+            done(Outcome { word: Word::Unreadable, section: None, fixed: None });
         }
         return;
     };
@@ -162,7 +181,7 @@ fn one_task(
         task: &task,
         validator: &validator,
         trace: arguments.trace,
-        advice: arguments.advice,
+        advice: arguments.advice || arguments.fix.is_some(),
         html: arguments.html.is_some(),
     };
     match cores {

@@ -65,7 +65,7 @@ pub(super) fn section(
             html += &format!("<li>{}</li>", escaped(note));
         }
         html += "</ul>";
-        if let Some(advice) = &record.advice {
+        for advice in record.advice.iter().chain(&record.other_advice) {
             html += &format!("<p>{}</p>", escaped(&advice.text));
         }
         html += "</div>";

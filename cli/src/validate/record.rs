@@ -11,6 +11,7 @@
 //! times, `violated` has the preferences that do not hold. With `--trace`, `trace` has an array of changes per
 //! step (with times: per happening) that could be taken, and `happenings` the same as data.
 
+use super::advice::AdviceRecord;
 use super::failure::{CauseRecord, FailureRecord, Places};
 use crate::console::Console;
 use crate::exit::Exit;
@@ -135,6 +136,8 @@ pub(super) struct VerdictRecord {
     pub(super) failure: Option<FailureRecord>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) advice: Option<AdviceRecord>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) other_advice: Vec<AdviceRecord>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) happenings: Option<Vec<HappeningRecord>>,
 }
@@ -154,6 +157,7 @@ impl VerdictRecord {
             trace: None,
             failure: None,
             advice: None,
+            other_advice: Vec::new(),
             happenings: None,
         }
     }
@@ -212,13 +216,6 @@ impl VerdictRecord {
         console.result(&format!("{}: {}", self.plan, self.line()));
         console.record(self);
     }
-}
-
-/// A change that makes the plan valid.
-#[derive(Serialize)]
-pub(super) struct AdviceRecord {
-    pub(super) change: &'static str,
-    pub(super) text: String,
 }
 
 /// What happened at one time.

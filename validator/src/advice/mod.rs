@@ -1,54 +1,72 @@
-//! A smallest change that makes a plan valid.
+//! Smallest changes that make a plan valid.
 //!
 //! Problem: a diagnosis says what is missing, and its reader wants to know what to do. Idea: the unsatisfied parts of
-//! a failure name atoms; which instances of actions add (or delete) them just before the failing step, which step is
-//! in the way, and which fact or condition is at fault, gives few candidates, each with one change. Changes of the plan
-//! come before changes of the task, dropping before adding, what is near to the failure before what is far.
+//! a failure are what is wanted (`wants`); which instances of actions bring that about (`instances`), which step took
+//! it away last, and which fact or condition is at fault, gives few candidates, each with one change. Plans without
+//! times are tried from the change on only, in a state that walks back and forth (`track`); plans with times as a
+//! whole. Changes of the plan come before changes of the task.
 //!
 //! Invariant: what is offered was applied, and the whole plan then judged valid. Nothing is shared with a planner.
 //!
-//! Cost: at most [`Budget::plans`] plans are judged, and no more than [`Budget::steps`] steps in all.
+//! Cost: at most [`Budget::plans`] changes are tried, and no more than [`Budget::steps`] steps taken.
 
+mod apply;
+mod bridge;
+mod edit;
+mod instances;
 mod sequential;
 mod task;
 mod timed;
+mod timed_insert;
+mod track;
+mod wants;
+mod words;
 
+pub use words::show_repair;
+
+use crate::number::Number;
 use crate::run::{PlanRef, Validator};
 use crate::state::GroundAtom;
 use crate::verdict::{Failure, StepIndex, Unsatisfied, Verdict};
-use crate::words::{show_atom, show_step};
-use pddl::model::{ActionId, Domain, Problem};
-use pddl::{Decimal, Plan, PlanStep, Span};
+use pddl::model::{GroundApplication, ObjectId};
+use pddl::{Decimal, Plan, PlanStep, Span, TemporalStep};
 
 /// How hard to look.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
-    /// How many changed plans are judged.
+    /// How many changes are tried.
     pub plans: usize,
-    /// How many steps they have together.
+    /// How many steps are taken for that.
     pub steps: usize,
+    /// How many changes of the plan, and how many of the task, are enough.
+    pub offers: usize,
 }
 
 impl Default for Budget {
     /// Well under a second for ordinary plans.
     fn default() -> Self {
-        Self { plans: 2_000, steps: 400_000 }
+        Self { plans: 6_000, steps: 400_000, offers: 3 }
     }
 }
 
 /// One change after which the plan is valid.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub enum Repair {
     /// Leave a step out.
     Drop(StepIndex),
-    /// Put a step before the one that is at a position now; behind the last one if there is none.
+    /// Put steps before the one that is at a position now; behind the last one if there is none.
     Insert {
         /// Where.
         before: StepIndex,
-        /// What.
-        action: ActionId,
-        /// With which arguments.
-        arguments: Vec<pddl::model::ObjectId>,
+        /// What; at least one.
+        steps: Vec<PlanStep>,
+    },
+    /// Put a step into a plan with times.
+    InsertAt {
+        /// The step with its times.
+        step: TemporalStep,
+        /// By how much everything else that starts then or later starts later, in seconds.
+        delay: Decimal,
     },
     /// Take a step earlier or later.
     Move {
@@ -57,12 +75,19 @@ pub enum Repair {
         /// Before which one; behind the last one if there is none.
         before: StepIndex,
     },
+    /// Let two steps change places.
+    Swap {
+        /// The earlier one.
+        first: StepIndex,
+        /// The later one.
+        second: StepIndex,
+    },
     /// Give a step another argument.
     Replace {
         /// Which one.
         step: StepIndex,
         /// All its arguments then.
-        arguments: Vec<pddl::model::ObjectId>,
+        arguments: Vec<ObjectId>,
     },
     /// Start a step at another time.
     Shift {
@@ -70,6 +95,13 @@ pub enum Repair {
         step: StepIndex,
         /// When, in seconds.
         start: Decimal,
+    },
+    /// Start a step, and all that start with it or later, later.
+    Delay {
+        /// From which one on.
+        step: StepIndex,
+        /// By how much, in seconds.
+        by: Decimal,
     },
     /// Let a step take another time.
     Stretch {
@@ -80,6 +112,15 @@ pub enum Repair {
     },
     /// Let a fact hold from the beginning.
     Initially(GroundAtom),
+    /// Let a fact not hold in the beginning.
+    NotInitially(GroundAtom),
+    /// Let a fluent have another value in the beginning.
+    Value {
+        /// Which one.
+        fluent: GroundApplication,
+        /// Its value.
+        value: Number,
+    },
     /// Take a part of the failing action's condition away.
     Without {
         /// Where it stands, in the domain.
@@ -87,16 +128,37 @@ pub enum Repair {
     },
 }
 
+impl Repair {
+    /// Whether the plan is changed; otherwise it is the domain or the problem.
+    pub fn is_of_plan(&self) -> bool {
+        !matches!(
+            self,
+            Self::Initially(_) | Self::NotInitially(_) | Self::Value { .. } | Self::Without { .. }
+        )
+    }
+}
+
 impl Validator<'_> {
-    /// Looks for one change that makes the plan valid; `failure` is why it is not.
-    pub fn advise(&self, plan: &Plan, failure: &Failure, budget: Budget) -> Option<Repair> {
+    /// Looks for single changes that make the plan valid, the smallest and most likely first; `failure` is why it is
+    /// not.
+    pub fn advise(&self, plan: &Plan, failure: &Failure, budget: Budget) -> Vec<Repair> {
         let mut trials = Trials { validator: self, budget };
-        match plan {
-            Plan::Sequential(plan) => sequential::repair(&mut trials, plan, failure),
-            Plan::Temporal(plan) => timed::repair(&mut trials, plan, failure),
-            Plan::Hierarchical(_) => None,
+        if trials.is_spent() {
+            return Vec::new();
         }
-        .or_else(|| task::repair(&mut trials, plan.into(), failure))
+        let mut repairs = match plan {
+            Plan::Sequential(plan) => sequential::repairs(&mut trials, plan, failure),
+            Plan::Temporal(plan) => timed::repairs(&mut trials, plan, failure),
+            Plan::Hierarchical(_) => Vec::new(),
+        };
+        // What remains of the budget for the plan is not what the task may cost.
+        trials.budget = budget;
+        let weaker = repairs.is_empty();
+        repairs.extend(task::repairs(&mut trials, plan.into(), failure));
+        if weaker {
+            repairs.extend(task::weaker(&mut trials, plan.into(), failure));
+        }
+        repairs
     }
 }
 
@@ -134,6 +196,10 @@ impl Trials<'_, '_> {
     }
 }
 
+fn step_index(index: usize) -> StepIndex {
+    StepIndex(u32::try_from(index).unwrap_or(u32::MAX))
+}
+
 /// What a failure lacks, if it is about a condition.
 fn parts(failure: &Failure) -> &[Unsatisfied] {
     match failure {
@@ -159,42 +225,7 @@ fn each_part<'p>(parts: &'p [Unsatisfied], visit: &mut dyn FnMut(&'p Unsatisfied
     }
 }
 
-/// The change in words: `inserting (unlock door) before step 3`.
-pub fn show_repair(domain: &Domain, problem: &Problem, plan: &Plan, repair: &Repair) -> String {
-    let step = |action: ActionId, arguments: &[pddl::model::ObjectId]| {
-        let step = PlanStep { action, arguments: arguments.to_vec(), span: Span::default() };
-        format!("`{}`", show_step(domain, problem, &step))
-    };
-    let steps = PlanRef::from(plan).steps();
-    let before = |index: StepIndex| {
-        if (index.0 as usize) < steps {
-            format!("before step {}", index.number())
-        } else {
-            "at the end".to_owned()
-        }
-    };
-    match repair {
-        Repair::Drop(index) => format!("leaving out step {}", index.number()),
-        Repair::Insert { before: index, action, arguments } => {
-            format!("inserting {} {}", step(*action, arguments), before(*index))
-        }
-        Repair::Move { step, before: index } => {
-            format!("moving step {} {}", step.number(), before(*index))
-        }
-        Repair::Replace { step: index, arguments } => {
-            let text = match plan {
-                Plan::Sequential(plan) => {
-                    plan.steps.get(index.0 as usize).map(|old| step(old.action, arguments))
-                }
-                Plan::Temporal(_) | Plan::Hierarchical(_) => None,
-            };
-            format!("making step {} {}", index.number(), text.unwrap_or_default())
-        }
-        Repair::Shift { step, start } => format!("starting step {} at {start}", step.number()),
-        Repair::Stretch { step, duration } => format!("letting step {} take {duration} s", step.number()),
-        Repair::Initially(atom) => {
-            format!("adding `{}` to the initial state", show_atom(domain, problem, atom))
-        }
-        Repair::Without { .. } => "taking a part of the condition away".to_owned(),
-    }
+/// A number as files write it, if they can.
+fn decimal(number: Number) -> Option<Decimal> {
+    number.to_string().parse().ok()
 }

@@ -1,254 +1,317 @@
 //! Changes of a plan without times.
+//!
+//! A change behind the failing step cannot help it, and one before it helps only if it touches what is wanted there:
+//! who took it away last, who could bring it about since. So candidates are read off the wants, the nearest to the
+//! failure first; what a trial costs is in [`Track`]. Several ways of looking (`WAYS`), each with its own share of the
+//! budget, each offering the first change that works: the reader may choose.
 
-use super::{Repair, Trials, each_part, parts};
+use super::bridge::bridge;
+use super::edit::Edit;
+use super::instances::{Look, may_help, nearly, templates};
+use super::track::Track;
+use super::wants::{Want, Wants};
+use super::{Repair, Trials};
 use crate::cause::Cause;
-use crate::condition::Strictness;
-use crate::run::Validator;
-use crate::scene::{Binding, Clock};
-use crate::sequential::before_each;
-use crate::state::{GroundAtom, State};
-use crate::verdict::{Failure, StepIndex, Unsatisfied};
-use pddl::model::{Action, ActionId, Atom, Effect, EffectKind, ObjectId, Term};
-use pddl::{PlanStep, SequentialPlan, Span};
-use std::ops::ControlFlow;
+use crate::run::PlanRef;
+use crate::trace::Diff;
+use crate::verdict::Failure;
+use pddl::model::{ActionId, ObjectId};
+use pddl::{PlanStep, SequentialPlan};
+use rustc_hash::FxHashMap;
 
-/// How far before the failure a step is inserted.
+/// How near to the failure changes are tried that are not known to touch it.
 const NEAR: usize = 8;
 
-/// How many instances of an action are looked at for each atom and place.
-const INSTANCES: usize = 64;
+/// How many candidates one way of looking may have.
+const CANDIDATES: usize = 512;
 
-pub(super) fn repair(
-    trials: &mut Trials<'_, '_>,
-    plan: &SequentialPlan,
-    failure: &Failure,
-) -> Option<Repair> {
-    let count = plan.steps.len();
+/// A failing plan, and what is known of its failure.
+pub(super) struct Case {
+    /// The step that fails; the plan's length if none does.
+    pub(super) fails: usize,
+    pub(super) wants: Wants,
+    /// For each want the last step that took it away, or changed it, with its position.
+    pub(super) taken_by: Vec<(usize, Want)>,
+}
+
+/// A way of looking for changes.
+type Way = fn(&mut Track<'_, '_>, &Case) -> Vec<Edit>;
+
+/// What is likely comes first.
+const WAYS: [Way; 8] =
+    [other_argument, drops, inserts, moves, earlier_argument, far_moves, anything_near, bridge];
+
+pub(super) fn repairs(trials: &mut Trials<'_, '_>, plan: &SequentialPlan, failure: &Failure) -> Vec<Repair> {
+    let validator = trials.validator;
+    let mut track = Track::new(validator, &plan.steps, plan.steps.len());
     let fails = match failure {
         Failure::Precondition { at: Cause::Step(step), .. }
         | Failure::Effect { at: Cause::Step(step), .. }
         | Failure::Step { step, .. } => step.0 as usize,
-        _ => count,
+        _ => plan.steps.len(),
     };
-    let lacks = Lacks::of(failure);
-    for index in nearest(fails, count) {
-        if trials.is_spent() {
-            return None;
+    track.go_to(fails);
+    let wants = Wants::of(validator, track.state(), failure);
+    let taken_by =
+        wants.list.iter().filter_map(|want| Some((last_taken(track.taken(), want)?, want.clone())));
+    let case = Case { fails, taken_by: taken_by.collect(), wants };
+    let mut found: Vec<Edit> = Vec::new();
+    let share = trials.budget.steps / WAYS.len();
+    let mut saved = 0;
+    for way in WAYS {
+        if found.len() >= trials.budget.offers {
+            break;
         }
-        let mut steps = plan.steps.clone();
-        steps.remove(index);
-        if trials.passes((&SequentialPlan::new(steps)).into()) {
-            return Some(Repair::Drop(step_index(index)));
-        }
-    }
-    let (insertions, replacements) = instances(trials.validator, plan, fails, &lacks);
-    for (before, step) in insertions {
-        let mut steps = plan.steps.clone();
-        steps.insert(before, step.clone());
-        if trials.passes((&SequentialPlan::new(steps)).into()) {
-            let PlanStep { action, arguments, .. } = step;
-            return Some(Repair::Insert { before: step_index(before), action, arguments });
-        }
-    }
-    for (step, before) in moves(fails, count, &lacks) {
-        if trials.is_spent() {
-            return None;
-        }
-        let mut steps = plan.steps.clone();
-        let moved = steps.remove(step);
-        steps.insert(if before > step { before - 1 } else { before }, moved);
-        if trials.passes((&SequentialPlan::new(steps)).into()) {
-            return Some(Repair::Move { step: step_index(step), before: step_index(before) });
-        }
-    }
-    for (index, arguments) in replacements {
-        let mut steps = plan.steps.clone();
-        steps[index].arguments.clone_from(&arguments);
-        if trials.passes((&SequentialPlan::new(steps)).into()) {
-            return Some(Repair::Replace { step: step_index(index), arguments });
-        }
-    }
-    None
-}
-
-fn step_index(index: usize) -> StepIndex {
-    StepIndex(u32::try_from(index).unwrap_or(u32::MAX))
-}
-
-/// All positions, those next to `middle` first.
-fn nearest(middle: usize, count: usize) -> Vec<usize> {
-    let mut all: Vec<usize> = (0..count).collect();
-    all.sort_by_key(|&index| index.abs_diff(middle));
-    all
-}
-
-/// What a failure asks for.
-struct Lacks {
-    missing: Vec<GroundAtom>,
-    present: Vec<GroundAtom>,
-    culprits: Vec<usize>,
-}
-
-impl Lacks {
-    fn of(failure: &Failure) -> Self {
-        let mut lacks = Self { missing: Vec::new(), present: Vec::new(), culprits: Vec::new() };
-        each_part(parts(failure), &mut |part| {
-            let (atom, by, into) = match part {
-                Unsatisfied::Missing { atom, deleted_by, .. } => (atom, deleted_by, &mut lacks.missing),
-                Unsatisfied::Present { atom, added_by, .. } => (atom, added_by, &mut lacks.present),
-                _ => return,
-            };
-            into.push(atom.clone());
-            lacks.culprits.extend(by.and_then(Cause::step).map(|step| step.0 as usize));
-        });
-        lacks
-    }
-}
-
-/// The failing step and those that are to blame, each to everywhere, near places first; then later steps to before
-/// the failing one.
-fn moves(fails: usize, count: usize, lacks: &Lacks) -> Vec<(usize, usize)> {
-    let mut moves = Vec::new();
-    let movable = std::iter::once(fails).chain(lacks.culprits.iter().copied()).filter(|&step| step < count);
-    for step in movable {
-        let places = nearest(step, count + 1).into_iter().filter(|&b| b != step && b != step + 1);
-        moves.extend(places.map(|before| (step, before)));
-    }
-    moves.extend((fails + 1..count).map(|step| (step, fails)));
-    moves
-}
-
-type Insertions = Vec<(usize, PlanStep)>;
-type Replacements = Vec<(usize, Vec<ObjectId>)>;
-
-/// The steps that could be taken near to the failure and change what it asks for, and other arguments with which the
-/// steps there could be taken.
-fn instances(
-    validator: &Validator<'_>,
-    plan: &SequentialPlan,
-    fails: usize,
-    lacks: &Lacks,
-) -> (Insertions, Replacements) {
-    let mut insertions = Vec::new();
-    let mut replacements = Vec::new();
-    before_each(validator, plan, fails, &mut |position, state| {
-        if position + NEAR <= fails {
-            return;
-        }
-        let look = Look { validator, state, position };
-        for (action, schema) in validator.domain.actions.enumerate() {
-            let wanted = lacks.missing.iter().map(|atom| (atom, true));
-            for (atom, adds) in wanted.chain(lacks.present.iter().map(|atom| (atom, false))) {
-                each_change(&schema.effect, adds, &mut |effect| {
-                    let Some(fixed) = look.unify(schema, effect, atom) else { return };
-                    look.applicable(schema, &fixed, &mut |arguments| {
-                        let step = PlanStep { action, arguments, span: Span::default() };
-                        let same = |(other, old): &(usize, PlanStep)| {
-                            *other == position && old.action == action && old.arguments == step.arguments
-                        };
-                        if !insertions.iter().any(same) {
-                            insertions.push((position, step));
-                        }
-                    });
-                });
+        track.left = share + saved;
+        for edit in way(&mut track, &case) {
+            if track.left == 0 || trials.is_spent() {
+                break;
             }
-        }
-        if let Some(step) = plan.steps.get(position) {
-            look.others(step.action, &step.arguments, &mut |arguments| {
-                replacements.push((position, arguments));
-            });
-        }
-    });
-    insertions.sort_by_key(|(position, _)| fails - position);
-    replacements.sort_by_key(|(position, _)| fails - position);
-    (insertions, replacements)
-}
-
-/// The atoms that an effect adds or deletes, whatever the condition.
-fn each_change(effect: &Effect, adds: bool, visit: &mut dyn FnMut(&Atom)) {
-    match &effect.kind {
-        EffectKind::And(parts) => parts.iter().for_each(|part| each_change(part, adds, visit)),
-        EffectKind::Forall(_, body) | EffectKind::When(_, body) => each_change(body, adds, visit),
-        EffectKind::Add(atom) if adds => visit(atom),
-        EffectKind::Delete(atom) if !adds => visit(atom),
-        EffectKind::Add(_) | EffectKind::Delete(_) | EffectKind::Assign(..) => {}
-    }
-}
-
-/// A place in the plan, and the state there.
-struct Look<'l, 'a> {
-    validator: &'l Validator<'a>,
-    state: &'l State,
-    position: usize,
-}
-
-impl Look<'_, '_> {
-    /// The parameters under which an effect's atom is the one wanted; quantified variables may be anything.
-    fn unify(&self, schema: &Action, effect: &Atom, atom: &GroundAtom) -> Option<Vec<Option<ObjectId>>> {
-        if effect.predicate != atom.predicate {
-            return None;
-        }
-        let mut fixed = vec![None; schema.variables.parameters];
-        for (&term, &object) in effect.arguments.iter().zip(&atom.arguments) {
-            match term {
-                Term::Object(same) if same == object => {}
-                Term::Object(_) => return None,
-                Term::Variable(variable) => {
-                    let Some(place) =
-                        schema.variables.parameter_ids().position(|parameter| parameter == variable)
-                    else {
-                        continue;
-                    };
-                    let fits = self.validator.universe.extent(&schema.variables[variable].types);
-                    if !fits.contains(object) || fixed[place].is_some_and(|other| other != object) {
-                        return None;
-                    }
-                    fixed[place] = Some(object);
+            trials.budget.plans -= 1;
+            if track.passes(&edit) && !is_known(&found, &edit, &plan.steps) {
+                let changed = SequentialPlan::new(edit.applied(&plan.steps));
+                track.left = track.left.saturating_sub(changed.steps.len());
+                if validator.validate(PlanRef::from(&changed)).is_valid() {
+                    found.push(edit);
+                    break;
                 }
             }
         }
-        Some(fixed)
+        saved = track.left;
+    }
+    found.sort_by_key(Edit::size);
+    found.into_iter().map(Edit::repair).collect()
+}
+
+/// Whether another change makes the same plan.
+fn is_known(found: &[Edit], edit: &Edit, steps: &[PlanStep]) -> bool {
+    let end = steps.len() + super::bridge::LONGEST + 1;
+    found.iter().any(|other| {
+        let from = other.first().min(edit.first());
+        (from..end).all(|position| same(other.step(steps, position), edit.step(steps, position)))
+    })
+}
+
+fn same(one: Option<&PlanStep>, other: Option<&PlanStep>) -> bool {
+    match (one, other) {
+        (Some(one), Some(other)) => one.action == other.action && one.arguments == other.arguments,
+        (None, None) => true,
+        _ => false,
+    }
+}
+
+/// Whether a step took away what is wanted.
+fn takes(diff: &Diff, want: &Want) -> bool {
+    match want {
+        Want::Holds(atom) => diff.deleted.contains(atom),
+        Want::HoldsNot(atom) => diff.added.contains(atom),
+        Want::Another(fluent) => diff.fluents.iter().any(|change| change.fluent == *fluent),
+    }
+}
+
+fn last_taken(taken: &[Diff], want: &Want) -> Option<usize> {
+    taken.iter().rposition(|diff| takes(diff, want))
+}
+
+impl Case {
+    /// From where on a step that brings about what is wanted is not undone before the failure. Fluents change in
+    /// steps, each of which counts.
+    fn window(&self, want: &Want) -> usize {
+        if matches!(want, Want::Another(_)) {
+            return 0;
+        }
+        self.taken_by.iter().find(|(_, other)| other == want).map_or(0, |(position, _)| position + 1)
     }
 
-    /// The arguments with which the action can be taken here.
-    fn applicable(&self, schema: &Action, fixed: &[Option<ObjectId>], visit: &mut dyn FnMut(Vec<ObjectId>)) {
-        let mut binding = Binding::new(&schema.variables, &[]);
-        let mut open = Vec::new();
-        for (parameter, object) in schema.variables.parameter_ids().zip(fixed) {
-            match object {
-                Some(object) => binding.set(parameter, Some(*object)),
-                None => open.push(parameter),
-            }
-        }
-        let clock = Clock::steps(step_index(self.position).0);
-        let scene = self.validator.scene(self.state, &schema.variables, clock);
-        if open.is_empty() {
-            if scene.holds(&schema.precondition, &mut binding) {
-                visit(fixed.iter().copied().flatten().collect());
-            }
-            return;
-        }
-        let mut left = INSTANCES;
-        let guards = [(&schema.precondition, true)];
-        let flow = scene.each_binding(&open, &guards, Strictness::Certain, &mut binding, &mut |binding| {
-            visit(schema.variables.parameter_ids().filter_map(|p| binding.get(p)).collect());
-            left -= 1;
-            if left == 0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        });
-        debug_assert_eq!(flow.is_break(), left == 0);
+    fn earliest(&self) -> usize {
+        self.wants.list.iter().map(|want| self.window(want)).min().unwrap_or(self.fails)
     }
 
-    /// The arguments that differ in one place and with which the action can be taken here.
-    fn others(&self, action: ActionId, arguments: &[ObjectId], visit: &mut dyn FnMut(Vec<ObjectId>)) {
-        let Some(schema) = self.validator.domain.actions.get(action) else { return };
-        for free in 0..arguments.len() {
-            let mut fixed: Vec<_> = arguments.iter().copied().map(Some).collect();
-            fixed[free] = None;
-            self.applicable(schema, &fixed, &mut |other| {
-                if other != arguments {
-                    visit(other);
+    /// The steps that took something away, the last ones first.
+    fn culprits(&self) -> Vec<usize> {
+        let mut culprits: Vec<usize> = self.taken_by.iter().map(|(position, _)| *position).collect();
+        culprits.sort_unstable_by(|a, b| b.cmp(a));
+        culprits.dedup();
+        culprits
+    }
+}
+
+/// The failing step has a wrong argument.
+fn other_argument(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
+    let index = case.fails;
+    let Some(step) = track.steps.get(index) else { return Vec::new() };
+    others(track, index, step)
+}
+
+fn others(track: &mut Track<'_, '_>, index: usize, step: &PlanStep) -> Vec<Edit> {
+    track.go_to(index);
+    let mut edits = Vec::new();
+    let look = Look { validator: track.validator, state: track.state() };
+    look.others(step, &mut |step| edits.push(Edit::Replace { index, step }));
+    edits
+}
+
+/// The failing step is too much, or one that took something away.
+fn drops(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
+    track.go_to(case.fails);
+    let mut places: Vec<usize> = (case.fails < track.steps.len()).then_some(case.fails).into_iter().collect();
+    places.extend(case.culprits());
+    // Before the last one who took it there are others, and of a number each change counts.
+    let earlier = (0..track.taken().len())
+        .rev()
+        .filter(|&k| case.wants.list.iter().any(|want| takes(&track.taken()[k], want)));
+    for place in earlier.take(CANDIDATES) {
+        if !places.contains(&place) {
+            places.push(place);
+        }
+    }
+    places.into_iter().map(Edit::Drop).collect()
+}
+
+/// A step is missing. It is tried as late as it can be taken, and again wherever that was interrupted.
+fn inserts(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
+    let templates = templates(track.validator, &case.wants);
+    if templates.is_empty() {
+        return Vec::new();
+    }
+    let mut edits = Vec::new();
+    let mut seen: FxHashMap<_, usize> = FxHashMap::default();
+    for before in (case.earliest()..=case.fails).rev() {
+        // A look costs about as much as a step.
+        let Some(left) = track.left.checked_sub(templates.len()) else { break };
+        track.left = left;
+        track.go_to(before);
+        let look = Look { validator: track.validator, state: track.state() };
+        for template in &templates {
+            look.steps(template, &mut |step| {
+                let key = (step.action, step.arguments.clone());
+                if seen.insert(key, before) != Some(before + 1) {
+                    edits.push(Edit::Insert { before, steps: vec![step] });
                 }
             });
         }
+        if edits.len() >= CANDIDATES {
+            break;
+        }
     }
+    edits
+}
+
+/// Steps are in the wrong order.
+fn moves(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
+    let (fails, count) = (case.fails, track.steps.len());
+    let mut edits = Vec::new();
+    let validator = track.validator;
+    let helps = |k: &usize| may_help(validator, &case.wants.list, &track.steps[*k]);
+    // Who could help comes too late.
+    let late: Vec<usize> = (fails + 1..count).filter(helps).take(NEAR).collect();
+    for &step in &late {
+        edits.push(Edit::Move { step, before: fails });
+        edits.push(Edit::Swap { first: fails, second: step });
+        edits.push(Edit::Move { step: fails, before: step + 1 });
+    }
+    for culprit in case.culprits() {
+        edits.push(Edit::Move { step: culprit, before: (fails + 1).min(count) });
+        if fails < count {
+            edits.push(Edit::Swap { first: culprit, second: fails });
+            edits.push(Edit::Move { step: fails, before: culprit });
+        }
+    }
+    let near = |from: usize, to: usize| (from..to).rev().take(CANDIDATES);
+    for &second in &late {
+        edits.extend(near(case.earliest(), fails).map(|first| Edit::Swap { first, second }));
+    }
+    if fails < count {
+        edits.extend((fails + 1..count).take(CANDIDATES).map(|second| Edit::Swap { first: fails, second }));
+        edits.extend(near(0, fails).map(|first| Edit::Swap { first, second: fails }));
+        edits.extend((fails + 2..=count).take(CANDIDATES).map(|before| Edit::Move { step: fails, before }));
+        edits.extend(near(0, fails).map(|before| Edit::Move { step: fails, before }));
+        edits.extend((fails + 1..count).take(CANDIDATES).map(|step| Edit::Move { step, before: fails }));
+    }
+    for culprit in case.culprits() {
+        edits.extend(
+            (culprit + 2..=fails).take(CANDIDATES).map(|before| Edit::Move { step: culprit, before }),
+        );
+        edits.extend(near(0, culprit).map(|before| Edit::Move { step: culprit, before }));
+        edits.extend((fails..count).take(CANDIDATES).map(|second| Edit::Swap { first: culprit, second }));
+    }
+    edits
+}
+
+/// Steps have changed places over a long distance. With the right step instead of the failing one (or before it), the
+/// plan goes on until the place where that step stands now: so that is where to look for it.
+fn far_moves(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
+    let (fails, steps) = (case.fails, track.steps);
+    if fails >= steps.len() {
+        return Vec::new();
+    }
+    let mut places: FxHashMap<(ActionId, &[ObjectId]), Vec<usize>> = FxHashMap::default();
+    let mut order = Vec::new();
+    for (position, step) in steps.iter().enumerate().skip(fails + 1) {
+        let key = (step.action, step.arguments.as_slice());
+        let known = places.entry(key).or_default();
+        if known.is_empty() {
+            order.push(key);
+        }
+        known.push(position);
+    }
+    let mut edits = Vec::new();
+    let until = |places: &[usize], place: usize| {
+        let near = places.partition_point(|&position| position <= place);
+        places[near.saturating_sub(NEAR)..near].iter().rev().copied().collect::<Vec<_>>()
+    };
+    for key in order {
+        track.go_to(fails);
+        let places = &places[&key];
+        let step = &steps[places[0]];
+        if edits.len() >= CANDIDATES || !track.take(step) {
+            continue;
+        }
+        if let Some(place) = track.fails(&Edit::Replace { index: fails, step: step.clone() }) {
+            edits.extend(until(places, place).into_iter().map(|second| Edit::Swap { first: fails, second }));
+        }
+        if let Some(place) = track.fails(&Edit::Insert { before: fails, steps: vec![step.clone()] }) {
+            edits.extend(until(places, place).into_iter().map(|step| Edit::Move { step, before: fails }));
+        }
+    }
+    if let Some(place) = track.fails(&Edit::Drop(fails)) {
+        let around = (place.saturating_sub(NEAR).max(fails + 2)..=(place + 1).min(steps.len())).rev();
+        edits.extend(around.map(|before| Edit::Move { step: fails, before }));
+    }
+    edits
+}
+
+/// A step before the failure has a wrong argument: with another one it would help, or do no harm.
+fn earlier_argument(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
+    let mut edits = Vec::new();
+    let earliest = case.earliest();
+    for index in (earliest.saturating_sub(1)..case.fails.min(track.steps.len())).rev() {
+        for step in nearly(track.validator, &case.wants.list, &track.steps[index]) {
+            edits.push(Edit::Replace { index, step });
+        }
+        if edits.len() >= CANDIDATES {
+            break;
+        }
+    }
+    for culprit in case.culprits().into_iter().take(NEAR) {
+        let step = &track.steps[culprit];
+        edits.extend(others(track, culprit, step));
+    }
+    edits
+}
+
+/// What is not known to touch the failure, near to it.
+fn anything_near(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
+    let (fails, count) = (case.fails, track.steps.len());
+    let mut edits = Vec::new();
+    for index in (fails.saturating_sub(NEAR)..fails.min(count)).rev() {
+        edits.push(Edit::Drop(index));
+        let step = &track.steps[index];
+        edits.extend(others(track, index, step));
+    }
+    for first in (fails.saturating_sub(NEAR)..fails.min(count)).rev() {
+        edits.extend((first + 1..count.min(fails + NEAR)).map(|second| Edit::Swap { first, second }));
+        edits.extend((first + 2..=count.min(fails + NEAR)).map(|before| Edit::Move { step: first, before }));
+    }
+    edits
 }

@@ -1,42 +1,110 @@
-//! Changes of the task: one more fact in the beginning, or one literal less in a precondition.
+//! Changes of the task: a fact more or less in the beginning, another initial value, or one literal less in a
+//! precondition.
 
+use super::apply::take_away;
 use super::{Repair, Trials, each_part, parts};
 use crate::cause::Cause;
+use crate::number::Number;
 use crate::run::{PlanRef, Validator};
-use crate::verdict::{Failure, Unsatisfied};
-use pddl::model::{Condition, ConditionKind};
+use crate::state::Value;
+use crate::verdict::{Failure, Operand, Unsatisfied};
+use pddl::model::{Comparison, GroundApplication};
 use pddl::{Span, StepHead};
 
-pub(super) fn repair(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, failure: &Failure) -> Option<Repair> {
+pub(super) fn repairs(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, failure: &Failure) -> Vec<Repair> {
     // That the goal would hold if it held is no advice.
     if matches!(failure, Failure::Goal { .. }) {
-        return None;
+        return Vec::new();
     }
-    let mut missing = Vec::new();
-    let mut spans = Vec::new();
-    each_part(parts(failure), &mut |part| {
-        if let Unsatisfied::Missing { atom, derived: false, .. } = part
-            && !missing.contains(atom)
-        {
-            missing.push(atom.clone());
+    let mut candidates = Vec::new();
+    each_part(parts(failure), &mut |part| match part {
+        Unsatisfied::Missing { atom, derived: false, deleted_by: None, .. } => {
+            candidates.push(Repair::Initially(atom.clone()));
         }
+        Unsatisfied::Present { atom, derived: false, added_by: None, .. } => {
+            candidates.push(Repair::NotInitially(atom.clone()));
+        }
+        Unsatisfied::Comparison { comparison, wanted: true, left, right, .. } => {
+            values(trials.validator, *comparison, left, right, &mut candidates);
+        }
+        _ => {}
     });
-    // What stands deeper is not a part of the condition that could be taken away alone.
-    spans.extend(parts(failure).iter().map(Unsatisfied::span));
-    for atom in missing {
-        let mut changed: Validator<'_> = trials.validator.clone();
-        changed.initial.facts[atom.predicate].add(&atom.arguments, 0);
-        if trials.passes_under(Ok(changed), plan) {
-            return Some(Repair::Initially(atom));
+    let mut found = Vec::new();
+    for repair in candidates {
+        if found.len() >= trials.budget.offers {
+            return found;
+        }
+        if begins_well(trials, plan, &repair) {
+            found.push(repair);
         }
     }
+    found
+}
+
+/// A part of the failing step's condition without which the plan passes: for want of a better change, since what a
+/// condition asks for is seldom there by mistake.
+pub(super) fn weaker(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, failure: &Failure) -> Option<Repair> {
     let Failure::Precondition { at, .. } = failure else { return None };
-    for span in spans {
-        if without(trials, plan, *at, span) {
-            return Some(Repair::Without { span });
+    // What stands deeper is not a part of the condition that could be taken away alone.
+    let span = parts(failure).iter().map(Unsatisfied::span).find(|&span| without(trials, plan, *at, span))?;
+    Some(Repair::Without { span })
+}
+
+/// Whether the plan passes from another initial state.
+fn begins_well(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, repair: &Repair) -> bool {
+    let mut changed: Validator<'_> = trials.validator.clone();
+    let initial = &mut changed.initial;
+    match repair {
+        Repair::Initially(atom) => {
+            initial.facts[atom.predicate].add(&atom.arguments, 0);
+        }
+        Repair::NotInitially(atom) => {
+            // Any moment but that of the initial facts, over whose adds no delete wins.
+            initial.facts[atom.predicate].delete(&atom.arguments, 1);
+        }
+        Repair::Value { fluent, value } => initial.set_fluent(fluent.clone(), Some(Value::Number(*value))),
+        _ => return false,
+    }
+    initial.stale = true;
+    trials.passes_under(Ok(changed), plan)
+}
+
+/// Initial values with which a comparison would come out: the difference between its sides is made up for in one
+/// fluent, as if what happens in between added to it, or multiplied it by one.
+fn values(
+    validator: &Validator<'_>,
+    comparison: Comparison,
+    left: &Operand,
+    right: &Operand,
+    into: &mut Vec<Repair>,
+) {
+    let mut offer = |fluent: &GroundApplication, value: Option<Number>| {
+        let fits = |value: &Number| Number::from_f64(value.to_f64()) == Some(*value);
+        if let Some(value) = value.filter(fits) {
+            into.push(Repair::Value { fluent: fluent.clone(), value });
+        }
+    };
+    let strict = matches!(comparison, Comparison::Less | Comparison::Greater);
+    let sides = [(left, right, 1), (right, left, -1)];
+    for (side, other, direction) in sides {
+        let greater = match comparison {
+            Comparison::Equal => 0,
+            Comparison::Less | Comparison::LessEqual => -direction,
+            Comparison::Greater | Comparison::GreaterEqual => direction,
+        };
+        let more = Number::integer(if strict { greater } else { 0 });
+        let [(fluent, value)] = side.fluents.as_slice() else { continue };
+        let Ok(other) = &other.value else { continue };
+        let wanted = other.plus(more).ok();
+        match (value, &side.value, validator.initial.fluent(fluent)) {
+            (None, _, _) => offer(fluent, wanted),
+            (Some(_), Ok(now), Some(Value::Number(first))) => {
+                let lacking = wanted.and_then(|wanted| wanted.minus(*now).ok());
+                offer(fluent, lacking.and_then(|lacking| first.plus(lacking).ok()));
+            }
+            _ => {}
         }
     }
-    None
 }
 
 /// Whether the plan passes when the failing action does not ask for what stands at `span`.
@@ -46,7 +114,9 @@ fn without(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, at: Cause, span: Span
     let head = match plan {
         PlanRef::Sequential(plan) => plan.steps.get(index).map(|step| StepHead::Action(step.action)),
         PlanRef::Temporal(plan) => plan.steps.get(index).map(|step| step.head),
-        PlanRef::Hierarchical(_) => None,
+        PlanRef::Hierarchical(plan) => {
+            plan.steps.iter().nth(index).map(|step| StepHead::Action(step.step.action))
+        }
     };
     let taken = match head {
         Some(StepHead::Action(action)) if domain.actions.get(action).is_some() => {
@@ -59,21 +129,4 @@ fn without(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, at: Cause, span: Span
         _ => false,
     };
     taken && trials.passes_under(Validator::new(&domain, trials.validator.problem), plan)
-}
-
-/// Makes the conjunct at `span` true.
-fn take_away(condition: &mut Condition, span: Span) -> bool {
-    if condition.span == span {
-        condition.kind = ConditionKind::And(Vec::new());
-        return true;
-    }
-    match &mut condition.kind {
-        ConditionKind::And(parts) => parts.iter_mut().any(|part| take_away(part, span)),
-        // A negated atom has its own span.
-        ConditionKind::Not(part) if part.span == span => {
-            condition.kind = ConditionKind::And(Vec::new());
-            true
-        }
-        _ => false,
-    }
 }

@@ -18,6 +18,7 @@ mod nature;
 mod point;
 mod timeline;
 
+pub(crate) use nature::bind_functions;
 pub(crate) use timeline::{end, makespan, start};
 
 use crate::cause::{Cause, Causes};

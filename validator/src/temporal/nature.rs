@@ -224,7 +224,7 @@ fn each_running<'v>(
 }
 
 /// Gives the slots of functions that stand as arguments their values.
-pub(super) fn bind_functions(
+pub(crate) fn bind_functions(
     scene: Scene<'_>,
     functions: &[FunctionTerm],
     binding: &mut Binding,

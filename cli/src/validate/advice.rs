@@ -1,0 +1,111 @@
+//! Advice as JSON: a change that makes the plan valid, in words and as data.
+
+use crate::task::TaskFiles;
+use pddl::{Plan, print_plan};
+use serde::Serialize;
+use std::collections::HashMap;
+use validator::{Repair, StepIndex, show_application, show_atom, show_repair};
+
+/// A change that makes the plan valid. Steps are counted from 1; what a kind of change does not need is left out.
+#[derive(Serialize)]
+pub(super) struct AdviceRecord {
+    change: &'static str,
+    pub(super) text: String,
+    /// Which step, or the first of two.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    step: Option<u64>,
+    /// The other step of a swap.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    with: Option<u64>,
+    /// Before which step of the plan as it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    before: Option<u64>,
+    /// The lines of the plan that are new.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    lines: Vec<String>,
+    /// The fact or the value of the initial state, or the part of the condition.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pddl: Option<String>,
+}
+
+impl AdviceRecord {
+    /// What a repair says.
+    pub(super) fn of(task: &TaskFiles, plan: &Plan, repair: &Repair) -> Self {
+        let TaskFiles { domain, problem, .. } = task;
+        let part =
+            |span: pddl::Span| task.domain_source.text().get(span.range()).unwrap_or_default().to_owned();
+        let text = match repair {
+            Repair::Without { span } => format!("taking `{}` out of the condition", part(*span)),
+            _ => show_repair(domain, problem, plan, repair),
+        };
+        let (step, with, before) = match repair {
+            Repair::Drop(step)
+            | Repair::Replace { step, .. }
+            | Repair::Shift { step, .. }
+            | Repair::Delay { step, .. }
+            | Repair::Stretch { step, .. } => (Some(*step), None, None),
+            Repair::Insert { before, .. } => (None, None, Some(*before)),
+            Repair::Move { step, before } => (Some(*step), None, Some(*before)),
+            Repair::Swap { first, second } => (Some(*first), Some(*second), None),
+            _ => (None, None, None),
+        };
+        Self {
+            change: change(repair),
+            text: format!("{text} makes the plan valid"),
+            step: step.map(StepIndex::number),
+            with: with.map(StepIndex::number),
+            before: before.map(StepIndex::number),
+            lines: lines(task, plan, repair),
+            pddl: match repair {
+                Repair::Initially(atom) | Repair::NotInitially(atom) => {
+                    Some(show_atom(domain, problem, atom))
+                }
+                Repair::Value { fluent, value } => {
+                    Some(format!("(= {} {value})", show_application(domain, problem, fluent)))
+                }
+                Repair::Without { span } => Some(part(*span)),
+                _ => None,
+            },
+        }
+    }
+}
+
+/// The lines of the repaired plan that the plan does not have.
+fn lines(task: &TaskFiles, plan: &Plan, repair: &Repair) -> Vec<String> {
+    if matches!(repair, Repair::Drop(_) | Repair::Move { .. }) {
+        return Vec::new();
+    }
+    let Some(repaired) = repair.applied(plan) else { return Vec::new() };
+    let old = print_plan(plan, &task.domain, &task.problem);
+    let new = print_plan(&repaired, &task.domain, &task.problem);
+    let mut left: HashMap<&str, usize> = HashMap::new();
+    for line in old.lines() {
+        *left.entry(line).or_default() += 1;
+    }
+    let mut lines = Vec::new();
+    for line in new.lines() {
+        match left.get_mut(line) {
+            Some(count) if *count > 0 => *count -= 1,
+            _ => lines.push(line.to_owned()),
+        }
+    }
+    lines
+}
+
+/// What kind of change it is, in a word.
+const fn change(repair: &Repair) -> &'static str {
+    match repair {
+        Repair::Drop(_) => "drop",
+        Repair::Insert { .. } | Repair::InsertAt { .. } => "insert",
+        Repair::Move { .. } => "move",
+        Repair::Swap { .. } => "swap",
+        Repair::Replace { .. } => "replace",
+        Repair::Shift { .. } => "shift",
+        Repair::Delay { .. } => "delay",
+        Repair::Stretch { .. } => "stretch",
+        Repair::Initially(_) => "initially",
+        Repair::NotInitially(_) => "not initially",
+        Repair::Value { .. } => "value",
+        Repair::Without { .. } => "without",
+    }
+}

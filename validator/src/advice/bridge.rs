@@ -1,0 +1,96 @@
+//! A few steps that are missing together.
+//!
+//! Breadth first from the state before the failure, by this crate's own semantics: all steps that can be taken, then
+//! all that can be taken after them, until the failing step can be taken or the goal holds. States that were seen are
+//! not looked at again. Complete up to its depth, and of use only because that is small.
+
+use super::edit::Edit;
+use super::instances::Look;
+use super::sequential::Case;
+use super::track::Track;
+use crate::state::{GroundAtom, Value};
+use crate::trace::Diff;
+use pddl::PlanStep;
+use pddl::model::GroundApplication;
+use std::collections::{BTreeMap, BTreeSet, HashSet, VecDeque};
+
+/// How many steps are inserted at most.
+pub(super) const LONGEST: usize = 3;
+
+/// How many states are looked at.
+const STATES: usize = 20_000;
+
+/// How many bridges are tried.
+const BRIDGES: usize = 2_000;
+
+/// What is different from the state where the search began.
+type Difference = (BTreeSet<GroundAtom>, BTreeMap<(u32, Vec<u32>), String>);
+
+/// Short sequences after which the failing step can be taken.
+pub(super) fn bridge(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
+    let before = case.fails;
+    track.go_to(before);
+    if track.taken().len() != before {
+        return Vec::new();
+    }
+    let mut edits = Vec::new();
+    let mut seen: HashSet<Difference> = HashSet::from([Difference::default()]);
+    let mut open: VecDeque<Vec<PlanStep>> = VecDeque::from([Vec::new()]);
+    while let Some(path) = open.pop_front() {
+        if !follow(track, before, &path) {
+            continue;
+        }
+        let mut next = Vec::new();
+        Look { validator: track.validator, state: track.state() }.all(&mut |step| next.push(step));
+        for step in next {
+            if track.left == 0 || seen.len() >= STATES || edits.len() >= BRIDGES {
+                return edits;
+            }
+            track.back_to(before + path.len());
+            if !track.take(&step) || !seen.insert(difference(&track.taken()[before..])) {
+                continue;
+            }
+            let mut longer = path.clone();
+            longer.push(step);
+            let arrived = match track.steps.get(before) {
+                Some(failing) => track.take(failing),
+                None => track.at_goal(),
+            };
+            if arrived {
+                edits.push(Edit::Insert { before, steps: longer.clone() });
+            }
+            if longer.len() < LONGEST {
+                open.push_back(longer);
+            }
+        }
+    }
+    edits
+}
+
+/// Goes to where the path leads.
+fn follow(track: &mut Track<'_, '_>, before: usize, path: &[PlanStep]) -> bool {
+    track.back_to(before);
+    path.iter().all(|step| track.take(step))
+}
+
+fn difference(taken: &[Diff]) -> Difference {
+    let mut difference = Difference::default();
+    for diff in taken {
+        for atom in diff.added.iter().chain(&diff.deleted) {
+            if !difference.0.remove(atom) {
+                difference.0.insert(atom.clone());
+            }
+        }
+        for change in &diff.fluents {
+            let GroundApplication { function, arguments } = &change.fluent;
+            let key = (function.0, arguments.iter().map(|object| object.0).collect());
+            let value = match change.after {
+                None => String::new(),
+                Some(Value::Number(number)) => number.to_string(),
+                Some(Value::Object(object)) => format!("{object:?}"),
+            };
+            difference.1.insert(key, value);
+        }
+    }
+    difference
+}

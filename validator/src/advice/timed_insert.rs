@@ -1,0 +1,130 @@
+//! A step that is missing in a plan with times.
+//!
+//! It starts just after something has happened, where its condition at the start holds, and brings about what is
+//! wanted: in the gap that is there, or in one that is made by starting everything after it later.
+
+use super::instances::{Look, conditions_at, each_match};
+use super::timed::{Case, state_after};
+use super::{Repair, decimal};
+use crate::number::Number;
+use crate::run::Validator;
+use crate::scene::{Binding, Clock};
+use crate::state::State;
+use crate::temporal::{bind_functions, start};
+use pddl::model::{Comparison, DurativeActionId, ObjectId, TimeSpecifier};
+use pddl::{Decimal, Span, StepHead, TemporalStep};
+
+/// After how many happenings before the failure it is tried.
+const PLACES: usize = 24;
+
+pub(super) fn insertions(validator: &Validator<'_>, case: &Case<'_>) -> Vec<Repair> {
+    let happenings = &case.trace.happenings;
+    let mut repairs = Vec::new();
+    let mut delayed = Vec::new();
+    let gap = validator.precision.separation;
+    for count in (0..=happenings.len()).rev().take(PLACES) {
+        let mut state = state_after(validator, &case.trace, count);
+        validator.derive(&mut state, u32::MAX);
+        let after = match count.checked_sub(1).and_then(|last| happenings.get(last)) {
+            Some(last) => last.time.plus(gap).ok(),
+            None => Some(Number::ZERO),
+        };
+        let Some(after) = after.and_then(decimal) else { continue };
+        for (head, arguments, duration) in candidates(validator, case, &state) {
+            let step = |start: Decimal| TemporalStep {
+                start,
+                head,
+                arguments: arguments.clone(),
+                duration: duration.and_then(decimal),
+                span: Span::default(),
+                start_span: Span::default(),
+                duration_span: None,
+            };
+            let length = duration.unwrap_or(Number::ZERO);
+            repairs.push(Repair::InsertAt { step: step(after), delay: Decimal::ZERO });
+            // Rather at the last moment, if there is time for it.
+            let latest = case.time.minus(length).and_then(|time| time.minus(gap)).ok().and_then(decimal);
+            if let Some(latest) = latest.filter(|time| !time.is_negative() && *time != after) {
+                repairs.push(Repair::InsertAt { step: step(latest), delay: Decimal::ZERO });
+            }
+            let room = length.plus(gap).and_then(|room| room.plus(gap)).ok().and_then(decimal);
+            if let Some(delay) = room
+                .filter(|_| case.plan.steps.iter().any(|other| start(other) >= Number::from_decimal(after)))
+            {
+                delayed.push(Repair::InsertAt { step: step(after), delay });
+            }
+        }
+    }
+    repairs.extend(delayed);
+    repairs
+}
+
+type Candidate = (StepHead, Vec<ObjectId>, Option<Number>);
+
+/// The steps that could start in a state and bring about something that is wanted.
+fn candidates(validator: &Validator<'_>, case: &Case<'_>, state: &State) -> Vec<Candidate> {
+    let look = Look { validator, state };
+    let mut found: Vec<Candidate> = Vec::new();
+    let mut offer = |head, arguments: Vec<ObjectId>| {
+        if !found.iter().any(|(other, with, _)| *other == head && *with == arguments) {
+            found.push((head, arguments, None));
+        }
+    };
+    for want in &case.wants.list {
+        for (id, action) in validator.domain.actions.enumerate() {
+            each_match(validator, &action.variables, &action.effect, want, &mut |fixed| {
+                look.applicable(&action.variables, &[&action.precondition], &fixed, &mut |arguments| {
+                    offer(StepHead::Action(id), arguments);
+                });
+            });
+        }
+        for (id, action) in validator.domain.durative_actions.enumerate() {
+            let conditions = conditions_at(action, &TimeSpecifier::Start);
+            for timed in &action.effects {
+                each_match(validator, &action.variables, &timed.effect, want, &mut |fixed| {
+                    look.applicable(&action.variables, &conditions, &fixed, &mut |arguments| {
+                        offer(StepHead::DurativeAction(id), arguments);
+                    });
+                });
+            }
+        }
+    }
+    let with_durations = found.into_iter().flat_map(|(head, arguments, _)| match head {
+        StepHead::Action(_) => vec![(head, arguments, None)],
+        StepHead::DurativeAction(id) => {
+            let lengths = durations(validator, state, id, &arguments);
+            lengths.into_iter().map(|length| (head, arguments.clone(), Some(length))).collect()
+        }
+    });
+    with_durations.collect()
+}
+
+/// How long it may take: as little and as much as its bounds allow in this state.
+fn durations(
+    validator: &Validator<'_>,
+    state: &State,
+    action: DurativeActionId,
+    arguments: &[ObjectId],
+) -> Vec<Number> {
+    let action = &validator.domain.durative_actions[action];
+    let scene = validator.scene(state, &action.variables, Clock::steps(0));
+    let mut binding = Binding::new(&action.variables, arguments);
+    let mut least = Number::ZERO;
+    let mut most = None;
+    for constraint in &action.duration {
+        let bound = bind_functions(scene, &constraint.functions, &mut binding)
+            .and_then(|()| scene.number(&constraint.bound, &binding));
+        let Ok(bound) = bound else { continue };
+        match constraint.comparison {
+            Comparison::Equal => return vec![bound],
+            Comparison::Less | Comparison::LessEqual => most = Some(most.unwrap_or(bound).min(bound)),
+            Comparison::Greater | Comparison::GreaterEqual => least = least.max(bound),
+        }
+    }
+    if least == Number::ZERO && most.is_none() {
+        least = Number::integer(1);
+    }
+    let mut lengths = vec![least];
+    lengths.extend(most.filter(|&most| most > least));
+    lengths
+}

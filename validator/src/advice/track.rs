@@ -1,0 +1,171 @@
+//! One state that walks along a plan: forward by taking steps, backward by taking them back.
+//!
+//! Problem: most changes that could repair a plan touch a few steps near to where it fails, and judging the whole plan
+//! for each of them costs as much as the plan is long. Idea: the state stays near the failure. Each step that is taken
+//! notes what it changes, so that it can be taken back; a changed plan is carried out from its first new step on, until
+//! a step cannot be taken, and taken back when the next one comes.
+//!
+//! Invariant: after [`Track::go_to`] the state is that before the plan's step of that number. A moment is never used
+//! twice, so that no add of an earlier trial wins over a delete.
+//!
+//! Cost: the steps between a change and the first one that cannot be taken after it. What the trajectory must satisfy
+//! is not looked at: who passes here is judged as a whole afterwards.
+
+use super::edit::Edit;
+use crate::effect::Changes;
+use crate::effort::Effort;
+use crate::prepare::each_guard;
+use crate::run::Validator;
+use crate::scene::{Binding, Clock};
+use crate::state::{Moment, State};
+use crate::trace::Diff;
+use pddl::PlanStep;
+
+/// A plan's states, one at a time.
+pub(super) struct Track<'t, 'a> {
+    pub(super) validator: &'t Validator<'a>,
+    pub(super) steps: &'t [PlanStep],
+    state: State,
+    /// What each step so far has changed.
+    taken: Vec<Diff>,
+    /// How many of them are the plan's own.
+    own: usize,
+    moment: Moment,
+    changes: Changes,
+    binding: Binding,
+    /// How many steps may still be taken.
+    pub(super) left: usize,
+}
+
+impl<'t, 'a> Track<'t, 'a> {
+    pub(super) fn new(validator: &'t Validator<'a>, steps: &'t [PlanStep], left: usize) -> Self {
+        let mut state = State::empty(validator.domain, &vec![true; validator.domain.predicates.len()]);
+        // One purse for all trials.
+        state.effort = Effort::for_steps(steps.len());
+        for (predicate, relation) in validator.initial.facts.enumerate() {
+            for arguments in relation.holding() {
+                state.facts[predicate].add(arguments, 0);
+            }
+        }
+        for (fluent, value) in validator.initial.fluents() {
+            state.set_fluent(fluent.clone(), Some(value));
+        }
+        Self {
+            validator,
+            steps,
+            state,
+            taken: Vec::new(),
+            own: 0,
+            moment: 0,
+            changes: Changes::default(),
+            binding: Binding::default(),
+            left,
+        }
+    }
+
+    /// The state, with what follows by the axioms.
+    pub(super) fn state(&mut self) -> &State {
+        self.moment += 1;
+        self.validator.derive(&mut self.state, self.moment);
+        &self.state
+    }
+
+    /// What the steps before this place have changed.
+    pub(super) fn taken(&self) -> &[Diff] {
+        &self.taken
+    }
+
+    /// Walks to before the plan's step at `position`, or as near to it as steps can be taken.
+    pub(super) fn go_to(&mut self, position: usize) {
+        self.back_to(position.min(self.own));
+        while self.own < position {
+            let Some(step) = self.steps.get(self.own) else { return };
+            if !self.take(step) {
+                return;
+            }
+            self.own += 1;
+        }
+    }
+
+    /// Takes steps back until so many are left.
+    pub(super) fn back_to(&mut self, count: usize) {
+        while self.taken.len() > count {
+            let Some(diff) = self.taken.pop() else { return };
+            self.moment += 1;
+            for atom in &diff.added {
+                self.state.facts[atom.predicate].delete(&atom.arguments, self.moment);
+            }
+            for atom in &diff.deleted {
+                self.state.facts[atom.predicate].add(&atom.arguments, self.moment);
+            }
+            for change in diff.fluents {
+                self.state.set_fluent(change.fluent, change.before);
+            }
+            self.state.stale = true;
+        }
+        self.own = self.own.min(count);
+    }
+
+    /// Takes a step, if it can be taken and may be paid for.
+    pub(super) fn take(&mut self, step: &PlanStep) -> bool {
+        let Some(left) = self.left.checked_sub(1) else { return false };
+        self.left = left;
+        let validator = self.validator;
+        let Some(action) = validator.domain.actions.get(step.action) else { return false };
+        if validator.fits(&action.variables, &step.arguments).is_err() {
+            return false;
+        }
+        self.moment += 1;
+        let moment = self.moment;
+        validator.derive_for(&action.precondition, &mut self.state, moment);
+        each_guard(&action.effect, &mut |guard, _| validator.derive_for(guard, &mut self.state, moment));
+        self.binding.reset(&action.variables, &step.arguments);
+        let now = u32::try_from(self.taken.len()).unwrap_or(u32::MAX);
+        let scene = validator.scene(&self.state, &action.variables, Clock::steps(now));
+        if !scene.holds(&action.precondition, &mut self.binding) {
+            return false;
+        }
+        self.changes.clear();
+        let mut diff = Diff::default();
+        let done = self
+            .changes
+            .collect(scene, &action.effect, &mut self.binding)
+            .and_then(|()| self.changes.apply(&mut self.state, moment, Some(&mut diff)));
+        if done.is_ok() {
+            self.taken.push(diff);
+        }
+        done.is_ok()
+    }
+
+    /// Whether the goal holds here.
+    pub(super) fn at_goal(&mut self) -> bool {
+        let problem = self.validator.problem;
+        self.moment += 1;
+        self.validator.derive_for(&problem.goal, &mut self.state, self.moment);
+        let variables = &problem.goal_variables;
+        let now = u32::try_from(self.taken.len()).unwrap_or(u32::MAX);
+        let scene = self.validator.scene(&self.state, variables, Clock::steps(now));
+        scene.holds(&problem.goal, &mut Binding::new(variables, &[]))
+    }
+
+    /// Whether all steps of the changed plan can be taken and the goal holds in the end.
+    pub(super) fn passes(&mut self, edit: &Edit) -> bool {
+        self.fails(edit).is_none()
+    }
+
+    /// Where the changed plan fails: at a step that cannot be taken, or behind the last one.
+    pub(super) fn fails(&mut self, edit: &Edit) -> Option<usize> {
+        let first = edit.first();
+        self.go_to(first);
+        if self.own < first {
+            return Some(self.own);
+        }
+        for position in first.. {
+            let Some(step) = edit.step(self.steps, position) else { break };
+            if !self.take(step) {
+                return Some(position);
+            }
+        }
+        if self.at_goal() { None } else { Some(self.taken.len()) }
+    }
+}

@@ -1,0 +1,106 @@
+//! What a failure asks for: atoms that should hold or should not, fluents that should be something else.
+//!
+//! Derived atoms are no step's doing: what the bodies of their axioms lack is wanted in their place.
+
+use super::{each_part, parts};
+use crate::cause::{Cause, Causes};
+use crate::run::Validator;
+use crate::scene::{Binding, Clock};
+use crate::state::{GroundAtom, State};
+use crate::verdict::{Failure, Operand, Unsatisfied};
+use crate::why::Why;
+use pddl::model::GroundApplication;
+
+/// How deep axioms are followed.
+const DEPTH: usize = 4;
+
+/// How much is wanted at most.
+const MOST: usize = 64;
+
+/// Something that a change should bring about.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Want {
+    /// An atom should hold.
+    Holds(GroundAtom),
+    /// An atom should not hold.
+    HoldsNot(GroundAtom),
+    /// A fluent should have another value.
+    Another(GroundApplication),
+}
+
+/// All that is wanted, and who is to blame for the lack of it.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Wants {
+    pub(super) list: Vec<Want>,
+    pub(super) blamed: Vec<Cause>,
+}
+
+impl Wants {
+    /// What a failure asks for; `state` is the one in which it failed, with what follows by axioms.
+    pub(super) fn of(validator: &Validator<'_>, state: &State, failure: &Failure) -> Self {
+        let mut wants = Self::default();
+        match failure {
+            Failure::Duration { bound, .. } => wants.operand(bound),
+            _ => wants.parts(validator, state, parts(failure), DEPTH),
+        }
+        wants
+    }
+
+    fn push(&mut self, want: Want) {
+        if self.list.len() < MOST && !self.list.contains(&want) {
+            self.list.push(want);
+        }
+    }
+
+    fn operand(&mut self, operand: &Operand) {
+        for (fluent, _) in &operand.fluents {
+            self.push(Want::Another(fluent.clone()));
+        }
+    }
+
+    fn parts(&mut self, validator: &Validator<'_>, state: &State, parts: &[Unsatisfied], depth: usize) {
+        each_part(parts, &mut |part| match part {
+            Unsatisfied::Missing { atom, derived: true, .. } => {
+                self.derived(validator, state, atom, true, depth);
+            }
+            Unsatisfied::Present { atom, derived: true, .. } => {
+                self.derived(validator, state, atom, false, depth);
+            }
+            Unsatisfied::Missing { atom, deleted_by, .. } => {
+                self.push(Want::Holds(atom.clone()));
+                self.blamed.extend(*deleted_by);
+            }
+            Unsatisfied::Present { atom, added_by, .. } => {
+                self.push(Want::HoldsNot(atom.clone()));
+                self.blamed.extend(*added_by);
+            }
+            Unsatisfied::Comparison { left, right, .. } => {
+                self.operand(left);
+                self.operand(right);
+            }
+            Unsatisfied::Fluent { fluent, .. } => self.push(Want::Another(fluent.clone())),
+            _ => {}
+        });
+    }
+
+    fn derived(
+        &mut self,
+        validator: &Validator<'_>,
+        state: &State,
+        atom: &GroundAtom,
+        wanted: bool,
+        depth: usize,
+    ) {
+        let Some(depth) = depth.checked_sub(1) else { return };
+        for axiom in validator.domain.axioms.iter().filter(|axiom| axiom.predicate == atom.predicate) {
+            if validator.fits(&axiom.variables, &atom.arguments).is_err() {
+                continue;
+            }
+            let scene = validator.scene(state, &axiom.variables, Clock::steps(0));
+            let why = Why { scene, strata: &validator.strata, causes: Causes::Listed(&[]) };
+            let mut binding = Binding::new(&axiom.variables, &atom.arguments);
+            let parts = why.unsatisfied(&axiom.body, wanted, &mut binding);
+            self.parts(validator, state, &parts, depth);
+        }
+    }
+}
