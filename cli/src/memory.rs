@@ -1,4 +1,4 @@
-//! How much memory a search may hold.
+//! How much memory a task and the search on it may hold.
 //!
 //! A process that asks for more than its address space aborts, which is no answer. So the search gets a
 //! budget well below what the process may have: 4 GiB, or a part of a smaller limit (`ulimit -v`) or of
@@ -9,14 +9,14 @@ use std::fs;
 const GIBIBYTE: u64 = 1 << 30;
 const MOST: u64 = 4 * GIBIBYTE;
 
-/// Bytes for states and open lists.
+/// Bytes for the grounded task, states and open lists.
 pub(crate) fn budget() -> usize {
     let limits = fs::read_to_string("/proc/self/limits").unwrap_or_default();
     let machine = fs::read_to_string("/proc/meminfo").unwrap_or_default();
     usize::try_from(share(&limits, &machine)).unwrap_or(usize::MAX)
 }
 
-/// Grounded tasks, stacks and code need the rest.
+/// Texts, models, stacks and code need the rest.
 fn share(limits: &str, machine: &str) -> u64 {
     let address_space = limits
         .lines()

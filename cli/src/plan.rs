@@ -47,6 +47,9 @@ pub(crate) struct Arguments {
     /// Give up after so many seconds.
     #[arg(long, value_name = "S")]
     timeout: Option<Seconds>,
+    /// Use at most so many mebibytes for the task and the states [default: what the machine allows, 4096 at most].
+    #[arg(long, value_name = "MIB")]
+    memory: Option<usize>,
     /// The search to use.
     #[arg(long, value_name = "NAME", value_parser = search)]
     search: Option<SearchConfiguration>,
@@ -87,7 +90,9 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     let read_ms = watch.milliseconds();
 
     let watch = Stopwatch::start();
-    let options = GroundOptions { interrupted: &interrupted, ..GroundOptions::default() };
+    let memory = arguments.memory.map_or_else(memory::budget, |mebibytes| mebibytes.saturating_mul(1 << 20));
+    let options =
+        GroundOptions { memory_bytes: Some(memory), interrupted: &interrupted, ..GroundOptions::default() };
     let task = match ground(&files.domain, &files.problem, &options) {
         Ok(task) => task,
         Err(error) => return not_grounded(&error, &files, &mut answer, console),
@@ -95,7 +100,11 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     let ground_ms = watch.milliseconds();
 
     let watch = Stopwatch::start();
-    let budget = Budget { expansions: None, memory_bytes: Some(memory::budget()), interrupted: &interrupted };
+    let budget = Budget {
+        expansions: None,
+        memory_bytes: Some(memory.saturating_sub(task.memory_bytes())),
+        interrupted: &interrupted,
+    };
     let report = solve(&task, &Query::of(&task), &configuration, &budget);
     let statistics = StatisticsRecord::of(&task, &report, [read_ms, ground_ms, watch.milliseconds()]);
     console.note(&statistics.line(configuration.name));

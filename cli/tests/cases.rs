@@ -63,7 +63,7 @@ fn apply(edits: &str, folder: &Path) {
 /// Times differ from run to run and effort from search to search: `0.123 ms` becomes `# ms`,
 /// `12 expanded` becomes `# expanded`, `[   0.012s]` becomes `[#s]`, and so in JSON.
 fn without_measurements(text: &str) -> String {
-    const AFTER: [&str; 6] = ["s]", " ms", " facts", " operators", " expanded", " evaluated"];
+    const AFTER: [&str; 7] = ["s]", " ms", " facts", " operators", " instances", " expanded", " evaluated"];
     const BEFORE: [&str; 6] =
         ["_ms\":", "\"facts\":", "\"operators\":", "\"expanded\":", "\"evaluated\":", "\"generated\":"];
     let mut kept = String::new();

@@ -165,9 +165,11 @@ fn limits_end_a_search_and_grounding() {
     assert_eq!(outcome(&small), Outcome::LimitReached(Limit::Memory));
     let stop = Budget { interrupted: &|| true, ..Budget::default() };
     assert_eq!(outcome(&stop), Outcome::LimitReached(Limit::Interrupted));
-    let options = GroundOptions { operators: 5, ..GroundOptions::default() };
+    let options = GroundOptions { memory_bytes: Some(8_000), ..GroundOptions::default() };
     match ground(&case.domain, &case.problem, &options) {
-        Err(GroundError::Limit { schema }) => assert!(["move", "pick", "drop"].contains(&schema.as_str())),
+        Err(GroundError::Limit { schema, .. }) => {
+            assert!(["move", "pick", "drop"].contains(&schema.as_str()));
+        }
         other => panic!("{other:?}"),
     }
 }
@@ -192,5 +194,50 @@ fn exogenous_facts_can_be_planned_from_in_any_state() {
     match solve(&task, &query, &SearchConfiguration::default(), &Budget::default()).outcome {
         Outcome::Solved(plan) => assert!(!plan.operators.is_empty()),
         other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_task_that_does_not_fit_names_its_largest_schema() {
+    let read =
+        |path: &Path| pddl::Source::new(path.display().to_string(), std::fs::read_to_string(path).unwrap());
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../cli/tests/cases/plan-too-large");
+    let domain = pddl::parse_domain(&read(&folder.join("domain.pddl")), &[]).model.unwrap();
+    let problem = pddl::parse_problem(&read(&folder.join("problem.pddl")), &domain).model.unwrap();
+    let options = GroundOptions { memory_bytes: Some(16 << 20), ..GroundOptions::default() };
+    match ground(&domain, &problem, &options) {
+        Err(GroundError::Limit { schema, instances }) => {
+            assert_eq!(schema.as_str(), "weave");
+            assert!((1_000..1_000_000).contains(&instances), "{instances}");
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn an_instance_that_does_not_fit_names_its_schema() {
+    let text = |action: &str| {
+        format!(
+            "(define (domain d) (:requirements :adl) (:predicates (p ?x) (q))
+               (:action small :parameters (?x) :effect (and (p ?x) (q)))
+               (:action deep :parameters () {action}))"
+        )
+    };
+    let all = "?a ?b ?c ?d ?e ?f ?g ?h";
+    let condition = text(&format!(
+        ":precondition (exists (?z) (forall ({all}) (or (not (p ?a)) (p ?z) (not (p ?h))))) :effect (not (q))"
+    ));
+    let effect = text(&format!(":effect (forall ({all}) (when (and (p ?a) (p ?h)) (not (q))))"));
+    let objects: String = (0..100).map(|i| format!(" o{i}")).collect();
+    let problem =
+        format!("(define (problem p) (:domain d) (:objects{objects}) (:init (q)) (:goal (not (q))))");
+    for domain in [condition, effect] {
+        let domain = pddl::parse_domain(&pddl::Source::new("d", domain), &[]).model.unwrap();
+        let problem = pddl::parse_problem(&pddl::Source::new("p", problem.clone()), &domain).model.unwrap();
+        let options = GroundOptions { memory_bytes: Some(4 << 20), ..GroundOptions::default() };
+        match ground(&domain, &problem, &options) {
+            Err(GroundError::Limit { schema, .. }) => assert_eq!(schema.as_str(), "deep"),
+            other => panic!("{other:?}"),
+        }
     }
 }

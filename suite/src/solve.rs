@@ -157,7 +157,8 @@ pub(crate) struct Question<'a> {
 impl Question<'_> {
     pub(crate) fn answer(&self, problem: &Problem, search: SearchConfiguration) -> Answer {
         let domain: &Domain = self.task.domain;
-        let options = GroundOptions { interrupted: self.over, ..GroundOptions::default() };
+        let memory_bytes = self.limits.memory_bytes;
+        let options = GroundOptions { memory_bytes, interrupted: self.over, ..GroundOptions::default() };
         let grounded = match ground(domain, problem, &options) {
             Ok(grounded) => grounded,
             Err(error) => {
@@ -170,8 +171,8 @@ impl Question<'_> {
                 };
             }
         };
-        let budget =
-            Budget { expansions: None, memory_bytes: self.limits.memory_bytes, interrupted: self.over };
+        let memory_bytes = memory_bytes.map(|most| most.saturating_sub(grounded.memory_bytes()));
+        let budget = Budget { expansions: None, memory_bytes, interrupted: self.over };
         let plan = match solve(&grounded, &Query::of(&grounded), &search, &budget).outcome {
             Outcome::Solved(plan) => plan,
             Outcome::Unsolvable(_) => return Answer::Unsolvable,

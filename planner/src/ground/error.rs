@@ -10,17 +10,15 @@ pub struct GroundOptions<'a> {
     /// becomes a fact that is never taken as constant and never pruned, so that any perceived state
     /// can be planned from without grounding again.
     pub exogenous: &'a [PredicateId],
-    /// Most ground atoms.
-    pub atoms: usize,
-    /// Most ground operators.
-    pub operators: usize,
+    /// Most bytes that atoms and instances may take; without it, as much as 32-bit numbers can count.
+    pub memory_bytes: Option<usize>,
     /// Asked now and then; `true` ends the work.
     pub interrupted: &'a (dyn Fn() -> bool + Sync),
 }
 
 impl Default for GroundOptions<'_> {
     fn default() -> Self {
-        Self { exogenous: &[], atoms: 4_000_000, operators: 4_000_000, interrupted: &|| false }
+        Self { exogenous: &[], memory_bytes: None, interrupted: &|| false }
     }
 }
 
@@ -75,14 +73,23 @@ pub enum Origin {
     Problem,
 }
 
+fn too_large(schema: &Name, instances: usize) -> String {
+    match instances {
+        0 | 1 => format!("`{schema}` is too large"),
+        _ => format!("`{schema}` has {instances} instances or more"),
+    }
+}
+
 /// Why there is no grounded task.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GroundError {
-    /// Too many atoms or operators; the schema is the one at work, or with the most instances.
-    #[error("grounding exceeds its limit in `{schema}`")]
+    /// The instances take more bytes than allowed.
+    #[error("the grounded task does not fit into the memory: {}", too_large(schema, *instances))]
     Limit {
         /// The action, axiom or predicate that blew up.
         schema: Name,
+        /// How many of its instances were found until then.
+        instances: usize,
     },
     /// The caller's interruption came first.
     #[error("grounding was interrupted in `{schema}`")]

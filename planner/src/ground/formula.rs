@@ -178,6 +178,15 @@ impl Formula {
         }
     }
 
+    /// How many literals and tests it is made of.
+    pub(crate) fn leaves(&self) -> usize {
+        match self {
+            Self::And(parts) | Self::Or(parts) => parts.iter().map(Self::leaves).sum(),
+            Self::Exists(_, inner) | Self::Forall(_, inner) => inner.leaves(),
+            Self::Literal(_) | Self::Same { .. } | Self::OneOf { .. } => 1,
+        }
+    }
+
     /// The conjuncts of the top level.
     pub(crate) fn conjuncts(&self) -> &[Self] {
         match self {

@@ -6,7 +6,9 @@
 //! auxiliary derived atom otherwise; equal disjunctions share their atom.
 
 use super::atoms::AtomTable;
+use super::budget::Guard;
 use super::cost::resolve;
+use super::error::GroundOptions;
 use super::exclusion::{Exclusions, Marks};
 use super::formula::{Formula, Literal};
 use super::universe::Range;
@@ -34,6 +36,7 @@ pub(crate) struct Instantiator<'a> {
     pub(crate) is_static: &'a [bool],
     pub(crate) exclusions: &'a Exclusions,
     pub(crate) marks: Marks,
+    pub(super) guard: Guard<'a>,
     auxiliary: FxHashMap<Vec<Vec<Lit>>, u32>,
     /// Rules of the auxiliary atoms: head, body.
     pub(crate) rules: Vec<(u32, Vec<Lit>)>,
@@ -41,10 +44,15 @@ pub(crate) struct Instantiator<'a> {
 }
 
 impl<'a> Instantiator<'a> {
-    pub(crate) fn new(table: &'a AtomTable, is_static: &'a [bool], exclusions: &'a Exclusions) -> Self {
+    pub(crate) fn new(
+        table: &'a AtomTable,
+        is_static: &'a [bool],
+        exclusions: &'a Exclusions,
+        options: &'a GroundOptions<'a>,
+    ) -> Self {
         let (next, marks) = (id32(table.len()), Marks::new(exclusions));
-        let (auxiliary, rules) = (FxHashMap::default(), Vec::new());
-        Self { table, is_static, exclusions, marks, auxiliary, rules, next }
+        let (auxiliary, rules, guard) = (FxHashMap::default(), Vec::new(), Guard::new(options));
+        Self { table, is_static, exclusions, marks, guard, auxiliary, rules, next }
     }
 
     /// Atoms of the table, then auxiliary ones.
@@ -93,7 +101,10 @@ impl<'a> Instantiator<'a> {
                     Ground::False
                 }
             }
-            Some(atom) => Ground::Literal(atom << 1 | negated),
+            Some(atom) => {
+                self.guard.keep();
+                Ground::Literal(atom << 1 | negated)
+            }
         }
     }
 
@@ -109,14 +120,15 @@ impl<'a> Instantiator<'a> {
             return self.fold(inner, slots, binding);
         };
         let slot = first.0 as usize;
+        let objects = || slots[slot].objects.iter().take_while(|_| self.guard.look());
         let each = |&object: &u32, b: &mut [u32]| {
             b[slot] = object;
             self.quantified(rest, inner, slots, b, universal)
         };
         if universal {
-            fold_parts(Connective::And, slots[slot].objects.iter(), each, binding)
+            fold_parts(Connective::And, objects(), each, binding)
         } else {
-            fold_parts(Connective::Or, slots[slot].objects.iter(), each, binding)
+            fold_parts(Connective::Or, objects(), each, binding)
         }
     }
 

@@ -12,6 +12,7 @@
 //! Ullman, "Principles of database and knowledge-base systems", 1989, ch. 3 (semi-naive evaluation).
 
 use super::atoms::{AtomTable, Packing};
+use super::budget;
 use super::cost::resolve;
 use super::error::{GroundError, GroundOptions};
 use super::formula::Formula;
@@ -113,7 +114,10 @@ pub(crate) fn reach(
         .iter()
         .map(|s| Bindings { width: s.parameters + s.hoisted.len(), ..Bindings::default() })
         .collect();
-    let mut out = Out { schemas, table, bindings, found: 0, steps: 0, options };
+    let bytes = (0..crate::ids::id32(table.len())).map(|a| budget::atom(table.row(a).len())).sum();
+    let instance_bytes = schemas.iter().map(Schema::instance_bytes).collect();
+    let mut out =
+        Out { schemas, table, bindings, instance_bytes, bytes, allowed: options.bytes(), steps: 0, options };
     for atom in 0..statics {
         indices.insert(&out.table, atom);
     }
@@ -130,10 +134,6 @@ pub(crate) fn reach(
             Join { rule: &rules[*r], plan, indices: &indices, current, out: &mut out }.start(&mut binding)?;
         }
         current += 1;
-        if out.table.len() > options.atoms {
-            let schema = out.schemas[0].name.clone();
-            return Err(GroundError::Limit { schema: out.largest().unwrap_or(schema) });
-        }
     }
     Ok(Reached { table: out.table, bindings: out.bindings })
 }
@@ -142,15 +142,22 @@ struct Out<'a> {
     schemas: &'a [Schema],
     table: AtomTable,
     bindings: Vec<Bindings>,
-    found: usize,
+    /// Of one instance, by schema.
+    instance_bytes: Vec<usize>,
+    /// Of everything that was found.
+    bytes: usize,
+    allowed: usize,
     steps: u32,
     options: &'a GroundOptions<'a>,
 }
 
 impl Out<'_> {
-    fn largest(&self) -> Option<pddl::model::Name> {
-        let (i, _) = self.bindings.iter().enumerate().max_by_key(|(_, b)| b.rows)?;
-        Some(self.schemas[i].name.clone())
+    /// Names the schema with the most bytes, or the one that was at work.
+    fn limit(&self, own: usize) -> GroundError {
+        let bytes = |i: &usize| (self.bindings[*i].rows * self.instance_bytes[*i], *i == own);
+        let largest = (0..self.schemas.len()).max_by_key(bytes).unwrap_or(own);
+        let schema = self.schemas[largest].name.clone();
+        GroundError::Limit { schema, instances: self.bindings[largest].rows }
     }
 }
 
@@ -264,17 +271,20 @@ impl Join<'_, '_> {
 
     fn emit(&mut self, binding: &[u32]) -> Result<(), GroundError> {
         for (predicate, arguments) in &self.rule.heads {
+            let before = self.out.table.len();
             self.out.table.insert(*predicate, arguments.iter().map(|&t| resolve(t, binding)));
+            if self.out.table.len() > before {
+                self.out.bytes += budget::atom(arguments.len());
+            }
         }
         if self.rule.collected {
             let rows = &mut self.out.bindings[self.rule.schema];
             rows.values.extend(self.rule.variables.iter().map(|v| binding[v.0 as usize]));
             rows.rows += 1;
-            self.out.found += 1;
-            if self.out.found > self.out.options.operators {
-                let own = self.out.schemas[self.rule.schema].name.clone();
-                return Err(GroundError::Limit { schema: self.out.largest().unwrap_or(own) });
-            }
+            self.out.bytes += self.out.instance_bytes[self.rule.schema];
+        }
+        if self.out.bytes > self.out.allowed {
+            return Err(self.out.limit(self.rule.schema));
         }
         Ok(())
     }

@@ -10,6 +10,7 @@
 //! Source: Helmert, "Concise finite-domain representations for PDDL planning tasks", AIJ 2009.
 
 mod atoms;
+mod budget;
 mod cost;
 mod error;
 mod exclusion;
@@ -165,11 +166,13 @@ fn add_all_instances(
     if ranges.iter().any(|r| r.is_empty()) {
         return Ok(());
     }
+    let before = table.len();
     let mut odometer = vec![0_usize; ranges.len()];
     loop {
         table.insert(predicate, odometer.iter().zip(&ranges).map(|(&i, r)| r[i]));
-        if table.len() > options.atoms {
-            return Err(GroundError::Limit { schema: declared.name.clone() });
+        let instances = table.len() - before;
+        if instances * budget::atom(ranges.len()) > options.bytes() {
+            return Err(GroundError::Limit { schema: declared.name.clone(), instances });
         }
         let Some(digit) = (0..ranges.len()).rev().find(|&d| odometer[d] + 1 < ranges[d].len()) else {
             return Ok(());

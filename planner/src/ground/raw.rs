@@ -5,6 +5,7 @@
 //! decides are dropped from effects' conditions.
 
 use super::atoms::AtomTable;
+use super::budget::{self, Stop};
 use super::cost::{CostModel, CostTerm, resolve};
 use super::error::{Feature, GroundError, GroundOptions, Origin};
 use super::exclusion::Exclusions;
@@ -14,7 +15,7 @@ use super::join::{Bindings, Reached};
 use super::schema::{Product, Schema, SchemaEffect};
 use super::values::ValuePredicates;
 use crate::ids::id32;
-use pddl::model::{ActionId, ObjectId, VariableId};
+use pddl::model::{ActionId, Name, ObjectId, VariableId};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 
@@ -37,6 +38,15 @@ pub(crate) struct RawOperator {
     pub(crate) effects: RawEffects,
     pub(crate) conditional: Vec<(Vec<Lit>, RawEffects)>,
     pub(crate) cost: f64,
+}
+
+impl RawOperator {
+    /// Bytes that it takes until the task is done.
+    fn bytes(&self) -> usize {
+        let changes = |e: &RawEffects| e.adds.len() + e.deletes.len();
+        let conditional: usize = self.conditional.iter().map(|(c, e)| 4 + c.len() + changes(e)).sum();
+        budget::instance(self.arguments.len(), self.precondition.len() + changes(&self.effects) + conditional)
+    }
 }
 
 /// The task before pruning.
@@ -64,8 +74,9 @@ pub(crate) fn instantiate(
     goal: (&Formula, &[std::sync::Arc<super::universe::Range>]),
     options: &GroundOptions<'_>,
 ) -> Result<RawTask, GroundError> {
-    let mut work = Instantiator::new(&reached.table, is_static, exclusions);
+    let mut work = Instantiator::new(&reached.table, is_static, exclusions, options);
     let mut operators = Vec::new();
+    let mut bytes = 0;
     let mut rules = Vec::new();
     for (schema, bindings) in schemas.iter().zip(&reached.bindings) {
         let mut binding = vec![0; schema.slots.len()];
@@ -74,8 +85,15 @@ pub(crate) fn instantiate(
             if row.is_multiple_of(1024) && (options.interrupted)() {
                 return Err(GroundError::Interrupted { schema: schema.name.clone() });
             }
+            if bytes > options.bytes() {
+                return Err(stopped(Stop::Memory, schema, bindings.rows));
+            }
+            work.guard.begin();
             bind(schema, bindings, row, &mut binding);
             let condition = work.fold(&schema.condition, &schema.slots, &mut binding);
+            if let Some(stop) = work.guard.stopped() {
+                return Err(stopped(stop, schema, bindings.rows));
+            }
             match &schema.product {
                 Product::Axiom { predicate, arguments } => {
                     let head = arguments.iter().map(|&t| resolve(t, &binding));
@@ -93,6 +111,9 @@ pub(crate) fn instantiate(
                     let arguments: Box<[ObjectId]> = arguments.iter().map(|&o| ObjectId(o)).collect();
                     let cost = cost(costs, terms, &binding)?;
                     let all = expand(&mut work, schema, effects, &mut binding);
+                    if let Some(stop) = work.guard.stopped() {
+                        return Err(stopped(stop, schema, bindings.rows));
+                    }
                     let clashes = clashes(work.table, values, &all);
                     for precondition in alternatives {
                         let Some(precondition) = work.without(precondition, &clashes) else { continue };
@@ -103,24 +124,26 @@ pub(crate) fn instantiate(
                             continue;
                         }
                         let new = operator(&mut work, *id, &arguments, precondition, &all, cost);
+                        bytes += new.bytes();
                         operators.push(new);
                     }
                 }
             }
         }
-        if operators.len() > options.operators {
-            return Err(GroundError::Limit { schema: schema.name.clone() });
-        }
     }
     let mut literals = Vec::new();
     let mut refuted = Vec::new();
     let mut binding = vec![0; goal.1.len()];
+    work.guard.begin();
     for conjunct in goal.0.conjuncts() {
         let ground = work.fold(conjunct, goal.1, &mut binding);
         match work.conjunction(ground) {
             Some(more) => literals.extend(more),
             None => refuted.push(conjunct.clone()),
         }
+    }
+    if let Some(stop) = work.guard.stopped() {
+        return Err(stopped_at(stop, Name::new("goal"), 1));
     }
     let mut exclusive = None;
     match consistent(literals) {
@@ -135,6 +158,17 @@ pub(crate) fn instantiate(
     }
     rules.append(&mut work.rules);
     Ok(RawTask { operators, rules, goal: literals, refuted, exclusive, atoms: work.atoms() })
+}
+
+fn stopped(stop: Stop, schema: &Schema, instances: usize) -> GroundError {
+    stopped_at(stop, schema.name.clone(), instances)
+}
+
+fn stopped_at(stop: Stop, schema: Name, instances: usize) -> GroundError {
+    match stop {
+        Stop::Interrupted => GroundError::Interrupted { schema },
+        Stop::Memory => GroundError::Limit { schema, instances },
+    }
 }
 
 /// Two of the literals that exclude each other.
@@ -175,9 +209,18 @@ fn expand(
 ) -> Vec<(Vec<Lit>, bool, u32)> {
     let mut found = Vec::new();
     for effect in effects {
+        let count =
+            |total: usize, v: &VariableId| total.saturating_mul(schema.slots[v.0 as usize].objects.len());
+        if !work.guard.allows(effect.quantified.iter().fold(1, count)) {
+            break;
+        }
         each_binding(&effect.quantified, schema, binding, &mut |binding| {
             let row = effect.arguments.iter().map(|&t| resolve(t, binding));
             let Some(atom) = work.table.find(effect.predicate, row) else { return };
+            work.guard.keep();
+            if !effect.quantified.is_empty() && !work.guard.look() {
+                return;
+            }
             let ground = work.fold(&effect.condition, &schema.slots, binding);
             // The union of conditional effects is a disjunction: no axiom needed at the top.
             let options = match ground {

@@ -1,5 +1,6 @@
 //! Action and axiom schemas, normalised for the join.
 
+use super::budget;
 use super::cost::{CostModel, CostTerm};
 use super::error::{Feature, GroundError, Origin};
 use super::formula::Formula;
@@ -42,6 +43,17 @@ pub(crate) struct Schema {
     pub(crate) hoisted: Vec<VariableId>,
     pub(crate) condition: Formula,
     pub(crate) product: Product,
+}
+
+impl Schema {
+    /// Bytes that an instance takes at least.
+    pub(crate) fn instance_bytes(&self) -> usize {
+        let effects = match &self.product {
+            Product::Action { effects, .. } => effects.iter().map(|e| 1 + e.condition.leaves()).sum(),
+            Product::Axiom { .. } => 1,
+        };
+        budget::instance(self.parameters + self.hoisted.len(), self.condition.leaves() + effects)
+    }
 }
 
 /// Disjuncts of an axiom's body that become rules of their own.

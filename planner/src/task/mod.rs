@@ -196,6 +196,13 @@ impl Task {
         self.axioms.close(next);
     }
 
+    /// Bytes that the task holds, about.
+    pub fn memory_bytes(&self) -> usize {
+        let operators: usize = self.operators.iter().map(Operator::memory_bytes).sum();
+        // An operator's node in the successor tree and in the relaxation is about as large as itself.
+        2 * operators + self.facts.len() * (size_of::<Fact>() + 32) + self.status.len() * 100
+    }
+
     /// Bytes that the task holds for each copy of a state.
     pub(crate) fn words_per_state(&self) -> usize {
         self.initial.words().len()

@@ -62,6 +62,16 @@ pub struct Operator {
 }
 
 impl Operator {
+    /// Bytes that it holds, about.
+    pub(crate) fn memory_bytes(&self) -> usize {
+        let facts = |c: &Literals| 4 * c.len();
+        let more = |e: &ConditionalEffect| 100 + facts(&e.condition) + 4 * (e.adds.len() + e.deletes.len());
+        let own =
+            4 * (self.arguments.len() + self.adds.len() + self.deletes.len()) + facts(&self.precondition);
+        // Four boxes of their own.
+        size_of::<Self>() + 64 + own + self.conditional.iter().map(more).sum::<usize>()
+    }
+
     pub(crate) fn apply(&self, state: &[u64], next: &mut [u64]) {
         for &f in &self.deletes {
             unset(next, f);
