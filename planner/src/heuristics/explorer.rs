@@ -11,8 +11,8 @@
 
 use crate::heuristics::Costs;
 use crate::ids::id32;
-use crate::search::Barred;
-use crate::task::{AXIOM, Relaxation, Task};
+use crate::search::{Job, Meter};
+use crate::task::{AXIOM, Relaxation};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -37,8 +37,9 @@ struct Node {
 }
 
 /// Scratch for explorations of one task under one set of costs.
-pub(crate) struct Explorer<'t> {
-    graph: &'t Relaxation,
+pub(crate) struct Explorer<'a> {
+    graph: &'a Relaxation,
+    meter: &'a Meter<'a>,
     combine: Combine,
     template: Vec<Node>,
     nodes: Vec<Node>,
@@ -52,22 +53,13 @@ pub(crate) struct Explorer<'t> {
     is_goal: Vec<bool>,
 }
 
-impl<'t> Explorer<'t> {
-    pub(crate) fn new(
-        task: &'t Task,
-        goal: Vec<u32>,
-        barred: &Barred,
-        costs: Costs,
-        combine: Combine,
-    ) -> Self {
-        let graph = &task.relaxation;
+impl<'a> Explorer<'a> {
+    pub(crate) fn new(job: &Job<'a>, goal: Vec<u32>, costs: Costs, combine: Combine) -> Self {
+        let (graph, barred) = (&job.task.relaxation, job.barred);
         let template: Vec<Node> = (0..graph.nodes())
             .map(|n| {
                 let operator = graph.operator[n];
-                let cost = match costs {
-                    Costs::Unit => u32::from(operator != AXIOM),
-                    Costs::Real => graph.cost[n],
-                };
+                let cost = if operator == AXIOM { 0 } else { costs.of(graph.cost[n]) };
                 let missing = id32(graph.preconditions.row(id32(n)).len());
                 // A barred node waits for a precondition that never comes.
                 let extra = u32::from(operator != AXIOM && barred.contains_number(operator));
@@ -78,6 +70,7 @@ impl<'t> Explorer<'t> {
         goal.iter().for_each(|&p| is_goal[p as usize] = true);
         Self {
             graph,
+            meter: job.meter,
             combine,
             nodes: template.clone(),
             template,
@@ -92,7 +85,7 @@ impl<'t> Explorer<'t> {
         }
     }
 
-    pub(crate) fn graph(&self) -> &'t Relaxation {
+    pub(crate) fn graph(&self) -> &'a Relaxation {
         self.graph
     }
 
@@ -126,9 +119,10 @@ impl<'t> Explorer<'t> {
     }
 
     /// Settles propositions from the state until the whole goal is settled (or all, without goals).
-    /// Answers whether the goal was reached.
+    /// Answers whether the goal was reached; where the meter is stopped, that is not to be believed.
     pub(crate) fn explore(&mut self, words: &[u64]) -> bool {
         self.reset();
+        self.meter.spend((self.nodes.len() + self.cost.len()) / 8);
         let graph = self.graph;
         graph.for_each_true(words, |p| self.offer(p, 0, UNREACHED));
         for &node in &graph.free {
@@ -148,7 +142,11 @@ impl<'t> Explorer<'t> {
                     return true;
                 }
             }
-            for &n in graph.needed_by.row(proposition) {
+            let waiting = graph.needed_by.row(proposition);
+            if self.meter.spend(waiting.len() + 1) {
+                return false;
+            }
+            for &n in waiting {
                 let node = &mut self.nodes[n as usize];
                 match self.combine {
                     Combine::Sum => node.cost = (node.cost + cost).min(HIGHEST),

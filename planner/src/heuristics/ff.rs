@@ -8,15 +8,15 @@
 //! Geffner, "Heuristics for planning with action costs revisited", ECAI 2008.
 
 use super::explorer::UNREACHED;
-use super::{Combine, Costs, Estimate, Explorer, Heuristic};
-use crate::ids::{OperatorId, StateId};
-use crate::search::Barred;
-use crate::task::{AXIOM, Goal, Task};
+use super::{Combine, Costs, Estimate, Explorer, Heuristic, View};
+use crate::ids::OperatorId;
+use crate::search::Job;
+use crate::task::{AXIOM, Task};
 
-pub(crate) struct Ff<'t> {
-    task: &'t Task,
+pub(crate) struct Ff<'a> {
+    task: &'a Task,
     costs: Costs,
-    explorer: Explorer<'t>,
+    explorer: Explorer<'a>,
     /// Generation in which a proposition or operator was last marked.
     marked: Vec<u32>,
     used: Vec<u32>,
@@ -26,10 +26,11 @@ pub(crate) struct Ff<'t> {
     achieved: Vec<u32>,
 }
 
-impl<'t> Ff<'t> {
-    pub(crate) fn new(task: &'t Task, goal: &Goal, barred: &Barred, costs: Costs) -> Self {
-        let goal = task.relaxation.literals(&goal.literals);
-        let explorer = Explorer::new(task, goal, barred, costs, Combine::Sum);
+impl<'a> Ff<'a> {
+    pub(crate) fn new(job: &Job<'a>, costs: Costs) -> Self {
+        let task = job.task;
+        let goal = task.relaxation.literals(&job.goal.literals);
+        let explorer = Explorer::new(job, goal, costs, Combine::Sum);
         Self {
             marked: vec![0; task.relaxation.propositions()],
             used: vec![0; task.operators.len()],
@@ -43,7 +44,11 @@ impl<'t> Ff<'t> {
     }
 
     /// The length or cost of a relaxed plan from the state.
-    pub(crate) fn relaxed_plan(&mut self, words: &[u64], preferred: &mut Vec<OperatorId>) -> Estimate {
+    pub(crate) fn relaxed_plan(
+        &mut self,
+        words: &[u64],
+        mut preferred: Option<&mut Vec<OperatorId>>,
+    ) -> Estimate {
         self.achieved.clear();
         if !self.explorer.explore(words) {
             return Estimate::DEAD_END;
@@ -68,8 +73,8 @@ impl<'t> Ff<'t> {
                 continue;
             }
             let operator = &self.task.operators.as_slice()[number as usize];
-            let cost = if self.costs == Costs::Unit { 1 } else { operator.cost };
-            total = total.saturating_add(cost);
+            total = total.saturating_add(self.costs.of(operator.cost));
+            let Some(preferred) = preferred.as_deref_mut() else { continue };
             if self.explorer.is_ready(node) && operator.precondition.hold_in(words) {
                 preferred.push(OperatorId(number));
             }
@@ -84,13 +89,7 @@ impl<'t> Ff<'t> {
 }
 
 impl Heuristic for Ff<'_> {
-    fn estimate(
-        &mut self,
-        _: StateId,
-        words: &[u64],
-        _: &[OperatorId],
-        preferred: &mut Vec<OperatorId>,
-    ) -> Estimate {
-        self.relaxed_plan(words, preferred)
+    fn estimate(&mut self, view: &View<'_>, preferred: Option<&mut Vec<OperatorId>>) -> Estimate {
+        self.relaxed_plan(view.words, preferred)
     }
 }

@@ -1,22 +1,22 @@
 //! How many literals of the goal do not hold. Neither admissible nor consistent; safe.
 
-use super::{Estimate, Heuristic};
-use crate::ids::{OperatorId, StateId, id32};
+use super::{Estimate, Heuristic, View};
+use crate::ids::{OperatorId, id32};
 use crate::task::{Goal, contains};
 
-pub(crate) struct GoalCount<'t> {
-    goal: &'t Goal,
+pub(crate) struct GoalCount<'a> {
+    goal: &'a Goal,
 }
 
-impl<'t> GoalCount<'t> {
-    pub(crate) fn new(goal: &'t Goal) -> Self {
+impl<'a> GoalCount<'a> {
+    pub(crate) fn new(goal: &'a Goal) -> Self {
         Self { goal }
     }
 }
 
 impl Heuristic for GoalCount<'_> {
-    fn estimate(&mut self, _: StateId, words: &[u64], _: &[OperatorId], _: &mut Vec<OperatorId>) -> Estimate {
-        Estimate(open_goals(self.goal, words))
+    fn estimate(&mut self, view: &View<'_>, _: Option<&mut Vec<OperatorId>>) -> Estimate {
+        Estimate(open_goals(self.goal, view.words))
     }
 }
 

@@ -9,14 +9,15 @@
 //! anyway?", ICAPS 2009.
 
 use super::explorer::UNREACHED;
-use super::{Combine, Costs, Estimate, Explorer, Heuristic};
-use crate::ids::{OperatorId, StateId, id32};
-use crate::search::Barred;
-use crate::task::{AXIOM, Goal, Relaxation, Rows, Task};
+use super::{Combine, Costs, Estimate, Explorer, Heuristic, View};
+use crate::ids::{OperatorId, id32};
+use crate::search::{Job, Meter};
+use crate::task::{AXIOM, Relaxation, Rows};
 
-pub(crate) struct LmCut<'t> {
-    graph: &'t Relaxation,
-    explorer: Explorer<'t>,
+pub(crate) struct LmCut<'a> {
+    graph: &'a Relaxation,
+    meter: &'a Meter<'a>,
+    explorer: Explorer<'a>,
     goal: Vec<u32>,
     achieved_by: Rows,
     costs: Vec<u32>,
@@ -27,15 +28,15 @@ pub(crate) struct LmCut<'t> {
     waiting: Vec<Vec<u32>>,
 }
 
-impl<'t> LmCut<'t> {
-    pub(crate) fn new(task: &'t Task, goal: &Goal, barred: &Barred, costs: Costs) -> Self {
-        let graph = &task.relaxation;
-        let price = |cost| if costs == Costs::Unit { 1 } else { cost };
+impl<'a> LmCut<'a> {
+    pub(crate) fn new(job: &Job<'a>, costs: Costs) -> Self {
+        let graph = &job.task.relaxation;
         Self {
-            explorer: Explorer::new(task, Vec::new(), barred, costs, Combine::Max),
-            goal: graph.literals(&goal.literals),
+            meter: job.meter,
+            explorer: Explorer::new(job, Vec::new(), costs, Combine::Max),
+            goal: graph.literals(&job.goal.literals),
             achieved_by: graph.effects.transposed(graph.propositions()),
-            costs: task.operators.iter().map(|o| price(o.cost)).collect(),
+            costs: job.task.operators.iter().map(|o| costs.of(o.cost)).collect(),
             remaining: Vec::new(),
             dearest: vec![UNREACHED; graph.nodes()],
             waiting: vec![Vec::new(); graph.propositions()],
@@ -113,7 +114,8 @@ impl<'t> LmCut<'t> {
 }
 
 impl Heuristic for LmCut<'_> {
-    fn estimate(&mut self, _: StateId, words: &[u64], _: &[OperatorId], _: &mut Vec<OperatorId>) -> Estimate {
+    fn estimate(&mut self, view: &View<'_>, _: Option<&mut Vec<OperatorId>>) -> Estimate {
+        let words = view.words;
         self.remaining.clone_from(&self.costs);
         let mut total = 0_u32;
         loop {
@@ -121,6 +123,9 @@ impl Heuristic for LmCut<'_> {
                 self.explorer.set_cost(node, self.price(node));
             }
             self.explorer.explore(words);
+            if self.meter.is_stopped() {
+                return Estimate(total);
+            }
             let Some(&goal) = self.goal.iter().max_by_key(|&&p| self.explorer.cost(p)) else {
                 return Estimate(0);
             };

@@ -2,24 +2,24 @@
 //!
 //! Source: Bonet & Geffner, "Planning as heuristic search", AIJ 2001, §4.
 
-use super::{Combine, Costs, Estimate, Explorer, Heuristic};
-use crate::ids::{OperatorId, StateId};
-use crate::search::Barred;
-use crate::task::{Goal, Task};
+use super::{Combine, Costs, Estimate, Explorer, Heuristic, View};
+use crate::ids::OperatorId;
+use crate::search::Job;
 
-pub(crate) struct Max<'t> {
-    explorer: Explorer<'t>,
+pub(crate) struct Max<'a> {
+    explorer: Explorer<'a>,
 }
 
-impl<'t> Max<'t> {
-    pub(crate) fn new(task: &'t Task, goal: &Goal, barred: &Barred, costs: Costs) -> Self {
-        let goal = task.relaxation.literals(&goal.literals);
-        Self { explorer: Explorer::new(task, goal, barred, costs, Combine::Max) }
+impl<'a> Max<'a> {
+    pub(crate) fn new(job: &Job<'a>, costs: Costs) -> Self {
+        let goal = job.task.relaxation.literals(&job.goal.literals);
+        Self { explorer: Explorer::new(job, goal, costs, Combine::Max) }
     }
 }
 
 impl Heuristic for Max<'_> {
-    fn estimate(&mut self, _: StateId, words: &[u64], _: &[OperatorId], _: &mut Vec<OperatorId>) -> Estimate {
+    fn estimate(&mut self, view: &View<'_>, _: Option<&mut Vec<OperatorId>>) -> Estimate {
+        let words = view.words;
         if !self.explorer.explore(words) {
             return Estimate::DEAD_END;
         }

@@ -3,6 +3,7 @@
 //! A heuristic estimates how far a state is from the goal of one query. It declares what a search
 //! may rely on ([`Properties`]); a test walks the registry of configurations and holds it to that.
 
+mod add;
 mod blind;
 mod explorer;
 mod ff;
@@ -16,8 +17,8 @@ pub(crate) use ff::Ff;
 use landmarks::LandmarkCount;
 
 use crate::ids::{OperatorId, StateId};
-use crate::search::Barred;
-use crate::task::{Goal, State, Task};
+use crate::search::Job;
+use add::Add;
 use blind::Blind;
 use goal_count::GoalCount;
 use lm_cut::LmCut;
@@ -39,8 +40,21 @@ pub struct Properties {
 pub enum Costs {
     /// Each operator counts 1: estimates the length of the plan.
     Unit,
+    /// Operators count what they cost and 1 more, so that no step is free.
+    PlusOne,
     /// Operators count what they cost.
     Real,
+}
+
+impl Costs {
+    /// What an operator of this cost counts.
+    pub(crate) fn of(self, cost: u32) -> u32 {
+        match self {
+            Self::Unit => 1,
+            Self::PlusOne => cost.saturating_add(1),
+            Self::Real => cost,
+        }
+    }
 }
 
 /// The estimators that configurations name. All support conditional effects, axioms and negation.
@@ -52,6 +66,8 @@ pub enum HeuristicKind {
     GoalCount,
     /// Cost of the dearest proposition of the goal in the delete relaxation.
     Max,
+    /// Sum of the costs of the goal's propositions in the delete relaxation.
+    Add,
     /// Cost of a relaxed plan.
     Ff,
     /// Landmarks still to be achieved.
@@ -63,34 +79,28 @@ pub enum HeuristicKind {
 impl HeuristicKind {
     /// Every kind.
     pub const ALL: &'static [Self] =
-        &[Self::Blind, Self::GoalCount, Self::Max, Self::Ff, Self::Landmarks, Self::LmCut];
+        &[Self::Blind, Self::GoalCount, Self::Max, Self::Add, Self::Ff, Self::Landmarks, Self::LmCut];
 
     /// What holds of it with real costs.
     pub fn properties(self) -> Properties {
         let (admissible, consistent) = match self {
             Self::Blind | Self::Max => (true, true),
             Self::LmCut => (true, false),
-            Self::GoalCount | Self::Ff | Self::Landmarks => (false, false),
+            Self::GoalCount | Self::Add | Self::Ff | Self::Landmarks => (false, false),
         };
         Properties { admissible, consistent, safe: true }
     }
 
-    /// An estimator for one query.
-    pub(crate) fn build<'t>(
-        self,
-        task: &'t Task,
-        state: &State,
-        goal: &'t Goal,
-        barred: &Barred,
-        costs: Costs,
-    ) -> Box<dyn Heuristic + 't> {
+    /// An estimator for one job. Where its meter is stopped meanwhile, it is of no use.
+    pub(crate) fn build<'a>(self, job: &Job<'a>, costs: Costs) -> Box<dyn Heuristic + Send + 'a> {
         match self {
             Self::Blind => Box::new(Blind),
-            Self::GoalCount => Box::new(GoalCount::new(goal)),
-            Self::Max => Box::new(Max::new(task, goal, barred, costs)),
-            Self::Ff => Box::new(Ff::new(task, goal, barred, costs)),
-            Self::Landmarks => Box::new(LandmarkCount::new(task, state, goal, barred)),
-            Self::LmCut => Box::new(LmCut::new(task, goal, barred, costs)),
+            Self::GoalCount => Box::new(GoalCount::new(job.goal)),
+            Self::Max => Box::new(Max::new(job, costs)),
+            Self::Add => Box::new(Add::new(job, costs)),
+            Self::Ff => Box::new(Ff::new(job, costs)),
+            Self::Landmarks => Box::new(LandmarkCount::new(job)),
+            Self::LmCut => Box::new(LmCut::new(job, costs)),
         }
     }
 }
@@ -103,17 +113,20 @@ impl Estimate {
     pub(crate) const DEAD_END: Self = Self(u32::MAX);
 }
 
+/// What an estimator may look at.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct View<'v> {
+    pub(crate) id: StateId,
+    pub(crate) words: &'v [u64],
+    /// The operators that are applicable.
+    pub(crate) applicable: &'v [OperatorId],
+}
+
 /// An estimator bound to a task, a goal and the operators that may be used.
 pub(crate) trait Heuristic {
-    /// Estimates a state. Appends to `preferred` those of the `applicable` operators that look
-    /// promising.
-    fn estimate(
-        &mut self,
-        id: StateId,
-        words: &[u64],
-        applicable: &[OperatorId],
-        preferred: &mut Vec<OperatorId>,
-    ) -> Estimate;
+    /// Estimates a state. Where `preferred` is given, appends those of the applicable operators that
+    /// look promising.
+    fn estimate(&mut self, view: &View<'_>, preferred: Option<&mut Vec<OperatorId>>) -> Estimate;
 
     /// Told of the first state, before any estimate.
     fn start(&mut self, _id: StateId, _words: &[u64]) {}

@@ -1,30 +1,38 @@
 //! Best-first width search, BFWS(f5).
 //!
-//! Problem: heuristics are dear, and plateaus long. Idea: prefer states that are novel, that is, make
-//! some fact true that no state with the same two counters has had: open goals (`#g`), and facts of
-//! a relaxed plan achieved since `#g` last fell (`#r`). The queue orders by novelty, then by open
-//! goals. A relaxed plan is computed only where `#g` falls, so states are cheap. Complete unless
-//! states without novelty are dropped ([`Width::One`]).
+//! Problem: heuristics are dear, and plateaus long. Idea: prefer states that are novel, that is, show
+//! some fact (or pair of facts) that no state with the same two counters has shown: open goals
+//! (`#g`), and facts of a relaxed plan achieved since `#g` last fell (`#r`). The queue orders by
+//! novelty, then by open goals. A relaxed plan is computed only where `#g` falls, so states are cheap.
+//! Complete unless states without novelty are dropped ([`Width::One`], [`Width::Two`]).
 //!
 //! Source: Lipovetzky & Geffner, "Best-first width search: exploration and exploitation in classical
-//! planning", AAAI 2017.
+//! planning", AAAI 2017; the same, "A polynomial planning algorithm that beats LAMA and FF", ICAPS 2017.
 
+use super::novelty::{Novelty, NoveltyTable};
 use super::open_list::OpenList;
 use super::registry::StateRegistry;
-use super::{Barred, Budget, Limit, Outcome, Plan, Query, Report, Statistics, UnsolvableReason};
+use super::{Job, Limit, Outcome, Plan, Searcher, Signal, Statistics, Turn, UnsolvableReason};
 use crate::heuristics::goal_count::open_goals;
 use crate::heuristics::{Costs, Estimate, Ff};
-use crate::ids::{OperatorId, StateId, id32};
-use crate::task::{Task, contains};
-use rustc_hash::FxHashMap;
+use crate::ids::{FactId, OperatorId, StateId, id32};
+use crate::task::contains;
 
-/// What happens to states that are not novel.
+/// Bytes for pairs of facts, at most.
+const PAIRS: usize = 1 << 29;
+
+/// What counts as novel, and what happens to states that are not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Width {
-    /// They are dropped: polynomial and incomplete.
+    /// States without a new fact are dropped: polynomial and incomplete.
     One,
-    /// They wait behind all others.
-    Any,
+    /// States without a new pair of facts are dropped: polynomial and incomplete.
+    Two,
+    /// States without a new fact wait behind all others.
+    AnyOne,
+    /// States without a new pair of facts wait behind those that have one, and these behind those that
+    /// have a new fact.
+    AnyTwo,
 }
 
 /// Facts to count since the number of open goals last fell.
@@ -39,134 +47,157 @@ struct Node {
     counter: u32,
     marks: u32,
     achieved: u32,
+    cost: u64,
 }
 
-struct Bfws<'t> {
-    task: &'t Task,
-    barred: Barred,
-    ff: Ff<'t>,
+/// The search.
+pub(crate) struct Bfws<'a> {
+    job: Job<'a>,
+    ff: Ff<'a>,
     registry: StateRegistry,
     nodes: Vec<Node>,
     counters: Vec<Counter>,
+    counted: usize,
     marks: Vec<u64>,
-    seen: FxHashMap<(u32, u32), Box<[u64]>>,
+    novelty: NoveltyTable,
     open: OpenList<StateId>,
     width: Width,
+    begun: bool,
     dropped: bool,
     statistics: Statistics,
+    successors: Vec<OperatorId>,
+    here: Vec<u64>,
+    next: Vec<u64>,
 }
 
-/// Runs the search.
-pub(crate) fn search(task: &Task, query: &Query<'_>, width: Width, budget: &Budget<'_>) -> Report {
-    let barred = query.barred(task);
-    let mut search = Bfws {
-        task,
-        ff: Ff::new(task, query.goal, &barred, Costs::Unit),
-        barred,
-        registry: StateRegistry::new(task.words_per_state()),
-        nodes: Vec::new(),
-        counters: Vec::new(),
-        marks: Vec::new(),
-        seen: FxHashMap::default(),
-        open: OpenList::new(),
-        width,
-        dropped: false,
-        statistics: Statistics::default(),
-    };
-    let outcome = search.run(query, budget);
-    Report { outcome, statistics: search.statistics }
-}
-
-impl Bfws<'_> {
-    fn run(&mut self, query: &Query<'_>, budget: &Budget<'_>) -> Outcome {
-        let mut here = query.state.words().to_vec();
-        let mut next = here.clone();
-        let (start, _) = self.registry.insert(&here, None);
-        if query.goal.holds_in(&here) {
-            return Outcome::Solved(Plan::of(self.task, Vec::new()));
-        }
-        self.add(start, &here, open_goals(query.goal, &here), None);
-        let mut successors = Vec::new();
-        let mut calls = 0;
-        while let Some(id) = self.open.pop() {
-            self.statistics.expanded += 1;
-            here.copy_from_slice(self.registry.words(id));
-            successors.clear();
-            self.task.successors.applicable(&here, &mut successors);
-            self.barred.filter(&mut successors);
-            for &operator in &successors {
-                calls += 1;
-                if let Some(limit) = budget.exceeded(self.statistics.expanded, self.memory(), calls) {
-                    return Outcome::LimitReached(limit);
+impl<'a> Bfws<'a> {
+    pub(crate) fn new(job: Job<'a>, width: Width) -> Self {
+        let words = job.task.words_per_state();
+        Self {
+            ff: Ff::new(&job, Costs::Unit),
+            registry: StateRegistry::new(words),
+            nodes: Vec::new(),
+            counters: Vec::new(),
+            counted: 0,
+            marks: Vec::new(),
+            novelty: match width {
+                Width::One | Width::AnyOne => NoveltyTable::of_facts(words),
+                Width::Two | Width::AnyTwo => {
+                    NoveltyTable::of_pairs(words, PAIRS.min(job.meter.whole().bytes / 4))
                 }
-                next.copy_from_slice(&here);
-                self.task.apply(operator, &here, &mut next);
-                self.statistics.generated += 1;
-                let (child, new) = self.registry.insert(&next, Some((id, operator)));
-                if !new {
-                    continue;
-                }
-                let goals = open_goals(query.goal, &next);
-                if goals == 0 {
-                    return Outcome::Solved(Plan::of(self.task, self.registry.path(child)));
-                }
-                self.add(child, &next, goals, Some((id, operator)));
-            }
-        }
-        if self.dropped {
-            Outcome::LimitReached(Limit::Incomplete)
-        } else {
-            Outcome::Unsolvable(UnsolvableReason::SpaceExhausted)
+            },
+            open: OpenList::new(),
+            width,
+            begun: false,
+            dropped: false,
+            statistics: Statistics::default(),
+            successors: Vec::new(),
+            here: job.state.words().to_vec(),
+            next: job.state.words().to_vec(),
+            job,
         }
     }
 
-    /// Counts, judges and queues a new state.
-    fn add(&mut self, id: StateId, words: &[u64], goals: u32, from: Option<(StateId, OperatorId)>) {
+    fn begin(&mut self) -> Option<Outcome> {
+        let (start, _) = self.registry.insert(&self.next, None);
+        if self.job.goal.holds_in(&self.next) {
+            return Some(Outcome::Solved(Plan::of(self.job.task, Vec::new())));
+        }
+        self.add(start, open_goals(self.job.goal, &self.next), None, 0);
+        None
+    }
+
+    fn step(&mut self) -> Option<Outcome> {
+        let Some(id) = self.open.pop() else {
+            return Some(match self.dropped {
+                true => Outcome::LimitReached(Limit::Incomplete),
+                false => Outcome::Unsolvable(UnsolvableReason::SpaceExhausted),
+            });
+        };
+        let (task, meter) = (self.job.task, self.job.meter);
+        self.statistics.expanded += 1;
+        self.here.copy_from_slice(self.registry.words(id));
+        self.successors.clear();
+        task.successors.applicable(&self.here, &mut self.successors);
+        self.job.barred.filter(&mut self.successors);
+        for i in 0..self.successors.len() {
+            if meter.spend(self.next.len() + 16) {
+                return None;
+            }
+            let operator = self.successors[i];
+            let cost = self.nodes[id.0 as usize].cost + u64::from(task.operators[operator].cost);
+            if cost >= self.job.bound.get() {
+                self.dropped = true;
+                continue;
+            }
+            self.next.copy_from_slice(&self.here);
+            task.apply(operator, &self.here, &mut self.next);
+            self.statistics.generated += 1;
+            let (child, new) = self.registry.insert(&self.next, Some((id, operator)));
+            if !new {
+                continue;
+            }
+            let goals = open_goals(self.job.goal, &self.next);
+            if goals == 0 {
+                return Some(Outcome::Solved(Plan::of(task, self.registry.path(child))));
+            }
+            self.add(child, goals, Some(id), cost);
+        }
+        None
+    }
+
+    /// Counts, judges and queues the new state in `next`.
+    fn add(&mut self, id: StateId, goals: u32, from: Option<StateId>, cost: u64) {
         self.statistics.evaluated += 1;
-        let parent = from.map(|(s, _)| self.nodes[s.0 as usize]);
+        let parent = from.map(|s| self.nodes[s.0 as usize]);
         let node = match parent {
-            Some(parent) if goals >= parent.goals => self.count(words, Node { goals, ..parent }),
-            _ => match self.fresh_counter(words, goals) {
+            Some(parent) if goals >= parent.goals => self.count(Node { goals, cost, ..parent }),
+            _ => match self.fresh_counter(goals, cost) {
                 Some(node) => node,
                 None => {
                     // A dead end: known, never expanded.
-                    self.nodes.push(Node { goals, counter: 0, marks: 0, achieved: 0 });
+                    self.nodes.push(Node { goals, counter: 0, marks: 0, achieved: 0, cost });
                     return;
                 }
             },
         };
         self.nodes.push(node);
-        let novel = self.is_novel(words, node);
-        if !novel && self.width == Width::One {
-            self.dropped = true;
-            return;
-        }
-        self.open.push(u64::from(!novel) << 32 | u64::from(goals), id);
+        self.job.meter.spend(self.novelty.price());
+        let novelty = self.novelty.judge((node.goals, node.achieved), &self.next);
+        let rank = match (self.width, novelty) {
+            (_, Novelty::One) => 0,
+            (Width::Two | Width::AnyTwo, Novelty::Two) => 1,
+            (Width::One | Width::Two, _) => {
+                self.dropped = true;
+                return;
+            }
+            (Width::AnyOne | Width::AnyTwo, _) => 2,
+        };
+        self.open.push(rank << 32 | u64::from(goals), id);
     }
 
-    fn fresh_counter(&mut self, words: &[u64], goals: u32) -> Option<Node> {
-        let mut preferred = Vec::new();
-        if self.ff.relaxed_plan(words, &mut preferred) == Estimate::DEAD_END {
+    fn fresh_counter(&mut self, goals: u32, cost: u64) -> Option<Node> {
+        if self.ff.relaxed_plan(&self.next, None) == Estimate::DEAD_END {
             return None;
         }
-        let facts = self.task.facts().len();
+        let facts = self.job.task.facts().len();
         let mut achieved: Vec<u32> =
             self.ff.achieved().iter().copied().filter(|&p| (p as usize) < facts).collect();
         achieved.sort_unstable();
         let marks = id32(self.marks.len());
         self.marks.resize(self.marks.len() + achieved.len().div_ceil(64), 0);
+        self.counted += achieved.len();
         self.counters.push(Counter { facts: achieved });
-        Some(Node { goals, counter: id32(self.counters.len() - 1), marks, achieved: 0 })
+        Some(Node { goals, counter: id32(self.counters.len() - 1), marks, achieved: 0, cost })
     }
 
     /// The node with what of its counter holds now marked off.
-    fn count(&mut self, words: &[u64], mut node: Node) -> Node {
+    fn count(&mut self, mut node: Node) -> Node {
         let counter = &self.counters[node.counter as usize];
         let mut own = false;
         for (i, &fact) in counter.facts.iter().enumerate() {
             let (word, bit) = (i / 64, 1 << (i % 64));
-            if self.marks[node.marks as usize + word] & bit != 0 || !contains(words, crate::ids::FactId(fact))
-            {
+            if self.marks[node.marks as usize + word] & bit != 0 || !contains(&self.next, FactId(fact)) {
                 continue;
             }
             if !own {
@@ -182,24 +213,33 @@ impl Bfws<'_> {
         node
     }
 
-    fn is_novel(&mut self, words: &[u64], node: Node) -> bool {
-        let seen = self
-            .seen
-            .entry((node.goals, node.achieved))
-            .or_insert_with(|| vec![0; words.len()].into_boxed_slice());
-        let mut novel = false;
-        for (seen, &word) in seen.iter_mut().zip(words) {
-            novel |= word & !*seen != 0;
-            *seen |= word;
-        }
-        novel
-    }
-
     fn memory(&self) -> usize {
         self.registry.memory()
-            + self.nodes.len() * size_of::<Node>()
-            + self.marks.len() * 8
+            + self.nodes.capacity() * size_of::<Node>()
+            + self.counters.capacity() * size_of::<Counter>()
+            + self.counted * 4
+            + self.marks.capacity() * 8
             + self.open.memory()
-            + self.seen.len() * (self.task.words_per_state() * 8 + 32)
+            + self.novelty.memory()
+    }
+}
+
+impl Searcher for Bfws<'_> {
+    fn advance(&mut self, turn: &Turn) -> Option<Outcome> {
+        loop {
+            match self.job.meter.signal(turn, self.statistics.expanded, self.memory()) {
+                Signal::Go => {}
+                Signal::Pause => return None,
+                Signal::Stop(limit) => return Some(Outcome::LimitReached(limit)),
+            }
+            let answer = if std::mem::replace(&mut self.begun, true) { self.step() } else { self.begin() };
+            if answer.is_some() {
+                return answer;
+            }
+        }
+    }
+
+    fn statistics(&self) -> Statistics {
+        self.statistics
     }
 }

@@ -1,14 +1,15 @@
 //! What a search may use up.
 //!
-//! The core reads no clock: a deadline is the caller's closure. Searches ask it every few
-//! evaluations, so that a cancellation is seen within milliseconds.
+//! The core reads no clock: a deadline is the caller's closure. It is asked every fraction of a
+//! millisecond, also while heuristics are being built, so that a cancellation is seen at once.
 
 /// Limits of one call. The default has none.
 #[derive(Clone, Copy)]
 pub struct Budget<'a> {
     /// Most expanded states.
     pub expansions: Option<u64>,
-    /// Most bytes for states and open lists.
+    /// Most bytes for what grows with a search: states, open lists, what heuristics and novelty remember.
+    /// The task and the scratch of heuristics, which are as large as the task, are not counted.
     pub memory_bytes: Option<usize>,
     /// `true` ends the search.
     pub interrupted: &'a (dyn Fn() -> bool + Sync),
@@ -40,20 +41,4 @@ pub enum Limit {
     Memory,
     /// An incomplete search gave up without an answer.
     Incomplete,
-}
-
-impl Budget<'_> {
-    /// The limit that is exceeded. The closure is asked where `turn` is a
-    /// multiple of 16: searches whose steps are dear pass 0.
-    pub(crate) fn exceeded(&self, expanded: u64, bytes: usize, turn: u64) -> Option<Limit> {
-        if self.expansions.is_some_and(|most| expanded >= most) {
-            Some(Limit::Expansions)
-        } else if self.memory_bytes.is_some_and(|most| bytes > most) {
-            Some(Limit::Memory)
-        } else if turn.is_multiple_of(16) && (self.interrupted)() {
-            Some(Limit::Interrupted)
-        } else {
-            None
-        }
-    }
 }

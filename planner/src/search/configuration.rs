@@ -3,27 +3,59 @@
 //! A test walks [`SearchConfiguration::ALL`] and compares answers and optimal costs, so a new row is
 //! tested the day it is added.
 
-use super::bfws::Width;
-use crate::heuristics::{Costs, HeuristicKind};
+use super::anytime::Improving;
+use super::bfws::{Bfws, Width};
+use super::eager::{Eager, EagerSettings};
+use super::hill_climbing::HillClimbing;
+use super::lazy::{Lazy, LazySettings};
+use super::portfolio::Threads;
+use super::{Job, Searcher};
+use crate::heuristics::{Costs, Estimate, HeuristicKind};
+use HeuristicKind::{Add, Blind, Ff, GoalCount, Landmarks, LmCut, Max};
+
+/// What a best-first search sorts states by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// The estimate alone. States keep the first way that was found.
+    Greedy,
+    /// The cost so far plus so many times the estimate.
+    Weighted(u32),
+}
+
+impl Order {
+    pub(crate) fn key(self, cost: u64, estimate: Estimate) -> u64 {
+        match self {
+            Self::Greedy => u64::from(estimate.0),
+            Self::Weighted(weight) => cost.saturating_add(u64::from(weight) * u64::from(estimate.0)),
+        }
+    }
+}
 
 /// A search algorithm with its parameters.
 #[derive(Clone, Copy, Debug)]
 pub enum Engine {
-    /// Greedy best-first with deferred evaluation and preferred operators.
-    Lazy {
-        /// One pair of open lists each.
-        heuristics: &'static [HeuristicKind],
-        /// What they count.
-        costs: Costs,
-    },
-    /// A*, optimal with an admissible heuristic.
-    AStar(HeuristicKind),
+    /// Best-first with deferred evaluation and preferred operators.
+    Lazy(LazySettings),
+    /// Best-first that estimates what it generates: A* and its kin.
+    Eager(EagerSettings),
+    /// Enforced hill-climbing on relaxed plans.
+    HillClimbing,
     /// Best-first width search.
     Bfws(Width),
-    /// One after the other, each with its most expansions.
-    Sequence(&'static [(Engine, Option<u64>)]),
-    /// All at once, a thread each.
-    Parallel(&'static [Engine]),
+    /// Searches for better and better plans below a bound.
+    Improving,
+}
+
+impl Engine {
+    pub(crate) fn start<'a>(self, job: Job<'a>) -> Box<dyn Searcher + Send + 'a> {
+        match self {
+            Self::Lazy(settings) => Box::new(Lazy::new(job, &settings)),
+            Self::Eager(settings) => Box::new(Eager::new(job, &settings)),
+            Self::HillClimbing => Box::new(HillClimbing::new(job)),
+            Self::Bfws(width) => Box::new(Bfws::new(job, width)),
+            Self::Improving => Box::new(Improving::new(job)),
+        }
+    }
 }
 
 /// A named configuration.
@@ -37,40 +69,115 @@ pub struct SearchConfiguration {
     pub optimal: bool,
     /// Whether the same call always gives the same answer.
     pub deterministic: bool,
-    pub(crate) engine: Engine,
+    /// Whether it finds a plan wherever there is one, given time and memory.
+    pub complete: bool,
+    /// Searches that take turns, each with its weight.
+    pub(crate) members: &'static [(Engine, u32)],
+    pub(crate) threads: Threads,
 }
 
-const LAZY_FF: Engine = Engine::Lazy { heuristics: &[HeuristicKind::Ff], costs: Costs::Unit };
-const LAMA: Engine =
-    Engine::Lazy { heuristics: &[HeuristicKind::Ff, HeuristicKind::Landmarks], costs: Costs::Unit };
-const BFWS: Engine = Engine::Bfws(Width::Any);
+const fn lazy(heuristics: &'static [HeuristicKind], preferred: &'static [HeuristicKind]) -> Engine {
+    Engine::Lazy(LazySettings { heuristics, preferred, costs: Costs::Unit, order: Order::Greedy })
+}
+
+const fn eager(heuristic: HeuristicKind, costs: Costs, order: Order) -> Engine {
+    Engine::Eager(EagerSettings { heuristic, costs, order })
+}
+
+const fn greedy(heuristic: HeuristicKind) -> Engine {
+    eager(heuristic, Costs::Unit, Order::Greedy)
+}
+
+const fn astar(heuristic: HeuristicKind) -> Engine {
+    eager(heuristic, Costs::Real, Order::Weighted(1))
+}
+
+const LAMA: Engine = lazy(&[Ff, Landmarks], &[Ff, Landmarks]);
+const BFWS: Engine = Engine::Bfws(Width::AnyOne);
 
 impl SearchConfiguration {
     /// Every configuration; the first is the default.
     pub const ALL: &'static [Self] = &[
-        Self::row("lama", "greedy search on relaxed plans and landmarks with preferred operators", LAMA),
-        Self::row("lazy-ff", "greedy search on relaxed plans with preferred operators", LAZY_FF),
-        Self::row("bfws", "best-first width search on novelty and goal counts", BFWS),
         Self::row(
-            "bfws-1",
-            "the same, dropping what is not novel: fast and incomplete",
-            Engine::Bfws(Width::One),
+            "lama",
+            "greedy search on relaxed plans and landmarks with preferred operators",
+            &[(LAMA, 1)],
         ),
         Self {
             deterministic: false,
-            ..Self::row("dual", "lama and bfws at once", Engine::Parallel(&[LAMA, BFWS]))
+            threads: Threads::Two,
+            ..Self::row(
+                "dual",
+                "lama and bfws in turns, on two threads where it pays",
+                &[(LAMA, 1), (BFWS, 1)],
+            )
         },
-        Self::optimal("astar-lmcut", "A* with landmark cuts: optimal", HeuristicKind::LmCut),
-        Self::optimal("astar-max", "A* with hmax: optimal", HeuristicKind::Max),
-        Self::optimal("astar-blind", "uniform-cost search: optimal", HeuristicKind::Blind),
+        Self::row(
+            "lazy-ff",
+            "greedy search on relaxed plans with preferred operators",
+            &[(lazy(&[Ff], &[Ff]), 1)],
+        ),
+        Self::row("lazy-landmarks", "greedy search on landmarks", &[(lazy(&[Landmarks], &[]), 1)]),
+        Self::row("bfws", "best-first width search on novelty and goal counts", &[(BFWS, 1)]),
+        Self::row(
+            "bfws-pairs",
+            "the same with novelty of pairs of facts",
+            &[(Engine::Bfws(Width::AnyTwo), 1)],
+        ),
+        Self::incomplete(
+            "bfws-1",
+            "bfws without what is not novel: fast and incomplete",
+            &[(Engine::Bfws(Width::One), 1)],
+        ),
+        Self::incomplete(
+            "bfws-2",
+            "bfws-pairs without what is not novel: incomplete",
+            &[(Engine::Bfws(Width::Two), 1)],
+        ),
+        Self::incomplete(
+            "hill",
+            "enforced hill-climbing on relaxed plans: incomplete",
+            &[(Engine::HillClimbing, 1)],
+        ),
+        Self::row("greedy-ff", "eager greedy search on relaxed plans", &[(greedy(Ff), 1)]),
+        Self::row("greedy-add", "eager greedy search on sums of costs", &[(greedy(Add), 1)]),
+        Self::row("greedy-max", "eager greedy search on maxima of costs", &[(greedy(Max), 1)]),
+        Self::row("greedy-goals", "eager greedy search on open goals", &[(greedy(GoalCount), 1)]),
+        Self::row("greedy-landmarks", "eager greedy search on landmarks", &[(greedy(Landmarks), 1)]),
+        Self::row("greedy-lmcut", "eager greedy search on landmark cuts", &[(greedy(LmCut), 1)]),
+        Self::row("greedy-blind", "breadth-first search", &[(greedy(Blind), 1)]),
+        Self::row(
+            "wastar-ff",
+            "weighted A* (3) on relaxed plans",
+            &[(eager(Ff, Costs::Real, Order::Weighted(3)), 1)],
+        ),
+        Self::optimal("astar-lmcut", "A* with landmark cuts: optimal", &[(astar(LmCut), 1)]),
+        Self::optimal("astar-max", "A* with hmax: optimal", &[(astar(Max), 1)]),
+        Self::optimal("astar-blind", "uniform-cost search: optimal", &[(astar(Blind), 1)]),
     ];
 
-    const fn row(name: &'static str, summary: &'static str, engine: Engine) -> Self {
-        Self { name, summary, optimal: false, deterministic: true, engine }
+    const fn row(name: &'static str, summary: &'static str, members: &'static [(Engine, u32)]) -> Self {
+        Self {
+            name,
+            summary,
+            optimal: false,
+            deterministic: true,
+            complete: true,
+            members,
+            threads: Threads::One,
+        }
     }
 
-    const fn optimal(name: &'static str, summary: &'static str, heuristic: HeuristicKind) -> Self {
-        Self { name, summary, optimal: true, deterministic: true, engine: Engine::AStar(heuristic) }
+    const fn incomplete(
+        name: &'static str,
+        summary: &'static str,
+        members: &'static [(Engine, u32)],
+    ) -> Self {
+        Self { complete: false, ..Self::row(name, summary, members) }
+    }
+
+    const fn optimal(name: &'static str, summary: &'static str, members: &'static [(Engine, u32)]) -> Self {
+        Self { optimal: true, ..Self::row(name, summary, members) }
     }
 
     /// The configuration of that name.

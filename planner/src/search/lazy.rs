@@ -1,148 +1,182 @@
-//! Greedy best-first search with deferred evaluation, several heuristics and preferred operators.
+//! Best-first search with deferred evaluation, several heuristics and preferred operators.
 //!
 //! Idea: a state is estimated when it is taken from an open list, and its successors are queued
 //! under its own estimate, so that only states worth visiting are ever built. Each heuristic has a
 //! list of all successors and one of the preferred ones; lists take turns, and the preferred ones get
-//! a boost whenever some heuristic finds a new best. Complete; not optimal.
+//! a boost whenever some heuristic finds a new best. Greedy, or weighted A* with states reopened when
+//! a cheaper way is found. Complete; not optimal.
 //!
 //! Source: Richter & Westphal, "The LAMA planner", JAIR 2010, §3 and §5; Helmert 2006, §5.3.
 
 use super::open_list::OpenList;
 use super::registry::StateRegistry;
-use super::{Barred, Budget, Limit, Outcome, Plan, Query, Report, Statistics, UnsolvableReason};
-use crate::heuristics::{Costs, Estimate, Heuristic, HeuristicKind};
+use super::{Job, Limit, Order, Outcome, Plan, Searcher, Signal, Statistics, Turn, UnsolvableReason};
+use crate::heuristics::{Costs, Estimate, Heuristic, HeuristicKind, View};
 use crate::ids::{OperatorId, StateId};
-use crate::task::Task;
 
 /// How much a new best estimate moves the preferred lists ahead.
 const BOOST: i64 = 1000;
 
+/// The parameters.
+#[derive(Clone, Copy, Debug)]
+pub struct LazySettings {
+    /// One pair of open lists each.
+    pub heuristics: &'static [HeuristicKind],
+    /// Those of them whose preferred operators are tried first.
+    pub preferred: &'static [HeuristicKind],
+    /// What the heuristics count.
+    pub costs: Costs,
+    /// What the queues are sorted by.
+    pub order: Order,
+}
+
 /// A successor that is not built yet.
 type Edge = (StateId, OperatorId);
 
-struct Lists {
+struct Lists<'a> {
+    heuristic: Box<dyn Heuristic + Send + 'a>,
+    prefers: bool,
     open: OpenList<Edge>,
     preferred: OpenList<Edge>,
     open_priority: i64,
     preferred_priority: i64,
     best: Estimate,
+    /// Of the state that is being visited.
+    estimate: Estimate,
 }
 
-struct Lazy<'t> {
-    task: &'t Task,
-    barred: Barred,
-    heuristics: Vec<Box<dyn Heuristic + 't>>,
-    lists: Vec<Lists>,
+/// The search.
+pub(crate) struct Lazy<'a> {
+    job: Job<'a>,
+    order: Order,
+    lists: Vec<Lists<'a>>,
     registry: StateRegistry,
+    /// The cost of the way by which each state was reached.
+    reached_at: Vec<u64>,
+    begun: bool,
+    /// Whether a state was left out that may have been on a way that is cheap enough.
+    pruned: bool,
     statistics: Statistics,
+    successors: Vec<OperatorId>,
+    preferred: Vec<OperatorId>,
+    next: Vec<u64>,
 }
 
-/// Runs the search.
-pub(crate) fn search(
-    task: &Task,
-    query: &Query<'_>,
-    kinds: &[HeuristicKind],
-    costs: Costs,
-    budget: &Budget<'_>,
-) -> Report {
-    let barred = query.barred(task);
-    let heuristics: Vec<_> =
-        kinds.iter().map(|k| k.build(task, query.state, query.goal, &barred, costs)).collect();
-    let list = || Lists {
-        open: OpenList::new(),
-        preferred: OpenList::new(),
-        open_priority: 0,
-        preferred_priority: 0,
-        best: Estimate::DEAD_END,
-    };
-    let mut search = Lazy {
-        task,
-        barred,
-        lists: heuristics.iter().map(|_| list()).collect(),
-        heuristics,
-        registry: StateRegistry::new(task.words_per_state()),
-        statistics: Statistics::default(),
-    };
-    let outcome = search.run(query, budget);
-    Report { outcome, statistics: search.statistics }
-}
-
-impl Lazy<'_> {
-    fn run(&mut self, query: &Query<'_>, budget: &Budget<'_>) -> Outcome {
-        let mut next = query.state.words().to_vec();
-        let (mut current, _) = self.registry.insert(&next, None);
-        for h in &mut self.heuristics {
-            h.start(current, &next);
-        }
-        loop {
-            if query.goal.holds_in(&next) {
-                return Outcome::Solved(Plan::of(self.task, self.registry.path(current)));
-            }
-            self.visit(current, &next);
-            loop {
-                if let Some(limit) = budget.exceeded(self.statistics.expanded, self.memory(), 0) {
-                    return Outcome::LimitReached(limit);
-                }
-                let Some((from, operator)) = self.pop() else {
-                    return Outcome::Unsolvable(UnsolvableReason::SpaceExhausted);
-                };
-                let words = self.registry.words(from);
-                next.copy_from_slice(words);
-                self.task.apply(operator, words, &mut next);
-                self.statistics.generated += 1;
-                let (id, new) = self.registry.insert(&next, Some((from, operator)));
-                for h in &mut self.heuristics {
-                    h.step(from, operator, id, &next);
-                }
-                if new {
-                    current = id;
-                    break;
-                }
-            }
-            if self.registry.len() >= u32::MAX as usize / 2 {
-                return Outcome::LimitReached(Limit::Memory);
-            }
+impl<'a> Lazy<'a> {
+    pub(crate) fn new(job: Job<'a>, settings: &LazySettings) -> Self {
+        let list = |kind: &HeuristicKind| Lists {
+            heuristic: kind.build(&job, settings.costs),
+            prefers: settings.preferred.contains(kind),
+            open: OpenList::new(),
+            preferred: OpenList::new(),
+            open_priority: 0,
+            preferred_priority: 0,
+            best: Estimate::DEAD_END,
+            estimate: Estimate::DEAD_END,
+        };
+        Self {
+            lists: settings.heuristics.iter().map(list).collect(),
+            order: settings.order,
+            registry: StateRegistry::new(job.task.words_per_state()),
+            reached_at: Vec::new(),
+            begun: false,
+            pruned: false,
+            statistics: Statistics::default(),
+            successors: Vec::new(),
+            preferred: Vec::new(),
+            next: job.state.words().to_vec(),
+            job,
         }
     }
 
-    /// Estimates a state and queues its successors.
-    fn visit(&mut self, id: StateId, words: &[u64]) {
-        let mut successors = Vec::new();
-        self.task.successors.applicable(words, &mut successors);
-        self.barred.filter(&mut successors);
-        let mut preferred = Vec::new();
-        let mut estimates = Vec::with_capacity(self.heuristics.len());
-        self.statistics.evaluated += 1;
-        for h in &mut self.heuristics {
-            let estimate = h.estimate(id, words, &successors, &mut preferred);
-            // All our heuristics are safe: one dead end is enough.
-            if estimate == Estimate::DEAD_END {
-                return;
+    fn begin(&mut self) -> Option<Outcome> {
+        let (start, _) = self.registry.insert(&self.next, None);
+        self.reached_at.push(0);
+        for list in &mut self.lists {
+            list.heuristic.start(start, &self.next);
+        }
+        self.visit(start)
+    }
+
+    /// Builds the next state of the lists; visits it if it is new, or cheaper than before.
+    fn step(&mut self) -> Option<Outcome> {
+        let Some((from, operator)) = self.pop() else {
+            return Some(match self.pruned {
+                true => Outcome::LimitReached(Limit::Incomplete),
+                false => Outcome::Unsolvable(UnsolvableReason::SpaceExhausted),
+            });
+        };
+        let task = self.job.task;
+        let cost = self.reached_at[from.0 as usize] + u64::from(task.operators[operator].cost);
+        if cost >= self.job.bound.get() {
+            self.pruned |= self.order == Order::Greedy;
+            return None;
+        }
+        let words = self.registry.words(from);
+        self.next.copy_from_slice(words);
+        task.apply(operator, words, &mut self.next);
+        self.statistics.generated += 1;
+        self.job.meter.spend(self.next.len() + 16);
+        let (id, new) = self.registry.insert(&self.next, Some((from, operator)));
+        for list in &mut self.lists {
+            list.heuristic.step(from, operator, id, &self.next);
+        }
+        if new {
+            self.reached_at.push(cost);
+        } else {
+            let known = &mut self.reached_at[id.0 as usize];
+            if self.order == Order::Greedy || *known <= cost {
+                return None;
             }
-            estimates.push(estimate);
+            *known = cost;
+            self.registry.reparent(id, from, operator);
+        }
+        self.visit(id)
+    }
+
+    /// Tests and estimates the state in `next`, and queues its successors.
+    fn visit(&mut self, id: StateId) -> Option<Outcome> {
+        let task = self.job.task;
+        if self.job.goal.holds_in(&self.next) {
+            return Some(Outcome::Solved(Plan::of(task, self.registry.path(id))));
+        }
+        self.successors.clear();
+        task.successors.applicable(&self.next, &mut self.successors);
+        self.job.barred.filter(&mut self.successors);
+        self.job.meter.spend(self.successors.len() * 4);
+        self.preferred.clear();
+        self.statistics.evaluated += 1;
+        let view = View { id, words: &self.next, applicable: &self.successors };
+        for list in &mut self.lists {
+            list.estimate = list.heuristic.estimate(&view, list.prefers.then_some(&mut self.preferred));
+            // All our heuristics are safe: one dead end is enough.
+            if list.estimate == Estimate::DEAD_END {
+                return None;
+            }
         }
         let mut progress = false;
-        for (list, &estimate) in self.lists.iter_mut().zip(&estimates) {
-            if estimate < list.best {
-                list.best = estimate;
-                progress = true;
-            }
+        for list in &mut self.lists {
+            progress |= list.estimate < list.best;
+            list.best = list.best.min(list.estimate);
         }
         if progress {
             self.lists.iter_mut().for_each(|l| l.preferred_priority -= BOOST);
         }
         self.statistics.expanded += 1;
-        self.barred.filter(&mut preferred);
-        preferred.sort_unstable();
-        preferred.dedup();
-        for (list, &Estimate(key)) in self.lists.iter_mut().zip(&estimates) {
-            for &operator in &successors {
-                list.open.push(u64::from(key), (id, operator));
+        self.job.barred.filter(&mut self.preferred);
+        self.preferred.sort_unstable();
+        self.preferred.dedup();
+        let cost = self.reached_at[id.0 as usize];
+        for list in &mut self.lists {
+            let key = self.order.key(cost, list.estimate);
+            for &operator in &self.successors {
+                list.open.push(key, (id, operator));
             }
-            for &operator in &preferred {
-                list.preferred.push(u64::from(key), (id, operator));
+            for &operator in &self.preferred {
+                list.preferred.push(key, (id, operator));
             }
         }
+        None
     }
 
     fn pop(&mut self) -> Option<Edge> {
@@ -169,8 +203,28 @@ impl Lazy<'_> {
     }
 
     fn memory(&self) -> usize {
-        let lists: usize = self.lists.iter().map(|l| l.open.memory() + l.preferred.memory()).sum();
-        let heuristics: usize = self.heuristics.iter().map(|h| h.memory()).sum();
-        self.registry.memory() + lists + heuristics
+        let lists: usize =
+            self.lists.iter().map(|l| l.open.memory() + l.preferred.memory() + l.heuristic.memory()).sum();
+        self.registry.memory() + self.reached_at.capacity() * 8 + lists
+    }
+}
+
+impl Searcher for Lazy<'_> {
+    fn advance(&mut self, turn: &Turn) -> Option<Outcome> {
+        loop {
+            match self.job.meter.signal(turn, self.statistics.expanded, self.memory()) {
+                Signal::Go => {}
+                Signal::Pause => return None,
+                Signal::Stop(limit) => return Some(Outcome::LimitReached(limit)),
+            }
+            let answer = if std::mem::replace(&mut self.begun, true) { self.step() } else { self.begin() };
+            if answer.is_some() {
+                return answer;
+            }
+        }
+    }
+
+    fn statistics(&self) -> Statistics {
+        self.statistics
     }
 }

@@ -1,29 +1,44 @@
 //! Forward search: one call, configured by name.
 //!
 //! [`solve`] takes a grounded task and a [`Query`] (from which state, to which goal, without which
-//! operators), a [`SearchConfiguration`] and a [`Budget`]. Nothing is global, nothing reads a clock;
-//! with a configuration of one thread the same call gives the same answer.
+//! operators), a [`SearchConfiguration`] and a [`Budget`]; [`improve`] goes on to better plans. Nothing is
+//! global, nothing reads a clock; with a configuration of one thread the same call gives the same answer.
 
-mod astar;
+mod anytime;
 mod bfws;
 mod budget;
 mod configuration;
+mod eager;
+mod elimination;
+mod hill_climbing;
+mod job;
 mod lazy;
+mod meter;
+mod novelty;
 mod open_list;
 mod outcome;
 mod portfolio;
 mod query;
 mod registry;
+mod searcher;
 
+pub use anytime::{Improved, Quality, improve};
 pub use bfws::Width;
 pub use budget::{Budget, Limit};
-pub use configuration::{Engine, SearchConfiguration};
+pub use configuration::{Engine, Order, SearchConfiguration};
+pub use eager::EagerSettings;
+pub(crate) use job::{Bound, Job};
+pub use lazy::LazySettings;
+pub(crate) use meter::{Meter, Signal, Turn};
 pub use outcome::{Outcome, Plan, Report, Statistics, UnsolvableReason};
+pub use portfolio::Threads;
 pub(crate) use query::Barred;
 pub use query::Query;
+pub(crate) use searcher::Searcher;
 
 use crate::heuristics::{Combine, Costs, Explorer};
 use crate::task::{Impossible, Task};
+use portfolio::Sink;
 
 /// Looks for a plan.
 pub fn solve(
@@ -35,28 +50,30 @@ pub fn solve(
     if let Some(reason) = &query.goal.impossible {
         return Report::unsolvable(UnsolvableReason::Impossible(reason.clone()));
     }
-    if let Some(reason) = relaxed_unreachable(task, query) {
+    if let Some(reason) = relaxed_unreachable(task, query, budget) {
         return Report::unsolvable(reason);
     }
-    run(task, query, configuration.engine, budget)
-}
-
-fn run(task: &Task, query: &Query<'_>, engine: Engine, budget: &Budget<'_>) -> Report {
-    match engine {
-        Engine::Lazy { heuristics, costs } => lazy::search(task, query, heuristics, costs, budget),
-        Engine::AStar(heuristic) => astar::search(task, query, heuristic, budget),
-        Engine::Bfws(width) => bfws::search(task, query, width, budget),
-        Engine::Sequence(stages) => portfolio::sequence(task, query, stages, budget),
-        Engine::Parallel(engines) => portfolio::parallel(task, query, engines, budget),
+    let SearchConfiguration { members, threads, .. } = *configuration;
+    let mut report = portfolio::run(task, query, members, threads, &Bound::none(), budget, Sink::First);
+    if let Outcome::Solved(plan) = &mut report.outcome
+        && !configuration.optimal
+    {
+        *plan = elimination::without_needless(task, query, plan);
     }
+    report
 }
 
 /// The literals of the goal that even the delete relaxation cannot reach.
-fn relaxed_unreachable(task: &Task, query: &Query<'_>) -> Option<UnsolvableReason> {
-    let barred = query.barred(task);
+fn relaxed_unreachable(task: &Task, query: &Query<'_>, budget: &Budget<'_>) -> Option<UnsolvableReason> {
+    let (barred, meter, bound) = (query.barred(task), Meter::new(*budget), Bound::none());
+    let job =
+        Job { task, state: query.state, goal: query.goal, barred: &barred, meter: &meter, bound: &bound };
     let goal = task.relaxation.literals(&query.goal.literals);
-    let mut explorer = Explorer::new(task, Vec::new(), &barred, Costs::Unit, Combine::Max);
+    let mut explorer = Explorer::new(&job, Vec::new(), Costs::Unit, Combine::Max);
     explorer.explore(query.state.words());
+    if meter.is_stopped() {
+        return None;
+    }
     let missing = goal.into_iter().filter(|&p| explorer.cost(p) == u32::MAX);
     let (mut atoms, mut negated) = (Vec::new(), Vec::new());
     for p in missing {

@@ -1,69 +1,247 @@
-//! Several engines for one question, one after the other or side by side.
+//! Several searches for one question, taking turns on one thread or two.
+//!
+//! Problem: no search is best everywhere, a restart throws work away, and a small task must not pay
+//! for a thread. Idea: searches pause and resume; whoever has had the least work for its weight goes
+//! next, for a turn that grows with what it has had. A second thread joins where the task is large or
+//! the answer takes longer than some milliseconds; both take from the same pool. Searches that give up
+//! leave, and where memory runs short the largest leaves. Invariant: with one thread the order of turns
+//! depends on counted work alone, so the same call gives the same answer.
+//!
+//! Source: turns as in Luby, Sinclair & Zuckerman, "Optimal speedup of Las Vegas algorithms", 1993, in
+//! spirit; portfolios: Helmert, Röger & Karpas, "Fast Downward Stone Soup", 2011.
 
-use super::{Budget, Engine, Limit, Outcome, Query, Report, Statistics, run};
+use super::meter::UNLIMITED;
+use super::{Barred, Bound, Budget, Engine, Job, Limit, Meter, Outcome, Plan, Query, Report, Searcher};
+use super::{Statistics, Turn};
 use crate::task::Task;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Each stage within its share of expansions; the last one with what is left of the budget. An
-/// answer of any stage is the answer.
-pub(crate) fn sequence(
-    task: &Task,
-    query: &Query<'_>,
-    stages: &[(Engine, Option<u64>)],
-    budget: &Budget<'_>,
-) -> Report {
-    let mut statistics = Statistics::default();
-    let mut outcome = Outcome::LimitReached(Limit::Incomplete);
-    for &(engine, share) in stages {
-        let left = budget.expansions.map(|e| e.saturating_sub(statistics.expanded));
-        let expansions = match (left, share) {
-            (Some(a), Some(b)) => Some(a.min(b)),
-            (a, b) => a.or(b),
-        };
-        let report = run(task, query, engine, &Budget { expansions, ..*budget });
-        statistics += report.statistics;
-        outcome = report.outcome;
-        match outcome {
-            Outcome::LimitReached(Limit::Incomplete | Limit::Memory) => {}
-            Outcome::LimitReached(Limit::Expansions) if left.is_none_or(|l| l > 0) => {}
-            _ => break,
-        }
-    }
-    Report { outcome, statistics }
+/// Work of a first turn.
+const FIRST_TURN: u64 = 1 << 18;
+/// Work before a second thread joins.
+const ALONE: u64 = 1 << 21;
+/// Nodes of a relaxation for which the second thread joins at once.
+const LARGE: usize = 20_000;
+
+/// How many threads a portfolio uses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Threads {
+    /// The caller's: the same call gives the same answer.
+    One,
+    /// One more joins where it pays: which search answers first depends on the machine.
+    Two,
 }
 
-/// All at once, a thread each, the memory shared equally; the first answer stops the others. Which
-/// one that is depends on the machine, so this is for the command line, not for replay.
-pub(crate) fn parallel(task: &Task, query: &Query<'_>, engines: &[Engine], budget: &Budget<'_>) -> Report {
-    let answered = AtomicBool::new(false);
-    let interrupted = || answered.load(Ordering::Relaxed) || (budget.interrupted)();
-    let memory_bytes = budget.memory_bytes.map(|m| m / engines.len().max(1));
-    let share = Budget { memory_bytes, interrupted: &interrupted, ..*budget };
-    let work = &|engine: Engine| {
-        let report = run(task, query, engine, &share);
-        if !matches!(report.outcome, Outcome::LimitReached(_)) {
-            answered.store(true, Ordering::Relaxed);
-        }
-        report
-    };
-    let reports: Vec<Report> = std::thread::scope(|scope| {
-        let handles: Vec<_> = engines.iter().map(|&e| scope.spawn(move || (work)(e))).collect();
-        handles.into_iter().filter_map(|h| h.join().ok()).collect()
+/// What becomes of plans.
+pub(crate) enum Sink<'s> {
+    /// The first one is the answer.
+    First,
+    /// Each that is cheaper than all before is handed on, and the searches continue below its cost.
+    Better(&'s mut (dyn FnMut(&Plan) + Send)),
+}
+
+/// A search with its share.
+struct Member<'a> {
+    engine: Engine,
+    weight: u64,
+    meter: &'a Meter<'a>,
+    /// Built when its first turn comes.
+    searcher: Option<Box<dyn Searcher + Send + 'a>>,
+    expanded: u64,
+}
+
+struct Pool<'a, 's> {
+    idle: Vec<Member<'a>>,
+    expanded: u64,
+    statistics: Statistics,
+    answer: Option<Outcome>,
+    /// What the searches that left said last.
+    limit: Limit,
+    sink: Sink<'s>,
+}
+
+struct Portfolio<'a, 's> {
+    task: &'a Task,
+    query: Query<'a>,
+    barred: &'a Barred,
+    bound: &'a Bound,
+    budget: Budget<'a>,
+    meters: &'a [Meter<'a>],
+    over: &'a AtomicBool,
+    pool: Mutex<Pool<'a, 's>>,
+}
+
+/// Runs the members.
+pub(crate) fn run(
+    task: &Task,
+    query: &Query<'_>,
+    members: &[(Engine, u32)],
+    threads: Threads,
+    bound: &Bound,
+    budget: &Budget<'_>,
+    sink: Sink<'_>,
+) -> Report {
+    let barred = query.barred(task);
+    let over = AtomicBool::new(false);
+    let interrupted = || over.load(Relaxed) || (budget.interrupted)();
+    let inner = Budget { interrupted: &interrupted, ..*budget };
+    let meters: Vec<Meter<'_>> = members.iter().map(|_| Meter::new(inner)).collect();
+    let idle = members.iter().zip(&meters).map(|(&(engine, weight), meter)| Member {
+        engine,
+        weight: u64::from(weight.max(1)),
+        meter,
+        searcher: None,
+        expanded: 0,
     });
-    let mut statistics = Statistics::default();
-    let mut best: Option<Outcome> = None;
-    for report in reports {
-        statistics += report.statistics;
-        let better = match (&best, &report.outcome) {
-            (None, _) => true,
-            (Some(Outcome::Solved(old)), Outcome::Solved(new)) => new.cost < old.cost,
-            (Some(Outcome::LimitReached(old)), Outcome::LimitReached(_)) => *old == Limit::Incomplete,
-            (Some(Outcome::LimitReached(_)), _) => true,
-            _ => false,
-        };
-        if better {
-            best = Some(report.outcome);
+    let portfolio = Portfolio {
+        task,
+        query: *query,
+        barred: &barred,
+        bound,
+        budget: inner,
+        meters: &meters,
+        over: &over,
+        pool: Mutex::new(Pool {
+            idle: idle.collect(),
+            expanded: 0,
+            statistics: Statistics::default(),
+            answer: None,
+            limit: Limit::Incomplete,
+            sink,
+        }),
+    };
+    if threads == Threads::Two && members.len() > 1 {
+        if task.relaxation.nodes() < LARGE {
+            portfolio.work(ALONE);
+        }
+        std::thread::scope(|scope| {
+            let other = scope.spawn(|| portfolio.work(u64::MAX));
+            portfolio.work(u64::MAX);
+            if let Err(panic) = other.join() {
+                std::panic::resume_unwind(panic);
+            }
+        });
+    } else {
+        portfolio.work(u64::MAX);
+    }
+    let pool = portfolio.pool.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let statistics = pool.idle.iter().filter_map(|m| m.searcher.as_ref());
+    let statistics = statistics.fold(pool.statistics, |sum, s| sum + s.statistics());
+    Report { outcome: pool.answer.unwrap_or(Outcome::LimitReached(pool.limit)), statistics }
+}
+
+/// Ends the other thread's work where this one panics.
+struct Alarm<'a>(&'a AtomicBool);
+
+impl Drop for Alarm<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            self.0.store(true, Relaxed);
         }
     }
-    Report { outcome: best.unwrap_or(Outcome::LimitReached(Limit::Incomplete)), statistics }
+}
+
+impl<'a, 's> Portfolio<'a, 's> {
+    /// Gives turns until there is an answer, nothing left to do, or so much work was done in all.
+    fn work(&self, most: u64) {
+        let _alarm = Alarm(self.over);
+        while self.meters.iter().map(Meter::work).sum::<u64>() < most {
+            let Some((mut member, turn)) = self.take() else { return };
+            let meter = member.meter;
+            let searcher = member.searcher.get_or_insert_with(|| {
+                let (state, goal) = (self.query.state, self.query.goal);
+                let job = Job { task: self.task, state, goal, barred: self.barred, meter, bound: self.bound };
+                member.engine.start(job)
+            });
+            let outcome = searcher.advance(&turn);
+            let expanded = searcher.statistics().expanded;
+            self.give_back(member, expanded, outcome);
+        }
+    }
+
+    /// The member whose turn it is.
+    fn take(&self) -> Option<(Member<'a>, Turn)> {
+        let mut pool = self.lock();
+        if self.over.load(Relaxed) {
+            return None;
+        }
+        let next = (0..pool.idle.len()).min_by_key(|&i| pool.idle[i].meter.work() / pool.idle[i].weight)?;
+        let member = pool.idle.remove(next);
+        let work = member.meter.work();
+        let others: usize = self.meters.iter().map(Meter::held).sum::<usize>() - member.meter.held();
+        let turn = Turn {
+            until: work + FIRST_TURN.max(work / 8),
+            bytes: self.budget.memory_bytes.map_or(UNLIMITED, |most| most.saturating_sub(others)),
+            expansions: match self.budget.expansions {
+                Some(most) => member.expanded + most.saturating_sub(pool.expanded),
+                None => u64::MAX,
+            },
+        };
+        Some((member, turn))
+    }
+
+    fn give_back(&self, mut member: Member<'a>, expanded: u64, outcome: Option<Outcome>) {
+        let mut pool = self.lock();
+        pool.expanded += expanded - member.expanded;
+        member.expanded = expanded;
+        match outcome {
+            None => pool.keep(member),
+            Some(Outcome::Solved(plan)) => {
+                let Pool { sink, .. } = &mut *pool;
+                match sink {
+                    Sink::First => {
+                        pool.answer.get_or_insert(Outcome::Solved(plan));
+                        pool.keep(member);
+                        self.over.store(true, Relaxed);
+                    }
+                    Sink::Better(report) => {
+                        if plan.cost < self.bound.get() {
+                            self.bound.lower(plan.cost);
+                            report(&plan);
+                        }
+                        pool.keep(member);
+                    }
+                }
+            }
+            Some(answer @ Outcome::Unsolvable(_)) => {
+                pool.answer.get_or_insert(answer);
+                pool.keep(member);
+                self.over.store(true, Relaxed);
+            }
+            Some(Outcome::LimitReached(Limit::Memory)) if !pool.idle.is_empty() => {
+                // The largest leaves, and the others have its memory.
+                pool.keep(member);
+                let largest = (0..pool.idle.len()).max_by_key(|&i| pool.idle[i].meter.held());
+                let leaving = pool.idle.remove(largest.expect("one was just added"));
+                pool.leave(leaving);
+            }
+            Some(Outcome::LimitReached(limit)) => {
+                pool.limit = if limit == Limit::Incomplete { pool.limit } else { limit };
+                pool.leave(member);
+                if !matches!(limit, Limit::Incomplete | Limit::Memory) {
+                    self.over.store(true, Relaxed);
+                }
+            }
+        }
+    }
+
+    /// A panic of the other thread is raised again when it is joined, so a poisoned lock is of no
+    /// interest.
+    fn lock(&self) -> MutexGuard<'_, Pool<'a, 's>> {
+        self.pool.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl<'a> Pool<'a, '_> {
+    fn keep(&mut self, member: Member<'a>) {
+        self.idle.push(member);
+    }
+
+    fn leave(&mut self, member: Member<'a>) {
+        if let Some(searcher) = member.searcher {
+            self.statistics += searcher.statistics();
+        }
+        member.meter.release();
+    }
 }

@@ -5,8 +5,11 @@
 //! Invariant: an id is the position of insertion and never changes. Cost: the
 //! state's bits plus about 16 bytes.
 
+use super::meter::UNLIMITED;
 use crate::ids::{OperatorId, StateId, id32};
 
+/// Ids stay well below 2^32.
+const MOST_STATES: usize = u32::MAX as usize / 2;
 const NONE: u32 = u32::MAX;
 
 /// The states.
@@ -31,10 +34,6 @@ impl StateRegistry {
             operators: Vec::new(),
             slots: vec![NONE; 1024],
         }
-    }
-
-    pub(crate) fn len(&self) -> usize {
-        self.parents.len()
     }
 
     pub(crate) fn words(&self, id: StateId) -> &[u64] {
@@ -99,8 +98,11 @@ impl StateRegistry {
         steps
     }
 
-    /// Bytes held.
+    /// Bytes held; more than anybody allows where ids run out.
     pub(crate) fn memory(&self) -> usize {
+        if self.parents.len() >= MOST_STATES {
+            return UNLIMITED;
+        }
         self.segments.len() * self.per_segment * self.width * 8
             + self.parents.capacity() * 8
             + self.slots.len() * 4

@@ -9,29 +9,31 @@
 
 use super::graph::LandmarkGraph;
 use super::labels::Labels;
-use crate::heuristics::{Estimate, Heuristic};
+use crate::heuristics::{Estimate, Heuristic, View};
 use crate::ids::{OperatorId, StateId, id32};
-use crate::search::Barred;
-use crate::task::{Goal, Relaxation, State, Task, contains};
+use crate::search::{Job, Meter};
+use crate::task::{Relaxation, Task, contains};
 
-pub(crate) struct LandmarkCount<'t> {
-    task: &'t Task,
-    graph: &'t Relaxation,
+pub(crate) struct LandmarkCount<'a> {
+    task: &'a Task,
+    graph: &'a Relaxation,
+    meter: &'a Meter<'a>,
     landmarks: LandmarkGraph,
     width: usize,
     /// Accepted landmarks, `width` words a state.
     accepted: Vec<u64>,
 }
 
-impl<'t> LandmarkCount<'t> {
-    pub(crate) fn new(task: &'t Task, state: &State, goal: &Goal, barred: &Barred) -> Self {
-        let graph = &task.relaxation;
+impl<'a> LandmarkCount<'a> {
+    pub(crate) fn new(job: &Job<'a>) -> Self {
+        let (task, graph) = (job.task, &job.task.relaxation);
         let mut initial = vec![false; graph.propositions()];
-        graph.for_each_true(state.words(), |p| initial[p as usize] = true);
-        let labels = Labels::new(graph, initial, barred);
-        let landmarks = LandmarkGraph::new(task, labels.as_ref(), &graph.literals(&goal.literals));
+        graph.for_each_true(job.state.words(), |p| initial[p as usize] = true);
+        let labels = Labels::new(graph, initial, job.barred, job.meter);
+        let landmarks =
+            LandmarkGraph::new(task, labels.as_ref(), &graph.literals(&job.goal.literals), job.meter);
         let width = landmarks.landmarks.len().div_ceil(64);
-        Self { task, graph, landmarks, width, accepted: Vec::new() }
+        Self { task, graph, meter: job.meter, landmarks, width, accepted: Vec::new() }
     }
 
     fn holds(&self, landmark: usize, words: &[u64]) -> bool {
@@ -106,25 +108,22 @@ impl Heuristic for LandmarkCount<'_> {
         self.accepted.extend(accepted);
     }
 
-    fn estimate(
-        &mut self,
-        id: StateId,
-        words: &[u64],
-        applicable: &[OperatorId],
-        preferred: &mut Vec<OperatorId>,
-    ) -> Estimate {
-        let accepted = self.accepted(id);
+    fn estimate(&mut self, view: &View<'_>, preferred: Option<&mut Vec<OperatorId>>) -> Estimate {
+        let accepted = self.accepted(view.id);
         let mut open = 0;
         for (l, landmark) in self.landmarks.landmarks.iter().enumerate() {
             let needed = if bit(accepted, l) {
                 (landmark.is_goal || landmark.needed_for.iter().any(|&n| !bit(accepted, n as usize)))
-                    && !self.holds(l, words)
+                    && !self.holds(l, view.words)
             } else {
                 true
             };
             open += usize::from(needed);
         }
-        self.promising(accepted, applicable, preferred);
+        self.meter.spend(self.landmarks.landmarks.len() * 4);
+        if let Some(preferred) = preferred {
+            self.promising(accepted, view.applicable, preferred);
+        }
         Estimate(id32(open))
     }
 

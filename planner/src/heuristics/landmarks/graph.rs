@@ -10,6 +10,7 @@
 
 use super::labels::Labels;
 use crate::ids::{FactId, id32};
+use crate::search::Meter;
 use crate::task::{AXIOM, Relaxation, Rows, Task};
 use pddl::model::PredicateId;
 use rustc_hash::FxHashMap;
@@ -40,6 +41,7 @@ struct Builder<'a> {
     task: &'a Task,
     graph: &'a Relaxation,
     labels: &'a Labels,
+    meter: &'a Meter<'a>,
     achieved_by: Rows,
     found: LandmarkGraph,
     facts: FxHashMap<u32, u32>,
@@ -47,8 +49,9 @@ struct Builder<'a> {
 }
 
 impl LandmarkGraph {
-    /// The graph for a goal; goals alone where labels are missing.
-    pub(crate) fn new(task: &Task, labels: Option<&Labels>, goal: &[u32]) -> Self {
+    /// The graph for a goal; goals alone where labels are missing. Incomplete where the meter is
+    /// stopped.
+    pub(crate) fn new(task: &Task, labels: Option<&Labels>, goal: &[u32], meter: &Meter<'_>) -> Self {
         let graph = &task.relaxation;
         let empty = Self { landmarks: Vec::new(), of: FxHashMap::default() };
         let Some(labels) = labels else {
@@ -62,6 +65,7 @@ impl LandmarkGraph {
             task,
             graph,
             labels,
+            meter,
             achieved_by: graph.effects.transposed(graph.propositions()),
             found: empty,
             facts: FxHashMap::default(),
@@ -77,7 +81,7 @@ impl LandmarkGraph {
             }
         }
         let mut next = 0;
-        while next < builder.found.landmarks.len() {
+        while next < builder.found.landmarks.len() && !meter.is_stopped() {
             builder.chain_back(id32(next));
             next += 1;
         }
@@ -162,6 +166,9 @@ impl Builder<'_> {
         let mut union = Vec::new();
         for &p in propositions {
             for &node in self.achieved_by.row(p) {
+                if self.meter.spend(self.graph.preconditions.row(node).len() + 8) {
+                    return nodes;
+                }
                 if !self.labels.reaches(self.graph, node) {
                     continue;
                 }
@@ -284,6 +291,9 @@ impl Builder<'_> {
                 continue;
             }
             for b in self.companions(a) {
+                if self.meter.spend(n as usize * 4) {
+                    return;
+                }
                 let mut right_before: Vec<u32> = vec![b];
                 right_before.extend(
                     (0..n).filter(|&x| self.found.landmarks[x as usize].needed_for.contains(&b) && x != a),

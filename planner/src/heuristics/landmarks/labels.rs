@@ -9,7 +9,7 @@
 //! Source: Zhu & Givan, "Landmark extraction via planning graph propagation", ICAPS 2003 doctoral
 //! consortium; Keyder, Richter & Helmert, "Sound and complete landmarks for and/or graphs", ECAI 2010.
 
-use crate::search::Barred;
+use crate::search::{Barred, Meter};
 use crate::task::{AXIOM, Relaxation};
 use std::collections::VecDeque;
 
@@ -23,8 +23,14 @@ pub(crate) struct Labels {
 }
 
 impl Labels {
-    /// Propagates from the propositions in `initial`; `None` where that would take too long.
-    pub(crate) fn new(graph: &Relaxation, initial: Vec<bool>, barred: &Barred) -> Option<Self> {
+    /// Propagates from the propositions in `initial`; `None` where that would take too long or was
+    /// interrupted.
+    pub(crate) fn new(
+        graph: &Relaxation,
+        initial: Vec<bool>,
+        barred: &Barred,
+        meter: &Meter<'_>,
+    ) -> Option<Self> {
         let mut labels = Self { of: vec![None; graph.propositions()], initial };
         let usable = |node: u32| {
             let operator = graph.operator[node as usize];
@@ -73,7 +79,7 @@ impl Labels {
                     }
                 }
             }
-            if work > WORK {
+            if meter.spend(graph.effects.row(node).len() * (union.len() + 1)) || work > WORK {
                 return None;
             }
         }

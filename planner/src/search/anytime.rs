@@ -1,0 +1,145 @@
+//! Plans that get better while there is time.
+//!
+//! Idea: once there is a plan, its cost is a bound for all that follows. Steps that the plan can do
+//! without are taken out; then greedy search that counts costs, and weighted A* with falling weights,
+//! each started afresh with the bound of the last. When the last of them has nothing left below the
+//! bound, the plan is optimal.
+//!
+//! Source: Richter & Westphal, "The LAMA planner", JAIR 2010, §6; restarts: Richter, Thayer & Ruml, "The
+//! joy of forgetting: faster anytime search via restarting", ICAPS 2010.
+
+use super::elimination::without_needless;
+use super::lazy::{Lazy, LazySettings};
+use super::portfolio::{self, Sink, Threads};
+use super::{
+    Bound, Budget, Engine, Job, Limit, Order, Outcome, Plan, Query, Report, SearchConfiguration, Searcher,
+    Statistics, Turn, solve,
+};
+use crate::heuristics::{Costs, HeuristicKind};
+use crate::task::Task;
+
+/// How good the last plan is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quality {
+    /// No plan is cheaper.
+    Optimal,
+    /// There may be cheaper plans: this limit ended the work.
+    Unproven(Limit),
+}
+
+/// What improving came to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Improved {
+    /// The best plan, or why there is none.
+    pub report: Report,
+    /// What is known about the plan, where there is one.
+    pub quality: Quality,
+}
+
+/// Looks for a plan by `configuration`, then for better ones until the budget is used up or the plan is
+/// known to be optimal. Each plan is handed to `on_plan` when it is found, each cheaper than those
+/// before; the calls come one after the other, from any thread. The closure can end the work by what
+/// it tells the budget's `interrupted`.
+pub fn improve(
+    task: &Task,
+    query: &Query<'_>,
+    configuration: &SearchConfiguration,
+    budget: &Budget<'_>,
+    on_plan: &mut (dyn FnMut(&Plan) + Send),
+) -> Improved {
+    let mut report = solve(task, query, configuration, budget);
+    let Outcome::Solved(first) = &report.outcome else {
+        return Improved { report, quality: Quality::Unproven(Limit::Incomplete) };
+    };
+    on_plan(first);
+    if configuration.optimal {
+        return Improved { report, quality: Quality::Optimal };
+    }
+    let mut best = first.clone();
+    let bound = Bound::none();
+    bound.lower(best.cost);
+    let threads = if configuration.deterministic { Threads::One } else { Threads::Two };
+    let expansions = budget.expansions.map(|e| e.saturating_sub(report.statistics.expanded));
+    let rest = Budget { expansions, ..*budget };
+    let mut better = |plan: &Plan| {
+        best = without_needless(task, query, plan);
+        bound.lower(best.cost);
+        on_plan(&best);
+    };
+    let more = portfolio::run(
+        task,
+        query,
+        &[(Engine::Improving, 1)],
+        threads,
+        &bound,
+        &rest,
+        Sink::Better(&mut better),
+    );
+    let quality = match more.outcome {
+        Outcome::Unsolvable(_) => Quality::Optimal,
+        Outcome::LimitReached(limit) => Quality::Unproven(limit),
+        Outcome::Solved(_) => Quality::Unproven(Limit::Incomplete),
+    };
+    report.statistics += more.statistics;
+    report.outcome = Outcome::Solved(best);
+    Improved { report, quality }
+}
+
+/// The weights of the estimates, one search each; the first search is greedy.
+const ORDERS: [Order; 5] =
+    [Order::Greedy, Order::Weighted(5), Order::Weighted(3), Order::Weighted(2), Order::Weighted(1)];
+
+/// Searches below the bound, one after the other.
+pub(crate) struct Improving<'a> {
+    job: Job<'a>,
+    stage: usize,
+    search: Lazy<'a>,
+    before: Statistics,
+}
+
+impl<'a> Improving<'a> {
+    pub(crate) fn new(job: Job<'a>) -> Self {
+        Self { job, stage: 0, search: Self::stage(job, 0), before: Statistics::default() }
+    }
+
+    fn stage(job: Job<'a>, stage: usize) -> Lazy<'a> {
+        const BOTH: &[HeuristicKind] = &[HeuristicKind::Ff, HeuristicKind::Landmarks];
+        let order = ORDERS[stage];
+        Lazy::new(job, &LazySettings { heuristics: BOTH, preferred: BOTH, costs: Costs::PlusOne, order })
+    }
+
+    /// Whether there is another search to go to.
+    fn next(&mut self) -> bool {
+        if self.stage + 1 == ORDERS.len() {
+            return false;
+        }
+        self.before += self.search.statistics();
+        self.stage += 1;
+        self.search = Self::stage(self.job, self.stage);
+        true
+    }
+}
+
+impl Searcher for Improving<'_> {
+    fn advance(&mut self, turn: &Turn) -> Option<Outcome> {
+        loop {
+            let expansions = turn.expansions.saturating_sub(self.before.expanded);
+            match self.search.advance(&Turn { expansions, ..*turn })? {
+                Outcome::Solved(plan) => {
+                    self.next();
+                    return Some(Outcome::Solved(plan));
+                }
+                Outcome::LimitReached(Limit::Incomplete) => {
+                    if !self.next() {
+                        return Some(Outcome::LimitReached(Limit::Incomplete));
+                    }
+                }
+                other => return Some(other),
+            }
+        }
+    }
+
+    fn statistics(&self) -> Statistics {
+        self.before + self.search.statistics()
+    }
+}

@@ -1,0 +1,54 @@
+//! Steps that a plan can do without.
+//!
+//! Idea: leave one step out, and with it every later one that thereby becomes inapplicable; if the goal
+//! still holds at the end, the plan is better without them. Invariant: what is returned reaches the
+//! goal and costs no more. Cost: quadratic in the length, so very long plans stay as they are.
+//!
+//! Source: Nakhost & Müller, "Action elimination and plan neighborhood graph search", ICAPS 2010.
+
+use super::{Plan, Query};
+use crate::ids::OperatorId;
+use crate::task::Task;
+
+/// Words copied, at most.
+const WORK: usize = 1 << 23;
+
+/// The plan without what it does not need.
+pub(crate) fn without_needless(task: &Task, query: &Query<'_>, plan: &Plan) -> Plan {
+    let n = plan.operators.len();
+    if n * n * (task.words_per_state() + 8) / 2 > WORK {
+        return plan.clone();
+    }
+    let mut kept = plan.operators.clone();
+    let mut state = query.state.words().to_vec();
+    let mut next = state.clone();
+    let mut i = 0;
+    while i < kept.len() {
+        if let Some(shorter) = left_out(task, query, &state, &kept[i..]) {
+            kept.truncate(i);
+            kept.extend(shorter);
+            continue;
+        }
+        next.copy_from_slice(&state);
+        task.apply(kept[i], &state, &mut next);
+        std::mem::swap(&mut state, &mut next);
+        i += 1;
+    }
+    Plan::of(task, kept)
+}
+
+/// The steps after the first, as far as they can be done without it, if they reach the goal.
+fn left_out(task: &Task, query: &Query<'_>, from: &[u64], steps: &[OperatorId]) -> Option<Vec<OperatorId>> {
+    let mut state = from.to_vec();
+    let mut next = state.clone();
+    let mut done = Vec::new();
+    for &operator in &steps[1..] {
+        if task.operators[operator].precondition.hold_in(&state) {
+            next.copy_from_slice(&state);
+            task.apply(operator, &state, &mut next);
+            std::mem::swap(&mut state, &mut next);
+            done.push(operator);
+        }
+    }
+    query.goal.holds_in(&state).then_some(done)
+}

@@ -1,0 +1,34 @@
+//! One search's share of a question: what it needs to know, and the bound that searches share.
+
+use super::{Barred, Meter};
+use crate::task::{Goal, State, Task};
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+
+/// What a search works on.
+#[derive(Clone, Copy)]
+pub(crate) struct Job<'a> {
+    pub(crate) task: &'a Task,
+    pub(crate) state: &'a State,
+    pub(crate) goal: &'a Goal,
+    pub(crate) barred: &'a Barred,
+    pub(crate) meter: &'a Meter<'a>,
+    pub(crate) bound: &'a Bound,
+}
+
+/// Plans must cost less than this. It only falls, whoever lowers it.
+#[derive(Debug)]
+pub(crate) struct Bound(AtomicU64);
+
+impl Bound {
+    pub(crate) fn none() -> Self {
+        Self(AtomicU64::new(u64::MAX))
+    }
+
+    pub(crate) fn get(&self) -> u64 {
+        self.0.load(Relaxed)
+    }
+
+    pub(crate) fn lower(&self, to: u64) {
+        self.0.fetch_min(to, Relaxed);
+    }
+}
