@@ -3,7 +3,7 @@
 //! The domain's and the problem's constraints are grounded once, before the first state; then the states
 //! are noted as they come, and at the end the hard ones are judged, the soft ones counted.
 
-use crate::axiom::Strata;
+use crate::axiom::{Needs, Strata};
 use crate::number::Number;
 use crate::preference::Violations;
 use crate::scene::{Binding, Clock, Scene};
@@ -38,7 +38,7 @@ pub(crate) struct Demands<'a> {
     trajectory: Trajectory<'a>,
     hard: Vec<(File, Formula)>,
     soft: Vec<Soft<'a>>,
-    reads_derived: bool,
+    needs: Needs,
     pub(crate) violations: Violations,
 }
 
@@ -54,7 +54,7 @@ impl<'a> Demands<'a> {
             trajectory: Trajectory::default(),
             hard: Vec::new(),
             soft: Vec::new(),
-            reads_derived: false,
+            needs: Needs::default(),
             violations: Violations::default(),
         };
         for (file, constraints) in
@@ -74,8 +74,7 @@ impl<'a> Demands<'a> {
                 });
             }
         }
-        demands.reads_derived =
-            demands.trajectory.conditions().any(|(condition, ..)| strata.reads_derived(condition));
+        demands.needs = strata.needs(demands.trajectory.conditions().map(|(condition, ..)| condition));
         demands
     }
 
@@ -86,7 +85,12 @@ impl<'a> Demands<'a> {
 
     /// Whether the derived part of a state must be up to date when it is noted.
     pub(crate) fn read_derived(&self) -> bool {
-        self.reads_derived
+        !self.needs.are_none()
+    }
+
+    /// What must be derived when a state is noted.
+    pub(crate) fn needs(&self) -> &Needs {
+        &self.needs
     }
 
     /// The conditions whose truth is noted.

@@ -274,26 +274,23 @@ impl Changes {
         for (fluent, (before, after)) in self.updates.keys().zip(values) {
             if before != after {
                 state.set_fluent(fluent.clone(), after);
-                state.stale = true;
                 if let Some(diff) = &mut diff {
                     diff.fluents.push(FluentChange { fluent: fluent.clone(), before, after });
                 }
             }
         }
         self.adds.each(|predicate, arguments| {
-            if state.facts[predicate].add(arguments, now) {
-                state.stale = true;
-                if let Some(diff) = &mut diff {
-                    diff.added.push(GroundAtom { predicate, arguments: arguments.into() });
-                }
+            if state.facts[predicate].add(arguments, now)
+                && let Some(diff) = &mut diff
+            {
+                diff.added.push(GroundAtom { predicate, arguments: arguments.into() });
             }
         });
         self.deletes.each(|predicate, arguments| {
-            if state.facts[predicate].delete(arguments, now) {
-                state.stale = true;
-                if let Some(diff) = &mut diff {
-                    diff.deleted.push(GroundAtom { predicate, arguments: arguments.into() });
-                }
+            if state.facts[predicate].delete(arguments, now)
+                && let Some(diff) = &mut diff
+            {
+                diff.deleted.push(GroundAtom { predicate, arguments: arguments.into() });
             }
         });
         Ok(())

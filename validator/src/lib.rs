@@ -19,7 +19,7 @@
 //! assert!(verdict.is_valid());
 //! ```
 //!
-//! From the ground up: `number` (exact arithmetic), `universe` (which objects a type has), `state`
+//! From the ground up: `number` (exact arithmetic), `universe` (which objects a type has), `relation` and `state`
 //! (facts and fluents, each with the step that changed it last), `expression`, `condition` and `solve`
 //! (what holds), `axiom` (what follows), `effect` (what an action does), `run` (the plan, step by step),
 //! [`Verdict`] with `why` (what was missing) and `words` (how to say it). [`Repair`] is what to do about it,
@@ -39,6 +39,7 @@ mod htn;
 mod number;
 mod preference;
 mod prepare;
+mod relation;
 mod run;
 mod scene;
 mod sequential;

@@ -31,6 +31,7 @@ pub(crate) fn initial_state(domain: &Domain, problem: &Problem) -> State {
 /// Which predicates are looked up by pattern: those inside quantifiers, axioms and universal effects.
 fn joined(domain: &Domain, problem: &Problem) -> Vec<bool> {
     let mut joined = vec![false; domain.predicates.len()];
+    let mut derived = Vec::new();
     let mut mark = |condition: &Condition| {
         each_predicate(condition, true, &mut |predicate, _| joined[predicate.index()] = true);
     };
@@ -46,6 +47,7 @@ fn joined(domain: &Domain, problem: &Problem) -> Vec<bool> {
     }
     for axiom in &domain.axioms {
         mark(&axiom.body);
+        derived.push(axiom.predicate);
     }
     for process in &domain.processes {
         mark(&process.precondition);
@@ -67,6 +69,9 @@ fn joined(domain: &Domain, problem: &Problem) -> Vec<bool> {
     }
     each_quantified(&problem.goal, &mut mark);
     problem.preferences.iter().for_each(|preference| each_quantified(&preference.body, &mut mark));
+    for predicate in derived {
+        joined[predicate.index()] = true;
+    }
     joined
 }
 
@@ -130,8 +135,8 @@ fn each_quantified(condition: &Condition, visit: &mut dyn FnMut(&Condition)) {
 }
 
 /// The conditions of conditional effects, and whether a universal effect is around them.
-pub(crate) fn each_guard(effect: &Effect, visit: &mut dyn FnMut(&Condition, bool)) {
-    fn walk(effect: &Effect, universal: bool, visit: &mut dyn FnMut(&Condition, bool)) {
+pub(crate) fn each_guard<'e>(effect: &'e Effect, visit: &mut dyn FnMut(&'e Condition, bool)) {
+    fn walk<'e>(effect: &'e Effect, universal: bool, visit: &mut dyn FnMut(&'e Condition, bool)) {
         match &effect.kind {
             EffectKind::And(parts) => {
                 for part in parts {

@@ -3,7 +3,7 @@
 //! [`Validator`] prepares a task once (extents, strata, the initial state) and then judges plans. Cost of
 //! a plan: the initial state is copied once, then each step pays for its own conditions and effects only.
 
-use crate::axiom::Strata;
+use crate::axiom::{Needs, Strata};
 use crate::cause::{Cause, Causes};
 use crate::demands::Demands;
 use crate::effort::Effort;
@@ -222,13 +222,17 @@ impl<'a> Validator<'a> {
 
     /// Brings the derived part of a state up to date if the condition reads it.
     pub(crate) fn derive_for(&self, condition: &Condition, state: &mut State, now: Moment) {
-        if self.strata.reads_derived(condition) {
-            self.derive(state, now);
+        if !self.domain.axioms.is_empty() {
+            self.derive_needed(&self.strata.needs([condition]), state, now);
         }
     }
 
     pub(crate) fn derive(&self, state: &mut State, now: Moment) {
         self.strata.derive(self.domain, &self.universe, state, now);
+    }
+
+    pub(crate) fn derive_needed(&self, needs: &Needs, state: &mut State, now: Moment) {
+        self.strata.derive_needed(needs, self.domain, &self.universe, state, now);
     }
 
     /// What keeps a condition from holding.

@@ -1,5 +1,6 @@
 //! A plan without times, step by step. Its n-th state has the time n.
 
+use crate::axiom::Needs;
 use crate::cause::{Cause, Causes};
 use crate::demands::Demands;
 use crate::effect::Changes;
@@ -24,7 +25,7 @@ pub(crate) fn run<'p>(
 ) -> Result<Valid, Box<Failure>> {
     let mut run = Run {
         validator,
-        reads_derived: reads_derived(validator),
+        needs: needs(validator),
         demands: validator.demands(state),
         state,
         changes: Changes::default(),
@@ -56,21 +57,20 @@ pub(crate) fn run<'p>(
     validator.finish(end, run.demands)
 }
 
-/// Per action, whether its conditions read derived predicates.
-fn reads_derived(validator: &Validator<'_>) -> IndexVec<ActionId, bool> {
-    let strata = &validator.strata;
-    let reads = |action: &Action| {
-        let mut reads = strata.reads_derived(&action.precondition);
-        reads |= action.preferences.iter().any(|preference| strata.reads_derived(&preference.body));
-        each_guard(&action.effect, &mut |guard, _| reads |= strata.reads_derived(guard));
-        reads
+/// Per action, the derived predicates that its conditions read.
+fn needs(validator: &Validator<'_>) -> IndexVec<ActionId, Needs> {
+    let needs = |action: &Action| {
+        let mut conditions = vec![&action.precondition];
+        conditions.extend(action.preferences.iter().map(|preference| &preference.body));
+        each_guard(&action.effect, &mut |guard, _| conditions.push(guard));
+        validator.strata.needs(conditions)
     };
-    validator.domain.actions.iter().map(reads).collect()
+    validator.domain.actions.iter().map(needs).collect()
 }
 
 struct Run<'s, 'v, 'a> {
     validator: &'v Validator<'a>,
-    reads_derived: IndexVec<ActionId, bool>,
+    needs: IndexVec<ActionId, Needs>,
     state: &'s mut State,
     demands: Demands<'v>,
     changes: Changes,
@@ -79,9 +79,7 @@ struct Run<'s, 'v, 'a> {
 
 impl Run<'_, '_, '_> {
     fn observe(&mut self, steps: u32) {
-        if self.demands.read_derived() {
-            self.validator.derive(self.state, steps);
-        }
+        self.validator.derive_needed(self.demands.needs(), self.state, steps);
         let since = Since::at(Number::integer(i64::from(steps)));
         self.demands.observe(since, &self.validator.universe, self.state);
     }
@@ -97,9 +95,7 @@ impl Run<'_, '_, '_> {
         let action =
             validator.domain.actions.get(step.action).ok_or_else(|| fault(StepFault::UnknownAction))?;
         validator.fits(&action.variables, &step.arguments).map_err(fault)?;
-        if self.reads_derived[step.action] {
-            validator.derive(self.state, index.0);
-        }
+        validator.derive_needed(&self.needs[step.action], self.state, index.0);
         self.binding.reset(&action.variables, &step.arguments);
         let scene = validator.scene(self.state, &action.variables, Clock::steps(index.0));
         if !scene.holds(&action.precondition, &mut self.binding) {

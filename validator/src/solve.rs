@@ -23,7 +23,7 @@ struct Part<'a> {
 }
 
 /// A conjunction and the variables to bind.
-struct Query<'a> {
+pub(crate) struct Query<'a> {
     parts: Vec<Part<'a>>,
     open: Vec<VariableId>,
     strictness: Strictness,
@@ -32,7 +32,12 @@ struct Query<'a> {
 type Visit<'v> = dyn FnMut(&mut Binding) -> ControlFlow<()> + 'v;
 
 impl<'a> Query<'a> {
-    fn new(variables: &[VariableId], guards: &[(&'a Condition, bool)], strictness: Strictness) -> Self {
+    /// The parts keep their order; what is no conjunction stays one part.
+    pub(crate) fn new(
+        variables: &[VariableId],
+        guards: &[(&'a Condition, bool)],
+        strictness: Strictness,
+    ) -> Self {
         let mut query = Self { parts: Vec::new(), open: variables.to_vec(), strictness };
         for &(condition, wanted) in guards {
             query.flatten(condition, wanted);
@@ -157,6 +162,32 @@ impl Scene<'_> {
         let query = Query::new(variables, guards, strictness);
         let mut done = vec![false; query.parts.len()];
         self.search(&query, &mut done, variables, binding, visit)
+    }
+
+    /// Visits each answer as far as `targets` go, until told to stop.
+    pub(crate) fn answer(
+        &self,
+        query: &Query<'_>,
+        targets: &[VariableId],
+        binding: &mut Binding,
+        visit: &mut Visit<'_>,
+    ) -> ControlFlow<()> {
+        self.search(query, &mut vec![false; query.parts.len()], targets, binding, visit)
+    }
+
+    /// The same for answers in which one part, an atom that must hold, is one of `tuples`.
+    pub(crate) fn answer_with<'t>(
+        &self,
+        query: &Query<'_>,
+        targets: &[VariableId],
+        (part, atom): (usize, &Atom),
+        tuples: impl Iterator<Item = &'t [ObjectId]>,
+        binding: &mut Binding,
+        visit: &mut Visit<'_>,
+    ) -> ControlFlow<()> {
+        let mut done = vec![false; query.parts.len()];
+        done[part] = true;
+        self.match_each(atom, tuples, query, &mut done, targets, binding, visit)
     }
 
     fn search(
@@ -306,8 +337,22 @@ impl Scene<'_> {
         let fixed: Vec<_> = atom.arguments.iter().map(|&t| binding.term(t)).collect();
         let facts = self.state.facts[atom.predicate].candidates(&fixed);
         let derived = self.state.derived[atom.predicate].candidates(&fixed);
-        let mut bound = Vec::with_capacity(fixed.len());
-        for tuple in facts.chain(derived) {
+        self.match_each(atom, facts.chain(derived), query, done, targets, binding, visit)
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "the state of one search, on the stack")]
+    fn match_each<'t>(
+        &self,
+        atom: &Atom,
+        tuples: impl Iterator<Item = &'t [ObjectId]>,
+        query: &Query<'_>,
+        done: &mut [bool],
+        targets: &[VariableId],
+        binding: &mut Binding,
+        visit: &mut Visit<'_>,
+    ) -> ControlFlow<()> {
+        let mut bound = Vec::with_capacity(atom.arguments.len());
+        for tuple in tuples {
             let agrees = atom.arguments.iter().zip(tuple).all(|(&term, &object)| match binding.term(term) {
                 Some(already) => already == object,
                 None => match term {

@@ -6,8 +6,9 @@
 
 use crate::cause::Cause;
 use crate::number::Number;
+use crate::relation::{Mark, Relation, Slot};
 use crate::run::Validator;
-use crate::state::{GroundAtom, Moment, Relation, State, Value};
+use crate::state::{GroundAtom, Moment, State, Value};
 use pddl::model::{GroundApplication, IndexVec, PredicateId};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -62,14 +63,16 @@ pub struct Trace {
 /// Sees what happens to a state besides effects.
 #[derive(Debug)]
 pub(crate) struct Recorder {
-    derived: FxHashSet<GroundAtom>,
+    /// Per predicate how far its log was read, and the slots that held then.
+    derived: IndexVec<PredicateId, (Option<Mark>, FxHashSet<Slot>)>,
     fluents: FxHashMap<GroundApplication, Value>,
 }
 
 impl Recorder {
     /// Sees the initial state, and writes it down.
     pub(crate) fn new(validator: &Validator<'_>, state: &mut State, initial: &mut Diff) -> Self {
-        let mut recorder = Self { derived: FxHashSet::default(), fluents: FxHashMap::default() };
+        let derived = state.derived.iter().map(|_| (None, FxHashSet::default())).collect();
+        let mut recorder = Self { derived, fluents: FxHashMap::default() };
         initial.added = atoms(&state.facts);
         recorder.after(validator, state, 0, initial);
         recorder.before(state, initial);
@@ -106,12 +109,29 @@ impl Recorder {
             return;
         }
         validator.derive(state, now);
-        let derived = atoms(&state.derived);
-        diff.derived = derived.iter().filter(|atom| !self.derived.contains(atom)).cloned().collect();
-        let derived: FxHashSet<GroundAtom> = derived.into_iter().collect();
-        diff.no_longer_derived = self.derived.difference(&derived).cloned().collect();
+        for (predicate, relation) in state.derived.enumerate() {
+            let (seen, holding) = &mut self.derived[predicate];
+            let mark = relation.mark();
+            if *seen == Some(mark) {
+                continue;
+            }
+            let changed = seen.and_then(|seen| relation.toggled(seen));
+            let changed = changed.unwrap_or_else(|| relation.slots().collect());
+            for slot in changed {
+                let (was, is) = (holding.contains(&slot), relation.slot_holds(slot));
+                let atom = || GroundAtom { predicate, arguments: relation.tuple(slot).into() };
+                if is && !was {
+                    holding.insert(slot);
+                    diff.derived.push(atom());
+                } else if was && !is {
+                    holding.remove(&slot);
+                    diff.no_longer_derived.push(atom());
+                }
+            }
+            *seen = Some(mark);
+        }
+        diff.derived.sort();
         diff.no_longer_derived.sort();
-        self.derived = derived;
     }
 
     /// Remembers values for the next [`Recorder::before`].

@@ -65,7 +65,6 @@ fn begins_well(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, repair: &Repair) 
         Repair::Value { fluent, value } => initial.set_fluent(fluent.clone(), Some(Value::Number(*value))),
         _ => return false,
     }
-    initial.stale = true;
     trials.passes_under(Ok(changed), plan)
 }
 

@@ -88,7 +88,6 @@ pub(super) fn state_after(validator: &Validator<'_>, trace: &Trace, happenings: 
             state.set_fluent(change.fluent.clone(), change.after);
         }
     }
-    state.stale = true;
     state
 }
 

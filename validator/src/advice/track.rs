@@ -101,7 +101,6 @@ impl<'t, 'a> Track<'t, 'a> {
             for change in diff.fluents {
                 self.state.set_fluent(change.fluent, change.before);
             }
-            self.state.stale = true;
         }
         self.own = self.own.min(count);
     }

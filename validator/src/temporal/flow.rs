@@ -78,7 +78,6 @@ impl Flow {
         for (fluent, curve) in &self.curves {
             state.set_fluent(fluent.clone(), Some(Value::Number(curve.at(after)?)));
         }
-        state.stale = true;
         Ok(())
     }
 
@@ -87,7 +86,6 @@ impl Flow {
         for fluent in self.curves.keys() {
             state.set_fluent(fluent.clone(), None);
         }
-        state.stale = true;
     }
 
     /// Adds the instants inside `0..length` at which a comparison in the condition may change.

@@ -16,10 +16,11 @@ use super::grammar::{Grammar, Purse, Rule, RuleId, Spent, Symbol, SymbolId};
 use crate::condition::Strictness;
 use crate::effort::Effort;
 use crate::htn::schema::{Schema, unify};
+use crate::relation::Relation;
 use crate::run::Validator;
 use crate::scene::{Binding, Clock};
 use crate::sequential;
-use crate::state::{Relation, State};
+use crate::state::State;
 use pddl::model::{
     Atom, Condition, ConditionKind, Idx, IndexVec, MethodId, ObjectId, PredicateId, SubtaskHead, Term,
     VariableId,

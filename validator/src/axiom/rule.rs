@@ -1,0 +1,237 @@
+//! Axioms as rules: conjunctions that can be joined.
+//!
+//! An axiom whose body is a disjunction would have to try every tuple of objects, for a disjunction binds nothing.
+//! So it becomes one rule per disjunct, disjunctions inside conjunctions and existential quantifiers being multiplied
+//! out, up to a limit past which they stay conditions to be tested. In a rule, atoms that must hold are *pivots*: if
+//! one more atom holds, only the rule's instances with that atom are new. What else a rule reads is *hidden*, and
+//! where that changes the rule must be asked for all its instances.
+//!
+//! Source: Ullman, "Principles of Database and Knowledge-Base Systems", 1988, ch. 3 (semi-naive evaluation).
+
+use super::each_predicate;
+use crate::condition::Strictness;
+use crate::scene::{Binding, Clock, Scene};
+use crate::solve::Query;
+use crate::state::State;
+use crate::universe::Universe;
+use pddl::model::{
+    Atom, Axiom, Condition, ConditionKind, Domain, Expression, ExpressionKind, FunctionId, ObjectId,
+    PredicateId, VariableId, Variables,
+};
+use std::ops::ControlFlow;
+
+/// How many rules an axiom may become.
+const MOST_BRANCHES: usize = 64;
+
+/// A disjunct of an axiom's body.
+#[derive(Clone, Debug)]
+pub(super) struct Rule {
+    pub(super) head: PredicateId,
+    axiom: usize,
+    parts: Vec<(Condition, bool)>,
+    /// Parameters, then existential variables.
+    open: Vec<VariableId>,
+    parameters: usize,
+    /// The parts that are atoms that must hold.
+    pub(super) pivots: Vec<(usize, PredicateId)>,
+    /// The predicates that are read in other ways.
+    pub(super) hidden: Vec<PredicateId>,
+    /// The functions that are read.
+    pub(super) functions: Vec<FunctionId>,
+}
+
+#[derive(Clone, Debug)]
+struct Branch {
+    parts: Vec<(Condition, bool)>,
+    open: Vec<VariableId>,
+}
+
+fn multiply(branches: &mut Vec<Branch>, condition: &Condition, wanted: bool) {
+    match (&condition.kind, wanted) {
+        (ConditionKind::And(parts), true) | (ConditionKind::Or(parts), false) => {
+            parts.iter().for_each(|part| multiply(branches, part, wanted));
+        }
+        (ConditionKind::Or(parts), true) | (ConditionKind::And(parts), false) => {
+            let parts: Vec<_> = parts.iter().map(|part| (part, wanted)).collect();
+            divide(branches, condition, wanted, &parts);
+        }
+        (ConditionKind::Imply(if_, then), true) => {
+            divide(branches, condition, wanted, &[(if_, false), (then, true)]);
+        }
+        (ConditionKind::Imply(if_, then), false) => {
+            multiply(branches, if_, true);
+            multiply(branches, then, false);
+        }
+        (ConditionKind::Not(part), _) => multiply(branches, part, !wanted),
+        (ConditionKind::Exists(variables, body), true) | (ConditionKind::Forall(variables, body), false) => {
+            for branch in branches.iter_mut() {
+                branch.open.extend(variables);
+            }
+            multiply(branches, body, wanted);
+        }
+        _ => branches.iter_mut().for_each(|branch| branch.parts.push((condition.clone(), wanted))),
+    }
+}
+
+fn divide(branches: &mut Vec<Branch>, whole: &Condition, wanted: bool, parts: &[(&Condition, bool)]) {
+    let mut divided = Vec::new();
+    for &(part, as_wanted) in parts {
+        let mut copies = branches.clone();
+        multiply(&mut copies, part, as_wanted);
+        divided.append(&mut copies);
+        if divided.len() > MOST_BRANCHES {
+            branches.iter_mut().for_each(|branch| branch.parts.push((whole.clone(), wanted)));
+            return;
+        }
+    }
+    *branches = divided;
+}
+
+fn each_function(condition: &Condition, visit: &mut dyn FnMut(FunctionId)) {
+    fn inside(expression: &Expression, visit: &mut dyn FnMut(FunctionId)) {
+        match &expression.kind {
+            ExpressionKind::Fluent(application) => visit(application.function),
+            ExpressionKind::Arithmetic(_, operands) => operands.iter().for_each(|o| inside(o, visit)),
+            ExpressionKind::Number(_)
+            | ExpressionKind::Duration
+            | ExpressionKind::TotalTime
+            | ExpressionKind::IsViolated(_) => {}
+        }
+    }
+    match &condition.kind {
+        ConditionKind::And(parts) | ConditionKind::Or(parts) => {
+            parts.iter().for_each(|part| each_function(part, visit));
+        }
+        ConditionKind::Not(part) | ConditionKind::Exists(_, part) | ConditionKind::Forall(_, part) => {
+            each_function(part, visit);
+        }
+        ConditionKind::Imply(if_, then) => {
+            each_function(if_, visit);
+            each_function(then, visit);
+        }
+        ConditionKind::Compare(_, left, right) => {
+            inside(left, visit);
+            inside(right, visit);
+        }
+        ConditionKind::FluentIs(application, _) => visit(application.function),
+        ConditionKind::Atom(_) | ConditionKind::HasType(..) | ConditionKind::Same(..) => {}
+    }
+}
+
+impl Rule {
+    /// The rules of one of the domain's axioms.
+    pub(super) fn all(index: usize, axiom: &Axiom) -> Vec<Self> {
+        let open: Vec<VariableId> = axiom.variables.parameter_ids().collect();
+        let mut branches = vec![Branch { parts: Vec::new(), open }];
+        multiply(&mut branches, &axiom.body, true);
+        branches.into_iter().map(|branch| Self::new(index, axiom, branch)).collect()
+    }
+
+    fn new(index: usize, axiom: &Axiom, branch: Branch) -> Self {
+        let mut rule = Self {
+            head: axiom.predicate,
+            axiom: index,
+            parts: branch.parts,
+            open: branch.open,
+            parameters: axiom.variables.parameters,
+            pivots: Vec::new(),
+            hidden: Vec::new(),
+            functions: Vec::new(),
+        };
+        for (position, (condition, wanted)) in rule.parts.iter().enumerate() {
+            match &condition.kind {
+                ConditionKind::Atom(atom) if *wanted => rule.pivots.push((position, atom.predicate)),
+                _ => each_predicate(condition, true, &mut |predicate, _| rule.hidden.push(predicate)),
+            }
+            each_function(condition, &mut |function| rule.functions.push(function));
+        }
+        rule
+    }
+
+    /// The predicates that are read.
+    pub(super) fn reads(&self) -> impl Iterator<Item = PredicateId> {
+        self.pivots.iter().map(|&(_, predicate)| predicate).chain(self.hidden.iter().copied())
+    }
+
+    fn query(&self) -> Query<'_> {
+        let parts: Vec<_> = self.parts.iter().map(|(condition, wanted)| (condition, *wanted)).collect();
+        Query::new(&self.open, &parts, Strictness::Certain)
+    }
+
+    fn scene<'s>(&self, world: World<'s>, state: &'s State) -> (Scene<'s>, &'s Variables) {
+        let variables = &world.domain.axioms[self.axiom].variables;
+        (Scene { universe: world.universe, state, variables, clock: Clock::steps(0) }, variables)
+    }
+
+    /// The heads of its instances, all or those in which a pivot is one of these tuples.
+    pub(super) fn heads(
+        &self,
+        world: World<'_>,
+        state: &State,
+        given: Option<(usize, &mut dyn Iterator<Item = &[ObjectId]>)>,
+    ) -> Heads {
+        let (scene, variables) = self.scene(world, state);
+        let query = self.query();
+        let parameters = &self.open[..self.parameters];
+        let mut binding = Binding::new(variables, &[]);
+        let mut heads = Heads { arity: self.parameters, count: 0, arguments: Vec::new() };
+        let mut visit = |binding: &mut Binding| {
+            heads.count += 1;
+            heads.arguments.extend(parameters.iter().filter_map(|&p| binding.get(p)));
+            // One proof of a head without arguments is enough.
+            if parameters.is_empty() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let flow = match given {
+            None => scene.answer(&query, parameters, &mut binding, &mut visit),
+            Some((part, tuples)) => match self.pivot(part) {
+                Some(atom) => {
+                    scene.answer_with(&query, parameters, (part, atom), tuples, &mut binding, &mut visit)
+                }
+                None => ControlFlow::Continue(()),
+            },
+        };
+        debug_assert!(flow.is_continue() || parameters.is_empty());
+        heads
+    }
+
+    fn pivot(&self, part: usize) -> Option<&Atom> {
+        match self.parts.get(part) {
+            Some((Condition { kind: ConditionKind::Atom(atom), .. }, true)) => Some(atom),
+            _ => None,
+        }
+    }
+
+    /// Whether a head follows by this rule.
+    pub(super) fn proves(&self, world: World<'_>, state: &State, head: &[ObjectId]) -> bool {
+        let (scene, variables) = self.scene(world, state);
+        // Another axiom for the predicate may have wider types.
+        let parameters = &self.open[..self.parameters];
+        if !parameters.iter().zip(head).all(|(&parameter, &object)| scene.extent(parameter).contains(object))
+        {
+            return false;
+        }
+        let mut binding = Binding::new(variables, head);
+        scene.answer(&self.query(), &[], &mut binding, &mut |_| ControlFlow::Break(())).is_break()
+    }
+}
+
+/// What does not change while a task is judged.
+#[derive(Clone, Copy)]
+pub(super) struct World<'a> {
+    pub(super) domain: &'a Domain,
+    pub(super) universe: &'a Universe,
+}
+
+/// Tuples of one predicate, one after the other.
+#[derive(Debug)]
+pub(super) struct Heads {
+    arity: usize,
+    count: usize,
+    arguments: Vec<ObjectId>,
+}
+
+impl Heads {
+    pub(super) fn each(&self) -> impl Iterator<Item = &[ObjectId]> {
+        (0..self.count).map(|n| &self.arguments[n * self.arity..(n + 1) * self.arity])
+    }
+}
