@@ -3,6 +3,7 @@
 //! A part has a `kind`, a `place`, and of the other fields those that its kind needs; the rest is left out. Parts of
 //! alternatives, counterexamples and almost-witnesses are nested.
 
+use super::network::NetworkRecord;
 use super::record::Figure;
 use crate::render::{At, PlaceRecord};
 use crate::task::TaskFiles;
@@ -41,6 +42,8 @@ pub(super) struct FailureRecord {
     right: Option<OperandRecord>,
     #[serde(skip_serializing_if = "Option::is_none")]
     place: Option<PlaceRecord>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    network: Option<NetworkRecord>,
     parts: Vec<PartRecord>,
 }
 
@@ -112,7 +115,7 @@ impl Places<'_> {
         show_object(&self.task.problem, object)
     }
 
-    fn place(&self, place: Place) -> PlaceRecord {
+    pub(super) fn place(&self, place: Place) -> PlaceRecord {
         let source = match place.file {
             File::Domain => &self.task.domain_source,
             File::Problem => &self.task.problem_source,
@@ -205,6 +208,7 @@ impl Places<'_> {
             }
             Failure::Network { fault } => {
                 record.reason = "task network";
+                record.network = Some(self.network(fault));
                 record.parts = match fault {
                     NetworkFault::Precondition { parts, .. }
                     | NetworkFault::Constraints { parts, of: Parent::Task(_) } => {

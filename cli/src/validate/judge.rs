@@ -2,6 +2,7 @@
 
 use super::advice::AdviceRecord;
 use super::failure::Places;
+use super::network::DecompositionRecord;
 use super::record::{VerdictRecord, Word, happenings};
 use super::{Outcome, page};
 use crate::console::{Console, Form};
@@ -66,10 +67,14 @@ impl Judge<'_> {
         let mut record = VerdictRecord::of(source.name(), word);
         if let Verdict::Valid(valid) = &verdict {
             record.fill(valid, &task.problem);
+            let found = valid.decomposition.as_deref();
+            record.decomposition =
+                found.map(|found| DecompositionRecord::of(&task.domain, &task.problem, found));
         }
         let places = Places { task, plan: &plan, source };
         if let Some(trace) = trace.as_ref().filter(|_| self.trace) {
             self.show_trace(&plan, trace, console);
+            self.show_decomposition(&verdict, console);
             let diffs = trace.happenings.iter().map(|h| show_diff(&task.domain, &task.problem, &h.diff));
             record.trace = Some(diffs.collect());
             record.happenings = (console.form() == Form::Json).then(|| happenings(&places, trace));
@@ -111,6 +116,17 @@ impl Judge<'_> {
                 validator.advise(plan, failure, Budget::default())
             }
             _ => Vec::new(),
+        }
+    }
+
+    /// A decomposition that was found, as a plan file has it.
+    fn show_decomposition(&self, verdict: &Verdict, console: &mut Console<'_>) {
+        if let Verdict::Valid(valid) = verdict
+            && let Some(found) = &valid.decomposition
+            && console.form() != Form::Json
+        {
+            let plan = Plan::Hierarchical((**found).clone());
+            console.note(print_plan(&plan, &self.task.domain, &self.task.problem).trim_end());
         }
     }
 

@@ -6,14 +6,16 @@
 //! several. Invariant: the exit code is 0 only if at least one plan was given and every one was read to its end
 //! and is valid.
 //!
-//! What is written as JSON is in `record` and `failure`, as HTML in `page`.
+//! What is written as JSON is in `record`, `failure` and `network`, as HTML in `page` and `tree`.
 
 mod advice;
 mod failure;
 mod gather;
 mod judge;
+mod network;
 mod page;
 mod record;
+mod tree;
 
 pub(crate) use judge::finding_message;
 pub(crate) use record::Figure;

@@ -6,7 +6,8 @@
 
 use super::failure::Places;
 use super::record::VerdictRecord;
-use pddl::Plan;
+use super::tree::tree;
+use pddl::{Plan, PlanStep};
 use serde::Serialize;
 use std::fmt::Write;
 use validator::{
@@ -70,6 +71,18 @@ pub(super) fn section(
         }
         html += "</div>";
     }
+    let decomposed = match (outcome, places.plan) {
+        (_, Plan::Hierarchical(plan)) => Some(plan),
+        (Verdict::Valid(valid), _) => valid.decomposition.as_deref(),
+        _ => None,
+    };
+    if let Some(plan) = decomposed {
+        let failure = match outcome {
+            Verdict::Invalid(failure) => Some(failure),
+            _ => None,
+        };
+        html += &tree(&places.task.domain, &places.task.problem, plan, failure);
+    }
     let fails = match outcome {
         Verdict::Invalid(failure) => failing_step(failure),
         _ => None,
@@ -121,12 +134,13 @@ fn failing_step(failure: &Failure) -> Option<u64> {
 
 fn bars(places: &Places<'_>) -> Vec<Bar> {
     let (domain, problem, plan) = (&places.task.domain, &places.task.problem, places.plan);
+    let one_by_one = |steps: &mut dyn Iterator<Item = &PlanStep>| {
+        let bar = |(start, step)| Bar { text: show_step(domain, problem, step), start, end: start + 1.0 };
+        let starts = std::iter::successors(Some(0.0), |start| Some(start + 1.0));
+        starts.zip(steps).map(bar).collect()
+    };
     match plan {
-        Plan::Sequential(plan) => {
-            let bar = |(start, step)| Bar { text: show_step(domain, problem, step), start, end: start + 1.0 };
-            let starts = std::iter::successors(Some(0.0), |start| Some(start + 1.0));
-            starts.zip(&plan.steps).map(bar).collect()
-        }
+        Plan::Sequential(plan) => one_by_one(&mut plan.steps.iter()),
         Plan::Temporal(timed) => {
             let time =
                 |cause| cause_time(domain, problem, plan, cause).map_or(0.0, validator::Number::to_f64);
@@ -137,7 +151,7 @@ fn bars(places: &Places<'_>) -> Vec<Bar> {
             };
             (0..).zip(&timed.steps).map(bar).collect()
         }
-        Plan::Hierarchical(_) => Vec::new(),
+        Plan::Hierarchical(plan) => one_by_one(&mut plan.steps.iter().map(|step| &step.step)),
     }
 }
 
@@ -161,7 +175,7 @@ fn changes(places: &Places<'_>, diff: &Diff, causes: &[Cause]) -> Changes {
     }
 }
 
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 

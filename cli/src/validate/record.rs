@@ -9,10 +9,12 @@
 //! `message` and is preceded by diagnostics with places; `failure` has the same as data. `metric` is
 //! `{"objective": "minimize", "value": 4}` where the problem has one; `makespan` is the end of a plan with
 //! times, `violated` has the preferences that do not hold. With `--trace`, `trace` has an array of changes per
-//! step (with times: per happening) that could be taken, and `happenings` the same as data.
+//! step (with times: per happening) that could be taken, and `happenings` the same as data. Where a plan does not say
+//! how it comes out of the problem's task network, `decomposition` has how it does.
 
 use super::advice::AdviceRecord;
 use super::failure::{CauseRecord, FailureRecord, Places};
+use super::network::DecompositionRecord;
 use crate::console::Console;
 use crate::exit::Exit;
 use pddl::model::{Objective, Problem};
@@ -134,6 +136,9 @@ pub(super) struct VerdictRecord {
     pub(super) message: Option<String>,
     pub(super) trace: Option<Vec<Vec<String>>>,
     pub(super) failure: Option<FailureRecord>,
+    /// A decomposition that the plan did not give and that was found.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) decomposition: Option<DecompositionRecord>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) advice: Option<AdviceRecord>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -156,6 +161,7 @@ impl VerdictRecord {
             message: None,
             trace: None,
             failure: None,
+            decomposition: None,
             advice: None,
             other_advice: Vec::new(),
             happenings: None,
@@ -206,6 +212,9 @@ impl VerdictRecord {
             (None, Some(steps), Some(cost)) => format!(", {steps} steps, cost {}", cost.0),
             _ => String::new(),
         };
+        if self.decomposition.is_some() {
+            line += ", by a decomposition that was found";
+        }
         if !self.violated.is_empty() {
             line += &format!(", violates {}", self.violated.join(", "));
         }
