@@ -11,7 +11,7 @@ use super::raw::{RawEffects, RawOperator, RawTask, marked};
 use crate::ids::{FactId, id32};
 use crate::task::{
     AtomStatus, AxiomProgram, AxiomRule, ConditionalEffect, Fact, Goal, GroundAtom, Impossible, Literals,
-    Mutexes, Names, ObjectValue, Operator, Relaxation, State, SuccessorTree, Task, variables,
+    Mutexes, Names, ObjectValue, Operator, Relaxation, State, SuccessorTree, Task, undominated, variables,
 };
 use pddl::model::{Domain, IndexVec, Problem};
 
@@ -94,12 +94,14 @@ pub(crate) fn finish(
     axioms.close(state.words_mut());
     let groups = groups(exclusions, &numbers, known);
     let mutexes = Mutexes::new(facts.len(), &groups, &operators, &state);
+    let relaxation = Relaxation::new(&facts, &operators, &axioms, &goal);
     let is_derived: Vec<bool> = facts.iter().map(|f| f.derived).collect();
     Ok(Task {
         variables: variables(&mutexes, &is_derived),
         mutexes,
         successors: SuccessorTree::new(facts.len(), &operators),
-        relaxation: Relaxation::new(&facts, &operators, &axioms, &goal),
+        undominated: undominated(&relaxation),
+        relaxation,
         facts,
         operators,
         axioms,

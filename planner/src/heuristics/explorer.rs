@@ -54,8 +54,20 @@ pub(crate) struct Explorer<'a> {
 }
 
 impl<'a> Explorer<'a> {
+    /// On the undominated relaxation.
     pub(crate) fn new(job: &Job<'a>, goal: Vec<u32>, costs: Costs, combine: Combine) -> Self {
-        let (graph, barred) = (&job.task.relaxation, job.barred);
+        Self::on(job.relaxation(), job, goal, costs, combine)
+    }
+
+    /// On a graph of the caller's choice.
+    pub(crate) fn on(
+        graph: &'a Relaxation,
+        job: &Job<'a>,
+        goal: Vec<u32>,
+        costs: Costs,
+        combine: Combine,
+    ) -> Self {
+        let barred = job.barred;
         let template: Vec<Node> = (0..graph.nodes())
             .map(|n| {
                 let operator = graph.operator[n];

@@ -33,7 +33,7 @@ impl<'a> LmCut<'a> {
         let graph = &job.task.relaxation;
         Self {
             meter: job.meter,
-            explorer: Explorer::new(job, Vec::new(), costs, Combine::Max),
+            explorer: Explorer::on(graph, job, Vec::new(), costs, Combine::Max),
             goal: graph.literals(&job.goal.literals),
             achieved_by: graph.effects.transposed(graph.propositions()),
             costs: job.task.operators.iter().map(|o| costs.of(o.cost)).collect(),

@@ -93,6 +93,7 @@ const fn astar(heuristic: HeuristicKind) -> Engine {
 }
 
 const LAMA: Engine = lazy(&[Ff, Landmarks], &[Ff, Landmarks]);
+const LANDMARKS: Engine = lazy(&[Landmarks], &[]);
 const BFWS: Engine = Engine::Bfws(Width::AnyOne);
 
 impl SearchConfiguration {
@@ -109,7 +110,7 @@ impl SearchConfiguration {
             ..Self::row(
                 "dual",
                 "lama and bfws in turns, on two threads where it pays",
-                &[(LAMA, 1), (BFWS, 1)],
+                &[(LAMA, 4), (BFWS, 3), (LANDMARKS, 1)],
             )
         },
         Self::row(
@@ -117,7 +118,7 @@ impl SearchConfiguration {
             "greedy search on relaxed plans with preferred operators",
             &[(lazy(&[Ff], &[Ff]), 1)],
         ),
-        Self::row("lazy-landmarks", "greedy search on landmarks", &[(lazy(&[Landmarks], &[]), 1)]),
+        Self::row("lazy-landmarks", "greedy search on landmarks", &[(LANDMARKS, 1)]),
         Self::row("bfws", "best-first width search on novelty and goal counts", &[(BFWS, 1)]),
         Self::row(
             "bfws-pairs",

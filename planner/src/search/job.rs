@@ -1,7 +1,7 @@
 //! One search's share of a question: what it needs to know, and the bound that searches share.
 
 use super::{Barred, Meter};
-use crate::task::{Goal, State, Task};
+use crate::task::{Goal, Relaxation, State, Task};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// What a search works on.
@@ -13,6 +13,14 @@ pub(crate) struct Job<'a> {
     pub(crate) barred: &'a Barred,
     pub(crate) meter: &'a Meter<'a>,
     pub(crate) bound: &'a Bound,
+}
+
+impl<'a> Job<'a> {
+    /// The relaxation for estimates that never count an operator twice for two ends.
+    pub(crate) fn relaxation(&self) -> &'a Relaxation {
+        // What dominates may be barred.
+        if self.barred.is_empty() { &self.task.undominated } else { &self.task.relaxation }
+    }
 }
 
 /// Plans must cost less than this. It only falls, whoever lowers it.

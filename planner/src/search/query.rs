@@ -38,6 +38,10 @@ pub(crate) struct Barred {
 }
 
 impl Barred {
+    pub(crate) fn is_empty(&self) -> bool {
+        self.words.is_empty()
+    }
+
     pub(crate) fn contains_number(&self, operator: u32) -> bool {
         !self.words.is_empty() && self.words[operator as usize / 64] >> (operator % 64) & 1 == 1
     }

@@ -7,6 +7,7 @@
 //! under its axioms.
 
 mod axioms;
+mod domination;
 mod mutexes;
 mod names;
 mod operator;
@@ -16,6 +17,7 @@ mod successors;
 
 pub(crate) use axioms::AxiomProgram;
 pub use axioms::AxiomRule;
+pub(crate) use domination::undominated;
 pub(crate) use mutexes::variables;
 pub use mutexes::{Mutexes, Variable};
 pub(crate) use names::Names;
@@ -87,6 +89,8 @@ pub struct Task {
     pub(crate) variables: Vec<Variable>,
     pub(crate) successors: SuccessorTree,
     pub(crate) relaxation: Relaxation,
+    /// The relaxation without what other operators do as well.
+    pub(crate) undominated: Relaxation,
 }
 
 impl Task {

@@ -139,6 +139,34 @@ impl Relaxation {
         self.effects.push(effects);
     }
 
+    /// What a node counts: first whether it is an operator at all, then its cost.
+    pub(crate) fn price(&self, node: u32) -> (bool, u32) {
+        (self.operator[node as usize] != AXIOM, self.cost[node as usize])
+    }
+
+    /// The same graph with these effects for each node; nodes without effects go.
+    pub(crate) fn with_effects(&self, effects: &[Vec<u32>]) -> Self {
+        let mut graph = Self {
+            facts: self.facts,
+            negated: self.negated.clone(),
+            negation: self.negation.clone(),
+            optimistic: self.optimistic.clone(),
+            ..Self::default()
+        };
+        for (node, effects) in effects.iter().enumerate().filter(|(_, e)| !e.is_empty()) {
+            let needs = self.preconditions.row(id32(node));
+            if needs.is_empty() {
+                graph.free.push(id32(graph.operator.len()));
+            }
+            graph.operator.push(self.operator[node]);
+            graph.cost.push(self.cost[node]);
+            graph.preconditions.push(needs.iter().copied());
+            graph.effects.push(effects.iter().copied());
+        }
+        graph.needed_by = graph.preconditions.transposed(graph.propositions());
+        graph
+    }
+
     /// The propositions of a conjunction. A negated fact without a proposition (a goal that came
     /// after grounding) is left out: optimistic.
     pub(crate) fn literals(&self, literals: &Literals) -> Vec<u32> {

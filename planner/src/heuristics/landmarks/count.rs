@@ -26,12 +26,12 @@ pub(crate) struct LandmarkCount<'a> {
 
 impl<'a> LandmarkCount<'a> {
     pub(crate) fn new(job: &Job<'a>) -> Self {
-        let (task, graph) = (job.task, &job.task.relaxation);
+        let (task, graph) = (job.task, job.relaxation());
         let mut initial = vec![false; graph.propositions()];
         graph.for_each_true(job.state.words(), |p| initial[p as usize] = true);
         let labels = Labels::new(graph, initial, job.barred, job.meter);
         let landmarks =
-            LandmarkGraph::new(task, labels.as_ref(), &graph.literals(&job.goal.literals), job.meter);
+            LandmarkGraph::new(task, graph, labels.as_ref(), &graph.literals(&job.goal.literals), job.meter);
         let width = landmarks.landmarks.len().div_ceil(64);
         Self { task, graph, meter: job.meter, landmarks, width, accepted: Vec::new() }
     }

@@ -3,17 +3,18 @@
 //! Orders: *natural*, one is in the other's label; *greedy-necessary*, it is needed by every first
 //! achiever, so it must hold right before; *reasonable*, achieving the later one first would have to
 //! undo it. Reasonable orders are guidance and need not be sound; edges that close a cycle are left
-//! out. Interference is read off the operators: all achievers of one delete the other.
+//! out. Interference is read off mutexes and off the effects that all achievers share.
 //!
 //! Source: Hoffmann, Porteous & Sebastia, "Ordered landmarks in planning", JAIR 2004; Richter &
-//! Westphal, "The LAMA planner", JAIR 2010, §4. We find fact landmarks by labels, and have no mutexes.
+//! Westphal, "The LAMA planner", JAIR 2010, §4. We find fact landmarks by labels.
 
 use super::labels::Labels;
 use crate::ids::{FactId, id32};
 use crate::search::Meter;
-use crate::task::{AXIOM, Relaxation, Rows, Task};
+use crate::task::{Relaxation, Rows, Task};
 use pddl::model::PredicateId;
 use rustc_hash::FxHashMap;
+use std::collections::hash_map::Entry;
 
 /// Most facts of a disjunctive landmark.
 const DISJUNCTS: usize = 4;
@@ -51,8 +52,13 @@ struct Builder<'a> {
 impl LandmarkGraph {
     /// The graph for a goal; goals alone where labels are missing. Incomplete where the meter is
     /// stopped.
-    pub(crate) fn new(task: &Task, labels: Option<&Labels>, goal: &[u32], meter: &Meter<'_>) -> Self {
-        let graph = &task.relaxation;
+    pub(crate) fn new(
+        task: &Task,
+        graph: &Relaxation,
+        labels: Option<&Labels>,
+        goal: &[u32],
+        meter: &Meter<'_>,
+    ) -> Self {
         let empty = Self { landmarks: Vec::new(), of: FxHashMap::default() };
         let Some(labels) = labels else {
             let mut only_goals = empty;
@@ -279,31 +285,35 @@ impl Builder<'_> {
         }
     }
 
-    /// `b` before `a` where `a` would have to be undone for `b`, and both must hold together later.
+    /// `b` before `a` where `a`, achieved first, would have to be undone for `b`.
     fn reasonable_orders(&mut self) {
         let n = id32(self.found.landmarks.len());
-        let simple = |l: &Landmark| (l.propositions.len() == 1).then(|| l.propositions[0]);
-        // What all achievers of a landmark delete, as facts.
-        let undone: Vec<Vec<FactId>> = (0..n).map(|a| self.undone_by(a)).collect();
+        let shared = self.shared_effects();
+        let mut right_before: Vec<Vec<u32>> = vec![Vec::new(); n as usize];
+        for x in 0..n {
+            for &b in &self.found.landmarks[x as usize].needed_for {
+                right_before[b as usize].push(x);
+            }
+        }
         let mut orders = Vec::new();
         for a in 0..n {
-            if simple(&self.found.landmarks[a as usize]).is_none() || undone[a as usize].is_empty() {
-                continue;
-            }
+            let Some(undone) = self.fact_of(a) else { continue };
             for b in self.companions(a) {
-                if self.meter.spend(n as usize * 4) {
+                if self.meter.spend(64) {
                     return;
                 }
-                let mut right_before: Vec<u32> = vec![b];
-                right_before.extend(
-                    (0..n).filter(|&x| self.found.landmarks[x as usize].needed_for.contains(&b) && x != a),
-                );
-                let interferes = right_before.iter().any(|&x| {
-                    let Some(p) = simple(&self.found.landmarks[x as usize]) else { return false };
-                    let (fact, positive) = self.graph.literal(p);
-                    positive && undone[a as usize].contains(&fact)
-                });
-                if interferes {
+                let excludes = |f: FactId| f != undone && self.task.mutexes.are_mutex(f, undone);
+                let before = right_before[b as usize].iter().filter(|&&x| x != a);
+                let effects = shared.get(&b);
+                if self.fact_of(b).is_some_and(excludes)
+                    || before.clone().filter_map(|&x| self.fact_of(x)).any(excludes)
+                    || effects.is_some_and(|e| e.deletes.contains(&undone))
+                    || effects.is_some_and(|e| e.adds.iter().copied().any(excludes))
+                    // Without a mutex: achieving `a` takes away what `b` needs.
+                    || shared.get(&a).is_some_and(|e| {
+                        before.filter_map(|&x| self.fact_of(x)).any(|f| e.deletes.contains(&f))
+                    })
+                {
                     orders.push((b, a));
                 }
             }
@@ -313,16 +323,32 @@ impl Builder<'_> {
         }
     }
 
+    /// The fact of a landmark that is one positive literal.
+    fn fact_of(&self, landmark: u32) -> Option<FactId> {
+        let [proposition] = self.found.landmarks[landmark as usize].propositions[..] else { return None };
+        let (fact, positive) = self.graph.literal(proposition);
+        positive.then_some(fact)
+    }
+
     /// Landmarks that must hold together with `a` or after it: other goals if `a` is one, and what
-    /// comes before a landmark that needs `a` right before.
+    /// comes before a landmark that needs `a` right before, with all that comes before that.
     fn companions(&self, a: u32) -> Vec<u32> {
         let landmarks = &self.found.landmarks;
         let mut others = Vec::new();
         if landmarks[a as usize].is_goal {
             others.extend((0..id32(landmarks.len())).filter(|&b| landmarks[b as usize].is_goal));
         }
-        for &c in &landmarks[a as usize].needed_for {
-            others.extend(landmarks[c as usize].before.iter().copied());
+        let mut stack: Vec<u32> = landmarks[a as usize]
+            .needed_for
+            .iter()
+            .flat_map(|&c| landmarks[c as usize].before.iter().copied())
+            .collect();
+        let mut seen = vec![false; landmarks.len()];
+        while let Some(b) = stack.pop() {
+            if b != a && !std::mem::replace(&mut seen[b as usize], true) {
+                others.push(b);
+                stack.extend(&landmarks[b as usize].before);
+            }
         }
         others.sort_unstable();
         others.dedup();
@@ -330,24 +356,41 @@ impl Builder<'_> {
         others
     }
 
-    fn undone_by(&self, a: u32) -> Vec<FactId> {
-        let landmark = &self.found.landmarks[a as usize];
-        let [proposition] = landmark.propositions[..] else { return Vec::new() };
-        let mut common: Option<Vec<FactId>> = None;
-        for &node in self.achieved_by.row(proposition) {
-            let operator = self.graph.operator[node as usize];
-            if operator == AXIOM {
-                return Vec::new();
+    /// By landmark that is a fact: what all operators that achieve it add and delete.
+    fn shared_effects(&self) -> FxHashMap<u32, Shared> {
+        let landmark_of: FxHashMap<u32, u32> =
+            (0..id32(self.found.landmarks.len())).filter_map(|l| self.fact_of(l).map(|f| (f.0, l))).collect();
+        let mut shared: FxHashMap<u32, Shared> = FxHashMap::default();
+        for operator in &self.task.operators {
+            if self.meter.spend(operator.adds.len() + 1) {
+                return FxHashMap::default();
             }
-            let deletes = &self.task.operators.as_slice()[operator as usize].deletes;
-            match &mut common {
-                None => common = Some(deletes.to_vec()),
-                Some(kept) => kept.retain(|f| deletes.contains(f)),
-            }
-            if common.as_ref().is_some_and(Vec::is_empty) {
-                break;
+            let conditional =
+                operator.conditional.iter().flat_map(|e| e.adds.iter().map(move |f| (f, Some(e))));
+            for (fact, when) in operator.adds.iter().map(|f| (f, None)).chain(conditional) {
+                let Some(&landmark) = landmark_of.get(&fact.0) else { continue };
+                let with = when.map_or(&[][..], |e| &e.deletes);
+                let deletes = || operator.deletes.iter().chain(with).copied();
+                let more = when.map_or(&[][..], |e| &e.adds);
+                let adds = || operator.adds.iter().chain(more).copied();
+                match shared.entry(landmark) {
+                    Entry::Vacant(entry) => {
+                        entry.insert(Shared { adds: adds().collect(), deletes: deletes().collect() });
+                    }
+                    Entry::Occupied(mut entry) => {
+                        let known = entry.get_mut();
+                        known.adds.retain(|f| adds().any(|g| g == *f));
+                        known.deletes.retain(|f| deletes().any(|g| g == *f));
+                    }
+                }
             }
         }
-        common.unwrap_or_default()
+        shared
     }
+}
+
+/// Effects that all achievers of a landmark have.
+struct Shared {
+    adds: Vec<FactId>,
+    deletes: Vec<FactId>,
 }
