@@ -66,7 +66,9 @@ impl Scene<'_> {
     }
 
     pub(crate) fn fluent(&self, application: &Application, binding: &Binding) -> Option<Value> {
-        self.state.fluent(&self.ground(application, binding))
+        binding.with_objects(&application.arguments, |arguments| {
+            self.state.fluent_of(application.function, arguments)
+        })
     }
 
     pub(crate) fn number(&self, expression: &Expression, binding: &Binding) -> Result<Number, NumericFault> {

@@ -9,8 +9,9 @@ use crate::effort::Effort;
 use crate::number::Number;
 pub(crate) use crate::relation::Moment;
 use crate::relation::Relation;
+use indexmap::{Equivalent, IndexMap};
 use pddl::model::{Domain, FluentValue, FunctionId, GroundApplication, Idx, IndexVec, ObjectId, PredicateId};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 
 /// A predicate of objects.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -40,12 +41,27 @@ impl Value {
     }
 }
 
+/// A [`GroundApplication`] on loan: it has the same hash.
+#[derive(Hash)]
+struct Borrowed<'a> {
+    function: FunctionId,
+    arguments: &'a [ObjectId],
+}
+
+impl Equivalent<GroundApplication> for Borrowed<'_> {
+    fn equivalent(&self, key: &GroundApplication) -> bool {
+        self.function == key.function && self.arguments == key.arguments
+    }
+}
+
 /// Facts, what follows from them, and fluents.
 #[derive(Clone, Debug)]
 pub(crate) struct State {
     pub(crate) facts: IndexVec<PredicateId, Relation>,
     pub(crate) derived: IndexVec<PredicateId, Relation>,
-    fluents: FxHashMap<GroundApplication, Value>,
+    fluents: IndexMap<GroundApplication, Value, FxBuildHasher>,
+    /// What fluents were before they were given a value, if somebody wants to know.
+    before: Option<FxHashMap<GroundApplication, Option<Value>>>,
     /// How often a fluent of the function was given a value.
     fluent_changes: IndexVec<FunctionId, u64>,
     /// How far `derived` lags behind the facts.
@@ -73,7 +89,8 @@ impl State {
         Self {
             facts: relations(),
             derived: relations(),
-            fluents: FxHashMap::default(),
+            fluents: IndexMap::default(),
+            before: None,
             fluent_changes: domain.functions.iter().map(|_| 0).collect(),
             lag: Lag::default(),
             effort: Effort::default(),
@@ -88,6 +105,11 @@ impl State {
         self.fluents.get(application).copied()
     }
 
+    /// The same without a key of its own.
+    pub(crate) fn fluent_of(&self, function: FunctionId, arguments: &[ObjectId]) -> Option<Value> {
+        self.fluents.get(&Borrowed { function, arguments }).copied()
+    }
+
     /// How often a fluent of the function was given a value.
     pub(crate) fn fluent_changes(&self, function: FunctionId) -> u64 {
         self.fluent_changes[function]
@@ -98,12 +120,27 @@ impl State {
         self.fluents.iter().map(|(fluent, &value)| (fluent, value))
     }
 
+    /// Begins to remember what fluents were.
+    pub(crate) fn remember_fluents(&mut self) {
+        self.before.get_or_insert_default().clear();
+    }
+
+    /// The fluents that were given a value since [`State::remember_fluents`], with what they were, in no order.
+    pub(crate) fn remembered(&self) -> impl Iterator<Item = (&GroundApplication, Option<Value>)> {
+        self.before.iter().flatten().map(|(fluent, &before)| (fluent, before))
+    }
+
     /// Gives a fluent a value, or takes it away.
     pub(crate) fn set_fluent(&mut self, application: GroundApplication, value: Option<Value>) {
         self.fluent_changes[application.function] += 1;
+        if let Some(before) = &mut self.before
+            && !before.contains_key(&application)
+        {
+            before.insert(application.clone(), self.fluents.get(&application).copied());
+        }
         match value {
             Some(value) => self.fluents.insert(application, value),
-            None => self.fluents.remove(&application),
+            None => self.fluents.swap_remove(&application),
         };
     }
 }

@@ -1,8 +1,8 @@
 //! What each step changed.
 //!
 //! Effects note what they change while they are made. What follows by axioms and what changes continuously is seen
-//! by a [`Recorder`], which compares the state with the one that it saw before: only a trace pays for that, and only
-//! where a domain has axioms, or a plan times.
+//! by a [`Recorder`], which reads the logs of derived relations and has the state remember what fluents were: only a trace
+//! pays for that, and only for what changed.
 
 use crate::cause::Cause;
 use crate::number::Number;
@@ -10,7 +10,8 @@ use crate::relation::{Mark, Relation, Slot};
 use crate::run::Validator;
 use crate::state::{GroundAtom, Moment, State, Value};
 use pddl::model::{GroundApplication, IndexVec, PredicateId};
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashSet;
+use std::cmp::Ordering;
 
 /// A fluent that got another value.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -65,36 +66,33 @@ pub struct Trace {
 pub(crate) struct Recorder {
     /// Per predicate how far its log was read, and the slots that held then.
     derived: IndexVec<PredicateId, (Option<Mark>, FxHashSet<Slot>)>,
-    fluents: FxHashMap<GroundApplication, Value>,
 }
 
 impl Recorder {
     /// Sees the initial state, and writes it down.
     pub(crate) fn new(validator: &Validator<'_>, state: &mut State, initial: &mut Diff) -> Self {
         let derived = state.derived.iter().map(|_| (None, FxHashSet::default())).collect();
-        let mut recorder = Self { derived, fluents: FxHashMap::default() };
+        let mut recorder = Self { derived };
         initial.added = atoms(&state.facts);
+        initial.fluents = state
+            .fluents()
+            .map(|(fluent, value)| FluentChange { fluent: fluent.clone(), before: None, after: Some(value) })
+            .collect();
+        initial.fluents.sort_by(by_fluent);
         recorder.after(validator, state, 0, initial);
-        recorder.before(state, initial);
-        initial.fluents = std::mem::take(&mut initial.flowed);
-        recorder.settle(state);
         recorder
     }
 
     /// Sees the state just before a happening of a plan with times.
     pub(crate) fn before(&self, state: &State, diff: &mut Diff) {
-        for (fluent, value) in state.fluents() {
-            let before = self.fluents.get(fluent).copied();
-            let noted = || diff.fluents.iter().any(|change| change.fluent == *fluent);
-            if before != Some(value) && !noted() {
-                let fluent = fluent.clone();
-                diff.flowed.push(FluentChange { fluent, before, after: Some(value) });
+        let noted: FxHashSet<&GroundApplication> = diff.fluents.iter().map(|change| &change.fluent).collect();
+        for (fluent, before) in state.remembered() {
+            let after = state.fluent(fluent);
+            if after.is_some() && before != after && !noted.contains(fluent) {
+                diff.flowed.push(FluentChange { fluent: fluent.clone(), before, after });
             }
         }
-        diff.flowed.sort_by(|a, b| {
-            let key = |change: &FluentChange| change.fluent.function;
-            key(a).cmp(&key(b)).then_with(|| a.fluent.arguments.cmp(&b.fluent.arguments))
-        });
+        diff.flowed.sort_by(by_fluent);
     }
 
     /// Sees the state right after a happening.
@@ -135,10 +133,14 @@ impl Recorder {
     }
 
     /// Remembers values for the next [`Recorder::before`].
-    pub(crate) fn settle(&mut self, state: &State) {
-        self.fluents.clear();
-        self.fluents.extend(state.fluents().map(|(fluent, value)| (fluent.clone(), value)));
+    pub(crate) fn settle(&mut self, state: &mut State) {
+        state.remember_fluents();
     }
+}
+
+fn by_fluent(a: &FluentChange, b: &FluentChange) -> Ordering {
+    let key = |change: &FluentChange| change.fluent.function;
+    key(a).cmp(&key(b)).then_with(|| a.fluent.arguments.cmp(&b.fluent.arguments))
 }
 
 fn atoms(relations: &IndexVec<PredicateId, Relation>) -> Vec<GroundAtom> {

@@ -11,6 +11,7 @@
 //! targets). Deviation: conditions of conditional effects and preferences count as
 //! needed; a duration's bound does too.
 
+use super::crowd::Touch;
 use crate::axiom::{Strata, each_predicate};
 use crate::effect::{Changes, Write};
 use crate::scene::{Binding, Scene};
@@ -151,6 +152,22 @@ impl Footprint {
         changes.each_write(|fluent, write| {
             self.written.insert(fluent.clone(), write);
         });
+    }
+
+    /// Everything that it touches, some of it perhaps more than once.
+    pub(super) fn each_touch(&self, visit: &mut dyn FnMut(Touch)) {
+        self.needed.iter().for_each(|atom| visit(Touch::Needs(atom.clone())));
+        self.added.iter().for_each(|atom| visit(Touch::Adds(atom.clone())));
+        self.deleted.iter().for_each(|atom| visit(Touch::Deletes(atom.clone())));
+        self.below.keys().for_each(|&predicate| visit(Touch::Below(predicate)));
+        self.added.iter().chain(&self.deleted).for_each(|atom| visit(Touch::Changes(atom.predicate)));
+        self.read.iter().for_each(|fluent| visit(Touch::Reads(fluent.clone())));
+        for (fluent, write) in &self.written {
+            visit(match write {
+                Write::Additive => Touch::Shifts(fluent.clone()),
+                Write::Other => Touch::Sets(fluent.clone()),
+            });
+        }
     }
 
     /// What keeps the two from happening at one time.

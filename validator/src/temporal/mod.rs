@@ -12,6 +12,7 @@
 //!
 //! Source: Fox & Long, "PDDL2.1", JAIR 2003, Definitions 16 to 20; Edelkamp & Hoffmann, "PDDL2.2", 2004.
 
+mod crowd;
 mod flow;
 mod footprint;
 mod nature;
@@ -31,8 +32,9 @@ use crate::state::{Moment, State};
 use crate::trace::{Diff, Happening, Recorder, Trace};
 use crate::trajectory::Since;
 use crate::verdict::{ChangeFault, Failure, StepIndex, Valid};
+use crowd::Crowd;
 use flow::{Flow, Present};
-use footprint::{Dependencies, Footprint};
+use footprint::Dependencies;
 use nature::{Instance, Nature};
 use pddl::TemporalPlan;
 use pddl::model::{Condition, DurativeAction, Given, ProcessId, TimeSpecifier};
@@ -62,10 +64,13 @@ pub(crate) fn run(
         now: Number::ZERO,
         causes: Vec::new(),
         active: Vec::new(),
-        recent: Vec::new(),
+        crowd: Crowd::default(),
         unrests: 0,
     };
     let mut recorder = trace.as_mut().map(|trace| Recorder::new(validator, run.state, &mut trace.initial));
+    if let Some(recorder) = &mut recorder {
+        recorder.settle(run.state);
+    }
     let due = run.due(run.now);
     run.events(due, None)?;
     run.observe();
@@ -132,13 +137,6 @@ struct Unrest {
     nature: Nature,
 }
 
-/// Something that happened a moment ago.
-struct Recent {
-    time: Number,
-    what: Cause,
-    footprint: Footprint,
-}
-
 struct Run<'s, 'v, 'a> {
     validator: &'v Validator<'a>,
     plan: &'v TemporalPlan,
@@ -148,7 +146,8 @@ struct Run<'s, 'v, 'a> {
     now: Number,
     causes: Vec<Cause>,
     active: Vec<Active<'v>>,
-    recent: Vec<Recent>,
+    /// What happened a moment ago.
+    crowd: Crowd,
     /// How often something began or ended by itself.
     unrests: usize,
 }

@@ -7,7 +7,7 @@
 use super::footprint::{Footprint, Reader};
 use super::nature::bind_functions;
 use super::timeline::{Point, end, start};
-use super::{Active, Checked, Recent, Run, given};
+use super::{Active, Checked, Run, given};
 use crate::cause::{Cause, Causes};
 use crate::condition::compares;
 use crate::effect::Changes;
@@ -65,7 +65,7 @@ impl<'v> Run<'_, 'v, '_> {
             });
         }
         if crowded {
-            self.interference(&deeds)?;
+            self.interference(&mut deeds)?;
         }
         for deed in &deeds {
             self.causes.push(deed.what);
@@ -75,34 +75,18 @@ impl<'v> Run<'_, 'v, '_> {
                 .map_err(|fault| Box::new(Failure::Effect { at: deed.what, fault }))?;
         }
         self.active.extend(started);
-        self.recent.retain(|recent| {
-            let age = self.now.minus(recent.time);
-            age.is_ok_and(|age| age < self.validator.precision.separation)
-        });
-        if crowded {
-            let time = self.now;
-            self.recent.extend(deeds.into_iter().map(|deed| Recent {
-                time,
-                what: deed.what,
-                footprint: deed.footprint,
-            }));
-        }
         Ok(())
     }
 
     /// Two points that are at one time, or too near to each other, must not disturb each other.
-    fn interference(&self, deeds: &[Deed]) -> Checked {
-        for (index, second) in deeds.iter().enumerate() {
-            let near = self.recent.iter().filter(|recent| {
-                self.now.minus(recent.time).is_ok_and(|age| age < self.validator.precision.separation)
-            });
-            let before = near.map(|recent| (recent.what, &recent.footprint));
-            let beside = deeds[..index].iter().map(|deed| (deed.what, &deed.footprint));
-            for (first, footprint) in before.chain(beside) {
-                if let Some(over) = footprint.interference(&second.footprint) {
-                    return Err(Box::new(Failure::Interference { first, second: second.what, over }));
-                }
+    fn interference(&mut self, deeds: &mut [Deed]) -> Checked {
+        self.crowd.forget(self.now, self.validator.precision.separation);
+        for deed in deeds {
+            let footprint = std::mem::take(&mut deed.footprint);
+            if let Some((first, over)) = self.crowd.in_the_way(&footprint) {
+                return Err(Box::new(Failure::Interference { first, second: deed.what, over }));
             }
+            self.crowd.push(self.now, deed.what, footprint);
         }
         Ok(())
     }
