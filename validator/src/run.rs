@@ -7,7 +7,7 @@ use crate::axiom::{Needs, Strata};
 use crate::cause::{Cause, Causes};
 use crate::demands::Demands;
 use crate::effort::Effort;
-use crate::htn::Stop;
+use crate::htn::{Patience, Stop};
 use crate::number::Number;
 use crate::prepare::{derived_in_effect, initial_state};
 use crate::scene::{Binding, Clock, Scene};
@@ -99,6 +99,7 @@ pub struct Validator<'a> {
     pub(crate) domain: &'a Domain,
     pub(crate) problem: &'a Problem,
     pub(crate) precision: Precision,
+    pub(crate) patience: Patience,
     pub(crate) universe: Universe,
     pub(crate) strata: Strata,
     pub(crate) initial: State,
@@ -131,13 +132,28 @@ impl<'a> Validator<'a> {
         }
         let universe = Universe::new(domain, problem);
         let initial = initial_state(domain, problem);
-        Ok(Self { domain, problem, precision: Precision::default(), universe, strata, initial })
+        Ok(Self {
+            domain,
+            problem,
+            precision: Precision::default(),
+            patience: Patience::default(),
+            universe,
+            strata,
+            initial,
+        })
     }
 
     /// The same with another precision.
     #[must_use]
     pub fn with_precision(mut self, precision: Precision) -> Self {
         self.precision = precision;
+        self
+    }
+
+    /// The same for plans that are many.
+    #[must_use]
+    pub(crate) fn with_patience(mut self, patience: Patience) -> Self {
+        self.patience = patience;
         self
     }
 

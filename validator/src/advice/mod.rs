@@ -24,12 +24,16 @@ mod words;
 
 pub use words::show_repair;
 
+use crate::htn::Patience;
 use crate::number::Number;
 use crate::run::{PlanRef, Validator};
 use crate::state::GroundAtom;
 use crate::verdict::{Failure, StepIndex, Unsatisfied, Verdict};
 use pddl::model::{GroundApplication, ObjectId};
 use pddl::{Decimal, Plan, PlanStep, Span, TemporalStep};
+
+/// How many changed plans are searched for a decomposition.
+const SEARCHED_PLANS: usize = 400;
 
 /// How hard to look.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -142,7 +146,15 @@ impl Validator<'_> {
     /// Looks for single changes that make the plan valid, the smallest and most likely first; `failure` is why it is
     /// not.
     pub fn advise(&self, plan: &Plan, failure: &Failure, budget: Budget) -> Vec<Repair> {
-        let mut trials = Trials { validator: self, budget };
+        // For a task network each plan that is tried is searched for a decomposition.
+        let (brief, budget) = match (plan, &self.problem.htn) {
+            (Plan::Sequential(_), Some(_)) => {
+                let plans = budget.plans.min(SEARCHED_PLANS);
+                (Some(self.clone().with_patience(Patience::Brief)), Budget { plans, ..budget })
+            }
+            _ => (None, budget),
+        };
+        let mut trials = Trials { validator: brief.as_ref().unwrap_or(self), budget };
         if trials.is_spent() {
             return Vec::new();
         }
@@ -177,7 +189,10 @@ impl Trials<'_, '_> {
     /// The same under a changed task.
     fn passes_under(&mut self, validator: Result<Validator<'_>, Box<Verdict>>, plan: PlanRef<'_>) -> bool {
         self.pays_for(plan)
-            && validator.is_ok_and(|v| v.with_precision(self.validator.precision).validate(plan).is_valid())
+            && validator.is_ok_and(|v| {
+                let v = v.with_precision(self.validator.precision).with_patience(self.validator.patience);
+                v.validate(plan).is_valid()
+            })
     }
 
     fn is_spent(&self) -> bool {

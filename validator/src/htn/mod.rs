@@ -18,6 +18,7 @@ mod tree;
 mod words;
 
 pub use fault::{NetworkFault, Parent, Shortfall};
+pub(crate) use search::Patience;
 
 use crate::cause::Causes;
 use crate::effort::Effort;

@@ -26,8 +26,32 @@ use rebuild::{Direction, rebuild};
 
 /// What making the grammar may cost.
 const GROUND: u64 = 6_000_000;
+/// What writing down a decomposition may cost: one that takes few steps may have many tasks.
+const REBUILD: u64 = 300_000;
 /// What each round of the search may cost from each end.
 const ROUNDS: [u64; 3] = [60_000, 600_000, 6_000_000];
+
+/// How a search that is one of many is kept short: what it may cost is divided by this.
+const BRIEF: u64 = 30;
+
+/// How much a plan is worth that does not say how it comes out of its task network.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Patience {
+    /// It is the plan that was asked about.
+    #[default]
+    Full,
+    /// It is one of many that are tried.
+    Brief,
+}
+
+impl Patience {
+    const fn of(self, price: u64) -> u64 {
+        match self {
+            Self::Full => price,
+            Self::Brief => price / BRIEF,
+        }
+    }
+}
 
 /// What a search for a decomposition comes to.
 pub(super) enum Outcome {
@@ -44,7 +68,8 @@ pub(super) fn search(validator: &Validator<'_>, plan: &SequentialPlan) -> Outcom
 }
 
 fn decide(validator: &Validator<'_>, plan: &SequentialPlan) -> Result<Outcome, Spent> {
-    let mut purse = Purse(GROUND);
+    let patience = validator.patience;
+    let mut purse = Purse(patience.of(GROUND));
     let grammar = match ground(validator, plan, &mut purse)? {
         Ground::Grammar(grammar) => grammar,
         Ground::Impossible(spans) => return Ok(Outcome::None(Shortfall::Subtasks(spans))),
@@ -56,14 +81,21 @@ fn decide(validator: &Validator<'_>, plan: &SequentialPlan) -> Result<Outcome, S
         [(Direction::Forward, &grammar, &outlook), (Direction::Backward, &reversed, &reversed_outlook)];
     for round in ROUNDS {
         for (direction, grammar, outlook) in sides {
-            let mut purse = Purse(round);
+            let mut purse = Purse(patience.of(round));
             let mut search = Search::new(grammar, outlook, Ahead::Far, &mut Purse(GROUND))?;
             match search.run(&mut purse) {
                 Answer::Found(events) => {
-                    let found = rebuild(plan, grammar, outlook, direction, events, &mut Purse(GROUND))?;
+                    let found = rebuild(plan, grammar, outlook, direction, events, &mut Purse(REBUILD))?;
                     return Ok(Outcome::Found(found));
                 }
-                Answer::None => return Ok(Outcome::None(shortfall(sides[0].1, sides[0].2))),
+                Answer::None => {
+                    // Of one of many, nobody asks why.
+                    let why = match patience {
+                        Patience::Full => shortfall(sides[0].1, sides[0].2),
+                        Patience::Brief => Shortfall::Explained(0),
+                    };
+                    return Ok(Outcome::None(why));
+                }
                 Answer::Spent => {}
             }
         }
