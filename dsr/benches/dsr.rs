@@ -6,71 +6,36 @@ use std::hint::black_box;
 use std::sync::Arc;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use dsr::{
-    AgentId, AttributeId, DictionaryBuilder, Graph, HolderRef, Isometry3, Kind, LabelId, Nature, NodeId,
-    PatternBuilder, Time, Transaction,
-};
+use dsr::{AgentId, PatternBuilder, Time, Transaction};
 
-struct Ward {
-    graph: Graph,
-    label: LabelId,
-    score: AttributeId,
-    says: AttributeId,
-    nodes: Vec<NodeId>,
-}
+mod ward;
 
-/// `count` nodes in a chain of edges, the first fifty also in a chain of transforms.
-fn ward(count: usize) -> Ward {
-    let mut b = DictionaryBuilder::new();
-    let place = b.node_type("place", None, Nature::Geometric).unwrap();
-    let label = b.label("next", place, place).unwrap();
-    let score = b.attribute_on_node("score", place, Kind::Number).unwrap();
-    let says = b.attribute_on_edge("says", label, (place, place), Kind::Text).unwrap();
-    let graph = Graph::new(b.build());
-    graph
-        .edit(AgentId::DSR, Time(0), |tx| {
-            for at in 0..count {
-                tx.add_node(format!("n{at}"), place).set_attribute(format!("n{at}").as_str(), score, 0.0);
-                if at > 0 {
-                    tx.add_edge(format!("n{}", at - 1), label, format!("n{at}"));
-                }
-            }
-            for at in 1..=50 {
-                let step = Isometry3::new([0.1, 0.2, 0.3].into(), [0.1, 0.0, 0.2].into());
-                tx.set_transform(format!("n{}", at - 1), format!("n{at}"), step);
-            }
-        })
-        .unwrap();
-    let nodes = graph.snapshot().nodes_of(place).collect();
-    Ward { graph, label, score, says, nodes }
-}
-
-/// An edge, its attribute and a node's attribute: what a typical agent writes at once.
-fn three_edits(ward: &Ward, round: u64) -> Transaction {
-    let at = usize::try_from(round.wrapping_mul(2_654_435_761) % (ward.nodes.len() as u64 - 1)).unwrap();
-    let (a, b) = (ward.nodes[at], ward.nodes[at + 1]);
-    let mut tx = Transaction::new(AgentId::DSR);
-    let far = ward.nodes[(at + 7) % ward.nodes.len()];
-    if round.is_multiple_of(2) {
-        tx.add_edge(a, ward.label, far)
-    } else {
-        tx.remove_edge(a, ward.label, far)
-    };
-    #[expect(clippy::cast_precision_loss, reason = "any number will do")]
-    tx.set_attribute(a, ward.score, round as f64);
-    let text = if round.is_multiple_of(2) { "yyy" } else { "xxx" };
-    tx.set_attribute(HolderRef::edge(a, ward.label, b), ward.says, text);
-    tx
-}
+use ward::{three_edits, ward};
 
 fn transactions(c: &mut Criterion) {
-    for count in [1_000, 10_000, 100_000] {
+    for count in [1_000, 10_000, 100_000, 1_000_000] {
         let ward = ward(count);
         let mut round = 0_u64;
         c.bench_function(&format!("transaction/3 edits, {count} nodes"), |bench| {
             bench.iter(|| {
                 round += 1;
                 ward.graph.commit(&three_edits(&ward, round), Time(round)).unwrap()
+            });
+        });
+        let mut held = ward.graph.snapshot();
+        c.bench_function(&format!("transaction/3 edits, {count} nodes, the state before held"), |bench| {
+            bench.iter(|| {
+                round += 1;
+                held = ward.graph.commit(&three_edits(&ward, round), Time(round)).unwrap().snapshot;
+            });
+        });
+        drop(held);
+        let now = ward.graph.snapshot();
+        c.bench_function(&format!("attribute by id, at random, {count} nodes"), |bench| {
+            bench.iter(|| {
+                round += 1;
+                let at = usize::try_from(round.wrapping_mul(2_654_435_761)).unwrap() % ward.nodes.len();
+                now.attribute(black_box(ward.nodes[at]), ward.score)
             });
         });
     }

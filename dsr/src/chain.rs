@@ -19,7 +19,7 @@ use nalgebra::Isometry3;
 
 use crate::dictionary::Nature;
 use crate::id::NodeId;
-use crate::state::{Joint, State};
+use crate::state::State;
 
 /// Why there is no chain.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -50,12 +50,11 @@ impl State {
     pub(crate) fn transform(&self, from: NodeId, to: NodeId) -> Result<Isometry3<f64>, ChainError> {
         let (mut up, mut down) = (self.depth(from)?, self.depth(to)?);
         let disconnected = || ChainError::NotConnected { from: self.name(from), to: self.name(to) };
-        let joint = |id| self.node(id).and_then(|node| node.joint.as_ref());
         let (mut a, mut b) = (from, to);
         // Poses of `from` and `to` in the frames reached so far.
         let (mut from_pose, mut to_pose) = (Isometry3::identity(), Isometry3::identity());
         let step = |at: &mut NodeId, pose: &mut Isometry3<f64>| {
-            let joint: &Joint = joint(*at).ok_or_else(disconnected)?;
+            let joint = self.joint(*at).ok_or_else(disconnected)?;
             *pose = joint.transform * *pose;
             *at = joint.parent;
             Ok(())
@@ -81,13 +80,13 @@ impl State {
 
     /// How many transforms lie above a node.
     fn depth(&self, id: NodeId) -> Result<u32, ChainError> {
-        let mut node = self.node(id).ok_or(ChainError::UnknownNode { node: id })?;
-        if self.dictionary.nature(node.node_type) != Some(Nature::Geometric) {
-            return Err(ChainError::NotGeometric { node: node.name.clone() });
+        let node = self.node(id).ok_or(ChainError::UnknownNode { node: id })?;
+        if self.dictionary.nature(node.node_type()) != Some(Nature::Geometric) {
+            return Err(ChainError::NotGeometric { node: self.name(id) });
         }
-        let mut depth = 0;
-        while let Some(parent) = node.joint.as_ref().and_then(|joint| self.node(joint.parent)) {
-            node = parent;
+        let (mut at, mut depth) = (id, 0);
+        while let Some(joint) = self.joint(at) {
+            at = joint.parent;
             depth += 1;
         }
         Ok(depth)

@@ -1,17 +1,21 @@
 //! What a commit changed: the difference between two states, never the list of what was asked.
 //!
 //! Problem: a log of requested edits says "added" for what was there and "removed" for what was put back a line
-//! later. Idea: compare, node by node, what the transaction touched with what was there before. What is the same
-//! to the bit keeps its old `since`; the rest is a change. Invariant: applying the changes in their order to the
-//! state before gives the state after, to the byte (see `replay`). Cost: linear in the content of touched nodes.
+//! later. Idea: hold what the log says was there before the transaction against what is there now, once per thing
+//! touched. What is the same to the bit keeps its old `since`; the rest is a change. Invariant: applying the changes
+//! in their order to the state before gives the state after, to the byte (see `replay`). Cost: linear in what was
+//! edited.
 
 use std::sync::Arc;
 
 use nalgebra::Isometry3;
+use rustc_hash::FxHashSet;
 use serde::{Deserialize, Serialize};
 
-use crate::id::{AgentId, AttributeId, EdgeKey, Holder, NodeId, ReflexId, Time, TypeId, Version};
-use crate::state::{Cell, Edge, Node, State, same_transform};
+use crate::block::Joint;
+use crate::id::{AgentId, AttributeId, EdgeKey, Holder, LabelId, NodeId, ReflexId, Time, TypeId, Version};
+use crate::state::{Kept, State, same_transform};
+use crate::undo::Undo;
 use crate::value::Value;
 
 /// One difference between two states.
@@ -43,17 +47,24 @@ pub enum Change {
 
 impl Change {
     /// Changes are listed by rank: what goes first, what it hung on after it; then what comes, after what it
-    /// hangs on.
-    fn rank(&self) -> u8 {
+    /// hangs on. Within a rank by node, its own attributes before those of its edges.
+    fn order(&self) -> (u8, NodeId, Option<(LabelId, NodeId)>, bool, Option<AttributeId>) {
+        let of = |rank, holder: &Holder, added, attribute: &AttributeId| match holder {
+            Holder::Node(node) => (rank, *node, None, added, Some(*attribute)),
+            Holder::Edge(key) => (rank, key.from, Some((key.label, key.to)), added, Some(*attribute)),
+        };
         match self {
-            Self::AttributeRemoved { .. } => 0,
-            Self::EdgeRemoved { .. } => 1,
-            Self::TransformRemoved { .. } => 2,
-            Self::NodeRemoved { .. } => 3,
-            Self::NodeAdded { .. } => 4,
-            Self::TransformAdded { .. } | Self::TransformChanged { .. } => 5,
-            Self::EdgeAdded { .. } => 6,
-            Self::AttributeAdded { .. } | Self::AttributeChanged { .. } => 7,
+            Self::AttributeRemoved { holder, attribute, .. } => of(0, holder, false, attribute),
+            Self::EdgeRemoved { edge } => (1, edge.from, Some((edge.label, edge.to)), false, None),
+            Self::TransformRemoved { child, .. } => (2, *child, None, false, None),
+            Self::NodeRemoved { node, .. } => (3, *node, None, false, None),
+            Self::NodeAdded { node, .. } => (4, *node, None, false, None),
+            Self::TransformAdded { child, .. } | Self::TransformChanged { child, .. } => {
+                (5, *child, None, false, None)
+            }
+            Self::EdgeAdded { edge } => (6, edge.from, Some((edge.label, edge.to)), false, None),
+            Self::AttributeChanged { holder, attribute, .. } => of(7, holder, false, attribute),
+            Self::AttributeAdded { holder, attribute, .. } => of(7, holder, true, attribute),
         }
     }
 }
@@ -73,108 +84,86 @@ pub struct Delta {
     pub reflexes: Vec<ReflexId>,
 }
 
-/// Compares what was touched with what was there, gives what stayed its old `since`, and lists the rest.
-pub(crate) fn settle(before: &State, after: &mut State) -> Vec<Change> {
-    let mut touched = std::mem::take(&mut after.scratch.touched);
-    touched.sort_unstable();
-    touched.dedup();
-    let mut changes = Vec::new();
-    for id in touched {
-        let old = before.node(id);
-        if old.is_some()
-            && let Some(new) = after.node_quietly(id)
-        {
-            keep_since(old, new);
+/// What an entry of the log is about.
+#[derive(PartialEq, Eq, Hash)]
+enum Thing {
+    Node(NodeId),
+    Edge(EdgeKey),
+    Cell(Holder, AttributeId),
+    Joint(NodeId),
+}
+
+impl Thing {
+    fn of(entry: &Undo) -> Self {
+        match entry {
+            Undo::NodeAdded(node) | Undo::NodeRemoved { node, .. } => Self::Node(*node),
+            Undo::EdgeAdded(edge) | Undo::EdgeRemoved { edge, .. } => Self::Edge(*edge),
+            Undo::Cell { holder, attribute, .. } => Self::Cell(*holder, *attribute),
+            Undo::Joint { child, .. } => Self::Joint(*child),
         }
-        compare(after, id, old, &mut changes);
     }
-    changes.sort_by_key(Change::rank);
+}
+
+/// Logs up to this length are searched rather than hashed.
+const SHORT: usize = 16;
+
+/// Holds what was overwritten against what is there now, gives what stayed its old `since`, and lists the rest.
+pub(crate) fn settle(after: &mut State) -> Vec<Change> {
+    let entries = std::mem::take(&mut after.log.entries);
+    let mut changes = Vec::with_capacity(entries.len());
+    let mut seen = FxHashSet::default();
+    for (at, entry) in entries.iter().enumerate() {
+        // The first entry about a thing has what was there before the transaction.
+        let first = if entries.len() <= SHORT {
+            let thing = Thing::of(entry);
+            entries[..at].iter().all(|earlier| Thing::of(earlier) != thing)
+        } else {
+            seen.insert(Thing::of(entry))
+        };
+        if first {
+            compare(after, entry, &mut changes);
+        }
+    }
+    after.log.entries = entries;
+    if !changes.is_sorted_by_key(Change::order) {
+        changes.sort_by_key(Change::order);
+    }
     changes
 }
 
-/// Everything that is the same in both keeps the version in which it was written.
-fn keep_since(old: Option<&Node>, new: &mut Node) {
-    let Some(old) = old else { return };
-    new.since = old.since;
-    keep_cells(&old.attributes, &mut new.attributes);
-    for edge in &mut new.outgoing {
-        if let Some(was) = old.edge(edge.label, edge.to) {
-            edge.since = was.since;
-            keep_cells(&was.attributes, &mut edge.attributes);
+fn compare(after: &mut State, first: &Undo, changes: &mut Vec<Change>) {
+    match first {
+        Undo::NodeAdded(node) => {
+            if let Some(found) = after.node(*node) {
+                let (node_type, name) = (found.node_type(), after.name(*node));
+                changes.push(Change::NodeAdded { node: *node, name, node_type });
+            }
         }
-    }
-    if let (Some(was), Some(joint)) = (&old.joint, &mut new.joint)
-        && was.parent == joint.parent
-        && same_transform(&was.transform, &joint.transform)
-    {
-        joint.since = was.since;
+        Undo::NodeRemoved { node, name, node_type, .. } => {
+            changes.push(Change::NodeRemoved { node: *node, name: name.clone(), node_type: *node_type });
+        }
+        Undo::EdgeAdded(edge) => {
+            if after.edge(*edge).is_some() {
+                changes.push(Change::EdgeAdded { edge: *edge });
+            }
+        }
+        Undo::EdgeRemoved { edge, since } => match after.edge(*edge) {
+            Some(_) => after.keep_since(Kept::Edge(*edge), *since),
+            None => changes.push(Change::EdgeRemoved { edge: *edge }),
+        },
+        Undo::Cell { holder, attribute, old } => {
+            compare_cells(after, *holder, *attribute, old.as_ref(), changes);
+        }
+        Undo::Joint { child, old } => compare_joints(after, *child, old.as_ref(), changes),
     }
 }
 
-fn keep_cells(old: &[Cell], new: &mut [Cell]) {
-    for cell in new {
-        if let Ok(at) = old.binary_search_by_key(&cell.attribute, |was| was.attribute)
-            && old[at].value.same(&cell.value)
-        {
-            cell.since = old[at].since;
-        }
-    }
-}
-
-/// Lists the differences at one node.
-fn compare(after: &State, id: NodeId, old: Option<&Node>, changes: &mut Vec<Change>) {
-    let new = after.node(id);
-    match (old, new) {
-        (None, Some(node)) => {
-            changes.push(Change::NodeAdded { node: id, name: node.name.clone(), node_type: node.node_type });
-        }
-        (Some(node), None) => {
-            changes.push(Change::NodeRemoved {
-                node: id,
-                name: node.name.clone(),
-                node_type: node.node_type,
-            });
-        }
-        _ => {}
-    }
-    fn cells(node: Option<&Node>) -> &[Cell] {
-        node.map_or(&[], |node| &node.attributes)
-    }
-    fn edges(node: Option<&Node>) -> &[Edge] {
-        node.map_or(&[], |node| &node.outgoing)
-    }
-    compare_cells(after, Holder::Node(id), cells(old), cells(new), changes);
-
-    for edge in edges(old) {
-        let key = EdgeKey { from: id, label: edge.label, to: edge.to };
-        let now = new.and_then(|node| node.edge(edge.label, edge.to));
-        compare_cells(
-            after,
-            Holder::Edge(key),
-            &edge.attributes,
-            now.map_or(&[], |e| &e.attributes),
-            changes,
-        );
-        if now.is_none() {
-            changes.push(Change::EdgeRemoved { edge: key });
-        }
-    }
-    for edge in edges(new) {
-        if old.and_then(|node| node.edge(edge.label, edge.to)).is_none() {
-            let key = EdgeKey { from: id, label: edge.label, to: edge.to };
-            changes.push(Change::EdgeAdded { edge: key });
-            compare_cells(after, Holder::Edge(key), &[], &edge.attributes, changes);
-        }
-    }
-    compare_joints(id, old, new, changes);
-}
-
-fn compare_joints(child: NodeId, old: Option<&Node>, new: Option<&Node>, changes: &mut Vec<Change>) {
-    let old = old.and_then(|node| node.joint.as_ref());
-    let new = new.and_then(|node| node.joint.as_ref());
-    match (old, new) {
+fn compare_joints(after: &mut State, child: NodeId, old: Option<&Joint>, changes: &mut Vec<Change>) {
+    match (old, after.joint(child)) {
         (Some(old), Some(new)) if old.parent == new.parent => {
-            if !same_transform(&old.transform, &new.transform) {
+            if same_transform(&old.transform, &new.transform) {
+                after.keep_since(Kept::Joint(child), old.since);
+            } else {
                 let (old, parent, new) = (old.transform, new.parent, new.transform);
                 changes.push(Change::TransformChanged { parent, child, old, new });
             }
@@ -192,34 +181,30 @@ fn compare_joints(child: NodeId, old: Option<&Node>, new: Option<&Node>, changes
     }
 }
 
-fn compare_cells(after: &State, holder: Holder, old: &[Cell], new: &[Cell], changes: &mut Vec<Change>) {
-    let find = |cells: &[Cell], attribute| {
-        cells
-            .binary_search_by_key(&attribute, |cell: &Cell| cell.attribute)
-            .ok()
-            .map(|at| cells[at].value.clone())
-    };
-    for cell in old {
-        let (attribute, old) = (cell.attribute, cell.value.clone());
-        match find(new, attribute) {
-            None => changes.push(Change::AttributeRemoved { holder, attribute, old }),
-            Some(new) if !new.same(&old) => {
-                // The attribute went with the node that it named and came back with another value: said so,
-                // because a change is applied after the nodes have gone.
-                if old.as_node().is_some_and(|target| after.node(target).is_none()) {
-                    changes.push(Change::AttributeRemoved { holder, attribute, old });
-                    changes.push(Change::AttributeAdded { holder, attribute, new });
-                } else {
-                    changes.push(Change::AttributeChanged { holder, attribute, old, new });
-                }
-            }
-            Some(_) => {}
+fn compare_cells(
+    after: &mut State,
+    holder: Holder,
+    attribute: AttributeId,
+    old: Option<&(Value, Version)>,
+    changes: &mut Vec<Change>,
+) {
+    let new = after.cell(holder, attribute).map(|cell| cell.value.clone());
+    match (old.cloned(), new) {
+        (None, None) => {}
+        (None, Some(new)) => changes.push(Change::AttributeAdded { holder, attribute, new }),
+        (Some((old, _)), None) => changes.push(Change::AttributeRemoved { holder, attribute, old }),
+        (Some((old, since)), Some(new)) if new.same(&old) => {
+            after.keep_since(Kept::Cell(holder, attribute), since);
         }
-    }
-    for cell in new {
-        if find(old, cell.attribute).is_none() {
-            let (attribute, new) = (cell.attribute, cell.value.clone());
-            changes.push(Change::AttributeAdded { holder, attribute, new });
+        (Some((old, _)), Some(new)) => {
+            // The attribute went with the node that it named and came back with another value: said so, because a
+            // change is applied after the nodes have gone.
+            if old.as_node().is_some_and(|target| after.node(target).is_none()) {
+                changes.push(Change::AttributeRemoved { holder, attribute, old });
+                changes.push(Change::AttributeAdded { holder, attribute, new });
+            } else {
+                changes.push(Change::AttributeChanged { holder, attribute, old, new });
+            }
         }
     }
 }

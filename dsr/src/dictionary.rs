@@ -241,6 +241,19 @@ impl Dictionary {
         from: (&str, TypeId),
         to: Option<(&str, TypeId)>,
     ) -> bool {
+        let (first, second) = (|| from.0, || to.map_or("", |(name, _)| name));
+        let to = to.map(|(_, node_type)| (&second as NameOf<'_>, node_type));
+        self.permits(writer, token, (&first, from.1), to)
+    }
+
+    /// The same, with names that are looked up only where a permission is for a node of a name.
+    pub(crate) fn permits(
+        &self,
+        writer: AgentId,
+        token: Token,
+        from: (NameOf<'_>, TypeId),
+        to: Option<(NameOf<'_>, TypeId)>,
+    ) -> bool {
         if writer == AgentId::DSR {
             return true;
         }
@@ -255,3 +268,6 @@ impl Dictionary {
         })
     }
 }
+
+/// Gives the name of a node.
+pub(crate) type NameOf<'a> = &'a dyn Fn() -> &'a str;

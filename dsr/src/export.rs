@@ -8,10 +8,11 @@ use std::sync::Arc;
 use nalgebra::{Isometry3, Quaternion, Translation3, Unit};
 use serde::{Deserialize, Serialize};
 
+use crate::block::Node;
 use crate::dictionary::{Dictionary, Nature};
 use crate::id::{AttributeId, EdgeKey, Holder, LabelId, NodeId, Time, Version};
 use crate::snapshot::{AttributeView, Snapshot};
-use crate::state::{Scratch, State};
+use crate::state::State;
 use crate::transaction::TransactionError;
 use crate::value::{Kind, Value};
 
@@ -191,7 +192,8 @@ pub enum RestoreError {
 
 /// Rebuilds a state, checking that it is one.
 pub(crate) fn restore(dictionary: Arc<Dictionary>, export: &Export) -> Result<State, RestoreError> {
-    let mut state = State::empty(Arc::clone(&dictionary));
+    let mut state = State::empty(dictionary);
+    let dictionary = Arc::clone(&state.dictionary);
     for node in &export.nodes {
         let id = node.id;
         let clash = id >= export.next || state.node(id).is_some() || state.names.get(&node.name).is_some();
@@ -216,13 +218,14 @@ pub(crate) fn restore(dictionary: Arc<Dictionary>, export: &Export) -> Result<St
             restore_attribute(&mut state, Holder::Node(node.id), attribute)?;
         }
     }
+    state.log.clear();
+    let mark = state.mark();
     for transform in &export.transforms {
         restore_transform(&mut state, transform)?;
     }
-    let before = State::empty(dictionary);
-    crate::transaction::apply::judge(&before, &mut state)?;
+    crate::transaction::apply::judge(&mut state, mark)?;
     (state.version, state.time, state.next) = (export.version, export.time, export.next);
-    state.scratch = Scratch::default();
+    state.log.clear();
     Ok(state)
 }
 
@@ -250,7 +253,7 @@ fn edge_key(state: &State, edge: &ExportedEdge) -> Result<EdgeKey, RestoreError>
         .label(&edge.label)
         .ok_or_else(|| RestoreError::UnknownToken { name: edge.label.clone() })?;
     let (from, to) = (find(state, &edge.from)?, find(state, &edge.to)?);
-    let types = |id| state.node(id).map(|node| node.node_type);
+    let types = |id| state.node(id).map(Node::node_type);
     let fits = matches!((types(from), types(to)), (Some(a), Some(b)) if dictionary.allows(label, a, b));
     let taken =
         label == LabelId::HOLDS && dictionary.resource_of(to).and_then(|id| state.lease(id)).is_some();
@@ -271,7 +274,7 @@ fn restore_attribute(
     let attribute: AttributeId = dictionary
         .attribute(&exported.name)
         .ok_or_else(|| RestoreError::UnknownToken { name: exported.name.clone() })?;
-    let types = |id| state.node(id).map(|node| node.node_type);
+    let types = |id| state.node(id).map(Node::node_type);
     let fits = match (holder, dictionary.holder(attribute)) {
         (Holder::Node(id), Some(crate::HolderType::Node(on))) => {
             types(id).is_some_and(|id| dictionary.is_a(id, on))
@@ -309,13 +312,15 @@ fn restore_transform(state: &mut State, exported: &ExportedTransform) -> Result<
     let wrong =
         || RestoreError::WrongTransform { parent: exported.parent.clone(), child: exported.child.clone() };
     let geometric = |id: NodeId| {
-        state.node(id).is_some_and(|node| state.dictionary.nature(node.node_type) == Some(Nature::Geometric))
+        state
+            .node(id)
+            .is_some_and(|node| state.dictionary.nature(node.node_type()) == Some(Nature::Geometric))
     };
     let [x, y, z] = exported.translation;
     let [i, j, k, w] = exported.rotation;
     let rotation = Quaternion::new(w, i, j, k);
     let rigid = exported.translation.iter().all(|c| c.is_finite()) && (rotation.norm() - 1.0).abs() < 1e-6;
-    let has_parent = state.node(child).is_some_and(|node| node.joint.is_some());
+    let has_parent = state.joint(child).is_some();
     if !rigid || !geometric(parent) || !geometric(child) || has_parent || parent == child {
         return Err(wrong());
     }

@@ -1,11 +1,22 @@
-//! The graph: one handle for everybody, one lock for writers, none that a reader would feel.
+//! The graph: one handle for everybody, one lock for writers, none that a reader of a snapshot would feel.
 //!
-//! Idea: a commit computes the next state beside the present one, under the commit lock, and publishes it by
-//! exchanging one pointer. Readers take that pointer. Invariants: versions are handed out without gaps; subscribers
-//! get commits in order; a transaction that changes nothing makes no version and wakes nobody.
+//! Problem: a state that is edited in place cannot be read meanwhile, and one that is copied for every commit costs
+//! more than the commit. Idea: the state is copied when, and as far as, somebody holds it. A snapshot is a reference
+//! to the state; a commit that finds itself the only holder edits in place, any other copies the blocks it touches.
+//! Taking a snapshot is an atomic load where one of the present version has been taken before. Where none has, the
+//! reader takes it from the state, under the commit lock. A reader that finds the lock held says so, and for the
+//! next commits there is always a published one: readers that come again and again do not wait for writers, and
+//! writers that nobody watches do not copy. A transaction too long to wait for publishes before it begins.
+//!
+//! Invariants: what is published is the present version, or the one before the commit in progress; versions are
+//! handed out without gaps; subscribers get commits in order; a transaction that changes nothing makes no version
+//! and wakes nobody.
 
 use std::num::NonZeroUsize;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock, Weak};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+
+use arc_swap::ArcSwapOption;
 
 use crate::delta::Delta;
 use crate::dictionary::Dictionary;
@@ -40,16 +51,35 @@ pub struct Graph {
 }
 
 struct Shared {
+    dictionary: Arc<Dictionary>,
     /// Held while a transaction is applied and its commit handed to the queues.
-    commit: Mutex<Vec<Weak<Queue>>>,
-    /// Held just long enough to copy or to exchange the pointer.
-    current: RwLock<Arc<State>>,
+    commit: Mutex<Writer>,
+    /// A snapshot for whoever asks.
+    published: ArcSwapOption<State>,
+    /// A reader took what is published since the last commit.
+    taken: AtomicBool,
+    /// A reader had to wait for a commit.
+    waited: AtomicBool,
 }
+
+/// What the commit lock guards.
+struct Writer {
+    state: Arc<State>,
+    queues: Vec<Weak<Queue>>,
+    /// For how many more commits there is always a published state.
+    publishing: u32,
+}
+
+/// For how many commits that no reader takes note of a state is published all the same.
+const PUBLISHED: u32 = 64;
+
+/// A transaction of more edits than this does not keep a reader waiting.
+const LONG: usize = 64;
 
 impl Drop for Shared {
     fn drop(&mut self) {
-        let queues = self.commit.get_mut().unwrap_or_else(PoisonError::into_inner);
-        for waker in queues.iter().filter_map(Weak::upgrade).filter_map(|queue| queue.close()) {
+        let writer = self.commit.get_mut().unwrap_or_else(PoisonError::into_inner);
+        for waker in writer.queues.iter().filter_map(Weak::upgrade).filter_map(|queue| queue.close()) {
             waker();
         }
     }
@@ -80,47 +110,94 @@ impl Graph {
     }
 
     fn with(state: State) -> Self {
-        let shared = Shared { commit: Mutex::default(), current: RwLock::new(Arc::new(state)) };
+        let dictionary = Arc::clone(&state.dictionary);
+        let writer = Writer { state: Arc::new(state), queues: Vec::new(), publishing: 0 };
+        let shared = Shared {
+            dictionary,
+            commit: Mutex::new(writer),
+            published: ArcSwapOption::empty(),
+            taken: AtomicBool::new(false),
+            waited: AtomicBool::new(false),
+        };
         Self { shared: Arc::new(shared) }
     }
 
     /// The dictionary.
     pub fn dictionary(&self) -> Arc<Dictionary> {
-        Arc::clone(&self.current().dictionary)
+        Arc::clone(&self.shared.dictionary)
     }
 
     /// The present state.
     pub fn snapshot(&self) -> Snapshot {
-        Snapshot::new(self.current())
+        let shared = &*self.shared;
+        if let Some(state) = shared.published.load_full() {
+            // Written only if it changes, so that readers do not take the line from each other.
+            if !shared.taken.load(Ordering::Relaxed) {
+                shared.taken.store(true, Ordering::Relaxed);
+            }
+            return Snapshot::new(state);
+        }
+        let writer = match shared.commit.try_lock() {
+            Ok(writer) => writer,
+            Err(_) => {
+                shared.waited.store(true, Ordering::Relaxed);
+                self.lock()
+            }
+        };
+        shared.published.store(Some(Arc::clone(&writer.state)));
+        Snapshot::new(Arc::clone(&writer.state))
     }
 
     /// Applies a transaction, as a whole or not at all.
     pub fn commit(&self, transaction: &Transaction, time: Time) -> Result<Commit, TransactionError> {
         let mut wakers = Vec::new();
-        let commit = {
-            let mut queues = self.lock();
-            let outcome = transact(&self.current(), transaction, time)?;
-            let state = Arc::new(outcome.state);
-            let published = !(outcome.delta.changes.is_empty() && outcome.delta.reflexes.is_empty());
-            let snapshot = Snapshot::new(Arc::clone(&state));
-            // The state before is dropped after the lock, not under it: freeing it may take a while.
-            let _before = self.publish(state);
-            let delta = Arc::new(outcome.delta);
-            if published {
-                let committed = Committed { delta: Arc::clone(&delta), snapshot: snapshot.clone() };
-                let touched = Mentions::of(&delta);
-                queues.retain(|queue| {
-                    let Some(queue) = queue.upgrade() else { return false };
-                    wakers.extend(queue.push(&committed, &touched));
-                    true
-                });
-            }
-            Commit { version: delta.version, delta, snapshot, guards: outcome.guards }
-        };
+        let mut guard = self.lock();
+        let writer = &mut *guard;
+        transaction.stale_at(writer.state.version)?;
+        self.prepare(writer, transaction);
+        let outcome = transact(Arc::make_mut(&mut writer.state), transaction, time);
+        // What was published is let go of after the lock, not under it: freeing it may take a while.
+        let _before =
+            (writer.publishing > 0).then(|| self.shared.published.swap(Some(Arc::clone(&writer.state))));
+        let outcome = outcome?;
+        let snapshot = Snapshot::new(Arc::clone(&writer.state));
+        let delta = Arc::new(outcome.delta);
+        let published = !(delta.changes.is_empty() && delta.reflexes.is_empty());
+        if published && !writer.queues.is_empty() {
+            let committed = Committed { delta: Arc::clone(&delta), snapshot: snapshot.clone() };
+            let touched = Mentions::of(&delta);
+            writer.queues.retain(|queue| {
+                let Some(queue) = queue.upgrade() else { return false };
+                wakers.extend(queue.push(&committed, &touched));
+                true
+            });
+        }
+        drop(guard);
         for waker in wakers {
             waker();
         }
-        Ok(commit)
+        Ok(Commit { version: delta.version, delta, snapshot, guards: outcome.guards })
+    }
+
+    /// Decides whether there is a published state while this transaction is applied.
+    fn prepare(&self, writer: &mut Writer, transaction: &Transaction) {
+        let shared = &*self.shared;
+        let waited = shared.waited.load(Ordering::Relaxed) && shared.waited.swap(false, Ordering::Relaxed);
+        let taken = shared.taken.load(Ordering::Relaxed) && shared.taken.swap(false, Ordering::Relaxed);
+        if waited || (taken && writer.publishing > 0) {
+            writer.publishing = PUBLISHED;
+        } else {
+            writer.publishing = writer.publishing.saturating_sub(1);
+        }
+        if transaction.edits.len() > LONG {
+            writer.publishing = writer.publishing.max(1);
+        }
+        let published = shared.published.load().is_some();
+        if published && writer.publishing == 0 {
+            shared.published.store(None);
+        } else if !published && writer.publishing > 0 {
+            shared.published.store(Some(Arc::clone(&writer.state)));
+        }
     }
 
     /// Writes and commits a transaction.
@@ -190,27 +267,24 @@ impl Graph {
 
     /// Under the commit lock, so that no commit falls between the snapshot and the first event.
     fn register(&self, queue: &Arc<Queue>) -> Snapshot {
-        let mut queues = self.lock();
-        queues.push(Arc::downgrade(queue));
-        self.snapshot()
+        let mut writer = self.lock();
+        writer.queues.push(Arc::downgrade(queue));
+        Snapshot::new(Arc::clone(&writer.state))
     }
 
-    fn current(&self) -> Arc<State> {
-        Arc::clone(&self.shared.current.read().unwrap_or_else(PoisonError::into_inner))
-    }
-
-    fn publish(&self, state: Arc<State>) -> Arc<State> {
-        std::mem::replace(&mut self.shared.current.write().unwrap_or_else(PoisonError::into_inner), state)
-    }
-
-    /// A panic under the lock is a bug, but not a reason to stop the robot: what is published is always whole.
-    fn lock(&self) -> MutexGuard<'_, Vec<Weak<Queue>>> {
-        self.shared.commit.lock().unwrap_or_else(PoisonError::into_inner)
+    /// A panic under the lock is a bug, but not a reason to stop the robot: what was begun is taken back.
+    fn lock(&self) -> MutexGuard<'_, Writer> {
+        self.shared.commit.lock().unwrap_or_else(|poisoned| {
+            let mut writer = poisoned.into_inner();
+            Arc::make_mut(&mut writer.state).abandon();
+            self.shared.commit.clear_poison();
+            writer
+        })
     }
 }
 
 impl std::fmt::Debug for Graph {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Graph").field("version", &self.current().version).finish_non_exhaustive()
+        f.debug_struct("Graph").field("version", &self.snapshot().version()).finish_non_exhaustive()
     }
 }

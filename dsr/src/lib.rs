@@ -40,16 +40,18 @@
 //! # }
 //! ```
 //!
-//! Map, from the ground up: `id`, `value` → `dictionary` → `pages`, `names`, `state` (what a snapshot is) →
-//! `transaction` (edits, leases, the tree of transforms), `delta`, `replay`, `export` → `chain`, `pattern`,
+//! Map, from the ground up: `id`, `value` → `dictionary` → `pages`, `block`, `names`, `members`, `state` (what a snapshot
+//! is), `undo` → `transaction` (edits, leases, the tree of transforms), `delta`, `replay`, `export` → `chain`, `pattern`,
 //! `reflex` → `snapshot`, `sentence`, `quiver` → `subscription`, `graph`.
 
+mod block;
 mod chain;
 mod delta;
 mod dictionary;
 mod export;
 mod graph;
 mod id;
+mod members;
 mod mentions;
 mod names;
 mod pages;
@@ -62,6 +64,7 @@ mod snapshot;
 mod state;
 mod subscription;
 mod transaction;
+mod undo;
 mod value;
 
 pub use chain::ChainError;

@@ -3,12 +3,14 @@
 //! Invariant: if a delta's mentions and a pattern's do not intersect, the delta cannot change the pattern's
 //! matches. The converse may fail: an intersection only says that it is worth looking.
 
+use smallvec::SmallVec;
+
 use crate::delta::{Change, Delta};
 use crate::id::{AttributeId, LabelId, TypeId};
 
 /// A set of small numbers.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-struct Bits(Vec<u64>);
+struct Bits(SmallVec<[u64; 2]>);
 
 impl Bits {
     fn insert(&mut self, index: usize) {
@@ -23,7 +25,7 @@ impl Bits {
     }
 
     fn intersects(&self, other: &Self) -> bool {
-        self.0.iter().zip(&other.0).any(|(a, b)| a & b != 0)
+        self.0.iter().zip(other.0.iter()).any(|(a, b)| a & b != 0)
     }
 
     fn iter(&self) -> impl Iterator<Item = usize> {
@@ -99,6 +101,10 @@ impl Mentions {
             theirs.iter().for_each(|index| mine.insert(index));
         }
         self.transforms |= other.transforms;
+    }
+
+    pub(crate) fn clear(&mut self) {
+        *self = Self::default();
     }
 
     pub(crate) fn add_label(&mut self, label: LabelId) {

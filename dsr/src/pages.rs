@@ -1,32 +1,34 @@
-//! A growable array whose copies share everything that has not been written since.
+//! A sparse array of blocks that is written in place, unless somebody else still holds the path to the block.
 //!
-//! Problem: readers keep old states of a graph with 10^4 and more nodes while writers go on. Idea: three levels
-//! of fixed fan-out 32 behind `Arc`; a copy is one reference count, and a write copies the path to its cell,
-//! once, and only while somebody else still holds that path. Cost: get is three indexings; a write to a shared
-//! array of n cells copies n/1024 + 32 + 32 pointers and one cell; to an unshared one, nothing.
+//! Problem: readers keep old states of a graph with 10^6 nodes while writers go on, and most of the time nobody
+//! keeps one. Idea: three levels behind `Arc` over blocks of plain cells. A copy is one reference count; a write
+//! asks at each level whether this copy is the only one, and copies that level only if it is not. The tables are
+//! narrow (32), because copying a table touches the count of each block below it, and those lie apart.
+//! Cost: get is four dependent loads; a write to an array that nobody else holds adds an atomic exchange per
+//! level; to a held one, 64 reference counts, the root and one block, once per block and copy.
 
 use std::sync::Arc;
 
 const BITS: u32 = 5;
 const FANOUT: usize = 1 << BITS;
 
-type Leaf<T> = [Option<Arc<T>>; FANOUT];
-type Page<T> = [Option<Arc<Leaf<T>>>; FANOUT];
+type Lower<B> = [Option<Arc<B>>; FANOUT];
+type Upper<B> = [Option<Arc<Lower<B>>>; FANOUT];
 
 #[derive(Debug)]
-pub(crate) struct Pages<T> {
-    root: Arc<Vec<Arc<Page<T>>>>,
+pub(crate) struct Pages<B> {
+    root: Arc<[Option<Arc<Upper<B>>>]>,
 }
 
-impl<T> Clone for Pages<T> {
+impl<B> Clone for Pages<B> {
     fn clone(&self) -> Self {
         Self { root: Arc::clone(&self.root) }
     }
 }
 
-impl<T> Default for Pages<T> {
+impl<B> Default for Pages<B> {
     fn default() -> Self {
-        Self { root: Arc::default() }
+        Self { root: Arc::new([]) }
     }
 }
 
@@ -34,41 +36,53 @@ const fn split(index: usize) -> (usize, usize, usize) {
     (index >> (2 * BITS), (index >> BITS) % FANOUT, index % FANOUT)
 }
 
-impl<T: Clone> Pages<T> {
-    pub(crate) fn get(&self, index: usize) -> Option<&Arc<T>> {
-        let (page, leaf, cell) = split(index);
-        self.root.get(page)?[leaf].as_ref()?[cell].as_ref()
+impl<B: Clone> Pages<B> {
+    pub(crate) fn get(&self, index: usize) -> Option<&B> {
+        let (top, middle, low) = split(index);
+        self.root.get(top)?.as_ref()?[middle].as_ref()?[low].as_deref()
     }
 
-    /// The cell for writing, alone in this copy.
-    pub(crate) fn get_mut(&mut self, index: usize) -> Option<&mut T> {
-        // An absent cell must not cost a copy of the path to it.
+    /// The block for writing, alone in this copy.
+    pub(crate) fn get_mut(&mut self, index: usize) -> Option<&mut B> {
+        // An absent block must not cost a copy of the path to it.
         self.get(index)?;
-        let (page, leaf, cell) = split(index);
-        let page = Arc::make_mut(Arc::make_mut(&mut self.root).get_mut(page)?);
-        let leaf = Arc::make_mut(page[leaf].as_mut()?);
-        leaf[cell].as_mut().map(Arc::make_mut)
+        let (top, middle, low) = split(index);
+        let upper = Arc::make_mut(Arc::make_mut(&mut self.root).get_mut(top)?.as_mut()?);
+        let lower = Arc::make_mut(upper[middle].as_mut()?);
+        lower[low].as_mut().map(Arc::make_mut)
     }
+}
 
-    pub(crate) fn set(&mut self, index: usize, value: Option<T>) {
-        let (page, leaf, cell) = split(index);
-        let root = Arc::make_mut(&mut self.root);
-        while root.len() <= page {
-            root.push(Arc::new(std::array::from_fn(|_| None)));
+impl<B: Clone + Default> Pages<B> {
+    /// The block for writing, made if it is not there.
+    pub(crate) fn make(&mut self, index: usize) -> &mut B {
+        let (top, middle, low) = split(index);
+        if self.root.len() <= top {
+            // A table more per 1,024 blocks: growing is rare enough to copy the root.
+            let more = std::iter::repeat_n(None, top + 1 - self.root.len());
+            self.root = self.root.iter().cloned().chain(more).collect();
         }
-        let leaf = Arc::make_mut(&mut root[page])[leaf]
-            .get_or_insert_with(|| Arc::new(std::array::from_fn(|_| None)));
-        Arc::make_mut(leaf)[cell] = value.map(Arc::new);
+        let empty = || Arc::new(std::array::from_fn(|_| None));
+        let upper = Arc::make_mut(&mut self.root)[top].get_or_insert_with(empty);
+        let empty = || Arc::new(std::array::from_fn(|_| None));
+        let lower = Arc::make_mut(upper)[middle].get_or_insert_with(empty);
+        Arc::make_mut(Arc::make_mut(lower)[low].get_or_insert_with(Arc::default))
     }
+}
 
-    /// All present cells with their index, in order.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = (usize, &Arc<T>)> {
-        let leaves = self.root.iter().flat_map(|page| page.iter()).enumerate();
-        leaves.flat_map(|(at, leaf)| {
-            leaf.iter()
-                .flat_map(|leaf| leaf.iter())
+impl<B> Pages<B> {
+    /// All present blocks with their index, in order.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (usize, &B)> {
+        let uppers = self.root.iter().enumerate();
+        let present = uppers.filter_map(|(at, upper)| Some((at, upper.as_ref()?)));
+        let lowers = present.flat_map(|(top, upper)| {
+            upper.iter().enumerate().filter_map(move |(at, lower)| Some((top * FANOUT + at, lower.as_ref()?)))
+        });
+        lowers.flat_map(|(at, lower)| {
+            lower
+                .iter()
                 .enumerate()
-                .filter_map(move |(cell, value)| Some((at * FANOUT + cell, value.as_ref()?)))
+                .filter_map(move |(low, block)| Some((at * FANOUT + low, block.as_deref()?)))
         })
     }
 }
@@ -84,21 +98,25 @@ mod tests {
     proptest! {
         /// Copies taken on the way never see what was written after them.
         #[test]
-        fn copies_are_independent(writes in prop::collection::vec((0_usize..5000, any::<Option<u16>>()), 0..60)) {
-            let (mut pages, mut model) = (Pages::default(), BTreeMap::new());
+        fn copies_are_independent(writes in prop::collection::vec((0_usize..5000, any::<u16>(), any::<bool>()), 0..60)) {
+            let (mut pages, mut model) = (Pages::<u16>::default(), BTreeMap::new());
             let mut taken = Vec::new();
-            for (index, value) in writes {
-                taken.push((pages.clone(), model.clone()));
-                pages.set(index, value);
-                model.remove(&index);
-                if let Some(value) = value {
-                    model.insert(index, value);
+            for (index, value, held) in writes {
+                if held {
+                    taken.push((pages.clone(), model.clone()));
+                }
+                *pages.make(index) = value;
+                model.insert(index, value);
+                if let Some(block) = pages.get_mut(index / 2) {
+                    *block ^= 1;
+                    model.entry(index / 2).and_modify(|value| *value ^= 1);
                 }
             }
             taken.push((pages, model));
             for (pages, model) in taken {
-                prop_assert!(pages.iter().map(|(index, value)| (index, **value)).eq(model.clone()));
-                prop_assert!(model.iter().all(|(&index, value)| pages.get(index).map(|v| **v) == Some(*value)));
+                prop_assert!(pages.iter().map(|(index, value)| (index, *value)).eq(model.clone()));
+                prop_assert!(model.iter().all(|(&index, value)| pages.get(index) == Some(value)));
+                prop_assert!(pages.get(5000).is_none());
             }
         }
     }

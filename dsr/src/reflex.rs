@@ -86,6 +86,16 @@ impl Registry {
     pub(crate) fn condemn(&mut self, owner: AgentId) {
         self.condemned.push(owner);
     }
+
+    /// How many owners are declared dead.
+    pub(crate) fn condemned(&self) -> usize {
+        self.condemned.len()
+    }
+
+    /// Takes back what was declared after the first `kept`.
+    pub(crate) fn forget_condemned(&mut self, kept: usize) {
+        self.condemned.truncate(kept);
+    }
 }
 
 impl State {
@@ -114,8 +124,11 @@ impl State {
                 _ => return Err(TransactionError::NotHeld { owner: owner(), resource: name.clone() }),
             }
         }
+        let name = owner();
+        let mark = self.mark();
         self.react(reflex, version)
-            .map_err(|error| TransactionError::ReflexRefused { owner: owner(), error: Box::new(error) })?;
+            .map_err(|error| TransactionError::ReflexRefused { owner: name, error: Box::new(error) })?;
+        self.roll_back(mark);
 
         let mut mentions = Mentions::default();
         for bound in reflex.keep.iter().flat_map(|keep| &keep.any) {
@@ -152,31 +165,32 @@ impl State {
             Arc::make_mut(&mut self.reflexes.live).remove(&id);
             fired.push(id);
             self.give_back(&registered);
-            if let Ok(next) = self.react(&registered.reflex, version) {
-                *self = next;
-            }
+            // What it can no longer write is left out; that it fired is told all the same.
+            let _ = self.react(&registered.reflex, version);
         }
         self.reflexes.condemned.clear();
         fired
     }
 
-    /// The state after what the reflex writes. Edits whose node is gone have nothing left to write on.
-    fn react(&self, reflex: &Reflex, version: Version) -> Result<Self, TransactionError> {
-        let mut next = self.clone();
-        for edit in &reflex.on_break {
-            match apply(&mut next, reflex.owner, edit, version) {
-                Err(TransactionError::UnknownNode { .. }) => {}
-                other => other?,
-            }
+    /// Writes what the reflex writes, all of it or nothing. Edits whose node is gone have nothing left to write on.
+    fn react(&mut self, reflex: &Reflex, version: Version) -> Result<(), TransactionError> {
+        let mark = self.mark();
+        let written =
+            reflex.on_break.iter().try_for_each(|edit| match apply(self, reflex.owner, edit, version) {
+                Err(TransactionError::UnknownNode { .. }) => Ok(()),
+                other => other,
+            });
+        let judged = written.and_then(|()| judge(self, mark));
+        if judged.is_err() {
+            self.roll_back(mark);
         }
-        judge(self, &mut next)?;
-        Ok(next)
+        judged
     }
 
     fn first_broken(&self) -> Option<(ReflexId, Arc<Registered>)> {
         let broken = |registered: &Registered| {
             self.reflexes.condemned.contains(&registered.reflex.owner)
-                || (registered.mentions.intersects(&self.scratch.mentions)
+                || (registered.mentions.intersects(&self.log.mentions)
                     && !(registered
                         .leases
                         .iter()

@@ -5,7 +5,7 @@
 
 use crate::delta::{Change, Delta};
 use crate::id::{EdgeKey, Holder, NodeId, Version};
-use crate::state::{Scratch, State, same_transform};
+use crate::state::{State, same_transform};
 use crate::value::Value;
 
 /// Why deltas do not continue a state.
@@ -38,14 +38,14 @@ pub(crate) fn apply(state: &mut State, delta: &Delta) -> Result<(), ReplayError>
     if Some(found.0) != at.0.checked_add(1) {
         return Err(ReplayError::Gap { at, found });
     }
-    let before = state.clone();
+    let mark = state.mark();
     for (index, change) in delta.changes.iter().enumerate() {
         redo(state, change, found).ok_or(ReplayError::Misfit { version: found, change: index })?;
     }
-    crate::transaction::apply::judge(&before, state)
+    crate::transaction::apply::judge(state, mark)
         .map_err(|_| ReplayError::Misfit { version: found, change: delta.changes.len() })?;
     (state.version, state.time) = (found, delta.time);
-    state.scratch = Scratch::default();
+    state.log.clear();
     Ok(())
 }
 
@@ -62,11 +62,11 @@ fn redo(state: &mut State, change: &Change, since: Version) -> Option<()> {
             state.remove_edge(*edge);
         }
         Change::TransformRemoved { parent, child, .. } => {
-            fits(state.node(*child)?.joint.as_ref()?.parent == *parent)?;
+            fits(state.joint(*child)?.parent == *parent)?;
             state.remove_transform(*child);
         }
         Change::NodeRemoved { node, name, .. } => {
-            fits(*state.node(*node)?.name == **name)?;
+            fits(**state.names.of(*node)? == **name)?;
             state.remove_node(*node);
         }
         Change::NodeAdded { node, name, node_type } => {
@@ -75,17 +75,22 @@ fn redo(state: &mut State, change: &Change, since: Version) -> Option<()> {
             state.insert_node(*node, name.clone(), *node_type, since);
         }
         Change::TransformAdded { parent, child, new } => {
-            fits(state.node(*parent).is_some() && state.node(*child)?.joint.is_none() && parent != child)?;
+            fits(
+                state.node(*parent).is_some()
+                    && state.node(*child).is_some()
+                    && state.joint(*child).is_none()
+                    && parent != child,
+            )?;
             state.insert_transform(*parent, *child, *new, since);
         }
         Change::TransformChanged { parent, child, old, new } => {
-            let joint = state.node(*child)?.joint.as_ref()?;
+            let joint = state.joint(*child)?;
             fits(joint.parent == *parent && same_transform(&joint.transform, old))?;
             state.insert_transform(*parent, *child, *new, since);
         }
         Change::EdgeAdded { edge } => {
             let EdgeKey { from, label, to } = *edge;
-            let (start, end) = (state.node(from)?.node_type, state.node(to)?.node_type);
+            let (start, end) = (state.node(from)?.node_type(), state.node(to)?.node_type());
             fits(from != to && state.dictionary.allows(label, start, end) && state.edge(*edge).is_none())?;
             state.insert_edge(*edge, since);
         }

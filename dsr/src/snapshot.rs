@@ -6,10 +6,11 @@ use std::sync::Arc;
 
 use nalgebra::Isometry3;
 
+use crate::block::{Cell, EdgeCell, Node};
 use crate::chain::ChainError;
 use crate::dictionary::Dictionary;
 use crate::id::{AttributeId, EdgeKey, Holder, LabelId, NodeId, ResourceId, Time, TypeId, Version};
-use crate::state::{Cell, Edge, Node, State};
+use crate::state::State;
 use crate::transaction::Lease;
 use crate::value::Value;
 
@@ -35,18 +36,19 @@ pub struct AttributeView<'a> {
 pub struct EdgeView<'a> {
     /// Which edge.
     pub key: EdgeKey,
-    edge: &'a Edge,
+    since: Version,
+    cells: &'a [EdgeCell],
 }
 
 impl<'a> EdgeView<'a> {
     /// The version that added it.
     pub fn since(&self) -> Version {
-        self.edge.since
+        self.since
     }
 
     /// Its attributes, by id.
     pub fn attributes(&self) -> impl Iterator<Item = AttributeView<'a>> + use<'a> {
-        self.edge.attributes.iter().map(Cell::view)
+        self.cells.iter().map(|edge| edge.cell.view())
     }
 }
 
@@ -55,53 +57,55 @@ impl<'a> EdgeView<'a> {
 pub struct NodeView<'a> {
     /// Which node.
     pub id: NodeId,
-    node: &'a Node,
+    node: Node<'a>,
+    state: &'a State,
 }
 
 impl<'a> NodeView<'a> {
     /// Its name.
     pub fn name(&self) -> &'a str {
-        &self.node.name
+        self.state.names.of(self.id).map_or("", |name| name)
     }
 
     /// Its type.
     pub fn node_type(&self) -> TypeId {
-        self.node.node_type
+        self.node.node_type()
     }
 
     /// The version that added it.
     pub fn since(&self) -> Version {
-        self.node.since
+        self.node.since()
     }
 
     /// Its attributes, by id.
     pub fn attributes(&self) -> impl Iterator<Item = AttributeView<'a>> + use<'a> {
-        self.node.attributes.iter().map(Cell::view)
+        self.node.cells().iter().map(Cell::view)
     }
 
     /// The edges that leave it, by label and end.
     pub fn edges(&self) -> impl Iterator<Item = EdgeView<'a>> + use<'a> {
-        let from = self.id;
-        self.node
-            .outgoing
-            .iter()
-            .map(move |edge| EdgeView { key: EdgeKey { from, label: edge.label, to: edge.to }, edge })
+        let (from, node) = (self.id, self.node);
+        node.outgoing().iter().map(move |edge| EdgeView {
+            key: EdgeKey { from, label: edge.label, to: edge.to },
+            since: edge.since,
+            cells: node.edge_cells(edge.label, edge.to),
+        })
     }
 
     /// The edges that reach it, by label and start.
     pub fn incoming(&self) -> impl Iterator<Item = EdgeKey> + use<'a> {
         let to = self.id;
-        self.node.incoming.iter().map(move |&(label, from)| EdgeKey { from, label, to })
+        self.node.incoming().iter().map(move |&(label, from)| EdgeKey { from, label, to })
     }
 
     /// What it hangs below in the geometric quiver, its pose there, and the version that gave it.
     pub fn parent(&self) -> Option<(NodeId, &'a Isometry3<f64>, Version)> {
-        self.node.joint.as_ref().map(|joint| (joint.parent, &joint.transform, joint.since))
+        self.state.joint(self.id).map(|joint| (joint.parent, &joint.transform, joint.since))
     }
 
     /// What hangs below it in the geometric quiver, by id.
     pub fn children(&self) -> &'a [NodeId] {
-        &self.node.children
+        self.state.children(self.id)
     }
 }
 
@@ -142,24 +146,24 @@ impl Snapshot {
 
     /// A node.
     pub fn get(&self, id: NodeId) -> Option<NodeView<'_>> {
-        self.state.node(id).map(|node| NodeView { id, node })
+        self.state.node(id).map(|node| NodeView { id, node, state: &self.state })
     }
 
     /// The name of a node.
     pub fn name(&self, id: NodeId) -> Option<&str> {
-        self.state.node(id).map(|node| &*node.name)
+        self.state.names.of(id).map(|name| &**name)
     }
 
     /// All nodes, by id.
     pub fn nodes(&self) -> impl Iterator<Item = NodeView<'_>> {
-        self.state.nodes.iter().map(|(index, node)| NodeView { id: NodeId::at(index), node })
+        self.state.nodes().map(|(id, node)| NodeView { id, node, state: &self.state })
     }
 
     /// The nodes of a type and its subtypes, by type and id.
     pub fn nodes_of(&self, node_type: TypeId) -> impl Iterator<Item = NodeId> + '_ {
         let dictionary = &self.state.dictionary;
         let subtypes = dictionary.types().filter(move |&sub| dictionary.is_a(sub, node_type));
-        subtypes.flat_map(|sub| self.state.nodes_exactly(sub)).copied()
+        subtypes.flat_map(|sub| self.state.nodes_exactly(sub))
     }
 
     /// All symbolic edges, by start, label and end.
@@ -170,7 +174,12 @@ impl Snapshot {
     /// An edge.
     pub fn edge(&self, from: NodeId, label: LabelId, to: NodeId) -> Option<EdgeView<'_>> {
         let key = EdgeKey { from, label, to };
-        self.state.edge(key).map(|edge| EdgeView { key, edge })
+        let node = self.state.node(from)?;
+        node.edge(label, to).map(|edge| EdgeView {
+            key,
+            since: edge.since,
+            cells: node.edge_cells(label, to),
+        })
     }
 
     /// Whether the edge is there.

@@ -1,100 +1,26 @@
 //! One state of the graph, and the raw edits that keep its indexes in step.
 //!
-//! A state is the value behind a snapshot: nodes in copy-on-write pages, each node with its edges, attributes
-//! and place in the tree of transforms. Raw edits check nothing (transactions do, in `transaction::apply`;
-//! replay trusts its journal) but never leave half an edge: an edge is listed at both ends, a transform at
-//! parent and child, a reference at what it refers to.
+//! A state is the value behind a snapshot: nodes sixteen to a block, blocks in pages that are copied only while a
+//! snapshot holds them, names and poses in pages of their own. Raw edits check nothing (transactions do, in
+//! `transaction::apply`; replay trusts its journal) but never leave half an edge: an edge is listed at both ends,
+//! a transform at parent and child, a reference at what it refers to. Each writes down what it overwrites (`undo`).
 //!
-//! Cost: a copy is a handful of reference counts. A raw edit on a copy clones the touched nodes and their page
-//! paths once; lists inside a node are sorted vectors, found by binary search.
+//! Cost: a copy is a handful of reference counts. A raw edit is a binary search in one or two blocks; if somebody
+//! holds them, each is copied once.
 
 use std::sync::Arc;
 
 use nalgebra::Isometry3;
 
+use crate::block::{Block, Cell, Edge, EdgeCell, Frames, Joint, NODES, Node, place};
 use crate::dictionary::Dictionary;
-use crate::id::{AgentId, AttributeId, EdgeKey, Holder, LabelId, NodeId, Time, TypeId, Version};
-use crate::mentions::Mentions;
+use crate::id::{AgentId, AttributeId, EdgeKey, Holder, NodeId, Time, TypeId, Version};
+use crate::members::Members;
 use crate::names::Names;
 use crate::pages::Pages;
 use crate::reflex::Registry;
+use crate::undo::{Log, Undo};
 use crate::value::Value;
-
-#[derive(Debug, Clone)]
-pub(crate) struct Cell {
-    pub(crate) attribute: AttributeId,
-    pub(crate) value: Value,
-    pub(crate) since: Version,
-}
-
-#[derive(Debug, Clone)]
-pub(crate) struct Edge {
-    pub(crate) label: LabelId,
-    pub(crate) to: NodeId,
-    pub(crate) since: Version,
-    pub(crate) attributes: Vec<Cell>,
-}
-
-/// The transform from a node to its parent in the geometric quiver.
-#[derive(Debug, Clone)]
-pub(crate) struct Joint {
-    pub(crate) parent: NodeId,
-    pub(crate) transform: Isometry3<f64>,
-    pub(crate) since: Version,
-}
-
-#[derive(Debug, Clone)]
-pub(crate) struct Node {
-    pub(crate) name: Arc<str>,
-    pub(crate) node_type: TypeId,
-    pub(crate) since: Version,
-    /// Sorted by attribute.
-    pub(crate) attributes: Vec<Cell>,
-    /// Sorted by label and end.
-    pub(crate) outgoing: Vec<Edge>,
-    /// Sorted.
-    pub(crate) incoming: Vec<(LabelId, NodeId)>,
-    pub(crate) joint: Option<Joint>,
-    /// Sorted.
-    pub(crate) children: Vec<NodeId>,
-    /// Attributes elsewhere whose value is this node; sorted.
-    pub(crate) referrers: Vec<(Holder, AttributeId)>,
-}
-
-impl Node {
-    pub(crate) fn edge(&self, label: LabelId, to: NodeId) -> Option<&Edge> {
-        self.outgoing
-            .binary_search_by_key(&(label, to), |e| (e.label, e.to))
-            .ok()
-            .map(|at| &self.outgoing[at])
-    }
-
-    /// The edges with one label: a contiguous run of the sorted list.
-    pub(crate) fn edges(&self, label: LabelId) -> &[Edge] {
-        let start = self.outgoing.partition_point(|e| e.label < label);
-        let end = self.outgoing.partition_point(|e| e.label <= label);
-        &self.outgoing[start..end]
-    }
-
-    /// The starts of the edges with one label that end here.
-    pub(crate) fn sources(&self, label: LabelId) -> &[(LabelId, NodeId)] {
-        let start = self.incoming.partition_point(|(l, _)| *l < label);
-        let end = self.incoming.partition_point(|(l, _)| *l <= label);
-        &self.incoming[start..end]
-    }
-
-    /// Whether the node takes part in the geometric quiver as a root: children but no parent.
-    pub(crate) fn is_root(&self) -> bool {
-        self.joint.is_none() && !self.children.is_empty()
-    }
-}
-
-/// What the transaction in progress has touched; empty in every published state.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Scratch {
-    pub(crate) touched: Vec<NodeId>,
-    pub(crate) mentions: Mentions,
-}
 
 #[derive(Debug, Clone)]
 pub(crate) struct State {
@@ -103,14 +29,14 @@ pub(crate) struct State {
     pub(crate) time: Time,
     /// The id of the next new node.
     pub(crate) next: NodeId,
-    pub(crate) nodes: Pages<Node>,
+    blocks: Pages<Block>,
+    frames: Pages<Frames>,
     pub(crate) names: Names,
-    /// Per type, the nodes of exactly that type, ascending.
-    by_type: Arc<Vec<Arc<Vec<NodeId>>>>,
+    members: Members,
     /// The root of the geometric quiver, if any node takes part in it.
     pub(crate) root: Option<NodeId>,
     pub(crate) reflexes: Registry,
-    pub(crate) scratch: Scratch,
+    pub(crate) log: Log,
 }
 
 impl State {
@@ -124,7 +50,7 @@ impl State {
         for (index, (name, node_type)) in agents.chain(resources).enumerate() {
             state.insert_node(NodeId::at(index), name.clone(), node_type, Version(0));
         }
-        state.scratch = Scratch::default();
+        state.log.clear();
         state
     }
 
@@ -135,132 +61,133 @@ impl State {
             version: Version(0),
             time: Time(0),
             next: NodeId(0),
-            nodes: Pages::default(),
+            blocks: Pages::default(),
+            frames: Pages::default(),
             names: Names::default(),
-            by_type: Arc::new(vec![Arc::default(); types]),
+            members: Members::new(types),
             root: None,
             reflexes: Registry::default(),
-            scratch: Scratch::default(),
+            log: Log::default(),
         }
     }
 
-    pub(crate) fn node(&self, id: NodeId) -> Option<&Node> {
-        self.nodes.get(id.index()).map(|node| &**node)
+    pub(crate) fn node(&self, id: NodeId) -> Option<Node<'_>> {
+        let (block, slot) = place(id);
+        self.blocks.get(block)?.node(slot)
     }
 
-    fn node_mut(&mut self, id: NodeId) -> Option<&mut Node> {
-        let node = self.nodes.get_mut(id.index())?;
-        self.scratch.touched.push(id);
-        Some(node)
+    /// All nodes, by id.
+    pub(crate) fn nodes(&self) -> impl Iterator<Item = (NodeId, Node<'_>)> {
+        self.blocks.iter().flat_map(|(at, block)| {
+            block.nodes().map(move |(slot, node)| (NodeId::at(at * NODES + slot), node))
+        })
     }
 
-    /// A node for changes that are no change of content (the bookkeeping of versions).
-    pub(crate) fn node_quietly(&mut self, id: NodeId) -> Option<&mut Node> {
-        self.nodes.get_mut(id.index())
+    /// Reads what writing at a node will need, for nothing but to have it in the cache: see `transaction::apply`.
+    pub(crate) fn warm(&self, id: NodeId, side: Side) -> usize {
+        let (block, slot) = place(id);
+        let Some(block) = self.blocks.get(block) else { return 0 };
+        let known = usize::from(block.node(slot).is_some());
+        known
+            + match side {
+                Side::Start => {
+                    let edge = block.outgoing.get(slot).first().map_or(0, |edge| edge.to.index());
+                    edge + block.edge_cells.get(slot).first().map_or(0, |cell| cell.to.index())
+                }
+                Side::End => block.incoming.get(slot).first().map_or(0, |(_, from)| from.index()),
+                Side::Holder => block.cells.get(slot).first().map_or(0, |cell| cell.attribute.index()),
+            }
     }
 
     pub(crate) fn edge(&self, key: EdgeKey) -> Option<&Edge> {
         self.node(key.from)?.edge(key.label, key.to)
     }
 
-    fn cells(&self, holder: Holder) -> Option<&Vec<Cell>> {
+    pub(crate) fn cell(&self, holder: Holder, attribute: AttributeId) -> Option<&Cell> {
         match holder {
-            Holder::Node(node) => self.node(node).map(|node| &node.attributes),
-            Holder::Edge(key) => self.edge(key).map(|edge| &edge.attributes),
+            Holder::Node(node) => self.node(node)?.cell(attribute),
+            Holder::Edge(key) => self.node(key.from)?.edge_cell(key.label, key.to, attribute),
         }
     }
 
-    pub(crate) fn cell(&self, holder: Holder, attribute: AttributeId) -> Option<&Cell> {
-        let cells = self.cells(holder)?;
-        cells.binary_search_by_key(&attribute, |cell| cell.attribute).ok().map(|at| &cells[at])
+    /// How a node hangs below its parent.
+    pub(crate) fn joint(&self, id: NodeId) -> Option<&Joint> {
+        let (block, slot) = place(id);
+        self.frames.get(block)?.joints[slot].as_ref()
+    }
+
+    /// What hangs below a node, ascending.
+    pub(crate) fn children(&self, id: NodeId) -> &[NodeId] {
+        let (block, slot) = place(id);
+        self.frames.get(block).map_or(&[], |frames| frames.children.get(slot))
+    }
+
+    /// Whether the node takes part in the geometric quiver as a root: children but no parent.
+    pub(crate) fn is_root(&self, id: NodeId) -> bool {
+        self.joint(id).is_none() && !self.children(id).is_empty()
     }
 
     /// The nodes of exactly this type, ascending.
-    pub(crate) fn nodes_exactly(&self, node_type: TypeId) -> &[NodeId] {
-        self.by_type.get(node_type.index()).map_or(&[], |nodes| nodes.as_slice())
+    pub(crate) fn nodes_exactly(&self, node_type: TypeId) -> impl Iterator<Item = NodeId> + '_ {
+        self.members.of(node_type)
     }
 
     pub(crate) fn insert_node(&mut self, id: NodeId, name: Arc<str>, node_type: TypeId, since: Version) {
-        let node = Node {
-            name: name.clone(),
-            node_type,
-            since,
-            attributes: Vec::new(),
-            outgoing: Vec::new(),
-            incoming: Vec::new(),
-            joint: None,
-            children: Vec::new(),
-            referrers: Vec::new(),
-        };
-        self.nodes.set(id.index(), Some(node));
-        self.names.insert(name, id);
-        if let Some(nodes) = Arc::make_mut(&mut self.by_type).get_mut(node_type.index()) {
-            insert_sorted(Arc::make_mut(nodes), id);
-        }
+        self.log.entries.push(Undo::NodeAdded(id));
+        self.log.mentions.add_type(node_type);
+        self.put_node(id, name, node_type, since);
         self.next = self.next.max(NodeId(id.0 + 1));
-        self.scratch.touched.push(id);
-        self.scratch.mentions.add_type(node_type);
     }
 
     /// Removes a node with all that touches it.
     pub(crate) fn remove_node(&mut self, id: NodeId) {
-        let Some(node) = self.nodes.get(id.index()).cloned() else { return };
-        for &(holder, attribute) in &node.referrers {
+        let Some(node) = self.node(id) else { return };
+        let (node_type, since) = (node.node_type(), node.since());
+        let referrers = node.referrers().to_vec();
+        let attributes: Vec<_> = node.cells().iter().map(|cell| cell.attribute).collect();
+        let ends = node.outgoing().iter().map(|edge| EdgeKey { from: id, label: edge.label, to: edge.to });
+        let starts = node.incoming().iter().map(|&(label, from)| EdgeKey { from, label, to: id });
+        let edges: Vec<_> = ends.chain(starts).collect();
+        for (holder, attribute) in referrers {
             self.remove_attribute(holder, attribute);
         }
-        for edge in &node.outgoing {
-            self.remove_edge(EdgeKey { from: id, label: edge.label, to: edge.to });
+        for edge in edges {
+            self.remove_edge(edge);
         }
-        for &(label, from) in &node.incoming {
-            self.remove_edge(EdgeKey { from, label, to: id });
+        for attribute in attributes {
+            self.remove_attribute(Holder::Node(id), attribute);
         }
-        for cell in &node.attributes {
-            self.remove_attribute(Holder::Node(id), cell.attribute);
-        }
-        for &child in &node.children {
+        for child in self.children(id).to_vec() {
             self.remove_transform(child);
         }
         self.remove_transform(id);
-        self.nodes.set(id.index(), None);
-        self.names.remove(&node.name);
-        if let Some(nodes) = Arc::make_mut(&mut self.by_type).get_mut(node.node_type.index()) {
-            remove_sorted(Arc::make_mut(nodes), id);
+        if let Some(name) = self.take_node(id) {
+            self.log.entries.push(Undo::NodeRemoved { node: id, name, node_type, since });
         }
-        self.scratch.touched.push(id);
-        self.scratch.mentions.add_type(node.node_type);
+        self.log.mentions.add_type(node_type);
     }
 
     /// Adds an edge between nodes that exist, unless it is there.
-    pub(crate) fn insert_edge(&mut self, key: EdgeKey, since: Version) {
-        let EdgeKey { from, label, to } = key;
-        if self.edge(key).is_some() {
-            return;
+    pub(crate) fn insert_edge(&mut self, edge: EdgeKey, since: Version) {
+        if self.edge(edge).is_none() {
+            self.log.entries.push(Undo::EdgeAdded(edge));
+            self.log.mentions.add_label(edge.label);
+            self.put_edge(edge, since);
         }
-        if let Some(node) = self.node_mut(from)
-            && let Err(at) = node.outgoing.binary_search_by_key(&(label, to), |e| (e.label, e.to))
-        {
-            node.outgoing.insert(at, Edge { label, to, since, attributes: Vec::new() });
-        }
-        if let Some(node) = self.node_mut(to) {
-            insert_sorted(&mut node.incoming, (label, from));
-        }
-        self.scratch.mentions.add_label(label);
     }
 
     /// Removes an edge with its attributes, if it is there.
-    pub(crate) fn remove_edge(&mut self, key: EdgeKey) {
-        let EdgeKey { from, label, to } = key;
-        let Some(edge) = self.edge(key) else { return };
-        for attribute in edge.attributes.iter().map(|cell| cell.attribute).collect::<Vec<_>>() {
-            self.remove_attribute(Holder::Edge(key), attribute);
+    pub(crate) fn remove_edge(&mut self, edge: EdgeKey) {
+        let EdgeKey { from, label, to } = edge;
+        let Some(node) = self.node(from) else { return };
+        let Some(since) = node.edge(label, to).map(|edge| edge.since) else { return };
+        let attributes: Vec<_> = node.edge_cells(label, to).iter().map(|e| e.cell.attribute).collect();
+        for attribute in attributes {
+            self.remove_attribute(Holder::Edge(edge), attribute);
         }
-        if let Some(node) = self.node_mut(from) {
-            node.outgoing.retain(|edge| (edge.label, edge.to) != (label, to));
-        }
-        if let Some(node) = self.node_mut(to) {
-            remove_sorted(&mut node.incoming, (label, from));
-        }
-        self.scratch.mentions.add_label(label);
+        self.log.entries.push(Undo::EdgeRemoved { edge, since });
+        self.log.mentions.add_label(label);
+        self.take_edge(edge);
     }
 
     /// Writes an attribute of a holder that exists, unless the value is the same.
@@ -271,38 +198,25 @@ impl State {
         value: Value,
         since: Version,
     ) {
-        let old = self.cell(holder, attribute).map(|cell| cell.value.clone());
-        if old.as_ref().is_some_and(|old| old.same(&value)) {
+        if self.cell(holder, attribute).is_some_and(|cell| cell.value.same(&value)) {
             return;
         }
-        if let Some(Value::Node(target)) = old {
-            self.forget(target, (holder, attribute));
-        }
-        if let Value::Node(target) = value
-            && let Some(node) = self.node_mut(target)
-        {
-            insert_sorted(&mut node.referrers, (holder, attribute));
-        }
-        let cell = Cell { attribute, value, since };
-        if let Some(cells) = self.cells_mut(holder) {
-            match cells.binary_search_by_key(&attribute, |cell| cell.attribute) {
-                Ok(at) => cells[at] = cell,
-                Err(at) => cells.insert(at, cell),
-            }
-        }
-        self.scratch.mentions.add_attribute(attribute);
+        let old = self.put_cell(holder, attribute, Some(Cell { value, since, attribute }));
+        self.log_cell(holder, attribute, old);
     }
 
     /// Removes an attribute, if it is there.
     pub(crate) fn remove_attribute(&mut self, holder: Holder, attribute: AttributeId) {
-        let Some(cell) = self.cell(holder, attribute) else { return };
-        if let Value::Node(target) = cell.value {
-            self.forget(target, (holder, attribute));
+        if self.cell(holder, attribute).is_some() {
+            let old = self.put_cell(holder, attribute, None);
+            self.log_cell(holder, attribute, old);
         }
-        if let Some(cells) = self.cells_mut(holder) {
-            cells.retain(|cell| cell.attribute != attribute);
-        }
-        self.scratch.mentions.add_attribute(attribute);
+    }
+
+    fn log_cell(&mut self, holder: Holder, attribute: AttributeId, old: Option<Cell>) {
+        let old = old.map(|cell| (cell.value, cell.since));
+        self.log.entries.push(Undo::Cell { holder, attribute, old });
+        self.log.mentions.add_attribute(attribute);
     }
 
     /// Hangs `child` below `parent`; the child must have no other parent.
@@ -314,59 +228,200 @@ impl State {
         since: Version,
     ) {
         let same = |joint: &Joint| joint.parent == parent && same_transform(&joint.transform, &transform);
-        if self.node(child).and_then(|node| node.joint.as_ref()).is_some_and(same) {
+        if self.joint(child).is_some_and(same) {
             return;
         }
-        if let Some(node) = self.node_mut(child) {
-            node.joint = Some(Joint { parent, transform, since });
-        }
-        let listed = self.node(parent).is_some_and(|node| node.children.binary_search(&child).is_ok());
-        if !listed && let Some(node) = self.node_mut(parent) {
-            insert_sorted(&mut node.children, child);
-        }
-        self.scratch.mentions.add_transforms();
+        let old = self.put_joint(child, Some(Joint { parent, transform, since }));
+        self.log.entries.push(Undo::Joint { child, old });
+        self.log.mentions.add_transforms();
     }
 
     /// Takes `child` off its parent, if it has one.
     pub(crate) fn remove_transform(&mut self, child: NodeId) {
-        let Some(parent) = self.node(child).and_then(|node| Some(node.joint.as_ref()?.parent)) else {
-            return;
-        };
-        if let Some(node) = self.node_mut(child) {
-            node.joint = None;
+        if self.joint(child).is_some() {
+            let old = self.put_joint(child, None);
+            self.log.entries.push(Undo::Joint { child, old });
+            self.log.mentions.add_transforms();
         }
-        if let Some(node) = self.node_mut(parent) {
-            remove_sorted(&mut node.children, child);
-        }
-        self.scratch.mentions.add_transforms();
     }
 
-    fn cells_mut(&mut self, holder: Holder) -> Option<&mut Vec<Cell>> {
-        match holder {
-            Holder::Node(node) => self.node_mut(node).map(|node| &mut node.attributes),
-            Holder::Edge(key) => {
-                let node = self.node_mut(key.from)?;
-                let at =
-                    node.outgoing.binary_search_by_key(&(key.label, key.to), |e| (e.label, e.to)).ok()?;
-                Some(&mut node.outgoing[at].attributes)
+    // What follows writes no log: it is what the edits above and `undo` are made of.
+
+    pub(crate) fn put_node(&mut self, id: NodeId, name: Arc<str>, node_type: TypeId, since: Version) {
+        let (block, slot) = place(id);
+        self.blocks.make(block).set_head(slot, Some((node_type, since)));
+        self.names.insert(name, id);
+        self.members.insert(node_type, id);
+    }
+
+    /// Takes away a node on which nothing hangs; gives its name.
+    pub(crate) fn take_node(&mut self, id: NodeId) -> Option<Arc<str>> {
+        let node_type = self.node(id)?.node_type();
+        let (block, slot) = place(id);
+        self.blocks.get_mut(block)?.set_head(slot, None);
+        self.members.remove(node_type, id);
+        self.names.remove(id)
+    }
+
+    pub(crate) fn put_edge(&mut self, EdgeKey { from, label, to }: EdgeKey, since: Version) {
+        if let Some((block, slot)) = self.block_mut(from)
+            && let Err(at) =
+                block.outgoing.get(slot).binary_search_by_key(&(label, to), |edge| (edge.label, edge.to))
+        {
+            block.outgoing.insert(slot, at, Edge { since, label, to });
+        }
+        if let Some((block, slot)) = self.block_mut(to) {
+            block.incoming.add(slot, (label, from));
+        }
+    }
+
+    /// Takes away an edge that has no attributes.
+    pub(crate) fn take_edge(&mut self, EdgeKey { from, label, to }: EdgeKey) {
+        if let Some((block, slot)) = self.block_mut(from)
+            && let Ok(at) =
+                block.outgoing.get(slot).binary_search_by_key(&(label, to), |edge| (edge.label, edge.to))
+        {
+            block.outgoing.remove(slot, at);
+        }
+        if let Some((block, slot)) = self.block_mut(to) {
+            block.incoming.take(slot, (label, from));
+        }
+    }
+
+    /// Gives an attribute a value or takes it away; gives what was there.
+    pub(crate) fn put_cell(
+        &mut self,
+        holder: Holder,
+        attribute: AttributeId,
+        cell: Option<Cell>,
+    ) -> Option<Cell> {
+        let target = |cell: &Option<Cell>| cell.as_ref().and_then(|cell| cell.value.as_node());
+        let new_target = target(&cell);
+        let old = match holder {
+            Holder::Node(node) => {
+                let (block, slot) = self.block_mut(node)?;
+                let run = &mut block.cells;
+                let found = run.get(slot).binary_search_by_key(&attribute, |cell| cell.attribute);
+                match (found, cell) {
+                    (Ok(at), Some(cell)) => Some(std::mem::replace(&mut run.get_mut(slot)[at], cell)),
+                    (Ok(at), None) => Some(run.remove(slot, at)),
+                    (Err(at), Some(cell)) => {
+                        run.insert(slot, at, cell);
+                        None
+                    }
+                    (Err(_), None) => None,
+                }
+            }
+            Holder::Edge(EdgeKey { from, label, to }) => {
+                let (block, slot) = self.block_mut(from)?;
+                let run = &mut block.edge_cells;
+                let key = |e: &EdgeCell| (e.label, e.to, e.cell.attribute);
+                let found = run.get(slot).binary_search_by_key(&(label, to, attribute), key);
+                match (found, cell) {
+                    (Ok(at), Some(cell)) => Some(std::mem::replace(&mut run.get_mut(slot)[at].cell, cell)),
+                    (Ok(at), None) => Some(run.remove(slot, at).cell),
+                    (Err(at), Some(cell)) => {
+                        run.insert(slot, at, EdgeCell { cell, label, to });
+                        None
+                    }
+                    (Err(_), None) => None,
+                }
+            }
+        };
+        let old_target = target(&old);
+        if old_target != new_target {
+            if let Some((block, slot)) = old_target.and_then(|id| self.block_mut(id)) {
+                block.referrers.take(slot, (holder, attribute));
+            }
+            if let Some((block, slot)) = new_target.and_then(|id| self.block_mut(id)) {
+                block.referrers.add(slot, (holder, attribute));
+            }
+        }
+        old
+    }
+
+    /// Hangs a node or takes it off; gives how it hung.
+    pub(crate) fn put_joint(&mut self, child: NodeId, joint: Option<Joint>) -> Option<Joint> {
+        let (block, slot) = place(child);
+        let parent = joint.as_ref().map(|joint| joint.parent);
+        let old = std::mem::replace(&mut self.frames.make(block).joints[slot], joint);
+        let before = old.as_ref().map(|joint| joint.parent);
+        if before != parent {
+            if let Some(before) = before {
+                let (block, slot) = place(before);
+                self.frames.make(block).children.take(slot, child);
+            }
+            if let Some(parent) = parent {
+                let (block, slot) = place(parent);
+                self.frames.make(block).children.add(slot, child);
+            }
+        }
+        old
+    }
+
+    /// Gives what turned out to be the same after all the version in which it was written.
+    pub(crate) fn keep_since(&mut self, kept: Kept, since: Version) {
+        match kept {
+            Kept::Edge(EdgeKey { from, label, to }) => {
+                if let Some((block, slot)) = self.block_mut(from)
+                    && let Some(edge) = block
+                        .outgoing
+                        .get_mut(slot)
+                        .iter_mut()
+                        .find(|edge| (edge.label, edge.to) == (label, to))
+                {
+                    edge.since = since;
+                }
+            }
+            Kept::Cell(holder, attribute) => {
+                if let Some(mut cell) = self.cell(holder, attribute).cloned() {
+                    cell.since = since;
+                    self.put_cell(holder, attribute, Some(cell));
+                }
+            }
+            Kept::Joint(child) => {
+                let (block, slot) = place(child);
+                if let Some(frames) = self.frames.get_mut(block)
+                    && let Some(joint) = &mut frames.joints[slot]
+                {
+                    joint.since = since;
+                }
             }
         }
     }
 
-    fn forget(&mut self, target: NodeId, referrer: (Holder, AttributeId)) {
-        if let Some(node) = self.node_mut(target) {
-            remove_sorted(&mut node.referrers, referrer);
-        }
+    fn block_mut(&mut self, id: NodeId) -> Option<(&mut Block, usize)> {
+        let (block, slot) = place(id);
+        Some((self.blocks.get_mut(block)?, slot))
     }
 
     /// The name of a node, for errors and sentences; of an agent too, since its node never goes.
     pub(crate) fn name(&self, id: NodeId) -> Arc<str> {
-        self.node(id).map_or_else(|| id.to_string().into(), |node| node.name.clone())
+        self.names.of(id).cloned().unwrap_or_else(|| id.to_string().into())
     }
 
     pub(crate) fn agent_name(&self, id: AgentId) -> Arc<str> {
         self.dictionary.agent_name(id).cloned().unwrap_or_else(|| id.to_string().into())
     }
+}
+
+/// What an edit needs of a node.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Side {
+    /// The edges that leave it.
+    Start,
+    /// The edges that reach it.
+    End,
+    /// Its attributes.
+    Holder,
+}
+
+/// What has a version of its own.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Kept {
+    Edge(EdgeKey),
+    Cell(Holder, AttributeId),
+    Joint(NodeId),
 }
 
 /// Same to the bit.
@@ -376,16 +431,4 @@ pub(crate) fn same_transform(a: &Isometry3<f64>, b: &Isometry3<f64>) -> bool {
         [t.x, t.y, t.z, q.x, q.y, q.z, q.w].map(f64::to_bits)
     };
     bits(a) == bits(b)
-}
-
-fn insert_sorted<T: Ord>(list: &mut Vec<T>, item: T) {
-    if let Err(at) = list.binary_search(&item) {
-        list.insert(at, item);
-    }
-}
-
-fn remove_sorted<T: Ord + Copy>(list: &mut Vec<T>, item: T) {
-    if let Ok(at) = list.binary_search(&item) {
-        list.remove(at);
-    }
 }

@@ -119,6 +119,14 @@ impl Transaction {
         self
     }
 
+    /// Refuses to be applied to another version than the expected one.
+    pub(crate) fn stale_at(&self, current: Version) -> Result<(), TransactionError> {
+        match self.expected {
+            Some(expected) if expected != current => Err(TransactionError::Stale { expected, current }),
+            _ => Ok(()),
+        }
+    }
+
     /// Appends an edit.
     pub fn push(&mut self, edit: Edit) -> &mut Self {
         self.edits.push(edit);

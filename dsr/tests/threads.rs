@@ -39,6 +39,53 @@ fn no_increment_is_lost_and_every_commit_is_told_in_order() {
     assert!(versions.into_iter().eq(start + 1..=start + u64::from(threads as u32 * rounds as u32)));
 }
 
+/// Each commit writes two attributes to one value: whoever reads sees them agree, and never goes back in time,
+/// whether the states that it meets were edited in place or copied.
+#[test]
+fn readers_see_whole_commits_in_order() {
+    let graph = world::ward();
+    let dictionary = graph.dictionary();
+    let (score, urgent) = (dictionary.attribute("score").unwrap(), dictionary.attribute("urgent").unwrap());
+    let barthel = graph.snapshot().node("barthel").unwrap();
+    let (writers, readers, rounds) = (4_u32, 4, 200_u32);
+    let start = graph.snapshot().version().0;
+    let read = |snapshot: &dsr::Snapshot| {
+        let number = snapshot.attribute(barthel, score).and_then(dsr::Value::as_number).unwrap_or(0.0);
+        (number, snapshot.attribute(barthel, urgent).and_then(dsr::Value::as_bool).unwrap_or(false))
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..writers {
+            scope.spawn(|| {
+                for _ in 0..rounds {
+                    let next = |snapshot: &dsr::Snapshot, tx: &mut dsr::Transaction| {
+                        let (number, odd) = read(snapshot);
+                        tx.set_attribute(barthel, score, number + 1.0).set_attribute(barthel, urgent, !odd);
+                    };
+                    graph.update(AgentId::DSR, Time(0), next).unwrap();
+                }
+            });
+        }
+        for _ in 0..readers {
+            scope.spawn(|| {
+                let (mut last, mut kept) = (0, Vec::new());
+                while last < start + u64::from(writers * rounds) {
+                    let now = graph.snapshot();
+                    let (number, odd) = read(&now);
+                    assert_eq!(number % 2.0 == 1.0, odd, "both or neither");
+                    assert!(now.version().0 >= last, "time goes on");
+                    last = now.version().0;
+                    // Some are kept for a while, so that commits meet every mixture of held and free pages.
+                    kept.push((now, number));
+                    if kept.len() > 7 {
+                        kept.drain(..).for_each(|(then, number)| assert_eq!(read(&then).0, number));
+                    }
+                }
+            });
+        }
+    });
+    assert_eq!(read(&graph.snapshot()).0, f64::from(writers * rounds));
+}
+
 #[test]
 fn a_blocked_subscriber_is_woken_by_a_match_and_by_the_end() {
     let graph = world::ward();

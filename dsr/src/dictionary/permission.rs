@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use super::Dictionary;
+use super::{Dictionary, NameOf};
 use crate::id::{AttributeId, LabelId, TypeId};
 
 /// What can be written.
@@ -39,10 +39,10 @@ impl End {
         Self::Named(name.into())
     }
 
-    pub(super) fn admits(&self, dictionary: &Dictionary, (name, node_type): (&str, TypeId)) -> bool {
+    pub(super) fn admits(&self, dictionary: &Dictionary, (name, node_type): (NameOf<'_>, TypeId)) -> bool {
         match self {
             Self::Any => true,
-            Self::Named(wanted) => **wanted == *name,
+            Self::Named(wanted) => **wanted == *name(),
             Self::OfType(wanted) => dictionary.is_a(node_type, *wanted),
         }
     }

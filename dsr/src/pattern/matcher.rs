@@ -128,7 +128,7 @@ impl Run<'_> {
                 let dictionary = &self.state.dictionary;
                 let Some(wanted) = self.pattern.type_of(*slot) else { return ControlFlow::Continue(()) };
                 for sub in dictionary.types().filter(|&sub| dictionary.is_a(sub, wanted)) {
-                    for &node in self.state.nodes_exactly(sub) {
+                    for node in self.state.nodes_exactly(sub) {
                         slots[usize::from(slot.0)] = node;
                         self.steps(rest, slots, emit)?;
                     }
@@ -156,7 +156,7 @@ impl Run<'_> {
     /// Whether the node is there and of the variable's type.
     fn admits(&self, slot: Slot, node: NodeId) -> bool {
         match (self.pattern.type_of(slot), self.state.node(node)) {
-            (Some(wanted), Some(node)) => self.state.dictionary.is_a(node.node_type, wanted),
+            (Some(wanted), Some(node)) => self.state.dictionary.is_a(node.node_type(), wanted),
             _ => false,
         }
     }

@@ -1,75 +1,115 @@
 //! Applying a transaction: a pure function from a state to the next one, or to the invariant that it breaks.
 //!
-//! Idea: edit a copy (a handful of reference counts), publish it only if everything holds. That a failed
-//! transaction leaves the graph untouched needs no undo and no proof. Order: the writer's own edits, the tree of
-//! transforms, the new reflexes, then the reflexes that the edits broke, each as a small transaction of its
-//! owner's. Cost: per edit a few binary searches and one permission look-up; see `BENCHMARKS.md`.
+//! Idea: edit the state in place, with a log of what was there; whatever does not hold plays the log backwards. Order:
+//! the writer's own edits, the tree of transforms, the new reflexes, then the reflexes that the edits broke, each as
+//! a small transaction of its owner's with a mark of its own. Invariant: after an error the state is the one before,
+//! to the byte. Cost: per edit a few binary searches and one permission look-up; see `BENCHMARKS.md`.
 
 use std::sync::Arc;
 
 use super::error::TransactionError;
 use super::{Edit, HolderRef, Preemption, Transaction, tree};
+use crate::block::Node;
 use crate::delta::{self, Change, Delta};
 use crate::dictionary::{HolderType, Nature, Token};
 use crate::id::{AgentId, AttributeId, EdgeKey, Holder, LabelId, NodeId, ReflexId, Time, TypeId, Version};
-use crate::state::{Node, State};
+use crate::state::{Side, State};
+use crate::undo::Mark;
 use crate::value::{Kind, NewValue, NodeRef, Value};
 
-/// What a transaction makes of a state.
+/// What a transaction made of a state.
 pub(crate) struct Outcome {
-    pub(crate) state: State,
     pub(crate) delta: Delta,
     pub(crate) guards: Vec<ReflexId>,
 }
 
+/// Makes the state the next one, or leaves it as it is.
 pub(crate) fn transact(
-    before: &State,
+    state: &mut State,
     transaction: &Transaction,
     time: Time,
 ) -> Result<Outcome, TransactionError> {
-    if let Some(expected) = transaction.expected
-        && expected != before.version
-    {
-        return Err(TransactionError::Stale { expected, current: before.version });
-    }
     let writer = transaction.writer;
-    before.dictionary.agent_name(writer).ok_or(TransactionError::UnknownAgent { id: writer })?;
+    state.dictionary.agent_name(writer).ok_or(TransactionError::UnknownAgent { id: writer })?;
 
-    let mut state = before.clone();
-    let version = Version(before.version.0 + 1);
+    let start = state.begin();
+    let done = run(state, transaction, start);
+    if done.is_err() {
+        state.abandon();
+    }
+    let (guards, reflexes) = done?;
+    let changes = delta::settle(state);
+    if !changes.is_empty() || !reflexes.is_empty() {
+        (state.version, state.time) = (Version(state.version.0 + 1), time);
+    }
+    // An id whose node never saw a version was never given out: nothing in the delta would tell a replay of it.
+    let added =
+        |change: &Change| if let Change::NodeAdded { node, .. } = change { Some(*node) } else { None };
+    let last = changes.iter().filter_map(added).max();
+    state.next = last.map_or(start.next(), |last| NodeId(last.0 + 1));
+    state.log.clear();
+    Ok(Outcome {
+        delta: Delta { version: state.version, time: state.time, writer, changes, reflexes },
+        guards,
+    })
+}
+
+/// The reflexes registered and those that fired.
+fn run(
+    state: &mut State,
+    transaction: &Transaction,
+    start: Mark,
+) -> Result<(Vec<ReflexId>, Vec<ReflexId>), TransactionError> {
+    let (writer, version) = (transaction.writer, Version(state.version.0 + 1));
+    warm(state, &transaction.edits);
     for &reflex in &transaction.dismissed {
         state.dismiss(writer, reflex)?;
     }
     for edit in &transaction.edits {
-        apply(&mut state, writer, edit, version)?;
+        apply(state, writer, edit, version)?;
     }
-    judge(before, &mut state)?;
+    judge(state, start)?;
     let mut guards = Vec::with_capacity(transaction.guards.len());
     for reflex in &transaction.guards {
         guards.push(state.register(writer, reflex, version)?);
     }
     let reflexes = state.fire_broken(version);
-
-    let changes = delta::settle(before, &mut state);
-    state.scratch = crate::state::Scratch::default();
-    let (version, time) = if changes.is_empty() && reflexes.is_empty() {
-        (before.version, before.time)
-    } else {
-        (version, time)
-    };
-    (state.version, state.time) = (version, time);
-    // An id whose node never saw a version was never given out: nothing in the delta would tell a replay of it.
-    let added =
-        |change: &Change| if let Change::NodeAdded { node, .. } = change { Some(*node) } else { None };
-    let last = changes.iter().filter_map(added).max();
-    state.next = last.map_or(before.next, |last| NodeId(last.0 + 1));
-    Ok(Outcome { state, delta: Delta { version, time, writer, changes, reflexes }, guards })
+    Ok((guards, reflexes))
 }
 
-/// Judges what concerns the graph as a whole.
-pub(crate) fn judge(before: &State, state: &mut State) -> Result<(), TransactionError> {
-    if state.scratch.mentions.transforms() {
-        state.root = tree::check(before, state, &state.scratch.touched)?;
+/// Graphs of fewer nodes than this are in the cache anyway.
+const LARGE: NodeId = NodeId(1 << 12);
+
+/// Brings what the edits will need into the cache. Checking and writing an edit is a chain of loads that wait for one
+/// another, and in a large graph each comes from main memory; asked for at once, they come at once.
+fn warm(state: &State, edits: &[Edit]) {
+    if state.next < LARGE {
+        return;
+    }
+    let at = |node: &NodeRef, side| match node {
+        NodeRef::Id(id) => state.warm(*id, side),
+        NodeRef::Name(_) => 0,
+    };
+    let mut sum = 0;
+    for edit in edits {
+        sum += match edit {
+            Edit::AddEdge { from, to, .. } | Edit::RemoveEdge { from, to, .. } => {
+                at(from, Side::Start) + at(to, Side::End)
+            }
+            Edit::SetAttribute { holder, .. } | Edit::ClearAttribute { holder, .. } => match holder {
+                HolderRef::Node(node) => at(node, Side::Holder),
+                HolderRef::Edge { from, to, .. } => at(from, Side::Start) + at(to, Side::End),
+            },
+            _ => 0,
+        };
+    }
+    std::hint::black_box(sum);
+}
+
+/// Judges what concerns the graph as a whole, after what was edited since the mark.
+pub(crate) fn judge(state: &mut State, mark: Mark) -> Result<(), TransactionError> {
+    if state.log.mentions.transforms() {
+        state.root = tree::check(state, mark)?;
     }
     Ok(())
 }
@@ -123,7 +163,7 @@ pub(crate) fn apply(
             if parent == child {
                 return Err(TransactionError::Cycle { parent: state.name(parent), child: state.name(child) });
             }
-            if let Some(joint) = state.node(child).and_then(|node| node.joint.as_ref())
+            if let Some(joint) = state.joint(child)
                 && joint.parent != parent
             {
                 return Err(TransactionError::SecondParent {
@@ -137,7 +177,7 @@ pub(crate) fn apply(
         }
         Edit::RemoveTransform { parent, child } => {
             let (parent, child) = transform_to_write(state, writer, parent, child)?;
-            if state.node(child).and_then(|node| node.joint.as_ref()).is_some_and(|j| j.parent == parent) {
+            if state.joint(child).is_some_and(|j| j.parent == parent) {
                 state.remove_transform(child);
             }
             Ok(())
@@ -199,7 +239,7 @@ fn add_node(
     if node_type == TypeId::AGENT || node_type == TypeId::RESOURCE {
         return Err(TransactionError::Reserved { name: name.clone() });
     }
-    permitted(state, writer, Token::Node(node_type), (name, node_type), None)?;
+    permitted(state, writer, Token::Node(node_type), (Named::Name(name), node_type), None)?;
     if state.next >= NodeId::NOWHERE {
         return Err(TransactionError::Full);
     }
@@ -210,9 +250,10 @@ fn add_node(
 fn remove_node(state: &mut State, writer: AgentId, node: &NodeRef) -> Result<(), TransactionError> {
     let (id, node) = resolve(state, node)?;
     if state.dictionary.agent_of(id).is_some() || state.dictionary.resource_of(id).is_some() {
-        return Err(TransactionError::Reserved { name: node.name.clone() });
+        return Err(TransactionError::Reserved { name: state.name(id) });
     }
-    permitted(state, writer, Token::Node(node.node_type), (&node.name, node.node_type), None)?;
+    let node_type = node.node_type();
+    permitted(state, writer, Token::Node(node_type), (Named::Node(id), node_type), None)?;
     state.remove_node(id);
     Ok(())
 }
@@ -226,29 +267,24 @@ fn edge_to_write(
 ) -> Result<EdgeKey, TransactionError> {
     let dictionary = &state.dictionary;
     let name = dictionary.label_name(label).ok_or(TransactionError::UnknownLabel { id: label })?;
-    let ((from, start), (to, end)) = (resolve(state, from)?, resolve(state, to)?);
+    let ((from, start), (to, end)) = (typed(state, from)?, typed(state, to)?);
     if label == LabelId::HOLDS {
         return Err(TransactionError::Reserved { name: name.clone() });
     }
     if from == to {
-        return Err(TransactionError::Loop { node: start.name.clone(), label: name.clone() });
+        return Err(TransactionError::Loop { node: state.name(from), label: name.clone() });
     }
-    if !dictionary.allows(label, start.node_type, end.node_type) {
+    if !dictionary.allows(label, start, end) {
         return Err(TransactionError::WrongSignature {
             label: name.clone(),
-            from: start.name.clone(),
-            from_type: type_name(state, start.node_type),
-            to: end.name.clone(),
-            to_type: type_name(state, end.node_type),
+            from: state.name(from),
+            from_type: type_name(state, start),
+            to: state.name(to),
+            to_type: type_name(state, end),
         });
     }
-    permitted(
-        state,
-        writer,
-        Token::Label(label),
-        (&start.name, start.node_type),
-        Some((&end.name, end.node_type)),
-    )?;
+    let ends = ((Named::Node(from), start), Some((Named::Node(to), end)));
+    permitted(state, writer, Token::Label(label), ends.0, ends.1)?;
     Ok(EdgeKey { from, label, to })
 }
 
@@ -269,28 +305,28 @@ fn attribute_to_write(
     let token = Token::Attribute(attribute);
     match holder {
         HolderRef::Node(node) => {
-            let (id, node) = resolve(state, node)?;
-            if !matches!(declared, HolderType::Node(holder) if dictionary.is_a(node.node_type, holder)) {
-                return Err(wrong(format!("'{}' ({})", node.name, type_name(state, node.node_type))));
+            let (id, node_type) = typed(state, node)?;
+            if !matches!(declared, HolderType::Node(holder) if dictionary.is_a(node_type, holder)) {
+                return Err(wrong(format!("'{}' ({})", state.name(id), type_name(state, node_type))));
             }
-            permitted(state, writer, token, (&node.name, node.node_type), None)?;
+            permitted(state, writer, token, (Named::Node(id), node_type), None)?;
             Ok(Holder::Node(id))
         }
         HolderRef::Edge { from, label, to } => {
             let label_name =
                 dictionary.label_name(*label).ok_or(TransactionError::UnknownLabel { id: *label })?;
-            let ((from, start), (to, end)) = (resolve(state, from)?, resolve(state, to)?);
+            let ((from, start), (to, end)) = (typed(state, from)?, typed(state, to)?);
             if *label == LabelId::HOLDS {
                 return Err(TransactionError::Reserved { name: label_name.clone() });
             }
             let fits = matches!(declared, HolderType::Edge { label: on, signature }
                 if on == *label
-                    && dictionary.is_a(start.node_type, signature.from)
-                    && dictionary.is_a(end.node_type, signature.to));
+                    && dictionary.is_a(start, signature.from)
+                    && dictionary.is_a(end, signature.to));
             if !fits {
-                return Err(wrong(format!("'{}' {label_name} '{}'", start.name, end.name)));
+                return Err(wrong(format!("'{}' {label_name} '{}'", state.name(from), state.name(to))));
             }
-            let ends = ((&*start.name, start.node_type), Some((&*end.name, end.node_type)));
+            let ends = ((Named::Node(from), start), Some((Named::Node(to), end)));
             permitted(state, writer, token, ends.0, ends.1)?;
             Ok(Holder::Edge(EdgeKey { from, label: *label, to }))
         }
@@ -310,15 +346,15 @@ fn fitting(state: &State, attribute: AttributeId, value: &NewValue) -> Result<Va
         (Kind::Text, NewValue::Text(text)) => Ok(Value::Text(text.clone())),
         (Kind::Bool, NewValue::Bool(truth)) => Ok(Value::Bool(*truth)),
         (Kind::Node(expected), NewValue::Node(node)) => {
-            let (id, node) = resolve(state, node)?;
-            if dictionary.is_a(node.node_type, expected) {
+            let (id, node_type) = typed(state, node)?;
+            if dictionary.is_a(node_type, expected) {
                 return Ok(Value::Node(id));
             }
             Err(TransactionError::WrongTarget {
                 attribute: name.clone(),
                 expected: type_name(state, expected),
-                node: node.name.clone(),
-                node_type: type_name(state, node.node_type),
+                node: state.name(id),
+                node_type: type_name(state, node_type),
             })
         }
         (expected, found) => {
@@ -339,28 +375,44 @@ fn transform_to_write(
     parent: &NodeRef,
     child: &NodeRef,
 ) -> Result<(NodeId, NodeId), TransactionError> {
-    let ((parent, above), (child, below)) = (resolve(state, parent)?, resolve(state, child)?);
-    for node in [above, below] {
-        if state.dictionary.nature(node.node_type) != Some(Nature::Geometric) {
-            return Err(TransactionError::NotGeometric {
-                node: node.name.clone(),
-                node_type: type_name(state, node.node_type),
-            });
+    let ((parent, above), (child, below)) = (typed(state, parent)?, typed(state, child)?);
+    for (node, node_type) in [(parent, above), (child, below)] {
+        if state.dictionary.nature(node_type) != Some(Nature::Geometric) {
+            let (node, node_type) = (state.name(node), type_name(state, node_type));
+            return Err(TransactionError::NotGeometric { node, node_type });
         }
     }
-    let ends = ((&*above.name, above.node_type), Some((&*below.name, below.node_type)));
+    let ends = ((Named::Node(parent), above), Some((Named::Node(child), below)));
     permitted(state, writer, Token::Transform, ends.0, ends.1)?;
     Ok((parent, child))
+}
+
+/// A name to be looked up only if a permission or an error asks for it.
+#[derive(Clone, Copy)]
+enum Named<'a> {
+    Name(&'a str),
+    Node(NodeId),
+}
+
+impl<'a> Named<'a> {
+    fn name(self, state: &'a State) -> &'a str {
+        match self {
+            Self::Name(name) => name,
+            Self::Node(id) => state.names.of(id).map_or("", |name| name),
+        }
+    }
 }
 
 fn permitted(
     state: &State,
     writer: AgentId,
     token: Token,
-    from: (&str, TypeId),
-    to: Option<(&str, TypeId)>,
+    from: (Named<'_>, TypeId),
+    to: Option<(Named<'_>, TypeId)>,
 ) -> Result<(), TransactionError> {
-    if state.dictionary.may_write(writer, token, from, to) {
+    let from_name = || from.0.name(state);
+    let to_name = || to.map_or("", |(name, _)| name.name(state));
+    if state.dictionary.permits(writer, token, (&from_name, from.1), to.map(|to| (&to_name as _, to.1))) {
         return Ok(());
     }
     let token = match token {
@@ -375,12 +427,16 @@ fn permitted(
     Err(TransactionError::Forbidden {
         writer: state.agent_name(writer),
         token: token.into(),
-        from: from.0.into(),
-        to: to.map(|(name, _)| name.into()),
+        from: from.0.name(state).into(),
+        to: to.map(|(name, _)| name.name(state).into()),
     })
 }
 
-fn resolve<'a>(state: &'a State, node: &NodeRef) -> Result<(NodeId, &'a Node), TransactionError> {
+fn typed(state: &State, node: &NodeRef) -> Result<(NodeId, TypeId), TransactionError> {
+    resolve(state, node).map(|(id, node)| (id, node.node_type()))
+}
+
+fn resolve<'a>(state: &'a State, node: &NodeRef) -> Result<(NodeId, Node<'a>), TransactionError> {
     let id = match node {
         NodeRef::Id(id) => Some(*id),
         NodeRef::Name(name) => state.names.get(name),

@@ -5,43 +5,57 @@
 //! and roots (a node with children and no parent; there may be one). A node without transforms takes no part.
 //! Cost: the depth of each moved child.
 
+use std::sync::Arc;
+
 use super::error::TransactionError;
 use crate::id::NodeId;
-use crate::state::{Node, State};
+use crate::state::State;
+use crate::undo::{Mark, Undo};
 
-/// The root after the transaction, or what is broken.
-pub(super) fn check(
-    before: &State,
-    after: &State,
-    touched: &[NodeId],
-) -> Result<Option<NodeId>, TransactionError> {
-    let parent_in = |state: &State, id| state.node(id).and_then(|node| Some(node.joint.as_ref()?.parent));
-    for &id in touched {
-        let parent = parent_in(after, id);
-        if let Some(parent) = parent
-            && parent_in(before, id) != Some(parent)
-            && closes_cycle(after, id)
+/// The root after what was edited since the mark, or what is broken.
+pub(super) fn check(state: &State, mark: Mark) -> Result<Option<NodeId>, TransactionError> {
+    let entries = state.log.since(mark);
+    let parent_now = |id| state.joint(id).map(|joint| joint.parent);
+    let parents = || {
+        entries.iter().filter_map(|entry| match entry {
+            Undo::Joint { child, old } => Some((*child, old.as_ref().map(|joint| joint.parent))),
+            _ => None,
+        })
+    };
+    // New poses of joints that stay where they are move nothing in the tree.
+    if parents().all(|(child, old)| old == parent_now(child)) {
+        return Ok(state.root);
+    }
+    // Per child that was touched, its parent before: the first entry about it has that.
+    let mut before: Vec<_> = parents().collect();
+    let touched: Vec<_> = before.iter().map(|(child, _)| *child).collect();
+    before.sort_by_key(|(child, _)| *child);
+    before.dedup_by_key(|(child, _)| *child);
+    let parent_before = |id| match before.binary_search_by_key(&id, |(child, _)| *child) {
+        Ok(at) => before[at].1,
+        Err(_) => parent_now(id),
+    };
+
+    for &id in &touched {
+        if let Some(parent) = parent_now(id)
+            && parent_before(id) != Some(parent)
+            && closes_cycle(state, id)
         {
-            return Err(TransactionError::Cycle { parent: after.name(parent), child: after.name(id) });
+            return Err(TransactionError::Cycle { parent: state.name(parent), child: state.name(id) });
         }
     }
-    let mut root = before.root.filter(|&root| after.node(root).is_some_and(Node::is_root));
-    for &id in touched {
-        if !after.node(id).is_some_and(Node::is_root) {
-            continue;
-        }
+    let mut root = state.root.filter(|&root| state.is_root(root));
+    let ends = touched.iter().flat_map(|&id| [Some(id), parent_before(id), parent_now(id)]);
+    for id in ends.flatten().filter(|&id| state.is_root(id)) {
         match root {
             Some(root) if root != id => {
-                let cut = [id, root].into_iter().find_map(|id| Some((parent_in(before, id)?, id)));
+                let cut = [id, root].into_iter().find_map(|id| Some((parent_before(id)?, id)));
                 return Err(match cut {
-                    Some((parent, child)) => {
-                        // The parent may have been removed: its name is in the state before.
-                        TransactionError::Disconnected {
-                            parent: before.name(parent),
-                            child: after.name(child),
-                        }
-                    }
-                    None => TransactionError::SecondRoot { root: after.name(root), other: after.name(id) },
+                    Some((parent, child)) => TransactionError::Disconnected {
+                        parent: name_before(state, entries, parent),
+                        child: state.name(child),
+                    },
+                    None => TransactionError::SecondRoot { root: state.name(root), other: state.name(id) },
                 });
             }
             _ => root = Some(id),
@@ -50,12 +64,21 @@ pub(super) fn check(
     Ok(root)
 }
 
+/// The name of a node that may have been removed.
+fn name_before(state: &State, entries: &[Undo], id: NodeId) -> Arc<str> {
+    let removed = |entry: &Undo| match entry {
+        Undo::NodeRemoved { node, name, .. } if *node == id => Some(name.clone()),
+        _ => None,
+    };
+    entries.iter().find_map(removed).unwrap_or_else(|| state.name(id))
+}
+
 /// Whether going up from `start` comes back to it. A cycle that `start` only leads into is found from the moved
 /// child that lies on it, so the walk may give up after as many steps as there are ids.
 fn closes_cycle(state: &State, start: NodeId) -> bool {
     let mut at = start;
     for _ in 0..=state.next.0 {
-        match state.node(at).and_then(|node| node.joint.as_ref()) {
+        match state.joint(at) {
             None => return false,
             Some(joint) if joint.parent == start => return true,
             Some(joint) => at = joint.parent,
