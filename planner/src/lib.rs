@@ -43,8 +43,9 @@ pub use ground::{Feature, GroundError, GroundOptions, Origin, ground};
 pub use heuristics::{Costs, HeuristicKind, Properties};
 pub use ids::{FactId, OperatorId};
 pub use search::{
-    Budget, EagerSettings, Engine, Improved, LazySettings, Limit, Order, Outcome, Plan, Quality, Query,
-    Report, SearchConfiguration, Statistics, Threads, UnsolvableReason, Width, improve, solve,
+    BfwsSettings, Budget, Count, EagerSettings, Engine, Improved, LazySettings, Limit, Order, Outcome, Plan,
+    Quality, Query, Report, SearchConfiguration, Statistics, Threads, UnsolvableReason, Width, improve,
+    solve,
 };
 pub use task::{
     AtomStatus, AxiomRule, ConditionalEffect, Fact, Goal, GroundAtom, Impossible, Literals, Mutexes,

@@ -21,7 +21,7 @@ impl Heuristic for GoalCount<'_> {
 }
 
 /// How many literals of the goal do not hold.
-pub(crate) fn open_goals(goal: &Goal, words: &[u64]) -> u32 {
+fn open_goals(goal: &Goal, words: &[u64]) -> u32 {
     let literals = &goal.literals;
     let missing = literals.positive.iter().filter(|&&f| !contains(words, f)).count();
     id32(missing + literals.negative.iter().filter(|&&f| contains(words, f)).count())

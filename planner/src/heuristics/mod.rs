@@ -7,7 +7,7 @@ mod add;
 mod blind;
 mod explorer;
 mod ff;
-pub(crate) mod goal_count;
+mod goal_count;
 mod landmarks;
 mod lm_cut;
 mod max;

@@ -4,6 +4,7 @@
 //! some fact (or pair of facts) that no state with the same two counters has shown: open goals
 //! (`#g`), and facts of a relaxed plan achieved since `#g` last fell (`#r`). The queue orders by
 //! novelty, then by open goals. A relaxed plan is computed only where `#g` falls, so states are cheap.
+//! Landmarks that are still to be achieved can stand for open goals: they see goals that must be undone.
 //! Complete unless states without novelty are dropped ([`Width::One`], [`Width::Two`]).
 //!
 //! Source: Lipovetzky & Geffner, "Best-first width search: exploration and exploitation in classical
@@ -13,8 +14,7 @@ use super::novelty::{Novelty, NoveltyTable};
 use super::open_list::OpenList;
 use super::registry::StateRegistry;
 use super::{Job, Limit, Outcome, Plan, Searcher, Signal, Statistics, Turn, UnsolvableReason};
-use crate::heuristics::goal_count::open_goals;
-use crate::heuristics::{Costs, Estimate, Ff};
+use crate::heuristics::{Costs, Estimate, Ff, Heuristic, HeuristicKind, View};
 use crate::ids::{FactId, OperatorId, StateId, id32};
 use crate::task::contains;
 
@@ -33,6 +33,24 @@ pub enum Width {
     /// States without a new pair of facts wait behind those that have one, and these behind those that
     /// have a new fact.
     AnyTwo,
+}
+
+/// What `#g` counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Count {
+    /// Goals that do not hold.
+    Goals,
+    /// Landmarks that are still to be achieved.
+    Landmarks,
+}
+
+/// The parameters.
+#[derive(Clone, Copy, Debug)]
+pub struct BfwsSettings {
+    /// How novel states are told from others.
+    pub width: Width,
+    /// What is to fall.
+    pub count: Count,
 }
 
 /// Facts to count since the number of open goals last fell.
@@ -54,6 +72,7 @@ struct Node {
 pub(crate) struct Bfws<'a> {
     job: Job<'a>,
     ff: Ff<'a>,
+    count: Box<dyn Heuristic + Send + 'a>,
     registry: StateRegistry,
     nodes: Vec<Node>,
     counters: Vec<Counter>,
@@ -71,10 +90,15 @@ pub(crate) struct Bfws<'a> {
 }
 
 impl<'a> Bfws<'a> {
-    pub(crate) fn new(job: Job<'a>, width: Width) -> Self {
+    pub(crate) fn new(job: Job<'a>, BfwsSettings { width, count }: BfwsSettings) -> Self {
         let words = job.task.words_per_state();
         Self {
             ff: Ff::new(&job, Costs::Unit),
+            count: match count {
+                Count::Goals => HeuristicKind::GoalCount,
+                Count::Landmarks => HeuristicKind::Landmarks,
+            }
+            .build(&job, Costs::Unit),
             registry: StateRegistry::new(words),
             nodes: Vec::new(),
             counters: Vec::new(),
@@ -103,7 +127,8 @@ impl<'a> Bfws<'a> {
         if self.job.goal.holds_in(&self.next) {
             return Some(Outcome::Solved(Plan::of(self.job.task, Vec::new())));
         }
-        self.add(start, open_goals(self.job.goal, &self.next), None, 0);
+        self.count.start(start, &self.next);
+        self.add(start, None, 0);
         None
     }
 
@@ -137,21 +162,27 @@ impl<'a> Bfws<'a> {
             if !new {
                 continue;
             }
-            let goals = open_goals(self.job.goal, &self.next);
-            if goals == 0 {
+            if self.job.goal.holds_in(&self.next) {
                 return Some(Outcome::Solved(Plan::of(task, self.registry.path(child))));
             }
-            self.add(child, goals, Some(id), cost);
+            self.count.step(id, operator, child, &self.next);
+            self.add(child, Some(id), cost);
         }
         None
     }
 
     /// Counts, judges and queues the new state in `next`.
-    fn add(&mut self, id: StateId, goals: u32, from: Option<StateId>, cost: u64) {
+    fn add(&mut self, id: StateId, from: Option<StateId>, cost: u64) {
         self.statistics.evaluated += 1;
+        let estimate = self.count.estimate(&View { id, words: &self.next, applicable: &[] }, None);
+        let goals = estimate.0;
+        if estimate == Estimate::DEAD_END {
+            self.nodes.push(Node { goals, counter: 0, marks: 0, achieved: 0, cost });
+            return;
+        }
         let parent = from.map(|s| self.nodes[s.0 as usize]);
         let node = match parent {
-            Some(parent) if goals >= parent.goals => self.count(Node { goals, cost, ..parent }),
+            Some(parent) if goals >= parent.goals => self.mark_off(Node { goals, cost, ..parent }),
             _ => match self.fresh_counter(goals, cost) {
                 Some(node) => node,
                 None => {
@@ -192,7 +223,7 @@ impl<'a> Bfws<'a> {
     }
 
     /// The node with what of its counter holds now marked off.
-    fn count(&mut self, mut node: Node) -> Node {
+    fn mark_off(&mut self, mut node: Node) -> Node {
         let counter = &self.counters[node.counter as usize];
         let mut own = false;
         for (i, &fact) in counter.facts.iter().enumerate() {
@@ -221,6 +252,7 @@ impl<'a> Bfws<'a> {
             + self.marks.capacity() * 8
             + self.open.memory()
             + self.novelty.memory()
+            + self.count.memory()
     }
 }
 

@@ -4,7 +4,7 @@
 //! tested the day it is added.
 
 use super::anytime::Improving;
-use super::bfws::{Bfws, Width};
+use super::bfws::{Bfws, BfwsSettings, Count, Width};
 use super::eager::{Eager, EagerSettings};
 use super::hill_climbing::HillClimbing;
 use super::lazy::{Lazy, LazySettings};
@@ -41,7 +41,7 @@ pub enum Engine {
     /// Enforced hill-climbing on relaxed plans.
     HillClimbing,
     /// Best-first width search.
-    Bfws(Width),
+    Bfws(BfwsSettings),
     /// Searches for better and better plans below a bound.
     Improving,
 }
@@ -52,7 +52,7 @@ impl Engine {
             Self::Lazy(settings) => Box::new(Lazy::new(job, &settings)),
             Self::Eager(settings) => Box::new(Eager::new(job, &settings)),
             Self::HillClimbing => Box::new(HillClimbing::new(job)),
-            Self::Bfws(width) => Box::new(Bfws::new(job, width)),
+            Self::Bfws(settings) => Box::new(Bfws::new(job, settings)),
             Self::Improving => Box::new(Improving::new(job)),
         }
     }
@@ -92,9 +92,14 @@ const fn astar(heuristic: HeuristicKind) -> Engine {
     eager(heuristic, Costs::Real, Order::Weighted(1))
 }
 
+const fn bfws(width: Width, count: Count) -> Engine {
+    Engine::Bfws(BfwsSettings { width, count })
+}
+
 const LAMA: Engine = lazy(&[Ff, Landmarks], &[Ff, Landmarks]);
 const LANDMARKS: Engine = lazy(&[Landmarks], &[]);
-const BFWS: Engine = Engine::Bfws(Width::AnyOne);
+const BFWS_LANDMARKS: Engine = bfws(Width::AnyOne, Count::Landmarks);
+const BFWS: Engine = bfws(Width::AnyOne, Count::Goals);
 
 impl SearchConfiguration {
     /// Every configuration; the first is the default.
@@ -109,8 +114,8 @@ impl SearchConfiguration {
             threads: Threads::Two,
             ..Self::row(
                 "dual",
-                "lama and bfws in turns, on two threads where it pays",
-                &[(LAMA, 4), (BFWS, 3), (LANDMARKS, 1)],
+                "lama, bfws and others in turns, on two threads where it pays",
+                &[(LAMA, 3), (BFWS_LANDMARKS, 3), (BFWS, 2), (LANDMARKS, 1)],
             )
         },
         Self::row(
@@ -123,17 +128,27 @@ impl SearchConfiguration {
         Self::row(
             "bfws-pairs",
             "the same with novelty of pairs of facts",
-            &[(Engine::Bfws(Width::AnyTwo), 1)],
+            &[(bfws(Width::AnyTwo, Count::Goals), 1)],
+        ),
+        Self::row(
+            "bfws-landmarks",
+            "bfws that counts landmarks to be achieved instead of open goals",
+            &[(BFWS_LANDMARKS, 1)],
+        ),
+        Self::row(
+            "bfws-landmarks-pairs",
+            "the same with novelty of pairs of facts",
+            &[(bfws(Width::AnyTwo, Count::Landmarks), 1)],
         ),
         Self::incomplete(
             "bfws-1",
             "bfws without what is not novel: fast and incomplete",
-            &[(Engine::Bfws(Width::One), 1)],
+            &[(bfws(Width::One, Count::Goals), 1)],
         ),
         Self::incomplete(
             "bfws-2",
             "bfws-pairs without what is not novel: incomplete",
-            &[(Engine::Bfws(Width::Two), 1)],
+            &[(bfws(Width::Two, Count::Goals), 1)],
         ),
         Self::incomplete(
             "hill",

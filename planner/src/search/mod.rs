@@ -23,7 +23,7 @@ mod registry;
 mod searcher;
 
 pub use anytime::{Improved, Quality, improve};
-pub use bfws::Width;
+pub use bfws::{BfwsSettings, Count, Width};
 pub use budget::{Budget, Limit};
 pub use configuration::{Engine, Order, SearchConfiguration};
 pub use eager::EagerSettings;

@@ -3,7 +3,7 @@
 //! Idea: a landmark is accepted on a path once it holds and all that is ordered before it was
 //! accepted; it is needed again if it does not hold and is a goal, or right before something that is
 //! not accepted. Path-dependent: each state keeps the accepted set of the path that found it. Neither
-//! admissible nor consistent; safe (never infinite).
+//! admissible nor consistent; safe: infinite only where a goal was lost that nothing achieves.
 //!
 //! Source: Richter & Westphal, "The LAMA planner", JAIR 2010, §4.
 
@@ -118,6 +118,9 @@ impl Heuristic for LandmarkCount<'_> {
             } else {
                 true
             };
+            if needed && landmark.is_goal && landmark.is_final && !self.holds(l, view.words) {
+                return Estimate::DEAD_END;
+            }
             open += usize::from(needed);
         }
         self.meter.spend(self.landmarks.landmarks.len() * 4);

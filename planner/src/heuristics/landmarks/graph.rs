@@ -26,6 +26,8 @@ const REASONABLE: usize = 1500;
 pub(crate) struct Landmark {
     pub(crate) propositions: Vec<u32>,
     pub(crate) is_goal: bool,
+    /// Whether nothing achieves it: once lost, it never holds again.
+    pub(crate) is_final: bool,
     /// Landmarks that must be accepted before.
     pub(crate) before: Vec<u32>,
     /// Landmarks for which this one must hold right before.
@@ -96,6 +98,14 @@ impl LandmarkGraph {
             builder.reasonable_orders();
         }
         builder.found.without_cycles();
+        for landmark in &mut builder.found.landmarks {
+            // The negation of a derived fact comes and goes without an achiever.
+            let lost = |&p: &u32| {
+                let (fact, positive) = graph.literal(p);
+                builder.achieved_by.row(p).is_empty() && (positive || !task.facts[fact].derived)
+            };
+            landmark.is_final = landmark.propositions.iter().all(lost);
+        }
         builder.found
     }
 
@@ -104,7 +114,13 @@ impl LandmarkGraph {
         for &p in &propositions {
             self.of.entry(p).or_default().push(id);
         }
-        self.landmarks.push(Landmark { propositions, is_goal, before: Vec::new(), needed_for: Vec::new() });
+        self.landmarks.push(Landmark {
+            propositions,
+            is_goal,
+            is_final: false,
+            before: Vec::new(),
+            needed_for: Vec::new(),
+        });
         id
     }
 
