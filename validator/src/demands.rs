@@ -8,10 +8,10 @@ use crate::number::Number;
 use crate::preference::Violations;
 use crate::scene::{Binding, Clock, Scene};
 use crate::state::State;
-use crate::trajectory::{Breach, Formula, Since, Trajectory, each_instance};
+use crate::trajectory::{Asked, Broken, Formula, Position, Since, Trajectory, each_instance};
 use crate::universe::Universe;
+use crate::verdict::{Failure, Unsatisfied};
 use crate::words::File;
-use pddl::Span;
 use pddl::model::{Condition, Constraint, Domain, Preference, Problem, Variables};
 
 /// A soft constraint for one binding of the `forall`s around it.
@@ -23,14 +23,8 @@ struct Soft<'a> {
     formula: Formula,
 }
 
-/// A constraint that a plan breaks.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Broken {
-    pub(crate) file: File,
-    pub(crate) span: Span,
-    pub(crate) breach: Breach,
-    pub(crate) time: Option<Number>,
-}
+/// How many violating states are named.
+const STATES: usize = 16;
 
 /// All demands on one plan, while it runs.
 #[derive(Clone, Debug)]
@@ -50,13 +44,7 @@ impl<'a> Demands<'a> {
         strata: &Strata,
         state: &State,
     ) -> Self {
-        let mut demands = Self {
-            trajectory: Trajectory::default(),
-            hard: Vec::new(),
-            soft: Vec::new(),
-            needs: Needs::default(),
-            violations: Violations::default(),
-        };
+        let mut demands = Self::none();
         for (file, constraints) in
             [(File::Domain, &domain.constraints), (File::Problem, &problem.constraints)]
         {
@@ -78,9 +66,25 @@ impl<'a> Demands<'a> {
         demands
     }
 
+    /// None at all.
+    pub(crate) fn none() -> Self {
+        Self {
+            trajectory: Trajectory::default(),
+            hard: Vec::new(),
+            soft: Vec::new(),
+            needs: Needs::default(),
+            violations: Violations::default(),
+        }
+    }
+
     /// Whether states need not be noted.
     pub(crate) fn are_none(&self) -> bool {
         self.hard.is_empty() && self.soft.is_empty()
+    }
+
+    /// The position of the last state.
+    pub(crate) fn last(&self) -> Position {
+        self.trajectory.last()
     }
 
     /// Whether the derived part of a state must be up to date when it is noted.
@@ -105,13 +109,33 @@ impl<'a> Demands<'a> {
         }
     }
 
-    /// Judges the constraints when all is over; the first that is broken, if one is.
-    pub(crate) fn broken(&self) -> Option<Broken> {
-        self.hard.iter().find_map(|(file, formula)| {
-            let (span, breach) = self.trajectory.breach(formula)?;
-            let time = breach.position().and_then(|position| self.trajectory.time(position));
-            Some(Broken { file: *file, span, breach, time })
+    /// Judges the constraints when all is over: the first that is broken, if one is, with its file.
+    pub(crate) fn broken(&self) -> Option<(File, Broken)> {
+        self.hard.iter().find_map(|(file, formula)| Some((*file, self.trajectory.broken(formula)?)))
+    }
+
+    /// The failure, once it is known what the state lacks that was asked for.
+    pub(crate) fn failure(&self, file: File, broken: &Broken, parts: Vec<Unsatisfied>) -> Box<Failure> {
+        let time = |position| self.trajectory.time(position);
+        let mut times: Vec<Number> = broken.states.iter().filter_map(|&position| time(position)).collect();
+        times.dedup();
+        let states = times.len();
+        times.truncate(STATES);
+        Box::new(Failure::Constraint {
+            file,
+            span: broken.span,
+            breach: broken.breach,
+            time: broken.breach.position().and_then(time),
+            binding: self.trajectory.binding(broken),
+            states,
+            times,
+            parts,
         })
+    }
+
+    /// The condition that was asked for, its variables and their values.
+    pub(crate) fn asked(&self, asked: Asked) -> (&'a Condition, &'a Variables, &Binding) {
+        self.trajectory.asked_condition(asked)
     }
 
     /// Counts the soft constraints that are broken.

@@ -13,6 +13,7 @@ use crate::prepare::{derived_in_effect, initial_state};
 use crate::scene::{Binding, Clock, Scene};
 use crate::state::{Moment, State};
 use crate::trace::Trace;
+use crate::trajectory::Asked;
 use crate::universe::Universe;
 use crate::verdict::{Failure, Feature, MetricValue, StepFault, Unsatisfied, Unsupported, Valid, Verdict};
 use crate::why::Why;
@@ -276,17 +277,25 @@ impl<'a> Validator<'a> {
         Ok(())
     }
 
-    /// Judges the last state: constraints, goal, preferences, metric.
+    /// What a state lacks that a constraint asks of it.
+    pub(crate) fn lacks_of_constraint(
+        &self,
+        state: &mut State,
+        (causes, now): (Causes<'_>, Number),
+        demands: &Demands<'_>,
+        asked: Asked,
+    ) -> Vec<Unsatisfied> {
+        let (condition, variables, binding) = demands.asked(asked);
+        let moment = Moment::try_from(causes.len(Moment::MAX)).unwrap_or(Moment::MAX);
+        self.derive_for(condition, state, moment);
+        let scene = self.scene(state, variables, Clock::at(now));
+        let why = Why { scene, strata: &self.strata, causes };
+        why.unsatisfied(condition, asked.wanted, &mut binding.clone())
+    }
+
+    /// Judges the last state: goal, preferences, metric. The constraints were judged before.
     pub(crate) fn finish(&self, end: End<'_>, mut demands: Demands<'_>) -> Result<Valid, Box<Failure>> {
         let End { state, causes, total_time, makespan, steps } = end;
-        if let Some(broken) = demands.broken() {
-            return Err(Box::new(Failure::Constraint {
-                file: broken.file,
-                span: broken.span,
-                breach: broken.breach,
-                time: broken.time,
-            }));
-        }
         let now = Moment::try_from(causes.len(steps)).unwrap_or(Moment::MAX);
         self.derive_for(&self.problem.goal, state, now);
         for preference in &self.problem.preferences {

@@ -10,15 +10,15 @@ use crate::run::{End, Validator, precondition};
 use crate::scene::{Binding, Clock};
 use crate::state::State;
 use crate::trace::{Diff, Happening, Recorder, Trace};
-use crate::trajectory::Since;
-use crate::verdict::{Failure, StepFault, StepIndex, Valid};
+use crate::trajectory::{Asked, Since};
+use crate::verdict::{Failure, StepFault, StepIndex, Unsatisfied, Valid};
 use pddl::PlanStep;
 use pddl::model::{Action, ActionId, IndexVec};
 
 /// Carries out the steps; `visit` is shown each state that they go through, with the number of steps before it.
 pub(crate) fn run<'p>(
     validator: &Validator<'_>,
-    plan: impl Iterator<Item = &'p PlanStep>,
+    plan: impl Iterator<Item = &'p PlanStep> + Clone,
     state: &mut State,
     mut trace: Option<&mut Trace>,
     visit: &mut dyn FnMut(u32, &mut State),
@@ -35,7 +35,7 @@ pub(crate) fn run<'p>(
     run.observe(0);
     visit(0, run.state);
     let mut steps = 0;
-    for step in plan {
+    for step in plan.clone() {
         let mut diff = trace.is_some().then(Diff::default);
         run.step(StepIndex(steps), step, diff.as_mut())?;
         if let (Some(trace), Some(recorder), Some(mut diff)) = (&mut trace, &mut recorder, diff) {
@@ -46,6 +46,11 @@ pub(crate) fn run<'p>(
         steps += 1;
         run.observe(steps);
         visit(steps, run.state);
+    }
+    if let Some((file, broken)) = run.demands.broken() {
+        let asked = broken.asked.filter(|asked| asked.position <= steps as usize);
+        let parts = asked.map(|asked| run.lacked(asked, plan)).unwrap_or_default();
+        return Err(run.demands.failure(file, &broken, parts));
     }
     let end = End {
         state: run.state,
@@ -78,6 +83,27 @@ struct Run<'s, 'v, 'a> {
 }
 
 impl Run<'_, '_, '_> {
+    /// What was lacking in a state that lies behind: the plan is carried out again that far.
+    fn lacked<'p>(&self, asked: Asked, plan: impl Iterator<Item = &'p PlanStep>) -> Vec<Unsatisfied> {
+        let mut state = self.validator.initial.clone();
+        state.effort = self.state.effort.clone();
+        let mut again = Run {
+            validator: self.validator,
+            needs: needs(self.validator),
+            demands: Demands::none(),
+            state: &mut state,
+            changes: Changes::default(),
+            binding: Binding::default(),
+        };
+        for (index, step) in (0..).map(StepIndex).zip(plan.take(asked.position)) {
+            if again.step(index, step, None).is_err() {
+                return Vec::new();
+            }
+        }
+        let now = Number::integer(i64::try_from(asked.position).unwrap_or(i64::MAX));
+        self.validator.lacks_of_constraint(again.state, (Causes::Steps, now), &self.demands, asked)
+    }
+
     fn observe(&mut self, steps: u32) {
         self.validator.derive_needed(self.demands.needs(), self.state, steps);
         let since = Since::at(Number::integer(i64::from(steps)));

@@ -22,7 +22,7 @@ use crate::scene::{Binding, Clock, Scene};
 use crate::state::State;
 use crate::universe::Universe;
 use pddl::Span;
-use pddl::model::{Condition, Constraint, ConstraintKind, VariableId, Variables};
+use pddl::model::{Condition, Constraint, ConstraintKind, Name, ObjectId, Variable, VariableId, Variables};
 
 /// The position of a state on the trajectory: 0 is the initial one.
 pub(crate) type Position = usize;
@@ -250,6 +250,109 @@ impl Breach {
     }
 }
 
+/// How a ground constraint is broken, and what to look at to see why.
+#[derive(Clone, Debug)]
+pub(crate) struct Broken {
+    /// Where it stands.
+    pub(crate) span: Span,
+    pub(crate) breach: Breach,
+    /// The condition that is not as wanted in a state, if one condition says it.
+    pub(crate) asked: Option<Asked>,
+    /// One of its conditions, which has the values of its variables.
+    leaf: Option<usize>,
+    /// The states that are at fault.
+    pub(crate) states: Vec<Position>,
+}
+
+/// A condition that should have been otherwise in a state.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Asked {
+    leaf: usize,
+    pub(crate) position: Position,
+    pub(crate) wanted: bool,
+}
+
+impl Formula {
+    fn leaf(&self) -> Option<usize> {
+        match &self.kind {
+            Kind::Leaf(leaf) => Some(*leaf),
+            _ => None,
+        }
+    }
+
+    fn some_leaf(&self) -> Option<usize> {
+        match &self.kind {
+            Kind::Leaf(leaf) => Some(*leaf),
+            Kind::And(parts) | Kind::Or(parts) => parts.iter().find_map(Self::some_leaf),
+            Kind::Not(part)
+            | Kind::AtEnd(part)
+            | Kind::Always(part)
+            | Kind::Sometime(part)
+            | Kind::Within(_, part)
+            | Kind::AtMostOnce(part)
+            | Kind::SometimeAfter(part, _)
+            | Kind::SometimeBefore(part, _)
+            | Kind::AlwaysWithin(_, part, _)
+            | Kind::Hold { body: part, .. } => part.some_leaf(),
+        }
+    }
+}
+
+impl<'a> Trajectory<'a> {
+    /// How the constraint is broken, if it is, with what shows it.
+    pub(crate) fn broken(&self, formula: &Formula) -> Option<Broken> {
+        if let Kind::And(parts) = &formula.kind {
+            return parts.iter().find_map(|part| self.broken(part));
+        }
+        let (span, breach) = self.breach(formula)?;
+        let last = self.last();
+        let at = breach.position().unwrap_or(last);
+        let asked = match &formula.kind {
+            Kind::Leaf(_) | Kind::And(_) | Kind::Or(_) | Kind::Not(_) => (formula.leaf(), 0, true),
+            Kind::AtEnd(body) | Kind::Sometime(body) | Kind::Within(_, body) => (body.leaf(), last, true),
+            Kind::Always(body) | Kind::Hold { body, .. } => (body.leaf(), at, true),
+            Kind::AtMostOnce(body) => (body.leaf(), at, false),
+            Kind::SometimeAfter(_, then) | Kind::AlwaysWithin(_, _, then) => (then.leaf(), last, true),
+            Kind::SometimeBefore(_, then) => (then.leaf(), at, true),
+        };
+        let states = match &formula.kind {
+            Kind::Always(body) => {
+                let truth = self.truth(body);
+                (0..truth.len()).filter(|&i| !truth[i]).collect()
+            }
+            Kind::Hold { from, until, body } => {
+                let truth = self.truth(body);
+                self.asked(0, *from, *until).filter(|&i| !truth[i]).collect()
+            }
+            Kind::SometimeAfter(if_, then) => unanswered(&self.answered(if_, then, None)),
+            Kind::AlwaysWithin(limit, if_, then) => unanswered(&self.answered(if_, then, Some(*limit))),
+            _ => breach.position().into_iter().collect(),
+        };
+        let (leaf, position, wanted) = asked;
+        let asked = leaf.map(|leaf| Asked { leaf, position, wanted });
+        Some(Broken { span, breach, asked, leaf: formula.some_leaf(), states })
+    }
+
+    /// The condition that was asked for, its variables and their values.
+    pub(crate) fn asked_condition(&self, asked: Asked) -> (&'a Condition, &'a Variables, &Binding) {
+        let leaf = &self.leaves[asked.leaf];
+        (leaf.condition, leaf.variables, &leaf.binding)
+    }
+
+    /// The values of the variables around what is broken.
+    pub(crate) fn binding(&self, broken: &Broken) -> Vec<(Name, ObjectId)> {
+        let Some(leaf) = broken.leaf.map(|leaf| &self.leaves[leaf]) else { return Vec::new() };
+        let named = |(id, variable): (VariableId, &Variable)| {
+            leaf.binding.get(id).map(|object| (variable.name.clone(), object))
+        };
+        leaf.variables.slots.enumerate().filter_map(named).collect()
+    }
+}
+
+fn unanswered(answered: &[bool]) -> Vec<Position> {
+    (0..answered.len()).filter(|&i| !answered[i]).collect()
+}
+
 impl Trajectory<'_> {
     /// Whether the trajectory satisfies the constraint.
     pub(crate) fn satisfies(&self, formula: &Formula) -> bool {
@@ -285,7 +388,8 @@ impl Trajectory<'_> {
         Some((formula.span, breach.unwrap_or(Breach::Nowhere)))
     }
 
-    fn last(&self) -> Position {
+    /// The position of the last state.
+    pub(crate) fn last(&self) -> Position {
         self.times.len().saturating_sub(1)
     }
 

@@ -155,6 +155,15 @@ pub enum Failure {
         breach: Breach,
         /// When, in seconds or steps; `None` if it is nowhere satisfied.
         time: Option<Number>,
+        /// The values of the variables around it.
+        binding: Vec<(Name, ObjectId)>,
+        /// How many times there are at which it is broken, as far as single states are at fault.
+        states: usize,
+        /// The first of them, in seconds or steps.
+        times: Vec<Number>,
+        /// What the state that is named, or the last one where something never came, lacks; empty where no single
+        /// condition says it.
+        parts: Vec<Unsatisfied>,
     },
     /// The plan does not come out of the problem's task network.
     Network {

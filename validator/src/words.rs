@@ -8,6 +8,7 @@ use crate::cause::Cause;
 use crate::expression::NumericFault;
 use crate::number::Number;
 use crate::preference::ViolatedPreference;
+use crate::role::{Deed, Role, role_of};
 use crate::run::PlanRef;
 use crate::state::{GroundAtom, Value};
 use crate::temporal;
@@ -386,23 +387,14 @@ impl Words<'_> {
                     self.cause(*first),
                     self.cause(*second)
                 );
-                let why = match over {
-                    Shared::Atom(atom) => {
-                        format!("one changes {}, on which the other relies", self.atom(atom))
-                    }
-                    Shared::Fluent(fluent) => {
-                        format!("one changes {}, which the other reads or changes", self.application(fluent))
-                    }
-                    Shared::Derived { predicate, atom } => format!(
-                        "one changes {}, on which `{}` depends that the other needs",
-                        self.atom(atom),
-                        self.domain.predicates[*predicate].name
-                    ),
-                };
-                let notes = vec![
-                    (self.cause_place(*first), why),
-                    (self.cause_place(*second), "at the same time".to_owned()),
-                ];
+                let mut notes = Vec::new();
+                for (cause, when) in [(*first, ""), (*second, ", at the same time")] {
+                    let role = role_of(self.domain, self.plan, cause, over);
+                    let does = self.does(role, over);
+                    notes.push((self.cause_place(cause), format!("this {does}{when}")));
+                    let here = role.map(|role| (Place { file: File::Domain, span: role.span }, does));
+                    notes.extend(here.map(|(place, does)| (place, format!("{} {does}", self.cause(cause)))));
+                }
                 Finding { sentence, place: self.cause_place(*second), notes }
             }
             Failure::Change { time, fault } => {
@@ -428,7 +420,7 @@ impl Words<'_> {
                 );
                 Finding { sentence, place: self.cause_place(Cause::Event(*event)), notes: Vec::new() }
             }
-            Failure::Constraint { file, span, breach, time } => {
+            Failure::Constraint { file, span, breach, time, binding, states, times, parts } => {
                 let when = match (self.plan, time) {
                     (_, None) => String::new(),
                     (PlanRef::Temporal(_), Some(time)) => format!("at {time}"),
@@ -443,7 +435,16 @@ impl Words<'_> {
                     Breach::Nowhere => "no state satisfies it in time".to_owned(),
                 };
                 let sentence = format!("the plan breaks a constraint: {how}");
-                Finding { sentence, place: Place { file: *file, span: *span }, notes: Vec::new() }
+                let place = Place { file: *file, span: *span };
+                let mut notes = Vec::new();
+                if !binding.is_empty() {
+                    notes.push((place, format!("with {}", self.binding(binding))));
+                }
+                if *states > 1 {
+                    notes.push((place, self.times(*states, times)));
+                }
+                notes.extend(self.notes(parts, *file));
+                Finding { sentence, place, notes }
             }
             Failure::Effect { at, fault } => {
                 let sentence = format!("{} has no result", self.cause(*at));
@@ -470,6 +471,34 @@ impl Words<'_> {
                 let place = Place { file: File::Problem, span: self.problem.goal_span };
                 Finding { sentence, place, notes: self.notes(parts, File::Problem) }
             }
+        }
+    }
+
+    /// At which times a constraint is broken.
+    fn times(&self, states: usize, times: &[Number]) -> String {
+        let has_times = matches!(self.plan, PlanRef::Temporal(_));
+        let unit = if has_times { "at" } else { "after steps" };
+        let list: Vec<String> = times.iter().map(Number::to_string).collect();
+        let more = if states > times.len() { ", …" } else { "" };
+        format!("broken {states} times: {unit} {}{more}", list.join(", "))
+    }
+
+    /// What one of two does that interfere: `deletes (a)`.
+    fn does(&self, role: Option<Role>, over: &Shared) -> String {
+        let what = match over {
+            Shared::Atom(atom) | Shared::Derived { atom, .. } => self.atom(atom),
+            Shared::Fluent(fluent) => self.application(fluent),
+        };
+        match (role.map(|role| role.deed), over) {
+            (Some(Deed::Adds), _) => format!("adds {what}"),
+            (Some(Deed::Deletes), _) => format!("deletes {what}"),
+            (Some(Deed::Changes), _) => format!("changes {what}"),
+            (Some(Deed::Needs), Shared::Derived { predicate, .. }) => {
+                format!("needs `{}`, which depends on {what}", self.domain.predicates[*predicate].name)
+            }
+            (Some(Deed::Needs), Shared::Atom(_)) => format!("needs {what} to stay as it is"),
+            (Some(Deed::Needs), Shared::Fluent(_)) => format!("reads {what}"),
+            (None, _) => format!("changes or needs {what}"),
         }
     }
 

@@ -45,7 +45,7 @@ fn source(path: &Path) -> Source {
     Source::new(path.display().to_string(), fs::read_to_string(path).unwrap())
 }
 
-/// Every plan of a folder under every problem for which it can be read.
+/// Every plan of a folder under the problem whose name it begins with, or the only one.
 fn read(folder: &Path, cases: &mut Vec<Case>) {
     let domain = folder.join("domain.pddl");
     if !domain.exists() {
@@ -54,12 +54,14 @@ fn read(folder: &Path, cases: &mut Vec<Case>) {
     let Some(domain) = parse_domain(&source(&domain), &[]).model else { return };
     let plans: Vec<PathBuf> =
         ["valid", "invalid"].iter().flat_map(|kind| entries(&folder.join("plans").join(kind))).collect();
-    for path in entries(folder) {
-        if path.extension().is_none_or(|extension| extension != "pddl") || path.ends_with("domain.pddl") {
-            continue;
-        }
-        let Some(problem) = parse_problem(&source(&path), &domain).model else { continue };
-        for path in &plans {
+    let is_problem =
+        |path: &PathBuf| path.extension().is_some_and(|e| e == "pddl") && !path.ends_with("domain.pddl");
+    let problems: Vec<PathBuf> = entries(folder).into_iter().filter(is_problem).collect();
+    let stem = |path: &Path| path.file_stem().unwrap().to_string_lossy().into_owned();
+    for path in &problems {
+        let Some(problem) = parse_problem(&source(path), &domain).model else { continue };
+        let is_its = |plan: &&PathBuf| problems.len() == 1 || stem(plan).starts_with(&stem(path));
+        for path in plans.iter().filter(is_its) {
             let Some(plan) = parse_plan(&source(path), &domain, &problem).model else { continue };
             let Ok(validator) = Validator::new(&domain, &problem) else { continue };
             let is_valid = match validator.validate(&plan) {
@@ -78,7 +80,7 @@ fn check(case: &Case, plan: &Plan) -> usize {
     let (domain, problem) = (&case.domain, &case.problem);
     let validator = Validator::new(domain, problem).unwrap();
     let Verdict::Invalid(failure) = validator.validate(plan) else { return 0 };
-    let budget = Budget { plans: 300, steps: 20_000, ..Budget::default() };
+    let budget = Budget { plans: 200, steps: 5_000, ..Budget::default() };
     let repairs = validator.advise(plan, &failure, budget);
     for repair in &repairs {
         let (mut domain, mut problem, mut plan) = (domain.clone(), problem.clone(), plan.clone());

@@ -11,8 +11,9 @@ use pddl::model::{Comparison, GroundApplication, Name, ObjectId, TypeId};
 use pddl::{Plan, Source, Span};
 use serde::Serialize;
 use validator::{
-    Cause, Failure, File, GroundAtom, NetworkFault, Operand, Parent, Place, Shared, StepIndex, Unsatisfied,
-    cause_place, cause_time, show_application, show_atom, show_cause, show_object,
+    Breach, Cause, ChangeFault, Deed, EffectFault, Failure, File, GroundAtom, NetworkFault, NumericFault,
+    Operand, Parent, Place, Role, Shared, StepFault, StepIndex, Unsatisfied, cause_place, cause_time,
+    role_of, show_application, show_atom, show_cause, show_object,
 };
 
 /// Where names and spans of a verdict are looked up.
@@ -44,7 +45,29 @@ pub(super) struct FailureRecord {
     place: Option<PlaceRecord>,
     #[serde(skip_serializing_if = "Option::is_none")]
     network: Option<NetworkRecord>,
+    /// Of which kind the fault is, where there are several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fault: Option<&'static str>,
+    /// What each of two does that interfere, and the two effects that are in conflict.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    roles: Vec<RoleRecord>,
+    /// For which values of its variables a constraint is broken.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    binding: Vec<(String, String)>,
+    /// How many states break it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    states: Option<usize>,
+    /// The times of the first of them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    times: Vec<Figure>,
     parts: Vec<PartRecord>,
+}
+
+/// What something does: `adds`, `deletes`, `changes` or `needs`, and where that stands.
+#[derive(Serialize)]
+struct RoleRecord {
+    does: &'static str,
+    place: PlaceRecord,
 }
 
 /// Something that happens: what it is (a step, its start, …), its step's number, when, and where it stands.
@@ -156,8 +179,14 @@ impl Places<'_> {
     pub(super) fn failure(&self, failure: &Failure) -> FailureRecord {
         let mut record = FailureRecord::default();
         match failure {
-            Failure::Step { step, .. } => {
+            Failure::Step { step, fault } => {
                 record.reason = "step";
+                record.fault = Some(match fault {
+                    StepFault::UnknownAction => "unknown action",
+                    StepFault::Arity { .. } => "arity",
+                    StepFault::NoDuration => "no duration",
+                    StepFault::Type { .. } => "type",
+                });
                 record.at = Some(self.cause(Cause::Step(*step)));
             }
             Failure::Precondition { at, parts } => {
@@ -187,24 +216,59 @@ impl Places<'_> {
                     Shared::Atom(atom) | Shared::Derived { atom, .. } => self.atom(atom),
                     Shared::Fluent(fluent) => self.fluent(fluent),
                 });
+                let roles = [first, second].map(|&cause| role_of(&self.task.domain, self.plan, cause, over));
+                record.roles = roles.into_iter().flatten().filter_map(|role| self.role(role)).collect();
             }
-            Failure::Effect { at, .. } => {
+            Failure::Effect { at, fault } => {
                 record.reason = "effect";
                 record.at = Some(self.cause(*at));
+                match fault {
+                    EffectFault::Conflict { fluent, first, second } => {
+                        record.fault = Some("conflict");
+                        record.about = Some(self.fluent(fluent));
+                        let changes = [first, second].map(|&span| Role { deed: Deed::Changes, span });
+                        record.roles = changes.into_iter().filter_map(|role| self.role(role)).collect();
+                    }
+                    EffectFault::Numeric(fault) => self.numeric(fault, &mut record),
+                }
             }
-            Failure::Change { time, .. } => {
+            Failure::Change { time, fault } => {
                 record.reason = "continuous change";
                 record.time = Some(Figure(*time));
+                match fault {
+                    ChangeFault::Numeric(fault) => self.numeric(fault, &mut record),
+                    ChangeFault::NotPolynomial { fluent, span } => {
+                        record.fault = Some("not polynomial");
+                        record.about = Some(self.fluent(fluent));
+                        record.place = self.at(File::Domain, *span);
+                    }
+                    ChangeFault::Unsteady => record.fault = Some("unsteady"),
+                    ChangeFault::NotPolynomialExpression { span } => {
+                        record.fault = Some("not polynomial");
+                        record.place = self.at(File::Domain, *span);
+                    }
+                }
             }
             Failure::EndlessEvents { time, event } => {
                 record.reason = "endless events";
                 record.time = Some(Figure(*time));
                 record.at = Some(self.cause(Cause::Event(*event)));
             }
-            Failure::Constraint { file, span, time, .. } => {
+            Failure::Constraint { file, span, breach, time, binding, states, times, parts } => {
                 record.reason = "constraint";
                 record.time = time.map(Figure);
                 record.place = self.at(*file, *span);
+                record.fault = Some(match breach {
+                    Breach::Here(_) => "does not hold",
+                    Breach::NeverAfter(_) => "never after",
+                    Breach::NeverBefore(_) => "never before",
+                    Breach::Again(_) => "again",
+                    Breach::Nowhere => "nowhere",
+                });
+                record.binding = self.binding(binding);
+                record.states = Some(*states);
+                record.times = times.iter().copied().map(Figure).collect();
+                record.parts = self.parts(parts, *file);
             }
             Failure::Network { fault } => {
                 record.reason = "task network";
@@ -225,6 +289,29 @@ impl Places<'_> {
             }
         }
         record
+    }
+
+    fn role(&self, role: Role) -> Option<RoleRecord> {
+        let does = match role.deed {
+            Deed::Adds => "adds",
+            Deed::Deletes => "deletes",
+            Deed::Changes => "changes",
+            Deed::Needs => "needs",
+        };
+        Some(RoleRecord { does, place: self.at(File::Domain, role.span)? })
+    }
+
+    fn numeric(&self, fault: &NumericFault, record: &mut FailureRecord) {
+        record.place = self.at(File::Domain, fault.span());
+        record.fault = Some(match fault {
+            NumericFault::Undefined { fluent, .. } => {
+                record.about = Some(self.fluent(fluent));
+                "undefined"
+            }
+            NumericFault::DivisionByZero { .. } => "division by zero",
+            NumericFault::Overflow { .. } => "overflow",
+            NumericFault::Duration { .. } => "no duration",
+        });
     }
 
     fn parts(&self, parts: &[Unsatisfied], file: File) -> Vec<PartRecord> {

@@ -218,9 +218,10 @@ fn step_index(index: usize) -> StepIndex {
 /// What a failure lacks, if it is about a condition.
 fn parts(failure: &Failure) -> &[Unsatisfied] {
     match failure {
-        Failure::Precondition { parts, .. } | Failure::Invariant { parts, .. } | Failure::Goal { parts } => {
-            parts
-        }
+        Failure::Precondition { parts, .. }
+        | Failure::Invariant { parts, .. }
+        | Failure::Constraint { parts, .. }
+        | Failure::Goal { parts } => parts,
         _ => &[],
     }
 }

@@ -14,6 +14,7 @@ use super::{Repair, Trials};
 use crate::cause::Cause;
 use crate::run::PlanRef;
 use crate::trace::Diff;
+use crate::trajectory::Breach;
 use crate::verdict::Failure;
 use pddl::model::{ActionId, ObjectId};
 use pddl::{PlanStep, SequentialPlan};
@@ -48,6 +49,10 @@ pub(super) fn repairs(trials: &mut Trials<'_, '_>, plan: &SequentialPlan, failur
         Failure::Precondition { at: Cause::Step(step), .. }
         | Failure::Effect { at: Cause::Step(step), .. }
         | Failure::Step { step, .. } => step.0 as usize,
+        // The step into the state that should be another one.
+        Failure::Constraint { breach: Breach::Here(state) | Breach::Again(state), .. } => {
+            state.saturating_sub(1).min(plan.steps.len())
+        }
         _ => plan.steps.len(),
     };
     track.go_to(fails);

@@ -13,7 +13,7 @@ use pddl::{Span, StepHead};
 
 pub(super) fn repairs(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, failure: &Failure) -> Vec<Repair> {
     // That the goal would hold if it held is no advice.
-    if matches!(failure, Failure::Goal { .. }) {
+    if matches!(failure, Failure::Goal { .. } | Failure::Constraint { .. }) {
         return Vec::new();
     }
     let mut candidates = Vec::new();

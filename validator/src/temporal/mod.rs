@@ -94,6 +94,14 @@ pub(crate) fn run(
     }
     let steps = u32::try_from(plan.steps.len()).unwrap_or(u32::MAX);
     let makespan = makespan(plan);
+    if let Some((file, broken)) = run.demands.broken() {
+        // Earlier states are gone; the last one is here.
+        let asked = broken.asked.filter(|asked| asked.position == run.demands.last());
+        let causes = Causes::Listed(&run.causes);
+        let parts = asked
+            .map(|asked| validator.lacks_of_constraint(run.state, (causes, run.now), &run.demands, asked));
+        return Err(run.demands.failure(file, &broken, parts.unwrap_or_default()));
+    }
     let end = End {
         state: run.state,
         causes: Causes::Listed(&run.causes),

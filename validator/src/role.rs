@@ -1,0 +1,158 @@
+//! What each of two happenings does to that about which they disagree.
+//!
+//! A verdict names two happenings and an atom or fluent; this finds the effect or the condition in the domain that is
+//! meant, for whoever shows the verdict. Read from the model alone: an effect under a condition is named whether its
+//! condition held or not.
+
+use crate::cause::Cause;
+use crate::run::PlanRef;
+use crate::state::GroundAtom;
+use crate::verdict::Shared;
+use pddl::model::{
+    Application, Condition, ConditionKind, Domain, Effect, EffectKind, Expression, ExpressionKind,
+    GroundApplication, ObjectId, PredicateId, Term, TimeSpecifier, Variables,
+};
+use pddl::{Span, StepHead};
+
+/// What a happening does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Deed {
+    /// It adds the atom.
+    Adds,
+    /// It deletes the atom.
+    Deletes,
+    /// It changes the fluent.
+    Changes,
+    /// It needs the atom, the derived predicate or the fluent's value.
+    Needs,
+}
+
+/// What a happening does, and where that stands in the domain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Role {
+    /// What it does.
+    pub deed: Deed,
+    /// The effect or condition.
+    pub span: Span,
+}
+
+/// What a happening does to what it shares; `None` for timed changes, events, and what is not in a condition or effect.
+pub fn role_of<'p>(
+    domain: &Domain,
+    plan: impl Into<PlanRef<'p>>,
+    cause: Cause,
+    over: &Shared,
+) -> Option<Role> {
+    let index = cause.step()?.0 as usize;
+    let (head, arguments) = match plan.into() {
+        PlanRef::Sequential(plan) => {
+            plan.steps.get(index).map(|s| (StepHead::Action(s.action), s.arguments.as_slice()))
+        }
+        PlanRef::Temporal(plan) => plan.steps.get(index).map(|s| (s.head, s.arguments.as_slice())),
+        PlanRef::Hierarchical(_) => None,
+    }?;
+    match head {
+        StepHead::Action(id) => {
+            let action = domain.actions.get(id)?;
+            let search = Search { variables: &action.variables, arguments, over };
+            search.effect(&action.effect).or_else(|| search.condition(&action.precondition))
+        }
+        StepHead::DurativeAction(id) => {
+            let action = domain.durative_actions.get(id)?;
+            let search = Search { variables: &action.variables, arguments, over };
+            let when = if matches!(cause, Cause::End(_)) { TimeSpecifier::End } else { TimeSpecifier::Start };
+            let mut effects = action.effects.iter().filter(|timed| timed.when == when);
+            let mut conditions = action.conditions.iter().filter(|timed| timed.when == when);
+            let mut bounds = action.duration.iter().filter(|bound| bound.when == when);
+            effects
+                .find_map(|timed| search.effect(&timed.effect))
+                .or_else(|| conditions.find_map(|timed| search.condition(&timed.condition)))
+                .or_else(|| bounds.find_map(|bound| search.expression(&bound.bound)))
+        }
+    }
+}
+
+struct Search<'s> {
+    variables: &'s Variables,
+    arguments: &'s [ObjectId],
+    over: &'s Shared,
+}
+
+impl Search<'_> {
+    /// Whether the terms may be the objects; quantified variables may be anything.
+    fn fits(&self, terms: &[Term], objects: &[ObjectId]) -> bool {
+        let fits = |(&term, &object): (&Term, &ObjectId)| match term {
+            Term::Object(same) => same == object,
+            Term::Variable(variable) => {
+                let place = self.variables.parameter_ids().position(|parameter| parameter == variable);
+                place.and_then(|place| self.arguments.get(place)).is_none_or(|&given| given == object)
+            }
+        };
+        terms.iter().zip(objects).all(fits)
+    }
+
+    fn atom(&self) -> Option<&GroundAtom> {
+        match self.over {
+            Shared::Atom(atom) | Shared::Derived { atom, .. } => Some(atom),
+            Shared::Fluent(_) => None,
+        }
+    }
+
+    fn is_atom(&self, predicate: PredicateId, terms: &[Term]) -> bool {
+        self.atom().is_some_and(|atom| atom.predicate == predicate && self.fits(terms, &atom.arguments))
+    }
+
+    fn is_fluent(&self, application: &Application) -> bool {
+        let Shared::Fluent(GroundApplication { function, arguments }) = self.over else { return false };
+        application.function == *function && self.fits(&application.arguments, arguments)
+    }
+
+    fn effect(&self, effect: &Effect) -> Option<Role> {
+        let found = |deed| Some(Role { deed, span: effect.span });
+        match &effect.kind {
+            EffectKind::And(parts) => parts.iter().find_map(|part| self.effect(part)),
+            EffectKind::Forall(_, body) => self.effect(body),
+            EffectKind::When(condition, body) => self.effect(body).or_else(|| self.condition(condition)),
+            EffectKind::Add(atom) if self.is_atom(atom.predicate, &atom.arguments) => found(Deed::Adds),
+            EffectKind::Delete(atom) if self.is_atom(atom.predicate, &atom.arguments) => found(Deed::Deletes),
+            EffectKind::Assign(_, application, _) if self.is_fluent(application) => found(Deed::Changes),
+            EffectKind::Add(_) | EffectKind::Delete(_) | EffectKind::Assign(..) => None,
+        }
+    }
+
+    fn condition(&self, condition: &Condition) -> Option<Role> {
+        let found = |so: bool| so.then_some(Role { deed: Deed::Needs, span: condition.span });
+        match &condition.kind {
+            ConditionKind::And(parts) | ConditionKind::Or(parts) => {
+                parts.iter().find_map(|part| self.condition(part))
+            }
+            ConditionKind::Not(part) | ConditionKind::Exists(_, part) | ConditionKind::Forall(_, part) => {
+                self.condition(part)
+            }
+            ConditionKind::Imply(if_, then) => self.condition(if_).or_else(|| self.condition(then)),
+            ConditionKind::Atom(atom) => {
+                let derived =
+                    matches!(self.over, Shared::Derived { predicate, .. } if *predicate == atom.predicate);
+                found(derived || self.is_atom(atom.predicate, &atom.arguments))
+            }
+            ConditionKind::Compare(_, left, right) => {
+                self.expression(left).or_else(|| self.expression(right))
+            }
+            ConditionKind::FluentIs(application, _) => found(self.is_fluent(application)),
+            ConditionKind::HasType(..) | ConditionKind::Same(..) => None,
+        }
+    }
+
+    fn expression(&self, expression: &Expression) -> Option<Role> {
+        match &expression.kind {
+            ExpressionKind::Fluent(application) => {
+                self.is_fluent(application).then_some(Role { deed: Deed::Needs, span: expression.span })
+            }
+            ExpressionKind::Arithmetic(_, operands) => operands.iter().find_map(|part| self.expression(part)),
+            ExpressionKind::Number(_)
+            | ExpressionKind::Duration
+            | ExpressionKind::TotalTime
+            | ExpressionKind::IsViolated(_) => None,
+        }
+    }
+}
