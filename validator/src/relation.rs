@@ -268,7 +268,7 @@ impl Relation {
     }
 
     /// At most how many tuples agree with `fixed` (`None` is free).
-    pub(crate) fn estimate(&self, fixed: &[Option<ObjectId>]) -> usize {
+    pub(crate) fn estimate(&self, fixed: impl Iterator<Item = Option<ObjectId>>) -> usize {
         match &self.index {
             Some(index) => index.narrowest(fixed).len(),
             None => self.records.len(),
@@ -278,7 +278,7 @@ impl Relation {
     /// The tuples that hold among those that may agree with `fixed`.
     pub(crate) fn candidates(&self, fixed: &[Option<ObjectId>]) -> impl Iterator<Item = &[ObjectId]> {
         let (slots, all) = match &self.index {
-            Some(index) => (index.narrowest(fixed), 0),
+            Some(index) => (index.narrowest(fixed.iter().copied()), 0),
             None => (&[] as &[Slot], self.records.len()),
         };
         let slots = slots.iter().map(|&slot| slot as usize);
@@ -291,7 +291,7 @@ impl Relation {
 
 impl Index {
     /// The shortest list in which all that agree with `fixed` are.
-    fn narrowest(&self, fixed: &[Option<ObjectId>]) -> &[Slot] {
+    fn narrowest(&self, fixed: impl Iterator<Item = Option<ObjectId>>) -> &[Slot] {
         self.positions
             .iter()
             .zip(fixed)
@@ -300,5 +300,63 @@ impl Index {
             })
             .min_by_key(|slots| slots.len())
             .unwrap_or(&self.live)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::collections::BTreeSet;
+
+    type Pair = [ObjectId; 2];
+
+    fn found(relation: &Relation, fixed: [Option<ObjectId>; 2]) -> BTreeSet<Pair> {
+        let agrees = |tuple: &Pair| fixed.iter().zip(tuple).all(|(fixed, o)| fixed.is_none_or(|f| f == *o));
+        let pair = |tuple: &[ObjectId]| [tuple[0], tuple[1]];
+        let all: Vec<Pair> = relation.candidates(&fixed).map(pair).filter(agrees).collect();
+        let set: BTreeSet<Pair> = all.iter().copied().collect();
+        assert_eq!(all.len(), set.len(), "each once");
+        set
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn patterns_and_the_log_tell_what_holds(
+            changes in prop::collection::vec((any::<bool>(), 0_u32..4, 0_u32..4), 0..60),
+            marked in 0_usize..60,
+            pattern in [prop::option::of(0_u32..4), prop::option::of(0_u32..4)],
+        ) {
+            let (mut indexed, mut plain) = (Relation::indexed(2), Relation::plain());
+            let mut model = BTreeSet::<Pair>::new();
+            let (mut mark, mut before) = (indexed.mark(), model.clone());
+            for (now, (number, (add, a, b))) in (1..).zip(changes.into_iter().enumerate()) {
+                if number == marked {
+                    (mark, before) = (indexed.mark(), model.clone());
+                }
+                let tuple = [ObjectId(a), ObjectId(b)];
+                for relation in [&mut indexed, &mut plain] {
+                    let changed = if add { relation.add(&tuple, now) } else { relation.delete(&tuple, now) };
+                    prop_assert_eq!(changed, model.contains(&tuple) != add);
+                }
+                let _changed = if add { model.insert(tuple) } else { model.remove(&tuple) };
+            }
+            let fixed = pattern.map(|object| object.map(ObjectId));
+            let agrees = |tuple: &&Pair| fixed.iter().zip(*tuple).all(|(f, o)| f.is_none_or(|f| f == *o));
+            let expected: BTreeSet<Pair> = model.iter().filter(agrees).copied().collect();
+            prop_assert_eq!(&found(&indexed, fixed), &expected);
+            prop_assert_eq!(&found(&plain, fixed), &expected);
+            let toggled = indexed.toggled(mark).expect("the log is short");
+            let told: BTreeSet<Pair> = toggled.iter().map(|&s| [indexed.tuple(s)[0], indexed.tuple(s)[1]]).collect();
+            prop_assert_eq!(told, model.symmetric_difference(&before).copied().collect::<BTreeSet<_>>());
+            // For a while what was taken back holds too.
+            let gone: Vec<Slot> = toggled.into_iter().filter(|&slot| !indexed.slot_holds(slot)).collect();
+            indexed.revive(&gone);
+            prop_assert_eq!(found(&indexed, [None, None]), model.union(&before).copied().collect::<BTreeSet<_>>());
+            indexed.bury(&gone);
+            prop_assert_eq!(found(&indexed, [None, None]), model);
+        }
     }
 }

@@ -236,9 +236,9 @@ impl Scene<'_> {
         for (index, part) in query.parts.iter().enumerate().filter(|&(i, p)| p.wanted && !done[i]) {
             let (size, choice) = match &part.condition.kind {
                 ConditionKind::Atom(atom) => {
-                    let fixed: Vec<_> = atom.arguments.iter().map(|&t| binding.term(t)).collect();
-                    let size = self.state.facts[atom.predicate].estimate(&fixed)
-                        + self.state.derived[atom.predicate].estimate(&fixed);
+                    let fixed = || atom.arguments.iter().map(|&t| binding.term(t));
+                    let size = self.state.facts[atom.predicate].estimate(fixed())
+                        + self.state.derived[atom.predicate].estimate(fixed());
                     (size, Choice::Join(index, atom))
                 }
                 ConditionKind::Same(left, right) => match (*left, *right) {
