@@ -17,6 +17,9 @@ use pddl::model::{Domain, IndexVec, Problem};
 
 const NONE: u32 = u32::MAX;
 
+/// Operators from which on a second thread is worth its start.
+const PARALLEL: usize = 5_000;
+
 /// Builds the task of what `raw` and the analysis leave.
 #[expect(clippy::too_many_arguments, reason = "the last stage takes what all others made")]
 pub(crate) fn finish(
@@ -94,13 +97,26 @@ pub(crate) fn finish(
     axioms.close(state.words_mut());
     let groups = groups(exclusions, &numbers, known);
     let mutexes = Mutexes::new(facts.len(), &groups, &operators, &state);
-    let relaxation = Relaxation::new(&facts, &operators, &axioms, &goal);
+    let tree = || SuccessorTree::new(facts.len(), &operators);
+    let relaxation = || {
+        let relaxation = Relaxation::new(&facts, &operators, &axioms, &goal);
+        (undominated(&relaxation), relaxation)
+    };
+    let (successors, (undominated, relaxation)) = if operators.len() < PARALLEL {
+        (tree(), relaxation())
+    } else {
+        std::thread::scope(|scope| {
+            let tree = scope.spawn(tree);
+            let relaxation = relaxation();
+            (tree.join().expect("it panics nowhere"), relaxation)
+        })
+    };
     let is_derived: Vec<bool> = facts.iter().map(|f| f.derived).collect();
     Ok(Task {
         variables: variables(&mutexes, &is_derived),
         mutexes,
-        successors: SuccessorTree::new(facts.len(), &operators),
-        undominated: undominated(&relaxation),
+        successors,
+        undominated,
         relaxation,
         facts,
         operators,
@@ -137,20 +153,31 @@ struct View<'a> {
 impl View<'_> {
     /// The facts of a conjunction; `None` if it never holds.
     fn literals(&self, literals: &[Lit]) -> Option<Literals> {
-        let open = self.pruned.open(literals)?;
-        let facts = |negated: u32| {
-            let chosen = open.iter().filter(move |&&l| l & 1 == negated);
-            let mut facts: Vec<FactId> = chosen.map(|&l| FactId(self.numbers[(l >> 1) as usize])).collect();
-            facts.sort_unstable();
+        let (mut positive, mut negative) = (0, 0);
+        for &l in literals {
+            match self.pruned.constant(l) {
+                Some(true) => {}
+                Some(false) => return None,
+                None if l & 1 == 0 => positive += 1,
+                None => negative += 1,
+            }
+        }
+        // Literals are sorted, and facts are numbered in the order of their atoms.
+        let facts = |negated: u32, count: usize| {
+            let mut facts = Vec::with_capacity(count);
+            let open = literals.iter().filter(|&&l| l & 1 == negated && self.pruned.constant(l).is_none());
+            facts.extend(open.map(|&l| FactId(self.numbers[(l >> 1) as usize])));
+            debug_assert!(facts.is_sorted());
             facts.into_boxed_slice()
         };
-        Some(Literals { positive: facts(0), negative: facts(1) })
+        Some(Literals { positive: facts(0, positive), negative: facts(1, negative) })
     }
 
     fn facts(&self, atoms: &[u32]) -> Box<[FactId]> {
-        let mut facts: Vec<FactId> =
-            atoms.iter().map(|&a| self.numbers[a as usize]).filter(|&n| n != NONE).map(FactId).collect();
-        facts.sort_unstable();
+        let kept = || atoms.iter().map(|&a| self.numbers[a as usize]).filter(|&n| n != NONE).map(FactId);
+        let mut facts = Vec::with_capacity(kept().count());
+        facts.extend(kept());
+        debug_assert!(facts.is_sorted());
         facts.into_boxed_slice()
     }
 
@@ -160,19 +187,19 @@ impl View<'_> {
 
     /// The operator, unless it can never be applied or changes nothing that is needed.
     fn operator(&self, raw: &RawOperator, cost_scale: u32) -> Option<Operator> {
-        let precondition = self.literals(&raw.precondition)?;
         let (adds, deletes) = self.effects(&raw.effects);
         let mut conditional = Vec::new();
         for (condition, effects) in &raw.conditional {
-            let Some(condition) = self.literals(condition) else { continue };
             let (adds, deletes) = self.effects(effects);
             if !adds.is_empty() || !deletes.is_empty() {
+                let Some(condition) = self.literals(condition) else { continue };
                 conditional.push(ConditionalEffect { condition, adds, deletes });
             }
         }
         if adds.is_empty() && deletes.is_empty() && conditional.is_empty() {
             return None;
         }
+        let precondition = self.literals(&raw.precondition)?;
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,

@@ -178,6 +178,11 @@ impl Formula {
         }
     }
 
+    /// Whether it is a literal or a test.
+    pub(crate) fn is_flat(&self) -> bool {
+        matches!(self, Self::Literal(_) | Self::Same { .. } | Self::OneOf { .. })
+    }
+
     /// How many literals and tests it is made of.
     pub(crate) fn leaves(&self) -> usize {
         match self {

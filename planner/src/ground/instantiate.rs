@@ -26,6 +26,8 @@ pub(crate) enum Ground {
     True,
     False,
     Literal(Lit),
+    /// Of literals, as most conditions are: no vector of formulas is made for them.
+    Conjunction(Vec<Lit>),
     And(Vec<Ground>),
     Or(Vec<Ground>),
 }
@@ -62,6 +64,17 @@ impl<'a> Instantiator<'a> {
 
     pub(crate) fn fold(&self, formula: &Formula, slots: &[Arc<Range>], binding: &mut [u32]) -> Ground {
         match formula {
+            Formula::And(parts) if parts.iter().all(Formula::is_flat) => {
+                let mut literals = Vec::with_capacity(parts.len());
+                for part in parts {
+                    match self.fold(part, slots, binding) {
+                        Ground::Literal(l) => literals.push(l),
+                        Ground::False => return Ground::False,
+                        _ => {}
+                    }
+                }
+                if literals.is_empty() { Ground::True } else { Ground::Conjunction(literals) }
+            }
             Formula::And(parts) => {
                 fold_parts(Connective::And, parts.iter(), |f, b| self.fold(f, slots, b), binding)
             }
@@ -138,6 +151,7 @@ impl<'a> Instantiator<'a> {
         let parts = match ground {
             Ground::True => return vec![Vec::new()],
             Ground::False => return Vec::new(),
+            Ground::Conjunction(literals) => return self.possible(literals).into_iter().collect(),
             Ground::And(parts) => parts,
             other => vec![other],
         };
@@ -202,6 +216,10 @@ impl<'a> Instantiator<'a> {
                 out.push(l);
                 true
             }
+            Ground::Conjunction(literals) => {
+                out.extend(literals);
+                true
+            }
             Ground::And(parts) => parts.into_iter().all(|p| self.collect(p, out)),
             Ground::Or(options) => {
                 let mut rows: Vec<Vec<Lit>> =
@@ -250,6 +268,7 @@ fn fold_parts<T>(
             (And, Ground::True) | (Or, Ground::False) => {}
             (And, Ground::False) => return Ground::False,
             (Or, Ground::True) => return Ground::True,
+            (And, Ground::Conjunction(inner)) => kept.extend(inner.into_iter().map(Ground::Literal)),
             (And, Ground::And(inner)) | (Or, Ground::Or(inner)) => kept.extend(inner),
             (_, other) => kept.push(other),
         }

@@ -35,17 +35,9 @@ impl Pruned {
         }
     }
 
-    /// The open literals of a conjunction, `None` if it is false.
-    pub(crate) fn open(&self, literals: &[Lit]) -> Option<Vec<Lit>> {
-        let mut open = Vec::new();
-        for &l in literals {
-            match self.constant(l) {
-                Some(true) => {}
-                Some(false) => return None,
-                None => open.push(l),
-            }
-        }
-        Some(open)
+    /// Whether the conjunction never holds.
+    pub(crate) fn is_refuted(&self, literals: &[Lit]) -> bool {
+        literals.iter().any(|&l| self.constant(l) == Some(false))
     }
 }
 
@@ -154,6 +146,23 @@ fn reachable(raw: &RawTask, initial: &[bool], derived: &[bool], exogenous: &[boo
     reached
 }
 
+/// The pairs in order of their first halves, otherwise as they were, without neighbours that are equal.
+fn grouped(pairs: &[(u32, u32)]) -> Vec<(u32, u32)> {
+    let most = pairs.iter().map(|p| p.0 as usize).max().unwrap_or(0);
+    let mut at = vec![0_u32; most + 2];
+    pairs.iter().for_each(|p| at[p.0 as usize + 1] += 1);
+    for i in 0..=most {
+        at[i + 1] += at[i];
+    }
+    let mut sorted = vec![(0, 0); pairs.len()];
+    for &pair in pairs {
+        sorted[at[pair.0 as usize] as usize] = pair;
+        at[pair.0 as usize] += 1;
+    }
+    sorted.dedup();
+    sorted
+}
+
 fn relevance(raw: &RawTask, exogenous: &[bool], pruned: &mut Pruned) {
     // By atom: the operators that change it and the rules that derive it (numbered after them).
     let n = raw.atoms as usize;
@@ -165,8 +174,7 @@ fn relevance(raw: &RawTask, exogenous: &[bool], pruned: &mut Pruned) {
         }
     }
     changed_by.extend(raw.rules.iter().enumerate().map(|(i, (head, _))| (*head, id32(operators + i))));
-    changed_by.sort_unstable();
-    changed_by.dedup();
+    let changed_by = grouped(&changed_by);
     let mut queue: Vec<u32> = Vec::new();
     let need = |l: Lit, pruned: &mut Pruned, queue: &mut Vec<u32>| {
         let atom = (l >> 1) as usize;
@@ -187,12 +195,12 @@ fn relevance(raw: &RawTask, exogenous: &[bool], pruned: &mut Pruned) {
             let i = i as usize;
             let Some(op) = raw.operators.get(i) else {
                 let (_, body) = &raw.rules[i - operators];
-                if pruned.open(body).is_some() {
+                if !pruned.is_refuted(body) {
                     body.iter().for_each(|&l| need(l, pruned, &mut queue));
                 }
                 continue;
             };
-            if pruned.open(&op.precondition).is_none() {
+            if pruned.is_refuted(&op.precondition) {
                 continue;
             }
             if !std::mem::replace(&mut seen[i], true) {
@@ -200,7 +208,7 @@ fn relevance(raw: &RawTask, exogenous: &[bool], pruned: &mut Pruned) {
             }
             for (condition, effects) in &op.conditional {
                 let touches = effects.adds.contains(&atom) || effects.deletes.contains(&atom);
-                if touches && pruned.open(condition).is_some() {
+                if touches && !pruned.is_refuted(condition) {
                     condition.iter().for_each(|&l| need(l, pruned, &mut queue));
                 }
             }

@@ -207,8 +207,14 @@ fn expand(
     effects: &[SchemaEffect],
     binding: &mut [u32],
 ) -> Vec<(Vec<Lit>, bool, u32)> {
-    let mut found = Vec::new();
+    let mut found = Vec::with_capacity(effects.len());
     for effect in effects {
+        if effect.is_simple() {
+            let row = effect.arguments.iter().map(|&t| resolve(t, binding));
+            let atom = work.table.find(effect.predicate, row);
+            found.extend(atom.map(|atom| (Vec::new(), effect.positive, atom)));
+            continue;
+        }
         let count =
             |total: usize, v: &VariableId| total.saturating_mul(schema.slots[v.0 as usize].objects.len());
         if !work.guard.allows(effect.quantified.iter().fold(1, count)) {
