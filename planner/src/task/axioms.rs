@@ -2,14 +2,16 @@
 //!
 //! Problem: derived facts are functions of the basic ones and must be right in every state. Idea:
 //! facts that depend on each other form components; in topological order each is decided in one
-//! pass, or, where it is recursive, by iterating its own rules. Invariant: no negative dependency
-//! inside a component (that is stratification; grounding refuses anything else). Cost: linear in the
-//! rules, times the passes in recursive components.
+//! pass, or, where it is recursive, by following what each new fact brings about. After a step only
+//! the components are decided again that read something that changed, and if they come out as before,
+//! nothing above them is. Invariant: no negative dependency inside a component (that is
+//! stratification; grounding refuses anything else). Cost: the rules of the components that are
+//! decided, each once, and once more for each of its recursive conditions.
 //!
 //! Source: Thiébaux, Hoffmann & Nebel, "In defense of PDDL axioms", AIJ 2005, §2.
 
-use super::{Fact, Literals, contains, set};
-use crate::ids::FactId;
+use super::{Fact, Literals, Rows, contains, for_each_set, set, unset};
+use crate::ids::{FactId, id32};
 use pddl::model::{Idx, IndexVec};
 
 /// `head` holds where `body` does.
@@ -24,6 +26,7 @@ pub struct AxiomRule {
 #[derive(Clone, Debug)]
 struct Component {
     rules: std::ops::Range<usize>,
+    heads: Box<[FactId]>,
     recursive: bool,
 }
 
@@ -32,8 +35,12 @@ struct Component {
 pub(crate) struct AxiomProgram {
     rules: Vec<AxiomRule>,
     components: Vec<Component>,
-    /// A set bit for each derived fact.
-    derived: Vec<u64>,
+    /// A set bit for each fact that some rule reads.
+    read: Vec<u64>,
+    /// By fact, the components that read it (other than its own).
+    readers: Rows,
+    /// By fact, the rules of its own component that need it.
+    followers: Rows,
 }
 
 /// A derived fact that depends on its own negation.
@@ -42,10 +49,6 @@ pub(crate) struct NotStratified(pub(crate) FactId);
 
 impl AxiomProgram {
     pub(crate) fn new(facts: &IndexVec<FactId, Fact>, rules: Vec<AxiomRule>) -> Result<Self, NotStratified> {
-        let mut derived = vec![0; facts.len().div_ceil(64)];
-        for (id, _) in facts.enumerate().filter(|(_, f)| f.derived) {
-            set(&mut derived, id);
-        }
         let order = components(facts, &rules);
         let mut component_of = vec![usize::MAX; facts.len()];
         for (i, members) in order.iter().enumerate() {
@@ -67,36 +70,104 @@ impl AxiomProgram {
                 }
             }
             let recursive = sorted[start..end].iter().any(|r| r.body.positive.iter().any(own));
-            built.push(Component { rules: start..end, recursive });
+            let heads = order[component].clone().into_boxed_slice();
+            built.push(Component { rules: start..end, heads, recursive });
             start = end;
         }
-        Ok(Self { rules: sorted, components: built, derived })
+        let mut program = Self { rules: sorted, components: built, ..Self::default() };
+        program.index(facts.len(), &component_of);
+        Ok(program)
+    }
+
+    /// Notes who reads what.
+    fn index(&mut self, facts: usize, component_of: &[usize]) {
+        self.read = vec![0; facts.div_ceil(64)];
+        let (mut reads, mut needs) = (Rows::default(), Rows::default());
+        for component in &self.components {
+            let rules = &self.rules[component.rules.clone()];
+            let own = component_of[component.heads[0].index()];
+            let mut outside: Vec<u32> = Vec::new();
+            for rule in rules {
+                let (inside, others): (Vec<FactId>, Vec<FactId>) =
+                    rule.body.positive.iter().partition(|f| component_of[f.index()] == own);
+                needs.push(inside.into_iter().map(|f| f.0));
+                outside.extend(others.iter().chain(&rule.body.negative).map(|f| f.0));
+            }
+            outside.sort_unstable();
+            outside.dedup();
+            outside.iter().for_each(|&f| set(&mut self.read, FactId(f)));
+            reads.push(outside);
+        }
+        self.readers = reads.transposed(facts);
+        self.followers = needs.transposed(facts);
     }
 
     pub(crate) fn rules(&self) -> &[AxiomRule] {
         &self.rules
     }
 
-    /// Recomputes every derived fact.
+    /// Decides every derived fact.
     pub(crate) fn close(&self, words: &mut [u64]) {
+        for component in &self.components {
+            self.decide(component, words);
+        }
+    }
+
+    /// Decides the derived facts after a step from the closed state `before`: `words` has the basic facts
+    /// as they are now, and the derived ones as they were.
+    pub(crate) fn update(&self, before: &[u64], words: &mut [u64]) {
         if self.components.is_empty() {
             return;
         }
-        for (word, derived) in words.iter_mut().zip(&self.derived) {
-            *word &= !derived;
+        let mut waiting = vec![0_u64; self.components.len().div_ceil(64)];
+        let wake = |fact: u32, waiting: &mut [u64]| {
+            for &c in self.readers.row(fact) {
+                waiting[c as usize / 64] |= 1 << (c % 64);
+            }
+        };
+        let mut any = false;
+        for (i, ((&old, &new), &read)) in before.iter().zip(&*words).zip(&self.read).enumerate() {
+            let changed = (old ^ new) & read;
+            any |= changed != 0;
+            for_each_set(&[changed], |bit| wake(id32(i) * 64 + bit, &mut waiting));
         }
-        for component in &self.components {
-            let rules = &self.rules[component.rules.clone()];
-            loop {
-                let mut changed = false;
-                for rule in rules {
-                    if !contains(words, rule.head) && rule.body.hold_in(words) {
-                        set(words, rule.head);
-                        changed = true;
+        if !any {
+            return;
+        }
+        // Readers of a component come after it, so one walk upwards meets them all.
+        for block in 0..waiting.len() {
+            while waiting[block] != 0 {
+                let bit = waiting[block].trailing_zeros() as usize;
+                waiting[block] &= waiting[block] - 1;
+                let component = &self.components[block * 64 + bit];
+                self.decide(component, words);
+                for &head in &component.heads {
+                    if contains(words, head) != contains(before, head) {
+                        wake(head.0, &mut waiting);
                     }
                 }
-                if !(changed && component.recursive) {
-                    break;
+            }
+        }
+    }
+
+    /// Decides the facts of one component; those below it are right.
+    fn decide(&self, component: &Component, words: &mut [u64]) {
+        component.heads.iter().for_each(|&head| unset(words, head));
+        let mut new = Vec::new();
+        for rule in &self.rules[component.rules.clone()] {
+            if !contains(words, rule.head) && rule.body.hold_in(words) {
+                set(words, rule.head);
+                if component.recursive {
+                    new.push(rule.head);
+                }
+            }
+        }
+        while let Some(fact) = new.pop() {
+            for &r in self.followers.row(fact.0) {
+                let rule = &self.rules[r as usize];
+                if !contains(words, rule.head) && rule.body.hold_in(words) {
+                    set(words, rule.head);
+                    new.push(rule.head);
                 }
             }
         }
@@ -154,4 +225,80 @@ fn components(facts: &IndexVec<FactId, Fact>, rules: &[AxiomRule]) -> Vec<Vec<Fa
         }
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{AxiomProgram, AxiomRule};
+    use crate::ids::FactId;
+    use crate::task::{Fact, Literals};
+    use pddl::model::IndexVec;
+    use proptest::prelude::*;
+
+    const BASIC: u32 = 6;
+    const EACH: u32 = 4;
+
+    /// A head of a stratum, facts up to that stratum, negated facts below it.
+    type RandomRule = (u32, u32, Vec<u32>, Vec<u32>);
+
+    fn random_rule() -> impl Strategy<Value = RandomRule> {
+        (0..3_u32).prop_flat_map(|stratum| {
+            let below = BASIC + stratum * EACH;
+            let positive = prop::collection::vec(0..below + EACH, 0..3);
+            (Just(stratum), below..below + EACH, positive, prop::collection::vec(0..below, 0..2))
+        })
+    }
+
+    /// Stratum by stratum, each rule again and again until nothing changes.
+    fn by_definition(rules: &[RandomRule], basic: u64) -> u64 {
+        let mut state = basic;
+        for stratum in 0..3 {
+            loop {
+                let before = state;
+                for (_, head, positive, negative) in rules.iter().filter(|r| r.0 == stratum) {
+                    let holds = |f: &u32| state >> f & 1 == 1;
+                    if positive.iter().all(holds) && !negative.iter().any(holds) {
+                        state |= 1 << head;
+                    }
+                }
+                if state == before {
+                    break;
+                }
+            }
+        }
+        state
+    }
+
+    proptest! {
+        #[test]
+        fn steps_and_fresh_states_are_closed_as_defined(
+            rules in prop::collection::vec(random_rule(), 0..14),
+            states in prop::collection::vec(0..1_u64 << BASIC, 1..8),
+        ) {
+            let mut facts: IndexVec<FactId, Fact> = IndexVec::new();
+            (0..BASIC + 3 * EACH).for_each(|f| {
+                facts.push(Fact { atom: None, value: None, derived: f >= BASIC });
+            });
+            let literals = |facts: &[u32]| {
+                let mut sorted: Vec<FactId> = facts.iter().map(|&f| FactId(f)).collect();
+                sorted.sort_unstable();
+                sorted.dedup();
+                sorted.into_boxed_slice()
+            };
+            let built = rules.iter().map(|(_, head, positive, negative)| AxiomRule {
+                head: FactId(*head),
+                body: Literals { positive: literals(positive), negative: literals(negative) },
+            });
+            let program = AxiomProgram::new(&facts, built.collect()).unwrap();
+            let mut before = [0_u64];
+            program.close(&mut before);
+            prop_assert_eq!(before[0], by_definition(&rules, 0));
+            for basic in states {
+                let mut stepped = [before[0] & !((1 << BASIC) - 1) | basic];
+                program.update(&before, &mut stepped);
+                prop_assert_eq!(stepped[0], by_definition(&rules, basic));
+                before = stepped;
+            }
+        }
+    }
 }

@@ -197,7 +197,7 @@ impl Task {
     /// Turns `next`, a copy of `state`, into the successor.
     pub(crate) fn apply(&self, operator: OperatorId, state: &[u64], next: &mut [u64]) {
         self.operators[operator].apply(state, next);
-        self.axioms.close(next);
+        self.axioms.update(state, next);
     }
 
     /// Bytes that the task holds, about.
