@@ -12,9 +12,9 @@
 mod hierarchy;
 
 use hierarchy::{Chance, Made, Task};
-use pddl::{Source, parse_domain, parse_plan, parse_problem};
+use pddl::{Source, parse_domain, parse_plan, parse_problem, print_plan};
 use proptest::prelude::*;
-use validator::{Failure, Verdict, validate};
+use validator::{Budget, Failure, Repair, Validator, Verdict, validate};
 
 /// How many tasks the enumerator takes apart before it gives up.
 const APART: u32 = 7;
@@ -94,6 +94,28 @@ proptest! {
     fn verdicts_are_those_of_the_definition(seed in any::<u64>()) {
         Tally::default().try_seed(seed);
     }
+}
+
+/// A plan whose steps are right and whose decomposition is not gets another one, with its numbers.
+#[test]
+fn another_decomposition_is_advised() {
+    let domain = "(define (domain d) (:requirements :hierarchy :negative-preconditions) (:predicates (p))
+        (:task t :parameters ())
+        (:method early :parameters () :task (t) :precondition (p) :ordered-subtasks (and (a)))
+        (:method late :parameters () :task (t) :precondition (not (p)) :ordered-subtasks (and (a)))
+        (:action a :parameters () :precondition () :effect (p)))";
+    let domain = parse_domain(&Source::new("d", domain), &[]).model.unwrap();
+    let problem = "(define (problem q) (:domain d) (:htn :ordered-subtasks (and (t))) (:init))";
+    let problem = parse_problem(&Source::new("q", problem), &domain).model.unwrap();
+    let plan = parse_plan(&Source::new("plan", "==>\n7 a\nroot 3\n3 t -> early 7\n<==\n"), &domain, &problem);
+    let plan = plan.model.unwrap();
+    let validator = Validator::new(&domain, &problem).unwrap();
+    let Verdict::Invalid(failure) = validator.validate(&plan) else { panic!("its method needs p") };
+    let advice = validator.advise(&plan, &failure, Budget::default());
+    let otherwise = advice.iter().find(|repair| matches!(repair, Repair::Decompose(_))).unwrap();
+    let changed = otherwise.applied(&plan).unwrap();
+    assert!(validator.validate(&changed).is_valid());
+    assert_eq!(print_plan(&changed, &domain, &problem), "==>\n7 a\nroot 8\n8 t -> late 7\n<==\n");
 }
 
 #[test]

@@ -103,6 +103,7 @@ const fn change(repair: &Repair) -> &'static str {
         Repair::Shift { .. } => "shift",
         Repair::Delay { .. } => "delay",
         Repair::Stretch { .. } => "stretch",
+        Repair::Decompose(_) => "decompose",
         Repair::Initially(_) => "initially",
         Repair::NotInitially(_) => "not initially",
         Repair::Value { .. } => "value",

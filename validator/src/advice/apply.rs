@@ -51,7 +51,10 @@ impl Repair {
                 Some(Plan::Sequential(plan))
             }
             Plan::Temporal(plan) => temporal(self, plan).map(Plan::Temporal),
-            Plan::Hierarchical(_) => None,
+            Plan::Hierarchical(_) => match self {
+                Self::Decompose(otherwise) => Some(Plan::Hierarchical((**otherwise).clone())),
+                _ => None,
+            },
         }
     }
 }

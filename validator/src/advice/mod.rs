@@ -29,8 +29,10 @@ use crate::number::Number;
 use crate::run::{PlanRef, Validator};
 use crate::state::GroundAtom;
 use crate::verdict::{Failure, StepIndex, Unsatisfied, Verdict};
-use pddl::model::{GroundApplication, ObjectId};
-use pddl::{Decimal, Plan, PlanStep, Span, TemporalStep};
+use pddl::model::{GroundApplication, Idx, ObjectId};
+use pddl::{
+    Decimal, DecompositionId, HierarchicalPlan, Plan, PlanLabel, PlanStep, SequentialPlan, Span, TemporalStep,
+};
 
 /// How many changed plans are searched for a decomposition.
 const SEARCHED_PLANS: usize = 400;
@@ -114,6 +116,8 @@ pub enum Repair {
         /// How long, in seconds.
         duration: Decimal,
     },
+    /// Let the same steps come out of the task network in another way.
+    Decompose(Box<HierarchicalPlan>),
     /// Let a fact hold from the beginning.
     Initially(GroundAtom),
     /// Let a fact not hold in the beginning.
@@ -161,7 +165,7 @@ impl Validator<'_> {
         let mut repairs = match plan {
             Plan::Sequential(plan) => sequential::repairs(&mut trials, plan, failure),
             Plan::Temporal(plan) => timed::repairs(&mut trials, plan, failure),
-            Plan::Hierarchical(_) => Vec::new(),
+            Plan::Hierarchical(plan) => self.decomposed_otherwise(plan, failure).into_iter().collect(),
         };
         // What remains of the budget for the plan is not what the task may cost.
         trials.budget = budget;
@@ -171,6 +175,26 @@ impl Validator<'_> {
             repairs.extend(task::weaker(&mut trials, plan.into(), failure));
         }
         repairs
+    }
+}
+
+impl Validator<'_> {
+    /// The same steps with another decomposition, if it is the decomposition that is wrong.
+    fn decomposed_otherwise(&self, plan: &HierarchicalPlan, failure: &Failure) -> Option<Repair> {
+        if !matches!(failure, Failure::Network { .. }) {
+            return None;
+        }
+        let steps = SequentialPlan::new(plan.steps.iter().map(|step| step.step.clone()).collect());
+        let Verdict::Valid(valid) = self.validate(&steps) else { return None };
+        let mut found = *valid.decomposition?;
+        // The actions keep their numbers, and the tasks get new ones.
+        let mut next = plan.steps.iter().map(|step| step.label.0).max().unwrap_or(0);
+        found.steps.clone_from(&plan.steps);
+        for task in 0..found.decompositions.len() {
+            next = next.checked_add(1)?;
+            found.decompositions[DecompositionId::from_index(task)].label = PlanLabel(next);
+        }
+        Some(Repair::Decompose(Box::new(found)))
     }
 }
 

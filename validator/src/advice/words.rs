@@ -60,6 +60,7 @@ pub fn show_repair(domain: &Domain, problem: &Problem, plan: &Plan, repair: &Rep
             format!("starting step {}, and all that start with it or later, {by} s later", step.number())
         }
         Repair::Stretch { step, duration } => format!("letting step {} take {duration} s", step.number()),
+        Repair::Decompose(_) => "another decomposition of the same steps".to_owned(),
         Repair::Initially(atom) => {
             format!("adding `{}` to the initial state", show_atom(domain, problem, atom))
         }
