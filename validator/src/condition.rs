@@ -13,7 +13,8 @@
 use crate::number::Number;
 use crate::scene::{Binding, Scene};
 use crate::state::Value;
-use pddl::model::{Comparison, Condition, ConditionKind};
+use pddl::model::{Comparison, Condition, ConditionKind, Expression};
+use std::cmp::Ordering;
 
 /// What to make of an undefined comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,16 +35,42 @@ impl Strictness {
 }
 
 pub(crate) fn compares(comparison: Comparison, left: Number, right: Number) -> bool {
+    is_of(comparison, left.cmp(&right))
+}
+
+fn is_of(comparison: Comparison, order: Ordering) -> bool {
     match comparison {
-        Comparison::Less => left < right,
-        Comparison::LessEqual => left <= right,
-        Comparison::Equal => left == right,
-        Comparison::GreaterEqual => left >= right,
-        Comparison::Greater => left > right,
+        Comparison::Less => order.is_lt(),
+        Comparison::LessEqual => order.is_le(),
+        Comparison::Equal => order.is_eq(),
+        Comparison::GreaterEqual => order.is_ge(),
+        Comparison::Greater => order.is_gt(),
     }
 }
 
+/// How near to each other, in parts of the greater, rounded values may be before their order is unknown.
+const NEARNESS: f64 = 1e-9;
+
 impl Scene<'_> {
+    /// Which of two sides is greater, if both have a value.
+    fn order(&self, left: &Expression, right: &Expression, binding: &Binding) -> Option<Ordering> {
+        let (one, two) = (self.number(left, binding).ok()?, self.number(right, binding).ok()?);
+        let order = match &self.state.passage {
+            Some(passage) => passage.order(*self, left, right, binding).unwrap_or_else(|_| {
+                self.state.effort.give_up();
+                Ordering::Equal
+            }),
+            None => one.cmp(&two),
+        };
+        if self.state.rounded && order.is_ne() && !(one.is_exact() && two.is_exact()) {
+            let (one, two) = (one.to_f64(), two.to_f64());
+            if (one - two).abs() <= NEARNESS * one.abs().max(two.abs()).max(1.0) {
+                self.state.effort.give_up();
+            }
+        }
+        Some(order)
+    }
+
     /// Whether the condition holds, all numbers in it being defined as far as they matter.
     pub(crate) fn holds(&self, condition: &Condition, binding: &mut Binding) -> bool {
         self.satisfied(condition, true, Strictness::Certain, binding)
@@ -88,12 +115,10 @@ impl Scene<'_> {
                 self.universe.is_of(binding.object(*term), types) == wanted
             }
             ConditionKind::Same(left, right) => (binding.object(*left) == binding.object(*right)) == wanted,
-            ConditionKind::Compare(comparison, left, right) => {
-                match (self.number(left, binding), self.number(right, binding)) {
-                    (Ok(left), Ok(right)) => compares(*comparison, left, right) == wanted,
-                    _ => strictness == Strictness::Possible,
-                }
-            }
+            ConditionKind::Compare(comparison, left, right) => match self.order(left, right, binding) {
+                Some(order) => is_of(*comparison, order) == wanted,
+                None => strictness == Strictness::Possible,
+            },
             ConditionKind::FluentIs(application, value) => {
                 (self.fluent(application, binding) == Some(Value::Object(binding.object(*value)))) == wanted
             }

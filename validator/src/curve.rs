@@ -5,23 +5,17 @@
 //! polynomial, and so is every sum, difference and product of fluents. A comparison can change its
 //! truth only at a root of the difference of its sides; between roots one instant speaks for all.
 //!
-//! Roots are exact where they are rational with a denominator that a double can tell (every linear one,
-//! and those of higher degree that a file's decimals usually make); an irrational one is the nearest
-//! double. Cost: a curve of degree n has its roots searched between those of its derivative.
+//! Where that is, is exact: a fraction, or an isolated root ([`Instant`]). Cost: a division for a line, Sturm's
+//! sequence for what is not.
 //!
 //! Source: Howey, Long & Fox, "VAL: Automatic Plan Validation, Continuous Effects and Mixed Initiative
 //! Planning using PDDL", ICTAI 2004, §5 (polynomial change and invariants).
 
 use crate::number::{NoResult, Number};
-
-/// Halvings of an interval that ends at neighbouring doubles.
-const HALVINGS: usize = 80;
+use crate::root::{Instant, Polynomial, Undecided};
 
 /// Highest power in a curve: rates that multiply each other double it with each.
 const MOST_DEGREE: usize = 40;
-
-/// Largest denominator that an exact root is searched with.
-const MOST_DENOMINATOR: i64 = 1_000_000;
 
 /// A polynomial; `coefficients[n]` belongs to the n-th power. The highest is not zero.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -93,102 +87,33 @@ impl Curve {
         Ok(Self::new(coefficients))
     }
 
-    fn derivative(&self) -> Result<Self> {
-        let powers = (1_i64..).map(Number::integer);
-        let rest = self.coefficients.iter().skip(1).zip(powers);
-        rest.map(|(&c, power)| c.times(power)).collect::<Result<_>>().map(Self::new)
-    }
-
     /// The value at a time.
     pub(crate) fn at(&self, time: Number) -> Result<Number> {
         self.coefficients.iter().rev().try_fold(Number::ZERO, |value, &c| value.times(time)?.plus(c))
     }
 
+    /// Whether no coefficient was rounded.
+    pub(crate) fn is_exact(&self) -> bool {
+        self.coefficients.iter().all(|c| c.is_exact())
+    }
+
+    pub(crate) fn polynomial(&self) -> Polynomial {
+        Polynomial::new(self.coefficients.iter().copied())
+    }
+
     /// Where the curve is zero inside the open interval `from..to`, in order. A curve that is zero everywhere has no
     /// such place: its comparisons never change.
-    pub(crate) fn roots(&self, from: Number, to: Number) -> Result<Vec<Number>> {
+    pub(crate) fn roots(&self, from: Number, to: Number) -> std::result::Result<Vec<Instant>, Undecided> {
         match self.coefficients.as_slice() {
             [] | [_] => Ok(Vec::new()),
-            &[constant, slope] => {
-                let root = constant.negated().over(slope)?;
-                Ok(if from < root && root < to { vec![root] } else { Vec::new() })
-            }
-            _ => self.roots_between_extremes(from, to),
+            &[constant, slope] => match constant.negated().over(slope) {
+                Ok(root) if root.is_exact() || !self.is_exact() => {
+                    Ok(if from < root && root < to { vec![Instant::At(root)] } else { Vec::new() })
+                }
+                _ => self.polynomial().roots(from, to),
+            },
+            _ => self.polynomial().roots(from, to),
         }
-    }
-
-    fn roots_between_extremes(&self, from: Number, to: Number) -> Result<Vec<Number>> {
-        let mut borders = vec![from];
-        borders.extend(self.derivative()?.roots(from, to)?);
-        borders.push(to);
-        let mut roots = Vec::new();
-        for pair in borders.windows(2) {
-            let (left, right) = (pair[0], pair[1]);
-            let (low, high) = (self.at(left)?, self.at(right)?);
-            if left > from && low == Number::ZERO {
-                roots.push(left);
-            } else if low != Number::ZERO
-                && high != Number::ZERO
-                && (low < Number::ZERO) != (high < Number::ZERO)
-            {
-                roots.push(self.root_between(left, right, low < Number::ZERO)?);
-            }
-        }
-        roots.dedup();
-        Ok(roots)
-    }
-
-    /// The root in a stretch where the curve only rises, or only falls.
-    fn root_between(&self, left: Number, right: Number, rises: bool) -> Result<Number> {
-        let (mut low, mut high) = (left.to_f64(), right.to_f64());
-        for _ in 0..HALVINGS {
-            let middle = f64::midpoint(low, high);
-            if middle <= low || middle >= high {
-                break;
-            }
-            let value = self.coefficients.iter().rev().fold(0.0_f64, |v, c| v.mul_add(middle, c.to_f64()));
-            if (value < 0.0) == rises {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        for end in [low, high, f64::midpoint(low, high)] {
-            if let Some(exact) = nearby_ratio(end)
-                && left < exact
-                && exact < right
-                && self.at(exact)? == Number::ZERO
-            {
-                return Ok(exact);
-            }
-        }
-        Number::from_f64(low).ok_or(NoResult::Overflow)
-    }
-}
-
-/// The ratio with the smallest denominator that is next to `value` as doubles go, by its continued fraction.
-fn nearby_ratio(value: f64) -> Option<Number> {
-    let (mut before, mut last) = ((0_i64, 1_i64), (1_i64, 0_i64));
-    let mut rest = value;
-    loop {
-        let whole = rest.floor();
-        if whole.abs() > 1e15 {
-            return None;
-        }
-        #[expect(clippy::cast_possible_truncation, reason = "it is below 2^53")]
-        let digit = whole as i64;
-        let next = (
-            digit.checked_mul(last.0)?.checked_add(before.0)?,
-            digit.checked_mul(last.1)?.checked_add(before.1)?,
-        );
-        if next.1 > MOST_DENOMINATOR {
-            return None;
-        }
-        if (next.0 as f64 / next.1 as f64 - value).abs() <= 1e-12 * value.abs().max(1.0) {
-            return Number::integer(next.0).over(Number::integer(next.1)).ok();
-        }
-        (before, last) = (last, next);
-        rest = 1.0 / (rest - whole);
     }
 }
 
@@ -196,6 +121,7 @@ fn nearby_ratio(value: f64) -> Option<Number> {
 mod tests {
     use super::Curve;
     use crate::number::Number;
+    use crate::root::Instant;
     use proptest::prelude::*;
 
     fn number(value: f64) -> Number {
@@ -207,7 +133,12 @@ mod tests {
     }
 
     fn roots(coefficients: &[f64], to: f64) -> Vec<String> {
-        curve(coefficients).roots(Number::ZERO, number(to)).unwrap().iter().map(ToString::to_string).collect()
+        curve(coefficients)
+            .roots(Number::ZERO, number(to))
+            .unwrap()
+            .iter()
+            .map(|root| root.near().to_string())
+            .collect()
     }
 
     #[test]
@@ -220,18 +151,13 @@ mod tests {
     }
 
     #[test]
-    fn a_root_that_is_irrational_is_near() {
-        let found = curve(&[-2.0, 0.0, 1.0]).roots(Number::ZERO, number(2.0)).unwrap();
-        assert!(matches!(found.as_slice(), [root] if (root.to_f64() - 2.0_f64.sqrt()).abs() < 1e-12));
-    }
-
-    #[test]
     fn falling_is_the_integral_of_gravity() {
         let speed = Curve::constant(number(-10.0)).integrated(number(20.0)).unwrap();
         let height = speed.integrated(Number::ZERO).unwrap();
         assert_eq!(height.at(number(2.0)).unwrap(), number(20.0));
         assert_eq!(height.at(number(4.0)).unwrap(), Number::ZERO);
-        assert_eq!(height.roots(Number::ZERO, number(5.0)).unwrap(), [number(4.0)]);
+        let landing = height.roots(Number::ZERO, number(5.0)).unwrap();
+        assert!(matches!(landing.as_slice(), [Instant::At(time)] if *time == number(4.0)));
     }
 
     proptest! {
@@ -242,6 +168,7 @@ mod tests {
                 product = product.times(&Curve::new(vec![Number::integer(-root), Number::integer(1)])).unwrap();
             }
             let found = product.roots(Number::ZERO, Number::integer(100)).unwrap();
+            let found: Vec<Number> = found.iter().map(Instant::near).collect();
             at.retain(|&root| root < 100);
             let expected: Vec<Number> = at.into_iter().map(Number::integer).collect();
             prop_assert_eq!(found, expected);

@@ -5,9 +5,11 @@
 //! empty nothing more is found and the plan is refused by name, not judged. The purse is counted and not timed,
 //! so that the same plan always gets the same verdict.
 //!
+//! The same goes for what cannot be decided exactly, such as which of two roots is first if that takes too long.
+//!
 //! Invariant: what is found after the purse was empty is never part of a verdict.
 
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// What any plan may cost.
 const ANY_PLAN: u64 = 5_000_000;
@@ -17,30 +19,53 @@ const EACH_STEP: u64 = 2_000;
 
 /// How many bindings may still be tried. Atomic only so that a prepared task can be shared by threads.
 #[derive(Debug, Default)]
-pub(crate) struct Effort(AtomicU64);
+pub(crate) struct Effort {
+    left: AtomicU64,
+    /// Whether something could not be decided exactly.
+    undecided: AtomicBool,
+}
 
 impl Effort {
     /// Enough for a plan of so many steps.
     pub(crate) fn for_steps(steps: usize) -> Self {
         let steps = u64::try_from(steps).unwrap_or(u64::MAX);
-        Self(AtomicU64::new(EACH_STEP.saturating_mul(steps).saturating_add(ANY_PLAN)))
+        let left = EACH_STEP.saturating_mul(steps).saturating_add(ANY_PLAN);
+        Self { left: AtomicU64::new(left), undecided: AtomicBool::new(false) }
     }
 
     /// Pays; answers whether that could be paid.
     pub(crate) fn spend(&self, price: u64) -> bool {
-        let left = self.0.load(Ordering::Relaxed);
-        self.0.store(left.saturating_sub(price), Ordering::Relaxed);
+        let left = self.left.load(Ordering::Relaxed);
+        self.left.store(left.saturating_sub(price), Ordering::Relaxed);
         left >= price
     }
 
     /// Whether nothing more can be paid for.
     pub(crate) fn is_spent(&self) -> bool {
-        self.0.load(Ordering::Relaxed) == 0
+        self.left.load(Ordering::Relaxed) == 0
+    }
+
+    /// Gives the plan up: what comes next depends on what cannot be decided.
+    pub(crate) fn give_up(&self) {
+        self.undecided.store(true, Ordering::Relaxed);
+    }
+
+    /// Goes on after all: the verdict does not depend on it.
+    pub(crate) fn take_up(&self) {
+        self.undecided.store(false, Ordering::Relaxed);
+    }
+
+    /// Whether it was given up.
+    pub(crate) fn is_undecided(&self) -> bool {
+        self.undecided.load(Ordering::Relaxed)
     }
 }
 
 impl Clone for Effort {
     fn clone(&self) -> Self {
-        Self(AtomicU64::new(self.0.load(Ordering::Relaxed)))
+        Self {
+            left: AtomicU64::new(self.left.load(Ordering::Relaxed)),
+            undecided: AtomicBool::new(self.is_undecided()),
+        }
     }
 }

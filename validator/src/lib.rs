@@ -41,6 +41,7 @@ mod preference;
 mod prepare;
 mod relation;
 mod role;
+mod root;
 mod run;
 mod scene;
 mod sequential;

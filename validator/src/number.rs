@@ -7,6 +7,8 @@
 //! in lowest terms with a positive denominator; doubles are finite. Cost: integers never take a greatest
 //! common divisor.
 
+use num_rational::BigRational;
+use num_traits::Zero;
 use std::cmp::Ordering;
 use std::fmt;
 
@@ -37,6 +39,9 @@ fn greatest_common_divisor(mut a: u128, mut b: u128) -> u128 {
 impl Number {
     /// Nothing.
     pub const ZERO: Self = Self::integer(0);
+
+    /// A thousand-millionth.
+    pub(crate) const NANO: Self = Self(Form::Ratio { numerator: 1, denominator: 1_000_000_000 });
 
     /// Larger than what any file means.
     pub(crate) const MAX: Self = Self(Form::Double(f64::MAX));
@@ -83,6 +88,37 @@ impl Number {
             Form::Ratio { numerator, denominator } => numerator as f64 / denominator as f64,
             Form::Double(value) => value,
         }
+    }
+
+    /// As a fraction of unbounded integers; what a double stands for is one too.
+    pub(crate) fn to_rational(self) -> BigRational {
+        match self.0 {
+            Form::Ratio { numerator, denominator } => BigRational::new(numerator.into(), denominator.into()),
+            Form::Double(value) => BigRational::from_float(value).expect("a number is finite"),
+        }
+    }
+
+    /// A fraction, if 128 bits hold it.
+    pub(crate) fn of_rational(value: &BigRational) -> Option<Self> {
+        Self::ratio(i128::try_from(value.numer()).ok()?, i128::try_from(value.denom()).ok()?)
+    }
+
+    /// A double that stands for what is next to it: not exact.
+    pub(crate) fn rounded(value: f64) -> Self {
+        Self(Form::Double(value.clamp(f64::MIN, f64::MAX)))
+    }
+
+    /// The fraction with the smallest denominator between two doubles.
+    pub(crate) fn simplest_between(low: f64, high: f64) -> Option<Self> {
+        let (low, high) = (BigRational::from_float(low)?, BigRational::from_float(high)?);
+        let zero = BigRational::zero();
+        if low < zero && zero < high {
+            return Some(Self::ZERO);
+        }
+        if low < zero {
+            return Self::of_rational(&-crate::root::simplest(&-high, &-low));
+        }
+        Self::of_rational(&crate::root::simplest(&low, &high))
     }
 
     /// Whether nothing was rounded.

@@ -202,10 +202,10 @@ impl<'a> Validator<'a> {
             },
         };
         if state.effort.is_spent() {
-            return Verdict::Unsupported(Unsupported {
-                feature: Feature::TooMuch,
-                span: self.problem.goal_span,
-            });
+            return unsupported(Feature::TooMuch, self.problem.goal_span);
+        }
+        if state.effort.is_undecided() {
+            return unsupported(Feature::Undecided, self.problem.goal_span);
         }
         match result {
             Ok(valid) => Verdict::Valid(valid),

@@ -9,9 +9,11 @@ use crate::effort::Effort;
 use crate::number::Number;
 pub(crate) use crate::relation::Moment;
 use crate::relation::Relation;
+use crate::temporal::Passage;
 use indexmap::{Equivalent, IndexMap};
 use pddl::model::{Domain, FluentValue, FunctionId, GroundApplication, Idx, IndexVec, ObjectId, PredicateId};
 use rustc_hash::{FxBuildHasher, FxHashMap};
+use std::sync::Arc;
 
 /// A predicate of objects.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -66,6 +68,10 @@ pub(crate) struct State {
     fluent_changes: IndexVec<FunctionId, u64>,
     /// How far `derived` lags behind the facts.
     pub(crate) lag: Lag,
+    /// How fluents run through the present instant; `None` if all of them are what `fluents` says.
+    pub(crate) passage: Option<Arc<Passage>>,
+    /// Whether a fluent may be rounded because something happened at an instant that is no fraction.
+    pub(crate) rounded: bool,
     /// What may still be spent on the plan whose state this is.
     pub(crate) effort: Effort,
 }
@@ -93,6 +99,8 @@ impl State {
             before: None,
             fluent_changes: domain.functions.iter().map(|_| 0).collect(),
             lag: Lag::default(),
+            passage: None,
+            rounded: false,
             effort: Effort::default(),
         }
     }
@@ -137,6 +145,9 @@ impl State {
             && !before.contains_key(&application)
         {
             before.insert(application.clone(), self.fluents.get(&application).copied());
+        }
+        if let Some(passage) = &mut self.passage {
+            Arc::make_mut(passage).forget(&application);
         }
         match value {
             Some(value) => self.fluents.insert(application, value),

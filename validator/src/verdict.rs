@@ -430,6 +430,8 @@ pub enum Feature {
     TimesMissingForDomain,
     /// Quantifiers and constraints for more objects than can be tried.
     TooMuch,
+    /// Continuous change whose instants are too near to each other to tell their order, or no roots of polynomials.
+    Undecided,
 }
 
 /// Why a task has no meaning although each of its parts has.

@@ -98,6 +98,12 @@ pub fn explain<'p>(
                     File::Domain,
                     "a plan without times is not supported where the domain has processes or events".into(),
                 ),
+                Feature::Undecided => (
+                    File::Problem,
+                    "values that change continuously come too near to each other here to tell which is greater; \
+                     this is not supported"
+                        .into(),
+                ),
                 Feature::TooMuch => (
                     File::Problem,
                     "quantifiers over more combinations of objects than can be tried are not supported"

@@ -10,6 +10,7 @@
 use crate::curve::Curve;
 use crate::expression::NumericFault;
 use crate::number::{NoResult, Number};
+use crate::root::{Instant, Polynomial, Root, Undecided};
 use crate::scene::{Binding, Clock, Scene};
 use crate::state::{State, Value};
 use crate::trajectory::each_instance;
@@ -21,6 +22,8 @@ use pddl::model::{
     Variables,
 };
 use rustc_hash::FxHashMap;
+use std::cmp::Ordering;
+use std::sync::Arc;
 
 /// A continuous effect that runs.
 #[derive(Clone, Debug)]
@@ -37,7 +40,71 @@ pub(super) struct Running<'a> {
 /// How the fluents run from now on.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Flow {
-    curves: FxHashMap<GroundApplication, Curve>,
+    curves: Arc<Curves>,
+}
+
+type Curves = FxHashMap<GroundApplication, Curve>;
+
+/// An instant in the middle of continuous change at which no number says exactly what a fluent is.
+#[derive(Clone, Debug)]
+pub(crate) struct Passage {
+    curves: Arc<Curves>,
+    at: Instant,
+}
+
+impl Passage {
+    /// From now on a fluent is what the state says.
+    pub(crate) fn forget(&mut self, fluent: &GroundApplication) {
+        if self.curves.contains_key(fluent) {
+            Arc::make_mut(&mut self.curves).remove(fluent);
+        }
+    }
+
+    /// Which of two sides is greater.
+    pub(crate) fn order(
+        &self,
+        scene: Scene<'_>,
+        left: &Expression,
+        right: &Expression,
+        binding: &Binding,
+    ) -> Result<Ordering, Undecided> {
+        let difference = difference(&self.curves, left, right, scene, binding)?;
+        let polynomial = difference.map_or_else(|| Polynomial::new([]), |curve| curve.polynomial());
+        match &self.at {
+            Instant::At(number) => Ok(polynomial.sign(&number.to_rational())),
+            Instant::Root(root) => root.sign_of(&polynomial),
+        }
+    }
+}
+
+/// One side less the other; nothing if one has no value, at whatever time.
+fn difference(
+    curves: &Curves,
+    left: &Expression,
+    right: &Expression,
+    scene: Scene<'_>,
+    binding: &Binding,
+) -> Result<Option<Curve>, Undecided> {
+    let side =
+        |expression| curve_of(expression, scene, binding, &mut |fluent| Ok(curves.get(fluent).cloned()));
+    match (side(left), side(right)) {
+        (Ok(left), Ok(right)) => left.minus(&right).map(Some).map_err(|_| Undecided),
+        (
+            Err(
+                ChangeFault::Numeric(NumericFault::Overflow { .. })
+                | ChangeFault::NotPolynomialExpression { .. },
+            ),
+            _,
+        )
+        | (
+            _,
+            Err(
+                ChangeFault::Numeric(NumericFault::Overflow { .. })
+                | ChangeFault::NotPolynomialExpression { .. },
+            ),
+        ) => Err(Undecided),
+        _ => Ok(None),
+    }
 }
 
 /// What rates are read from.
@@ -61,11 +128,11 @@ impl Flow {
         for effect in running {
             by_fluent.entry(&effect.fluent).or_default().push(effect);
         }
-        let mut making = Making { by_fluent, present, flow: Self::default(), open: Vec::new() };
+        let mut making = Making { by_fluent, present, curves: Curves::default(), open: Vec::new() };
         for effect in running {
             making.fluent(effect)?;
         }
-        Ok(making.flow)
+        Ok(Self { curves: Arc::new(making.curves) })
     }
 
     /// Whether nothing changes.
@@ -74,10 +141,22 @@ impl Flow {
     }
 
     /// Gives every running fluent its value so many seconds after the last happening.
-    pub(super) fn apply(&self, after: Number, state: &mut State) -> Result<(), NoResult> {
-        for (fluent, curve) in &self.curves {
-            state.set_fluent(fluent.clone(), Some(Value::Number(curve.at(after)?)));
+    pub(super) fn apply(&self, after: &Instant, state: &mut State) -> Result<(), NoResult> {
+        let near = after.near();
+        state.passage = None;
+        let mut exact = near.is_exact() && matches!(after, Instant::At(_));
+        for (fluent, curve) in &*self.curves {
+            let mut value = curve.at(near)?;
+            if let Instant::Root(root) = after
+                && curve.as_constant().is_none()
+            {
+                value = fraction_at(curve, root, value).unwrap_or(value);
+            }
+            exact &= value.is_exact();
+            state.set_fluent(fluent.clone(), Some(Value::Number(value)));
         }
+        let passage = || Arc::new(Passage { curves: Arc::clone(&self.curves), at: after.clone() });
+        state.passage = (!exact).then(passage);
         Ok(())
     }
 
@@ -95,7 +174,7 @@ impl Flow {
         scene: Scene<'_>,
         binding: &mut Binding,
         length: Number,
-        into: &mut Vec<Number>,
+        into: &mut Vec<Instant>,
     ) {
         match &condition.kind {
             ConditionKind::And(parts) | ConditionKind::Or(parts) => {
@@ -113,9 +192,15 @@ impl Flow {
             }
             ConditionKind::Compare(_, left, right) => {
                 // A side without a value has none at any time: the comparison never changes.
-                let roots = self.side(left, scene, binding).ok().zip(self.side(right, scene, binding).ok());
-                let roots = roots.and_then(|(left, right)| left.minus(&right).ok());
-                into.extend(roots.and_then(|d| d.roots(Number::ZERO, length).ok()).unwrap_or_default());
+                let roots = match difference(&self.curves, left, right, scene, binding) {
+                    Ok(Some(curve)) => curve.roots(Number::ZERO, length),
+                    Ok(None) => Ok(Vec::new()),
+                    Err(undecided) => Err(undecided),
+                };
+                match roots {
+                    Ok(roots) => into.extend(roots),
+                    Err(Undecided) => scene.state.effort.give_up(),
+                }
             }
             ConditionKind::Atom(_)
             | ConditionKind::HasType(..)
@@ -123,22 +208,21 @@ impl Flow {
             | ConditionKind::FluentIs(..) => {}
         }
     }
+}
 
-    fn side(
-        &self,
-        expression: &Expression,
-        scene: Scene<'_>,
-        binding: &Binding,
-    ) -> Result<Curve, ChangeFault> {
-        curve_of(expression, scene, binding, &mut |fluent| Ok(self.curves.get(fluent).cloned()))
-    }
+/// The value of a curve at an irrational root, where it is a fraction all the same: the ball is on the ground exactly.
+fn fraction_at(curve: &Curve, root: &Root, near: Number) -> Option<Number> {
+    let (value, error) = (near.to_f64(), 1e-12 * near.to_f64().abs().max(1.0));
+    let fraction = Number::simplest_between(value - error, value + error)?;
+    let rest = curve.minus(&Curve::constant(fraction)).ok()?;
+    root.sign_of(&rest.polynomial()).ok()?.is_eq().then_some(fraction)
 }
 
 /// A flow while it is made.
 struct Making<'a, 'r> {
     by_fluent: FxHashMap<&'a GroundApplication, Vec<&'a Running<'r>>>,
     present: Present<'a>,
-    flow: Flow,
+    curves: Curves,
     /// Fluents whose curves are being made.
     open: Vec<GroundApplication>,
 }
@@ -146,7 +230,7 @@ struct Making<'a, 'r> {
 impl Making<'_, '_> {
     fn fluent(&mut self, effect: &Running<'_>) -> Result<Curve, ChangeFault> {
         let fluent = &effect.fluent;
-        if let Some(curve) = self.flow.curves.get(fluent) {
+        if let Some(curve) = self.curves.get(fluent) {
             return Ok(curve.clone());
         }
         if self.open.contains(fluent) {
@@ -174,20 +258,20 @@ impl Making<'_, '_> {
         }
         self.open.pop();
         let curve = rate.integrated(value).map_err(|fault| numeric(fault, effect.span))?;
-        self.flow.curves.insert(fluent.clone(), curve.clone());
+        self.curves.insert(fluent.clone(), curve.clone());
         Ok(curve)
     }
 }
 
 /// The curve of a fluent, if it changes.
-type Curves<'f> = dyn FnMut(&GroundApplication) -> Result<Option<Curve>, ChangeFault> + 'f;
+type Lookup<'f> = dyn FnMut(&GroundApplication) -> Result<Option<Curve>, ChangeFault> + 'f;
 
 /// The curve of an expression.
 fn curve_of(
     expression: &Expression,
     scene: Scene<'_>,
     binding: &Binding,
-    running: &mut Curves<'_>,
+    running: &mut Lookup<'_>,
 ) -> Result<Curve, ChangeFault> {
     let span = expression.span;
     match &expression.kind {

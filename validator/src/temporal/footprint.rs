@@ -15,7 +15,7 @@ use super::crowd::Touch;
 use crate::axiom::{Strata, each_predicate};
 use crate::effect::{Changes, Write};
 use crate::scene::{Binding, Scene};
-use crate::state::GroundAtom;
+use crate::state::{GroundAtom, State};
 use crate::trajectory::each_instance;
 use crate::verdict::Shared;
 use pddl::model::{
@@ -168,6 +168,12 @@ impl Footprint {
                 Write::Other => Touch::Sets(fluent.clone()),
             });
         }
+    }
+
+    /// Forgets changes to what is so already.
+    pub(super) fn only_changes_of(&mut self, state: &State) {
+        self.added.retain(|atom| !state.holds(atom.predicate, &atom.arguments));
+        self.deleted.retain(|atom| state.holds(atom.predicate, &atom.arguments));
     }
 
     /// What keeps the two from happening at one time.

@@ -19,6 +19,7 @@ mod nature;
 mod point;
 mod timeline;
 
+pub(crate) use flow::Passage;
 pub(crate) use nature::bind_functions;
 pub(crate) use timeline::{end, makespan, start};
 
@@ -26,6 +27,7 @@ use crate::cause::{Cause, Causes};
 use crate::demands::Demands;
 use crate::expression::NumericFault;
 use crate::number::Number;
+use crate::root::{Instant, Undecided, in_order};
 use crate::run::{End, Validator};
 use crate::scene::{Binding, Clock};
 use crate::state::{Moment, State};
@@ -34,7 +36,7 @@ use crate::trajectory::Since;
 use crate::verdict::{ChangeFault, Failure, StepIndex, Valid};
 use crowd::Crowd;
 use flow::{Flow, Present};
-use footprint::Dependencies;
+use footprint::{Dependencies, Footprint};
 use nature::{Instance, Nature};
 use pddl::TemporalPlan;
 use pddl::model::{Condition, DurativeAction, Given, ProcessId, TimeSpecifier};
@@ -42,6 +44,9 @@ use timeline::{Point, timeline};
 
 /// How often what happens by itself may begin and end at one instant.
 const MOST_UNRESTS: usize = 100;
+
+/// How often it happens between two happenings of the plan where its times seem to have a limit.
+const MANY: usize = 10;
 
 /// How often it may do so in the whole plan: times that come ever nearer to each other never pass.
 const MOST_UNRESTS_OF_ALL: usize = 10_000;
@@ -66,6 +71,9 @@ pub(crate) fn run(
         active: Vec::new(),
         crowd: Crowd::default(),
         unrests: 0,
+        wrote_fluents: false,
+        timed_is_next: false,
+        beside_timed: Vec::new(),
     };
     let mut recorder = trace.as_mut().map(|trace| Recorder::new(validator, run.state, &mut trace.initial));
     if let Some(recorder) = &mut recorder {
@@ -76,7 +84,8 @@ pub(crate) fn run(
     run.observe();
     for happening in points.chunk_by(|a, b| a.time == b.time) {
         let mut diff = trace.is_some().then(Diff::default);
-        run.flow_to(happening[0].time, diff.as_mut())?;
+        let timed = happening.iter().any(|point| matches!(point.what, Cause::Timed(_)));
+        run.flow_to(happening[0].time, timed, diff.as_mut())?;
         if let (Some(recorder), Some(diff)) = (&recorder, &mut diff) {
             recorder.before(run.state, diff);
         }
@@ -112,6 +121,37 @@ pub(crate) fn run(
     validator.finish(end, run.demands)
 }
 
+/// The instants in order, each marked, and one between any two of them; not the ends of `from..length` themselves.
+fn with_middles(
+    critical: Vec<Instant>,
+    from: &Instant,
+    length: Number,
+) -> Result<Vec<(Instant, bool)>, Undecided> {
+    let mut later = Vec::with_capacity(critical.len());
+    for instant in critical {
+        if instant.compared(from)?.is_gt() {
+            later.push(instant);
+        }
+    }
+    let critical = in_order(later)?;
+    let mut instants = Vec::with_capacity(2 * critical.len() + 1);
+    let mut before = from.clone();
+    for next in critical.into_iter().chain([Instant::At(length)]) {
+        let middle = match (&before, &next) {
+            (Instant::At(one), Instant::At(two)) => {
+                let middle = one.plus(*two).and_then(|sum| sum.over(Number::integer(2)));
+                middle.map_err(|_| Undecided)?
+            }
+            _ => before.between(&next)?,
+        };
+        instants.push((Instant::At(middle), false));
+        instants.push((next.clone(), true));
+        before = next;
+    }
+    instants.pop();
+    Ok(instants)
+}
+
 /// Whether anything else happens at the time of a happening, or too near to it.
 fn crowded(points: &[Point], happening: &[Point], separation: Number) -> bool {
     let time = happening[0].time;
@@ -141,8 +181,17 @@ struct Active<'v> {
 /// Something begins or ends by itself.
 struct Unrest {
     /// When, after the last happening.
-    after: Number,
+    after: Instant,
     nature: Nature,
+}
+
+/// Continuous change that goes on as it is.
+struct Course {
+    flow: Flow,
+    /// The time from which its curves count.
+    origin: Number,
+    /// How far it has come.
+    from: Instant,
 }
 
 struct Run<'s, 'v, 'a> {
@@ -158,6 +207,12 @@ struct Run<'s, 'v, 'a> {
     crowd: Crowd,
     /// How often something began or ended by itself.
     unrests: usize,
+    /// Whether events changed a fluent since that was last asked.
+    wrote_fluents: bool,
+    /// Whether the problem changes something at the time that comes next.
+    timed_is_next: bool,
+    /// The events that happened just before it does.
+    beside_timed: Vec<(Cause, Footprint)>,
 }
 
 impl<'v> Run<'_, 'v, '_> {
@@ -184,58 +239,93 @@ impl<'v> Run<'_, 'v, '_> {
 
     /// Lets time pass until just before `time`: what runs, runs; what must hold all the time, must hold;
     /// what happens by itself, happens.
-    fn flow_to(&mut self, time: Number, mut diff: Option<&mut Diff>) -> Checked {
+    fn flow_to(&mut self, time: Number, timed: bool, mut diff: Option<&mut Diff>) -> Checked {
         let mut processes = self.processes(self.now);
-        let mut unrests = 0;
-        while self.now < time {
-            let running = self.running(&processes)?;
-            let present = Present { universe: &self.validator.universe, state: self.state, now: self.now };
-            let flow = Flow::new(&running, present).map_err(|fault| self.change(fault))?;
+        let mut course = None;
+        let (mut unrests, mut met, mut passed) = (0, 0, Number::MAX);
+        while course.is_some() || self.now < time {
+            let Course { flow, origin, from } = match course.take() {
+                Some(course) => course,
+                None => self.course(&processes)?,
+            };
             if flow.is_still() {
                 self.invariants(self.now)?;
                 self.now = time;
                 break;
             }
-            let length = time.minus(self.now).unwrap_or(Number::ZERO);
-            let Some(unrest) = self.flow_quietly(&flow, length, &processes)? else {
-                self.set(&flow, length)?;
+            let length = time.minus(origin).unwrap_or(Number::ZERO);
+            let unrest = self.flow_quietly(&flow, origin, &from, length, &processes)?;
+            if self.state.effort.is_undecided() {
+                // Times that come ever nearer to each other get too near for any numbers.
+                if passed < Number::thousandths(1) && met >= MANY {
+                    self.state.effort.take_up();
+                    return Err(self.change(ChangeFault::Unsteady));
+                }
+                break;
+            }
+            let Some(unrest) = unrest else {
+                self.set(&flow, &Instant::At(length))?;
                 self.now = time;
                 break;
             };
+            passed = unrest.after.near().minus(from.near()).unwrap_or(Number::ZERO);
             // Conditions that end each other at one instant would take no time, for ever.
-            unrests = if unrest.after == Number::ZERO { unrests + 1 } else { 0 };
+            unrests = if passed < Number::NANO { unrests + 1 } else { 0 };
             self.unrests += 1;
+            met += 1;
             if unrests > MOST_UNRESTS || self.unrests > MOST_UNRESTS_OF_ALL {
                 return Err(self.change(ChangeFault::Unsteady));
             }
-            self.set(&flow, unrest.after)?;
-            self.now = self.now.plus(unrest.after).unwrap_or(time);
+            self.set(&flow, &unrest.after)?;
+            self.now = origin.plus(unrest.after.near()).unwrap_or(time);
             let happened = !unrest.nature.events.is_empty();
+            self.wrote_fluents = false;
             self.events(unrest.nature.events, diff.as_deref_mut())?;
-            processes = if happened { self.processes(self.now) } else { unrest.nature.processes };
+            let next = if happened { self.processes(self.now) } else { unrest.nature.processes };
+            // As long as nothing changes the way that fluents run, they are known exactly from where they began.
+            if next == processes && !self.wrote_fluents {
+                course = Some(Course { flow, origin, from: unrest.after });
+            }
+            processes = next;
             self.observe();
         }
         let due = self.due(self.now);
         if !due.is_empty() {
+            self.timed_is_next = timed;
             self.events(due, diff)?;
+            self.timed_is_next = false;
             self.observe();
         }
         Ok(())
     }
 
-    /// Looks at every instant inside `0..length` at which something can change; answers where something
+    /// How fluents run from now on.
+    fn course(&mut self, processes: &[Instance<ProcessId>]) -> Checked<Course> {
+        self.state.rounded |= !self.now.is_exact();
+        let running = self.running(processes)?;
+        let present = Present { universe: &self.validator.universe, state: self.state, now: self.now };
+        let flow = Flow::new(&running, present).map_err(|fault| self.change(fault))?;
+        Ok(Course { flow, origin: self.now, from: Instant::At(Number::ZERO) })
+    }
+
+    /// Looks at every instant inside `from..length` at which something can change; answers where something
     /// begins or ends by itself, if it does.
     fn flow_quietly(
         &mut self,
         flow: &Flow,
+        origin: Number,
+        from: &Instant,
         length: Number,
         processes: &[Instance<ProcessId>],
     ) -> Checked<Option<Unrest>> {
-        let mut last = Number::ZERO;
-        for (instant, critical) in self.instants_of(flow, length)? {
-            self.set(flow, instant)?;
-            let began = self.now.plus(last).unwrap_or(self.now);
-            let at = self.now.plus(instant).unwrap_or(self.now);
+        let mut last = from.clone();
+        for (instant, critical) in self.instants_of(flow, from, length)? {
+            if self.state.effort.is_undecided() {
+                break;
+            }
+            self.set(flow, &instant)?;
+            let began = origin.plus(last.near()).unwrap_or(origin);
+            let at = origin.plus(instant.near()).unwrap_or(origin);
             if self.has_nature() {
                 let nature = self.nature(at);
                 if !nature.events.is_empty() || nature.processes != processes {
@@ -253,16 +343,16 @@ impl<'v> Run<'_, 'v, '_> {
         Ok(None)
     }
 
-    fn set(&mut self, flow: &Flow, after: Number) -> Checked {
+    fn set(&mut self, flow: &Flow, after: &Instant) -> Checked {
         flow.apply(after, self.state).map_err(|fault| {
             let fault = NumericFault::of(fault, pddl::Span::default());
             self.change(ChangeFault::Numeric(fault))
         })
     }
 
-    /// The instants inside `0..length` at which conditions must be asked: where one can change (`true`), and
+    /// The instants inside `from..length` at which conditions must be asked: where one can change (`true`), and
     /// one between any two of them.
-    fn instants_of(&mut self, flow: &Flow, length: Number) -> Checked<Vec<(Number, bool)>> {
+    fn instants_of(&mut self, flow: &Flow, from: &Instant, length: Number) -> Checked<Vec<(Instant, bool)>> {
         let mut critical = Vec::new();
         for active in &self.active {
             let clock = Clock { duration: Some(active.duration), ..Clock::at(self.now) };
@@ -286,20 +376,12 @@ impl<'v> Run<'_, 'v, '_> {
             flow.critical(condition, scene, &mut binding.clone(), length, &mut critical);
         }
         if self.has_nature() {
-            self.critical_of_nature(flow, length, &mut critical)?;
+            self.critical_of_nature(flow, from, length, &mut critical)?;
         }
-        critical.sort();
-        critical.dedup();
-        let mut instants = Vec::with_capacity(2 * critical.len() + 1);
-        let mut before = Number::ZERO;
-        for next in critical.into_iter().chain([length]) {
-            let middle = before.plus(next).and_then(|sum| sum.over(Number::integer(2)));
-            instants.extend(middle.map(|middle| (middle, false)));
-            instants.push((next, true));
-            before = next;
-        }
-        instants.pop();
-        Ok(instants)
+        Ok(with_middles(critical, from, length).unwrap_or_else(|Undecided| {
+            self.state.effort.give_up();
+            Vec::new()
+        }))
     }
 
     /// Asks for everything that must hold all the time.

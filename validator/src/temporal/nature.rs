@@ -7,20 +7,21 @@
 //! process whose condition holds only just after an instant (`>`, not `>=`) begins at that instant.
 //!
 //! An event that is due at the time of a happening happens before it, and what is due because of the happening
-//! after it; neither counts as interference.
-//!
-//! Deviation: events at one time do not have to be free of interference; they see the same state, and
-//! change it in the order of the domain.
+//! after it. Events that are due in one state all see that state, so none of them may change what another needs or
+//! changes: the outcome would depend on an order that nobody gave. A timed literal is an event too, and must leave
+//! alone what those of its time need and change. What an event makes true that is so already is no change.
 //!
 //! Source: Fox & Long, "Modelling mixed discrete-continuous domains for planning", JAIR 2006, §4.
 
 use super::flow::{Flow, Running};
+use super::footprint::{Footprint, Reader};
 use super::{Active, Checked, Run};
 use crate::cause::Cause;
 use crate::condition::Strictness;
 use crate::effect::Changes;
 use crate::expression::NumericFault;
 use crate::number::Number;
+use crate::root::Instant;
 use crate::scene::{Binding, Clock, Scene};
 use crate::state::Value;
 use crate::trace::Diff;
@@ -106,12 +107,13 @@ impl Run<'_, '_, '_> {
         debug_assert!(flow.is_continue());
     }
 
-    /// Adds the instants inside `0..length` at which processes and events may begin or end.
+    /// Adds the instants inside `from..length` at which processes and events may begin or end.
     pub(super) fn critical_of_nature(
         &mut self,
         flow: &Flow,
+        from: &Instant,
         length: Number,
-        into: &mut Vec<Number>,
+        into: &mut Vec<Instant>,
     ) -> Checked {
         let domain = self.validator.domain;
         let processes = domain.processes.iter().map(|p| (&p.variables, &p.precondition));
@@ -124,7 +126,7 @@ impl Run<'_, '_, '_> {
                 candidates.push((variables, condition, arguments));
             });
         }
-        self.set(flow, Number::ZERO)?;
+        self.set(flow, from)?;
         for (variables, condition, arguments) in candidates {
             let scene = self.validator.scene(self.state, variables, Clock::at(self.now));
             flow.critical(condition, scene, &mut Binding::new(variables, &arguments), length, into);
@@ -137,6 +139,7 @@ impl Run<'_, '_, '_> {
         let mut happened: FxHashMap<Instance<EventId>, usize> = FxHashMap::default();
         while !due.is_empty() {
             let mut changes = Vec::with_capacity(due.len());
+            let mut together: Vec<(Cause, Footprint)> = Vec::new();
             for instance in &due {
                 let event = &self.validator.domain.events[instance.id];
                 let at = Cause::Event(instance.id);
@@ -148,12 +151,33 @@ impl Run<'_, '_, '_> {
                 crate::prepare::each_guard(&event.effect, &mut |guard, _| self.derive_for(guard));
                 let scene = self.validator.scene(self.state, &event.variables, Clock::at(self.now));
                 let mut own = Changes::default();
-                own.collect(scene, &event.effect, &mut Binding::new(&event.variables, &instance.arguments))
+                let mut binding = Binding::new(&event.variables, &instance.arguments);
+                own.collect(scene, &event.effect, &mut binding)
                     .map_err(|fault| Box::new(Failure::Effect { at, fault }))?;
+                if due.len() > 1 || self.timed_is_next {
+                    let mut footprint = Footprint::default();
+                    let reader =
+                        Reader { scene, strata: &self.validator.strata, dependencies: &self.dependencies };
+                    reader.condition(&event.precondition, &mut binding, &mut footprint);
+                    reader.effect(&event.effect, &mut binding, &mut footprint);
+                    footprint.changes(&own);
+                    footprint.only_changes_of(self.state);
+                    if let Some((first, over)) = together
+                        .iter()
+                        .find_map(|(first, other)| Some((*first, other.interference(&footprint)?)))
+                    {
+                        return Err(Box::new(Failure::Interference { first, second: at, over }));
+                    }
+                    together.push((at, footprint));
+                }
                 changes.push((at, own));
+            }
+            if self.timed_is_next {
+                self.beside_timed.append(&mut together);
             }
             for (at, own) in changes {
                 self.causes.push(at);
+                own.each_write(|_, _| self.wrote_fluents = true);
                 let moment = self.moment();
                 own.apply(self.state, moment, diff.as_deref_mut())
                     .map_err(|fault| Box::new(Failure::Effect { at, fault }))?;

@@ -64,6 +64,13 @@ impl<'v> Run<'_, 'v, '_> {
                 Cause::Timed(index) => self.timed(index),
             });
         }
+        for (event, footprint) in std::mem::take(&mut self.beside_timed) {
+            for deed in deeds.iter().filter(|deed| matches!(deed.what, Cause::Timed(_))) {
+                if let Some(over) = footprint.interference(&deed.footprint) {
+                    return Err(Box::new(Failure::Interference { first: event, second: deed.what, over }));
+                }
+            }
+        }
         if crowded {
             self.interference(&mut deeds)?;
         }

@@ -1,0 +1,5 @@
+(define (problem rope)
+  (:domain events)
+  (:objects a b - bell)
+  (:init (shared a) (shared b) (rope) (= (clock) 0) (= (count) 0) (= (limit a) 3) (= (limit b) 3))
+  (:goal (rung a)))

@@ -1,0 +1,5 @@
+(define (problem turns)
+  (:domain events)
+  (:objects a b - bell)
+  (:init (shared a) (shared b) (rope) (= (clock) 0) (= (count) 0) (= (limit a) 3) (= (limit b) 4))
+  (:goal (and (rung a) (rung b))))

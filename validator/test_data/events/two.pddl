@@ -1,0 +1,5 @@
+(define (problem two)
+  (:domain events)
+  (:objects a b - bell)
+  (:init (armed a) (armed b) (= (clock) 0) (= (count) 0) (= (limit a) 3) (= (limit b) 3))
+  (:goal (and (rung a) (rung b) (= (count) 2))))
