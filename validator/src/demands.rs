@@ -8,7 +8,8 @@ use crate::number::Number;
 use crate::preference::Violations;
 use crate::scene::{Binding, Clock, Scene};
 use crate::state::State;
-use crate::trajectory::{Asked, Broken, Formula, Position, Since, Trajectory, each_instance};
+use crate::trace::{Demand, Watched};
+use crate::trajectory::{Asked, Breach, Broken, Formula, Position, Since, Trajectory, each_instance};
 use crate::universe::Universe;
 use crate::verdict::{Failure, Unsatisfied};
 use crate::words::File;
@@ -17,6 +18,7 @@ use pddl::model::{Condition, Constraint, Domain, Preference, Problem, Variables}
 /// A soft constraint for one binding of the `forall`s around it.
 #[derive(Clone, Debug)]
 struct Soft<'a> {
+    file: File,
     preference: &'a Preference<Constraint>,
     variables: &'a Variables,
     binding: Binding,
@@ -58,7 +60,13 @@ impl<'a> Demands<'a> {
             for preference in &constraints.preferences {
                 each_instance(scene, &preference.forall, &mut binding, &mut |binding| {
                     let formula = demands.trajectory.ground(scene, variables, &preference.body, binding);
-                    demands.soft.push(Soft { preference, variables, binding: binding.clone(), formula });
+                    demands.soft.push(Soft {
+                        file,
+                        preference,
+                        variables,
+                        binding: binding.clone(),
+                        formula,
+                    });
                 });
             }
         }
@@ -136,6 +144,24 @@ impl<'a> Demands<'a> {
     /// The condition that was asked for, its variables and their values.
     pub(crate) fn asked(&self, asked: Asked) -> (&'a Condition, &'a Variables, &Binding) {
         self.trajectory.asked_condition(asked)
+    }
+
+    /// Every constraint, and where its conditions held.
+    pub(crate) fn watched(&self) -> Vec<Watched> {
+        let watched = |file, formula: &Formula, demand| {
+            let breach = self.trajectory.breach(formula).map(|(_, breach)| breach);
+            let time = |breach: Breach| breach.position().and_then(|at| self.trajectory.time(at));
+            let broken = breach.map(|breach| (breach, time(breach)));
+            let conditions = self.trajectory.stretches(formula);
+            let binding = self.trajectory.values(formula);
+            Watched { file, span: formula.span, demand, binding, broken, conditions }
+        };
+        let hard = self.hard.iter().map(|(file, formula)| watched(*file, formula, Demand::Hard));
+        let soft = self
+            .soft
+            .iter()
+            .map(|soft| watched(soft.file, &soft.formula, Demand::Preference(soft.preference.name.clone())));
+        hard.chain(soft).collect()
     }
 
     /// Counts the soft constraints that are broken.

@@ -64,7 +64,7 @@ pub use preference::{ViolatedPreference, Violations};
 pub use role::{Deed, Role, role_of};
 pub use run::{PlanRef, Precision, Validator, validate};
 pub use state::{GroundAtom, Value};
-pub use trace::{Diff, FluentChange, Happening, Trace};
+pub use trace::{Demand, Diff, FluentChange, Happening, Stretch, Trace, Watched};
 pub use trajectory::Breach;
 pub use verdict::{
     ChangeFault, EffectFault, Failure, Feature, IllFormed, MetricValue, Near, Operand, Shared, StepFault,

@@ -59,6 +59,9 @@ pub(crate) fn run<'p>(
         makespan: None,
         steps,
     };
+    if let Some(trace) = trace {
+        trace.watched = run.demands.watched();
+    }
     validator.finish(end, run.demands)
 }
 

@@ -9,7 +9,10 @@ use crate::number::Number;
 use crate::relation::{Mark, Relation, Slot};
 use crate::run::Validator;
 use crate::state::{GroundAtom, Moment, State, Value};
-use pddl::model::{GroundApplication, IndexVec, PredicateId};
+use crate::trajectory::Breach;
+use crate::words::File;
+use pddl::Span;
+use pddl::model::{GroundApplication, IndexVec, Name, ObjectId, PredicateId};
 use rustc_hash::FxHashSet;
 use std::cmp::Ordering;
 
@@ -59,6 +62,43 @@ pub struct Trace {
     pub initial: Diff,
     /// In order of time.
     pub happenings: Vec<Happening>,
+    /// The constraints on the whole trajectory; none if the plan failed before its end.
+    pub watched: Vec<Watched>,
+}
+
+/// A constraint on the trajectory for one binding of the `forall`s around it, and where its conditions hold.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Watched {
+    /// Whether the domain or the problem has it.
+    pub file: File,
+    /// Where it stands.
+    pub span: Span,
+    /// Whether it must hold.
+    pub demand: Demand,
+    /// The values of the variables of the `forall`s and `exists`s around its first condition.
+    pub binding: Vec<(Name, ObjectId)>,
+    /// How and, in seconds or steps, when it is broken; `None` if it is not.
+    pub broken: Option<(Breach, Option<Number>)>,
+    /// Each condition in it: where it stands, and from when until when it holds.
+    pub conditions: Vec<(Span, Vec<Stretch>)>,
+}
+
+/// Whether a constraint must hold or should.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Demand {
+    /// It must.
+    Hard,
+    /// It is a preference, perhaps with a name.
+    Preference(Option<Name>),
+}
+
+/// A time in which something holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stretch {
+    /// Its begin, in seconds or steps.
+    pub from: Number,
+    /// Its end; `None` is never.
+    pub until: Option<Number>,
 }
 
 /// Sees what happens to a state besides effects.

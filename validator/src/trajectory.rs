@@ -20,6 +20,7 @@
 use crate::number::Number;
 use crate::scene::{Binding, Clock, Scene};
 use crate::state::State;
+use crate::trace::Stretch;
 use crate::universe::Universe;
 use pddl::Span;
 use pddl::model::{Condition, Constraint, ConstraintKind, Name, ObjectId, Variable, VariableId, Variables};
@@ -59,6 +60,28 @@ enum Kind {
     SometimeBefore(Box<Formula>, Box<Formula>),
     AlwaysWithin(Number, Box<Formula>, Box<Formula>),
     Hold { from: Number, until: Option<Number>, body: Box<Formula> },
+}
+
+impl Formula {
+    fn each_leaf(&self, visit: &mut dyn FnMut(usize)) {
+        match &self.kind {
+            Kind::Leaf(leaf) => visit(*leaf),
+            Kind::And(parts) | Kind::Or(parts) => parts.iter().for_each(|part| part.each_leaf(visit)),
+            Kind::Not(part)
+            | Kind::AtEnd(part)
+            | Kind::Always(part)
+            | Kind::Sometime(part)
+            | Kind::Within(_, part)
+            | Kind::AtMostOnce(part)
+            | Kind::Hold { body: part, .. } => part.each_leaf(visit),
+            Kind::SometimeAfter(if_, then)
+            | Kind::SometimeBefore(if_, then)
+            | Kind::AlwaysWithin(_, if_, then) => {
+                if_.each_leaf(visit);
+                then.each_leaf(visit);
+            }
+        }
+    }
 }
 
 /// When a state begins.
@@ -196,6 +219,34 @@ impl<'a> Trajectory<'a> {
     /// The conditions that are noted, each with its variables and their values.
     pub(crate) fn conditions(&self) -> impl Iterator<Item = (&'a Condition, &'a Variables, &Binding)> {
         self.leaves.iter().map(|leaf| (leaf.condition, leaf.variables, &leaf.binding))
+    }
+
+    /// For each condition in a constraint where it stands and when it holds.
+    pub(crate) fn stretches(&self, formula: &Formula) -> Vec<(Span, Vec<Stretch>)> {
+        let mut found = Vec::new();
+        formula.each_leaf(&mut |leaf| {
+            let leaf = &self.leaves[leaf];
+            let mut stretches: Vec<Stretch> = Vec::new();
+            for (i, &holds) in leaf.truth.iter().enumerate() {
+                let from = self.times[i].time;
+                match (stretches.last_mut(), holds, i > 0 && leaf.truth[i - 1]) {
+                    (Some(open), false, true) => open.until = Some(from),
+                    (_, true, false) => stretches.push(Stretch { from, until: None }),
+                    _ => {}
+                }
+            }
+            found.push((leaf.condition.span, stretches));
+        });
+        found
+    }
+
+    /// The values of the variables that are bound where its first condition is asked.
+    pub(crate) fn values(&self, formula: &Formula) -> Vec<(Name, ObjectId)> {
+        let mut first = None;
+        formula.each_leaf(&mut |leaf| first = first.or(Some(leaf)));
+        let Some(leaf) = first.map(|leaf| &self.leaves[leaf]) else { return Vec::new() };
+        let slots = leaf.variables.slots.enumerate();
+        slots.filter_map(|(id, variable)| Some((variable.name.clone(), leaf.binding.get(id)?))).collect()
     }
 
     /// The time of a state.

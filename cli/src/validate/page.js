@@ -43,6 +43,39 @@ for (const section of document.querySelectorAll("section[data-plan]")) {
     }
     space.replaceChildren(svg);
   });
+  const rows = plan.watched.flatMap(w => w.conditions.map(([condition, stretches], i) => ({ w, condition, stretches, first: i === 0 })));
+  const watched = section.querySelector(".watched");
+  if (watched) {
+    // A state without an end lasts beyond the plan; in time or steps as the plan is.
+    const last = Math.max(end, ...plan.watched.map(w => w.at || 0));
+    watched.style.height = Math.min(16 * ROW, rows.length * ROW + 4) + "px";
+    view(watched, rows.length, (space, first, to) => {
+      const svg = element("svg", { width: label + width + 10, height: (to - first) * ROW });
+      svg.style.cssText = "position:absolute;left:0;top:" + first * ROW + "px";
+      for (let i = first; i < to; i++) {
+        const { w, condition, stretches } = rows[i], y = (i - first) * ROW, css = w.broken ? "fails" : "";
+        const name = rows[i].first ? (w.broken ? "✗ " : "✓ ") + w.text : "   " + condition;
+        const text = element("text", { x: 6, y: y + 15, class: css }, name.length > 38 ? name.slice(0, 37) + "…" : name);
+        text.append(element("title", {}, w.text + (w.soft ? " (preference)" : "") + (w.broken ? " is broken" : " is satisfied")));
+        svg.append(text);
+        svg.append(element("line", { x1: label, x2: label + width, y1: y + ROW / 2, y2: y + ROW / 2, class: "axis" }));
+        for (const [from, until] of stretches) {
+          if (from > last) continue;
+          const to = Math.min(until === null ? last : until, last);
+          const bar = element("rect", { x: label + from / last * width, y: y + 6, rx: 2, height: ROW - 12, class: "holds",
+            width: Math.max(3, (to - from) / last * width) });
+          bar.append(element("title", {}, condition + " holds from " + from + (until === null ? " on" : " until " + until)));
+          svg.append(bar);
+        }
+        if (w.at !== null) {
+          const mark = element("rect", { x: label + w.at / last * width - 1, y: y + 2, width: 3, height: ROW - 4, class: "fails" });
+          mark.append(element("title", {}, "broken at " + w.at));
+          svg.append(mark);
+        }
+      }
+      space.replaceChildren(svg);
+    });
+  }
   const redraw = view(list, happenings.length, (space, first, last) => {
     space.replaceChildren();
     for (let i = first; i < last; i++) {

@@ -7,12 +7,13 @@
 use super::failure::Places;
 use super::record::VerdictRecord;
 use super::tree::tree;
+use pddl::Span;
 use pddl::{Plan, PlanStep};
 use serde::Serialize;
 use std::fmt::Write;
 use validator::{
-    Cause, Diff, Failure, Finding, FluentChange, Trace, Value, Verdict, cause_time, show_cause, show_step,
-    show_timed_step,
+    Cause, Demand, Diff, Failure, File, Finding, FluentChange, Stretch, Trace, Value, Verdict, Watched,
+    cause_time, show_cause, show_step, show_timed_step,
 };
 
 const STYLE: &str = include_str!("page.css");
@@ -26,6 +27,17 @@ struct Data<'a> {
     why: Option<&'a str>,
     initial: Changes,
     happenings: Vec<Changes>,
+    watched: Vec<Row>,
+}
+
+/// A constraint or preference: when each of its conditions holds, and where it is broken.
+#[derive(Serialize)]
+struct Row {
+    text: String,
+    soft: bool,
+    broken: bool,
+    at: Option<f64>,
+    conditions: Vec<(String, Vec<(f64, Option<f64>)>)>,
 }
 
 #[derive(Serialize)]
@@ -87,14 +99,22 @@ pub(super) fn section(
         Verdict::Invalid(failure) => failing_step(failure),
         _ => None,
     };
+    let mut watched_heading = "";
     let data = Data {
         steps: bars(places),
         fails,
         why: finding.map(|finding| finding.sentence.as_str()),
         initial: changes(places, &trace.initial, &[]),
         happenings: trace.happenings.iter().map(|h| changes(places, &h.diff, &h.causes)).collect(),
+        watched: trace.watched.iter().map(|watched| row(places, watched)).collect(),
     };
-    html += "<h2>Plan</h2><div class=\"gantt\"></div><div class=\"both\"><div><h2>Steps</h2>\
+    if !trace.watched.is_empty() {
+        watched_heading =
+            "<h2>Constraints and preferences: when their conditions hold</h2><div class=\"watched\"></div>";
+    }
+    html += "<h2>Plan</h2><div class=\"gantt\"></div>";
+    html += watched_heading;
+    html += "<div class=\"both\"><div><h2>Steps</h2>\
              <div class=\"happenings\"></div></div><div><h2>State after the chosen step</h2>\
              <div class=\"state\"></div></div></div><script type=\"application/json\">";
     html += &serde_json::to_string(&data).unwrap_or_default().replace('<', "\\u003c");
@@ -172,6 +192,38 @@ fn changes(places: &Places<'_>, diff: &Diff, causes: &[Cause]) -> Changes {
         added: diff.added.iter().chain(&diff.derived).map(|atom| places.atom(atom)).collect(),
         deleted: diff.deleted.iter().chain(&diff.no_longer_derived).map(|atom| places.atom(atom)).collect(),
         fluents: diff.flowed.iter().chain(&diff.fluents).map(fluent).collect(),
+    }
+}
+
+fn row(places: &Places<'_>, watched: &Watched) -> Row {
+    let source = match watched.file {
+        File::Domain => &places.task.domain_source,
+        File::Problem | File::Plan => &places.task.problem_source,
+    };
+    // A constraint may stand on several lines.
+    let text = |span: Span| source.slice(span).split_whitespace().collect::<Vec<_>>().join(" ");
+    let binding: String = watched
+        .binding
+        .iter()
+        .map(|(name, object)| format!(" ?{name} = {}", places.object(*object)))
+        .collect();
+    let name = match &watched.demand {
+        Demand::Hard | Demand::Preference(None) => String::new(),
+        Demand::Preference(Some(name)) => format!("{name}: "),
+    };
+    Row {
+        text: format!("{name}{}{binding}", text(watched.span)),
+        soft: watched.demand != Demand::Hard,
+        broken: watched.broken.is_some(),
+        at: watched.broken.and_then(|(_, time)| time).map(validator::Number::to_f64),
+        conditions: watched
+            .conditions
+            .iter()
+            .map(|(span, stretches)| {
+                let ends = |s: &Stretch| (s.from.to_f64(), s.until.map(validator::Number::to_f64));
+                (text(*span), stretches.iter().map(ends).collect())
+            })
+            .collect(),
     }
 }
 

@@ -118,6 +118,9 @@ pub(crate) fn run(
         makespan: Some(makespan),
         steps,
     };
+    if let Some(trace) = trace {
+        trace.watched = run.demands.watched();
+    }
     validator.finish(end, run.demands)
 }
 
