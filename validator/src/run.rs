@@ -16,7 +16,7 @@ use crate::trace::Trace;
 use crate::trajectory::Asked;
 use crate::universe::Universe;
 use crate::verdict::{Failure, Feature, MetricValue, StepFault, Unsatisfied, Unsupported, Valid, Verdict};
-use crate::why::Why;
+use crate::why::{DEPTH, Why};
 use pddl::model::{Condition, Domain, Given, ObjectId, Problem, TimeSpecifier, TimedEffect, Variables};
 use pddl::{HierarchicalPlan, Plan, SequentialPlan, Span, TemporalPlan};
 
@@ -252,6 +252,11 @@ impl<'a> Validator<'a> {
         self.strata.derive_needed(needs, self.domain, &self.universe, state, now);
     }
 
+    /// Who explains what does not hold in a scene.
+    pub(crate) fn why<'s>(&'s self, scene: Scene<'s>, causes: Causes<'s>) -> Why<'s> {
+        Why { domain: self.domain, scene, strata: &self.strata, causes, depth: DEPTH }
+    }
+
     /// What keeps a condition from holding.
     pub(crate) fn lacks(
         &self,
@@ -260,7 +265,7 @@ impl<'a> Validator<'a> {
         condition: &Condition,
         binding: &mut Binding,
     ) -> Vec<Unsatisfied> {
-        Why { scene, strata: &self.strata, causes }.unsatisfied(condition, true, binding)
+        self.why(scene, causes).unsatisfied(condition, true, binding)
     }
 
     /// Whether a step's arguments fit its schema.
@@ -289,8 +294,7 @@ impl<'a> Validator<'a> {
         let moment = Moment::try_from(causes.len(Moment::MAX)).unwrap_or(Moment::MAX);
         self.derive_for(condition, state, moment);
         let scene = self.scene(state, variables, Clock::at(now));
-        let why = Why { scene, strata: &self.strata, causes };
-        why.unsatisfied(condition, asked.wanted, &mut binding.clone())
+        self.why(scene, causes).unsatisfied(condition, asked.wanted, &mut binding.clone())
     }
 
     /// Judges the last state: goal, preferences, metric. The constraints were judged before.

@@ -264,6 +264,8 @@ pub enum Unsatisfied {
         deleted_by: Option<Cause>,
         /// Whether an axiom would have to derive it.
         derived: bool,
+        /// What the axiom lacks that is nearest to deriving it; spans are of the domain.
+        because: Vec<Unsatisfied>,
         /// Where it is asked for.
         span: Span,
     },
@@ -275,6 +277,8 @@ pub enum Unsatisfied {
         added_by: Option<Cause>,
         /// Whether an axiom derives it.
         derived: bool,
+        /// What would have to be otherwise for it not to follow; spans are of the domain.
+        because: Vec<Unsatisfied>,
         /// Where it is forbidden.
         span: Span,
     },

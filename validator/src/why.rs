@@ -13,18 +13,26 @@ use crate::state::{GroundAtom, Value};
 use crate::verdict::{Near, Operand, Unsatisfied};
 use pddl::Span;
 use pddl::model::{
-    Application, Atom, Condition, ConditionKind, Expression, ExpressionKind, Name, ObjectId, Term, VariableId,
+    Application, Atom, Condition, ConditionKind, Domain, Expression, ExpressionKind, Name, ObjectId, Term,
+    VariableId,
 };
 use std::ops::ControlFlow;
+
+/// How many axioms after each other are followed.
+pub(crate) const DEPTH: u8 = 3;
 
 /// How many bindings are tried for the closest one.
 const BINDINGS_TRIED: usize = 512;
 
 /// Explains failures in one scene.
+#[derive(Clone, Copy)]
 pub(crate) struct Why<'a> {
+    pub(crate) domain: &'a Domain,
     pub(crate) scene: Scene<'a>,
     pub(crate) strata: &'a Strata,
     pub(crate) causes: Causes<'a>,
+    /// How many axioms after each other are still followed.
+    pub(crate) depth: u8,
 }
 
 impl Why<'_> {
@@ -87,11 +95,32 @@ impl Why<'_> {
         let derived = self.strata.derives(atom.predicate);
         let since = record.filter(|r| r.holds != wanted).and_then(|r| self.causes.of(r.since));
         let atom = GroundAtom { predicate: atom.predicate, arguments };
+        let because = if derived { self.derivation(&atom, wanted) } else { Vec::new() };
         if wanted {
-            Unsatisfied::Missing { atom, deleted_by: since, derived, span }
+            Unsatisfied::Missing { atom, deleted_by: since, derived, because, span }
         } else {
-            Unsatisfied::Present { atom, added_by: since, derived, span }
+            Unsatisfied::Present { atom, added_by: since, derived, because, span }
         }
+    }
+
+    /// What keeps the axioms from deriving the atom, or from not deriving it: of the axiom with the fewest such parts.
+    fn derivation(&self, atom: &GroundAtom, wanted: bool) -> Vec<Unsatisfied> {
+        let Some(depth) = self.depth.checked_sub(1) else { return Vec::new() };
+        let axioms = self.domain.axioms.iter().filter(|axiom| axiom.predicate == atom.predicate);
+        let parts = axioms.map(|axiom| {
+            let scene = Scene { variables: &axiom.variables, ..self.scene };
+            let mut binding = Binding::new(&axiom.variables, &atom.arguments);
+            let of_its_types =
+                axiom.variables.parameter_ids().zip(&atom.arguments).all(|(parameter, object)| {
+                    self.scene.universe.is_of(*object, &axiom.variables[parameter].types)
+                });
+            if of_its_types {
+                Why { scene, depth, ..*self }.unsatisfied(&axiom.body, wanted, &mut binding)
+            } else {
+                Vec::new()
+            }
+        });
+        parts.filter(|parts| !parts.is_empty()).min_by_key(Vec::len).unwrap_or_default()
     }
 
     fn fluent(
@@ -179,17 +208,23 @@ impl Why<'_> {
         span: Span,
         binding: &mut Binding,
     ) -> Unsatisfied {
-        let mut closest: Option<Near> = None;
+        let mut closest: Option<(usize, Binding)> = None;
+        // Axioms are followed for the closest only.
+        let shallow = Why { depth: 0, ..*self };
         let mut tried = 0;
         let flow = self.scene.each_binding(variables, &[], Strictness::Certain, binding, &mut |binding| {
-            let parts = self.unsatisfied(body, wanted, binding);
-            if closest.as_ref().is_none_or(|best| parts.len() < best.parts.len()) {
-                closest = Some(Near { binding: self.named(variables, binding), parts });
+            let parts = shallow.unsatisfied(body, wanted, binding).len();
+            if closest.as_ref().is_none_or(|(best, _)| parts < *best) {
+                closest = Some((parts, binding.clone()));
             }
             tried += 1;
             if tried < BINDINGS_TRIED { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         });
         debug_assert_eq!(flow.is_break(), tried == BINDINGS_TRIED);
+        let closest = closest.map(|(_, mut binding)| Near {
+            binding: self.named(variables, &binding),
+            parts: self.unsatisfied(body, wanted, &mut binding),
+        });
         Unsatisfied::NoWitness { closest, span }
     }
 }

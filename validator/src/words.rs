@@ -540,13 +540,24 @@ impl Words<'_> {
     pub(crate) fn notes(&self, parts: &[Unsatisfied], file: File) -> Vec<(Place, String)> {
         let mut notes = Vec::new();
         for part in parts {
-            notes.push((Place { file, span: part.span() }, self.part(part)));
+            let text = match part {
+                // The reasons have notes of their own.
+                Unsatisfied::Missing { atom, because, .. } if !because.is_empty() => {
+                    format!("{} does not follow", self.atom(atom))
+                }
+                _ => self.part(part),
+            };
+            notes.push((Place { file, span: part.span() }, text));
             let cause = match part {
                 Unsatisfied::Missing { atom, deleted_by: Some(cause), .. } => {
                     Some((*cause, format!("this deletes {}", self.atom(atom))))
                 }
                 Unsatisfied::Present { atom, added_by: Some(cause), .. } => {
                     Some((*cause, format!("this adds {}", self.atom(atom))))
+                }
+                Unsatisfied::Missing { because, .. } | Unsatisfied::Present { because, .. } => {
+                    notes.extend(self.notes(because, File::Domain));
+                    None
                 }
                 _ => None,
             };
@@ -557,10 +568,11 @@ impl Words<'_> {
 
     fn part(&self, part: &Unsatisfied) -> String {
         match part {
-            Unsatisfied::Missing { atom, deleted_by, derived, .. } => {
+            Unsatisfied::Missing { atom, deleted_by, derived, because, .. } => {
                 let atom = self.atom(atom);
                 match deleted_by {
-                    _ if *derived => format!("{atom} does not follow"),
+                    _ if *derived && because.is_empty() => format!("{atom} does not follow"),
+                    _ if *derived => format!("{atom} does not follow: {}", self.parts(because)),
                     None => format!("{atom} does not hold; it never did"),
                     Some(cause) => format!("{atom} does not hold; {} deleted it", self.cause(*cause)),
                 }

@@ -123,6 +123,9 @@ struct PartRecord {
     binding: Vec<(String, String)>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     branches: Vec<Vec<PartRecord>>,
+    /// Why an atom does not follow by the axioms, or does.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    because: Vec<PartRecord>,
 }
 
 impl Places<'_> {
@@ -326,14 +329,16 @@ impl Places<'_> {
         let mut record = PartRecord { place: self.at(file, part.span()), ..PartRecord::default() };
         let cause = |cause: &Option<Cause>| cause.map(|cause| self.cause(cause));
         match part {
-            Unsatisfied::Missing { atom, deleted_by, derived, .. } => {
+            Unsatisfied::Missing { atom, deleted_by, derived, because, .. } => {
                 record.kind = "missing";
+                record.because = self.parts(because, File::Domain);
                 record.atom = Some(self.atom(atom));
                 record.derived = Some(*derived);
                 record.by = cause(deleted_by);
             }
-            Unsatisfied::Present { atom, added_by, derived, .. } => {
+            Unsatisfied::Present { atom, added_by, derived, because, .. } => {
                 record.kind = "present";
+                record.because = self.parts(because, File::Domain);
                 record.atom = Some(self.atom(atom));
                 record.derived = Some(*derived);
                 record.by = cause(added_by);

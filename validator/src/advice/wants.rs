@@ -97,7 +97,7 @@ impl Wants {
                 continue;
             }
             let scene = validator.scene(state, &axiom.variables, Clock::steps(0));
-            let why = Why { scene, strata: &validator.strata, causes: Causes::Listed(&[]) };
+            let why = Why { depth: 0, ..validator.why(scene, Causes::Listed(&[])) };
             let mut binding = Binding::new(&axiom.variables, &atom.arguments);
             let parts = why.unsatisfied(&axiom.body, wanted, &mut binding);
             self.parts(validator, state, &parts, depth);

@@ -19,7 +19,6 @@ use crate::state::Value;
 use crate::trace::Diff;
 use crate::trajectory::each_instance;
 use crate::verdict::{Failure, StepFault, StepIndex};
-use crate::why::Why;
 use pddl::model::{
     Comparison, Condition, DurativeAction, Effect, Given, TimeSpecifier, TimedChange, VariableId, Variables,
 };
@@ -312,7 +311,7 @@ impl<'v> Run<'_, 'v, '_> {
                 within(constraint.comparison, active.duration, bound, self.validator.precision.tolerance)
             });
             if !fits {
-                let why = Why { scene, strata: &self.validator.strata, causes: Causes::Listed(&self.causes) };
+                let why = self.validator.why(scene, Causes::Listed(&self.causes));
                 return Err(Box::new(Failure::Duration {
                     step: active.step,
                     actual: active.duration,
