@@ -256,17 +256,17 @@ fn a_task_that_does_not_fit_names_its_largest_schema() {
 fn an_instance_that_does_not_fit_names_its_schema() {
     let text = |action: &str| {
         format!(
-            "(define (domain d) (:requirements :adl) (:predicates (p ?x) (q))
-               (:action small :parameters (?x) :effect (and (p ?x) (q)))
+            "(define (domain d) (:requirements :adl) (:predicates (p ?x) (r ?x ?y) (q))
+               (:action small :parameters (?x ?y) :effect (and (p ?x) (r ?x ?y) (q)))
                (:action deep :parameters () {action}))"
         )
     };
     let all = "?a ?b ?c ?d ?e ?f ?g ?h";
     let condition = text(&format!(
-        ":precondition (exists (?z) (forall ({all}) (or (not (p ?a)) (p ?z) (not (p ?h))))) :effect (not (q))"
+        ":precondition (exists (?z) (forall ({all}) (or (r ?z ?a) (r ?a ?b) (r ?b ?c) (r ?c ?d) (r ?d ?e) (r ?e ?f) (r ?f ?g) (r ?g ?h)))) :effect (not (q))"
     ));
     let effect = text(&format!(":effect (forall ({all}) (when (and (p ?a) (p ?h)) (not (q))))"));
-    let objects: String = (0..100).map(|i| format!(" o{i}")).collect();
+    let objects: String = (0..50).map(|i| format!(" o{i}")).collect();
     let problem =
         format!("(define (problem p) (:domain d) (:objects{objects}) (:init (q)) (:goal (not (q))))");
     for domain in [condition, effect] {
@@ -278,4 +278,34 @@ fn an_instance_that_does_not_fit_names_its_schema() {
             other => panic!("{other:?}"),
         }
     }
+}
+
+/// Conditions whose disjunctive normal form has more than 10^20 disjuncts, and a join of 16^4 rows that
+/// is four joins of 16.
+#[test]
+fn deep_conditions_do_not_blow_up() {
+    let deep = "(forall (?x) (exists (?y) (or (and (a ?x) (b ?y)) (and (c ?x) (or (d ?y) (not (b ?x)))))))";
+    let wide = "(exists (?p ?q ?r ?s) (and (a ?p) (b ?q) (c ?r) (d ?s)))";
+    let make = |p: &str| format!("(:action make-{p} :parameters (?x) :effect ({p} ?x))");
+    let made: String = ["a", "b", "c", "d"].map(make).concat();
+    let domain = format!(
+        "(define (domain d) (:requirements :adl) (:predicates (a ?x) (b ?x) (c ?x) (d ?x) (done) (said))
+           {made}
+           (:action finish :parameters () :precondition (and {deep} {wide})
+            :effect (and (done) (when (or (not {deep}) (and {deep} (imply {deep} {wide}))) (said)))))"
+    );
+    let objects: String = (0..16).map(|i| format!(" o{i}")).collect();
+    let problem = format!(
+        "(define (problem p) (:domain d) (:objects{objects}) (:init (d o1) (c o2)) (:goal (and (done) (said))))"
+    );
+    let domain = pddl::parse_domain(&pddl::Source::new("d", domain), &[]).model.unwrap();
+    let problem = pddl::parse_problem(&pddl::Source::new("p", problem), &domain).model.unwrap();
+    let options = GroundOptions { memory_bytes: Some(64 << 20), ..GroundOptions::default() };
+    let task = ground(&domain, &problem, &options).unwrap();
+    let size = (task.operators().len(), task.axioms().len());
+    assert!(size.0 <= 4 * 16 + 16 && size.1 <= 8_000, "{size:?}");
+    let case = Case { expected: "solvable".into(), path: "deep".into(), domain, problem };
+    let configuration = SearchConfiguration::default();
+    let report = solve(&task, &Query::of(&task), &configuration, &Budget::default());
+    check(&case, &task, &configuration, &report.outcome);
 }

@@ -1,9 +1,9 @@
 //! Conditions in negation normal form.
 //!
 //! Idea: negations pushed to the literals, implications gone, conjunctions and disjunctions flat,
-//! existential variables of the top level hoisted to be joined like parameters. What stays nested
-//! (universal parts, disjunctions) is expanded once a binding is known, where static facts decide
-//! most of it; what is left becomes copies of the operator or an auxiliary axiom, so no exponential
+//! quantifiers split over what has nothing to do with each other, existential variables of the top
+//! level hoisted to be joined like parameters. What stays nested (universal parts, disjunctions) is
+//! expanded once a binding is known, where static facts decide most of it; what is left becomes copies of the operator or an auxiliary axiom, so no exponential
 //! normal form is ever built. Invariant: the formula is equivalent to the condition, negated or not.
 //!
 //! Source: Helmert, "Concise finite-domain representations", AIJ 2009, §4.
@@ -73,10 +73,10 @@ impl Formula {
                 Self::of(right, false, origin, universe)?,
             ]),
             (ConditionKind::Exists(vs, inner), true) | (ConditionKind::Forall(vs, inner), false) => {
-                Self::Exists(vs.clone(), Box::new(Self::of(inner, positive, origin, universe)?))
+                Self::exists(vs.clone(), Self::of(inner, positive, origin, universe)?)
             }
             (ConditionKind::Exists(vs, inner), false) | (ConditionKind::Forall(vs, inner), true) => {
-                Self::Forall(vs.clone(), Box::new(Self::of(inner, positive, origin, universe)?))
+                Self::forall(vs.clone(), Self::of(inner, positive, origin, universe)?)
             }
             (ConditionKind::Atom(atom), _) => Self::Literal(Literal {
                 positive,
@@ -130,15 +130,63 @@ impl Formula {
         }
     }
 
-    /// Takes existential quantifiers off the top: their variables, and the rest.
+    /// Takes existential quantifiers off the top: their variables, and the rest. Of variables that have
+    /// nothing to do with each other only the first are taken, with those that they are connected to:
+    /// the join of the others would be their product, and under a quantifier they are a sum.
     pub(crate) fn hoisted(self, variables: &mut Vec<VariableId>) -> Self {
+        let mut own = Vec::new();
+        let inner = self.pulled(&mut own);
+        let parts = if let Self::And(parts) = inner { parts } else { vec![inner] };
+        let (mut groups, mut rest) = components(own, parts);
+        if !groups.is_empty() {
+            let (taken, parts) = groups.remove(0);
+            variables.extend(taken);
+            rest.extend(parts);
+        }
+        rest.extend(groups.into_iter().map(|(vs, parts)| Self::Exists(vs, Box::new(Self::and(parts)))));
+        Self::and(rest)
+    }
+
+    /// `exists`, one for each group of variables that have to do with each other.
+    fn exists(vs: Vec<VariableId>, inner: Self) -> Self {
+        let parts = if let Self::And(parts) = inner { parts } else { vec![inner] };
+        let (groups, mut all) = components(vs, parts);
+        all.extend(groups.into_iter().map(|(vs, parts)| Self::Exists(vs, Box::new(Self::and(parts)))));
+        Self::and(all)
+    }
+
+    /// `forall`, one for each group of variables that have to do with each other.
+    fn forall(vs: Vec<VariableId>, inner: Self) -> Self {
+        let parts = if let Self::Or(parts) = inner { parts } else { vec![inner] };
+        let (groups, mut all) = components(vs, parts);
+        all.extend(groups.into_iter().map(|(vs, parts)| Self::Forall(vs, Box::new(Self::or(parts)))));
+        Self::or(all)
+    }
+
+    fn pulled(self, variables: &mut Vec<VariableId>) -> Self {
         match self {
             Self::Exists(vs, inner) => {
                 variables.extend(vs);
-                inner.hoisted(variables)
+                inner.pulled(variables)
             }
-            Self::And(parts) => Self::and(parts.into_iter().map(|p| p.hoisted(variables)).collect()),
+            Self::And(parts) => Self::and(parts.into_iter().map(|p| p.pulled(variables)).collect()),
             other => other,
+        }
+    }
+
+    /// The variables that it mentions, more often than once if it does.
+    fn mention(&self, variables: &mut Vec<VariableId>) {
+        let mut term = |t: &Term| {
+            if let Term::Variable(v) = t {
+                variables.push(*v);
+            }
+        };
+        match self {
+            Self::And(parts) | Self::Or(parts) => parts.iter().for_each(|p| p.mention(variables)),
+            Self::Exists(_, inner) | Self::Forall(_, inner) => inner.mention(variables),
+            Self::Literal(literal) => literal.arguments.iter().for_each(term),
+            Self::Same { left, right, .. } => [left, right].into_iter().for_each(term),
+            Self::OneOf { term: of, .. } => term(of),
         }
     }
 
@@ -199,4 +247,32 @@ impl Formula {
             other => std::slice::from_ref(other),
         }
     }
+}
+
+/// Variables, and the parts that mention them.
+type Component = (Vec<VariableId>, Vec<Formula>);
+
+/// Groups of variables that have to do with each other, each with the parts that mention them; and the
+/// parts that mention none. Splitting a quantifier over these makes a sum of a product.
+fn components(variables: Vec<VariableId>, parts: Vec<Formula>) -> (Vec<Component>, Vec<Formula>) {
+    let mut groups: Vec<Component> = variables.into_iter().map(|v| (vec![v], Vec::new())).collect();
+    let mut rest = Vec::new();
+    for part in parts {
+        let mut mentioned = Vec::new();
+        part.mention(&mut mentioned);
+        let touched = |group: &Component| group.0.iter().any(|v| mentioned.contains(v));
+        let Some(at) = groups.iter().position(touched) else {
+            rest.push(part);
+            continue;
+        };
+        // The other groups that the part touches become one with the first of them.
+        let (joined, apart): (Vec<_>, Vec<_>) = groups.drain(at + 1..).partition(touched);
+        groups.extend(apart);
+        for (vs, parts) in joined {
+            groups[at].0.extend(vs);
+            groups[at].1.extend(parts);
+        }
+        groups[at].1.push(part);
+    }
+    (groups, rest)
 }
