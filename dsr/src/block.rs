@@ -7,10 +7,12 @@
 //! search in the node's run; inserting moves the runs of the up to fifteen nodes after it.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use nalgebra::Isometry3;
 
-use crate::id::{AttributeId, Holder, LabelId, NodeId, TypeId, Version};
+use crate::id::{AttributeId, Holder, LabelId, NodeId, Time, TypeId, Version};
+use crate::track::Track;
 use crate::value::Value;
 
 /// How many nodes share a block.
@@ -236,6 +238,10 @@ pub(crate) struct Joint {
     pub(crate) parent: NodeId,
     pub(crate) transform: Isometry3<f64>,
     pub(crate) since: Version,
+    /// The stamped poses, of which `transform` is the newest; `None` for a pose that stands until it is changed.
+    pub(crate) track: Option<Arc<Track>>,
+    /// The time of the newest of them.
+    pub(crate) newest: Time,
 }
 
 /// The geometric side of a block of nodes, kept apart: most nodes have none, and poses change most often.

@@ -8,17 +8,22 @@
 //! transform(from, to) = transform(w, from)⁻¹ · transform(w, to)
 //! ```
 //!
-//! that is, inverses on the way up, products on the way down. Cost: one product per RT edge of the chain and one
-//! inversion, after one walk to the root per end to level their depths.
+//! that is, inverses on the way up, products on the way down. Each edge gives its newest pose, or its pose at a
+//! time. Invariant: a chain is read from one snapshot, so all its poses are of one version; edges above the common
+//! ancestor have no say. Cost: one product per RT edge. A frame and its ancestor need one walk; two branches need
+//! one more to the root each, to find where they meet.
 //!
-//! Source: Marfil et al., §3.1, "kinematic chain".
+//! Source: Marfil et al., §3.1, "kinematic chain"; Foote, "tf: the transform library", TePRA 2013, for common times.
 
+use std::cell::Cell;
 use std::sync::Arc;
 
 use nalgebra::Isometry3;
+use smallvec::SmallVec;
 
+use crate::block::{Frames, Joint, place};
 use crate::dictionary::Nature;
-use crate::id::NodeId;
+use crate::id::{NodeId, Time};
 use crate::state::State;
 
 /// Why there is no chain.
@@ -44,51 +49,196 @@ pub enum ChainError {
         /// The second frame.
         to: Arc<str>,
     },
+    /// The time lies outside what an edge of the chain remembers.
+    #[error("'{child}' in '{parent}' is known from {} to {} ns, not at {}", first.0, last.0, asked.0)]
+    Extrapolation {
+        /// Where the edge starts.
+        parent: Arc<str>,
+        /// Where it ends.
+        child: Arc<str>,
+        /// The time asked for.
+        asked: Time,
+        /// The first time that the edge remembers.
+        first: Time,
+        /// The last one.
+        last: Time,
+    },
+}
+
+/// Goes up the tree. Frames of one robot mostly share a block, which is looked up once.
+struct Climb<'a> {
+    state: &'a State,
+    at: NodeId,
+    block: usize,
+    frames: Option<&'a Frames>,
+}
+
+impl<'a> Climb<'a> {
+    fn new(state: &'a State, at: NodeId) -> Self {
+        let block = place(at).0;
+        Self { state, at, block, frames: state.frames(block) }
+    }
+
+    /// The joint above the present frame, and up to its parent.
+    fn step(&mut self) -> Option<(NodeId, &'a Joint)> {
+        let (child, (block, slot)) = (self.at, place(self.at));
+        if block != self.block {
+            (self.block, self.frames) = (block, self.state.frames(block));
+        }
+        let joint = self.frames?.joints[slot].as_ref()?;
+        self.at = joint.parent;
+        Some((child, joint))
+    }
+}
+
+/// The joints above a frame, from below.
+type Path<'a> = SmallVec<[(NodeId, &'a Joint); 32]>;
+
+/// What lies between two frames: the joints from each up to where they meet.
+struct Between<'a> {
+    up: Path<'a>,
+    down: Path<'a>,
 }
 
 impl State {
+    /// The newest poses.
     pub(crate) fn transform(&self, from: NodeId, to: NodeId) -> Result<Isometry3<f64>, ChainError> {
-        let (mut up, mut down) = (self.depth(from)?, self.depth(to)?);
-        let disconnected = || ChainError::NotConnected { from: self.name(from), to: self.name(to) };
-        let (mut a, mut b) = (from, to);
-        // Poses of `from` and `to` in the frames reached so far.
-        let (mut from_pose, mut to_pose) = (Isometry3::identity(), Isometry3::identity());
-        let step = |at: &mut NodeId, pose: &mut Isometry3<f64>| {
-            let joint = self.joint(*at).ok_or_else(disconnected)?;
-            *pose = joint.transform * *pose;
-            *at = joint.parent;
-            Ok(())
-        };
-        // Whichever is deeper goes up; on a level, both do, and meet at the closest common ancestor.
-        while a != b {
-            let (a_rises, b_rises) = (up >= down, down >= up);
-            if a_rises {
-                step(&mut a, &mut from_pose)?;
-                up = up.saturating_sub(1);
+        self.chain(from, to, |_, joint| Ok(joint.transform))
+    }
+
+    /// The poses at a time.
+    pub(crate) fn transform_at(
+        &self,
+        from: NodeId,
+        to: NodeId,
+        time: Time,
+    ) -> Result<Isometry3<f64>, ChainError> {
+        self.chain(from, to, |child, joint| match &joint.track {
+            None => Ok(joint.transform),
+            Some(track) => track.at(time).map_err(|(first, last)| ChainError::Extrapolation {
+                parent: self.name(joint.parent),
+                child: self.name(child),
+                asked: time,
+                first,
+                last,
+            }),
+        })
+    }
+
+    /// The poses at the newest common time. Mostly that is the newest time of all: then they are the newest poses.
+    pub(crate) fn transform_together(&self, from: NodeId, to: NodeId) -> Result<Isometry3<f64>, ChainError> {
+        let (oldest, newest) = (Cell::new(Time(u64::MAX)), Cell::new(Time(0)));
+        let pose = self.chain(from, to, |_, joint| {
+            if joint.track.is_some() {
+                oldest.set(oldest.get().min(joint.newest));
+                newest.set(newest.get().max(joint.newest));
             }
-            if b_rises {
-                step(&mut b, &mut to_pose)?;
-                down = down.saturating_sub(1);
-            }
+            Ok(joint.transform)
+        })?;
+        // Edges above the common ancestor may have been looked at too: then this is decided the long way.
+        if oldest.get() >= newest.get() {
+            return Ok(pose);
         }
-        Ok(from_pose.inv_mul(&to_pose))
+        match self.common_time(from, to)? {
+            Some(time) => self.transform_at(from, to, time),
+            None => Ok(pose),
+        }
+    }
+
+    /// The oldest of the newest times between two frames.
+    pub(crate) fn common_time(&self, from: NodeId, to: NodeId) -> Result<Option<Time>, ChainError> {
+        let Between { up, down } = self.between(from, to)?;
+        Ok(up
+            .iter()
+            .chain(&down)
+            .filter(|(_, joint)| joint.track.is_some())
+            .map(|(_, joint)| joint.newest)
+            .min())
     }
 
     pub(crate) fn distance(&self, from: NodeId, to: NodeId) -> Result<f64, ChainError> {
         Ok(self.transform(from, to)?.translation.vector.norm())
     }
 
-    /// How many transforms lie above a node.
-    fn depth(&self, id: NodeId) -> Result<u32, ChainError> {
+    fn known_frame(&self, id: NodeId) -> Result<(), ChainError> {
         let node = self.node(id).ok_or(ChainError::UnknownNode { node: id })?;
-        if self.dictionary.nature(node.node_type()) != Some(Nature::Geometric) {
-            return Err(ChainError::NotGeometric { node: self.name(id) });
+        if self.dictionary.nature(node.node_type()) == Some(Nature::Geometric) {
+            return Ok(());
         }
-        let (mut at, mut depth) = (id, 0);
-        while let Some(joint) = self.joint(at) {
-            at = joint.parent;
-            depth += 1;
+        Err(ChainError::NotGeometric { node: self.name(id) })
+    }
+
+    /// The pose of a frame in one above it; `None` if it is not above it, or if an edge on the way has no pose.
+    fn below(
+        &self,
+        above: NodeId,
+        frame: NodeId,
+        pose: impl Fn(NodeId, &Joint) -> Result<Isometry3<f64>, ChainError>,
+    ) -> Option<Isometry3<f64>> {
+        let mut climb = Climb::new(self, frame);
+        let (child, joint) = climb.step()?;
+        let mut found = pose(child, joint).ok()?;
+        while climb.at != above {
+            let (child, joint) = climb.step()?;
+            found = pose(child, joint).ok()? * found;
         }
-        Ok(depth)
+        Some(found)
+    }
+
+    fn chain(
+        &self,
+        from: NodeId,
+        to: NodeId,
+        pose: impl Fn(NodeId, &Joint) -> Result<Isometry3<f64>, ChainError>,
+    ) -> Result<Isometry3<f64>, ChainError> {
+        // Mostly one frame is above the other, and one walk finds that out. Where it fails, the other way says why.
+        if from != to {
+            if let Some(found) = self.below(from, to, &pose) {
+                return Ok(found);
+            }
+            if let Some(found) = self.below(to, from, &pose) {
+                return Ok(found.inverse());
+            }
+        }
+        let Between { up, down } = self.between(from, to)?;
+        let along = |path: Path<'_>| {
+            path.into_iter()
+                .try_fold(Isometry3::identity(), |below, (child, joint)| Ok(pose(child, joint)? * below))
+        };
+        Ok(along(up)?.inv_mul(&along(down)?))
+    }
+
+    fn between(&self, from: NodeId, to: NodeId) -> Result<Between<'_>, ChainError> {
+        self.known_frame(from)?;
+        self.known_frame(to)?;
+        let path = |start, end| {
+            let mut climb = Climb::new(self, start);
+            let mut path = Path::new();
+            while climb.at != end
+                && let Some(step) = climb.step()
+            {
+                path.push(step);
+            }
+            (path, climb.at)
+        };
+        let (mut down, top) = path(to, from);
+        if top == from {
+            return Ok(Between { up: Path::new(), down });
+        }
+        let (mut up, other) = path(from, to);
+        if other == to {
+            return Ok(Between { up, down: Path::new() });
+        }
+        if top != other {
+            return Err(ChainError::NotConnected { from: self.name(from), to: self.name(to) });
+        }
+        // Both lead to the root: what they share at the end lies above where they meet.
+        while let (Some((a, _)), Some((b, _))) = (up.last(), down.last())
+            && a == b
+        {
+            up.pop();
+            down.pop();
+        }
+        Ok(Between { up, down })
     }
 }

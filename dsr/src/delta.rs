@@ -34,9 +34,24 @@ pub enum Change {
     /// A node came.
     NodeAdded { node: NodeId, name: Arc<str>, node_type: TypeId },
     /// A child was hung below a parent.
-    TransformAdded { parent: NodeId, child: NodeId, new: Isometry3<f64> },
+    TransformAdded {
+        parent: NodeId,
+        child: NodeId,
+        new: Isometry3<f64>,
+        /// When it was there; `None` for a pose that stands until it is changed.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        time: Option<Time>,
+    },
     /// A child moved relative to its parent.
     TransformChanged { parent: NodeId, child: NodeId, old: Isometry3<f64>, new: Isometry3<f64> },
+    /// A child was elsewhere relative to its parent at that time.
+    TransformSampled {
+        parent: NodeId,
+        child: NodeId,
+        time: Time,
+        old: Option<Isometry3<f64>>,
+        new: Isometry3<f64>,
+    },
     /// An edge came.
     EdgeAdded { edge: EdgeKey },
     /// An attribute was given a value.
@@ -48,21 +63,23 @@ pub enum Change {
 impl Change {
     /// Changes are listed by rank: what goes first, what it hung on after it; then what comes, after what it
     /// hangs on. Within a rank by node, its own attributes before those of its edges.
-    fn order(&self) -> (u8, NodeId, Option<(LabelId, NodeId)>, bool, Option<AttributeId>) {
-        let of = |rank, holder: &Holder, added, attribute: &AttributeId| match holder {
-            Holder::Node(node) => (rank, *node, None, added, Some(*attribute)),
-            Holder::Edge(key) => (rank, key.from, Some((key.label, key.to)), added, Some(*attribute)),
+    fn order(&self) -> (u8, NodeId, Option<(LabelId, NodeId)>, u64, Option<AttributeId>) {
+        let of = |rank, holder: &Holder, added: bool, attribute: &AttributeId| match holder {
+            Holder::Node(node) => (rank, *node, None, added.into(), Some(*attribute)),
+            Holder::Edge(key) => (rank, key.from, Some((key.label, key.to)), added.into(), Some(*attribute)),
         };
         match self {
             Self::AttributeRemoved { holder, attribute, .. } => of(0, holder, false, attribute),
-            Self::EdgeRemoved { edge } => (1, edge.from, Some((edge.label, edge.to)), false, None),
-            Self::TransformRemoved { child, .. } => (2, *child, None, false, None),
-            Self::NodeRemoved { node, .. } => (3, *node, None, false, None),
-            Self::NodeAdded { node, .. } => (4, *node, None, false, None),
+            Self::EdgeRemoved { edge } => (1, edge.from, Some((edge.label, edge.to)), 0, None),
+            Self::TransformRemoved { child, .. } => (2, *child, None, 0, None),
+            Self::NodeRemoved { node, .. } => (3, *node, None, 0, None),
+            Self::NodeAdded { node, .. } => (4, *node, None, 0, None),
             Self::TransformAdded { child, .. } | Self::TransformChanged { child, .. } => {
-                (5, *child, None, false, None)
+                (5, *child, None, 0, None)
             }
-            Self::EdgeAdded { edge } => (6, edge.from, Some((edge.label, edge.to)), false, None),
+            // After the first one, which brings the edge.
+            Self::TransformSampled { child, time, .. } => (5, *child, None, time.0.saturating_add(1), None),
+            Self::EdgeAdded { edge } => (6, edge.from, Some((edge.label, edge.to)), 0, None),
             Self::AttributeChanged { holder, attribute, .. } => of(7, holder, false, attribute),
             Self::AttributeAdded { holder, attribute, .. } => of(7, holder, true, attribute),
         }
@@ -91,6 +108,7 @@ enum Thing {
     Edge(EdgeKey),
     Cell(Holder, AttributeId),
     Joint(NodeId),
+    Sample(NodeId, Time),
 }
 
 impl Thing {
@@ -100,6 +118,7 @@ impl Thing {
             Undo::EdgeAdded(edge) | Undo::EdgeRemoved { edge, .. } => Self::Edge(*edge),
             Undo::Cell { holder, attribute, .. } => Self::Cell(*holder, *attribute),
             Undo::Joint { child, .. } => Self::Joint(*child),
+            Undo::Sample { child, time, .. } => Self::Sample(*child, *time),
         }
     }
 }
@@ -112,7 +131,17 @@ pub(crate) fn settle(after: &mut State) -> Vec<Change> {
     let entries = std::mem::take(&mut after.log.entries);
     let mut changes = Vec::with_capacity(entries.len());
     let mut seen = FxHashSet::default();
+    // An edge that came in this transaction, or went and came, is told as a whole with all its poses.
+    let hung: FxHashSet<_> = entries
+        .iter()
+        .filter_map(|entry| if let Undo::Joint { child, .. } = entry { Some(*child) } else { None })
+        .collect();
     for (at, entry) in entries.iter().enumerate() {
+        if let Undo::Sample { child, .. } = entry
+            && hung.contains(child)
+        {
+            continue;
+        }
         // The first entry about a thing has what was there before the transaction.
         let first = if entries.len() <= SHORT {
             let thing = Thing::of(entry);
@@ -122,6 +151,11 @@ pub(crate) fn settle(after: &mut State) -> Vec<Change> {
         };
         if first {
             compare(after, entry, &mut changes);
+        }
+    }
+    for entry in &entries {
+        if let Undo::Sample { child, .. } = entry {
+            after.evict(*child);
         }
     }
     after.log.entries = entries;
@@ -155,12 +189,24 @@ fn compare(after: &mut State, first: &Undo, changes: &mut Vec<Change>) {
             compare_cells(after, *holder, *attribute, old.as_ref(), changes);
         }
         Undo::Joint { child, old } => compare_joints(after, *child, old.as_ref(), changes),
+        Undo::Sample { child, time, old, newest, since } => {
+            let Some(joint) = after.joint(*child) else { return };
+            let Some(track) = &joint.track else { return };
+            let Some(new) = track.sample(*time) else { return };
+            let same = old.as_ref().is_some_and(|old| same_transform(old, new));
+            if same && *time == track.newest() && same_transform(&joint.transform, newest) {
+                after.keep_since(Kept::Joint(*child), *since);
+            } else if !same && *time >= track.horizon() {
+                let (parent, new) = (joint.parent, *new);
+                changes.push(Change::TransformSampled { parent, child: *child, time: *time, old: *old, new });
+            }
+        }
     }
 }
 
 fn compare_joints(after: &mut State, child: NodeId, old: Option<&Joint>, changes: &mut Vec<Change>) {
     match (old, after.joint(child)) {
-        (Some(old), Some(new)) if old.parent == new.parent => {
+        (Some(old), Some(new)) if old.parent == new.parent && old.track.is_none() && new.track.is_none() => {
             if same_transform(&old.transform, &new.transform) {
                 after.keep_since(Kept::Joint(child), old.since);
             } else {
@@ -173,9 +219,19 @@ fn compare_joints(after: &mut State, child: NodeId, old: Option<&Joint>, changes
                 let (parent, old) = (old.parent, old.transform);
                 changes.push(Change::TransformRemoved { parent, child, old });
             }
-            if let Some(new) = new {
-                let (parent, new) = (new.parent, new.transform);
-                changes.push(Change::TransformAdded { parent, child, new });
+            let Some(new) = new else { return };
+            let parent = new.parent;
+            let Some(track) = &new.track else {
+                changes.push(Change::TransformAdded { parent, child, new: new.transform, time: None });
+                return;
+            };
+            for (at, sample) in track.samples().enumerate() {
+                let (time, new) = (sample.time, sample.pose);
+                changes.push(if at == 0 {
+                    Change::TransformAdded { parent, child, new, time: Some(time) }
+                } else {
+                    Change::TransformSampled { parent, child, time, old: None, new }
+                });
             }
         }
     }

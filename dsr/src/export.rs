@@ -101,6 +101,20 @@ pub struct ExportedTransform {
     pub rotation: [f64; 4],
     /// The version that wrote it.
     pub since: Version,
+    /// The stamped poses of an edge that moves, the one above the newest of them; none for one that stands.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub samples: Vec<ExportedSample>,
+}
+
+/// A stamped pose as plain data.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ExportedSample {
+    /// When.
+    pub time: Time,
+    /// x, y, z in metres.
+    pub translation: [f64; 3],
+    /// The unit quaternion i, j, k, w.
+    pub rotation: [f64; 4],
 }
 
 impl Snapshot {
@@ -127,13 +141,18 @@ impl Snapshot {
         });
         let transforms = self.nodes().filter_map(|node| {
             let (parent, pose, since) = node.parent()?;
-            let (t, q) = (&pose.translation.vector, &pose.rotation.coords);
+            let (translation, rotation) = numbers_of(pose);
+            let samples = node.poses().map(|(time, pose)| {
+                let (translation, rotation) = numbers_of(pose);
+                ExportedSample { time, translation, rotation }
+            });
             Some(ExportedTransform {
                 parent: name(parent),
                 child: node.name().into(),
-                translation: [t.x, t.y, t.z],
-                rotation: [q.x, q.y, q.z, q.w],
+                translation,
+                rotation,
                 since,
+                samples: samples.collect(),
             })
         });
         Export {
@@ -158,6 +177,18 @@ impl Snapshot {
             since: view.since,
         }
     }
+}
+
+fn numbers_of(pose: &Isometry3<f64>) -> ([f64; 3], [f64; 4]) {
+    let (t, q) = (&pose.translation.vector, &pose.rotation.coords);
+    ([t.x, t.y, t.z], [q.x, q.y, q.z, q.w])
+}
+
+/// The pose of these numbers, if they are one. Not normalised again: the bits must come back as they were.
+fn pose_of([x, y, z]: [f64; 3], [i, j, k, w]: [f64; 4]) -> Option<Isometry3<f64>> {
+    let rotation = Quaternion::new(w, i, j, k);
+    let rigid = [x, y, z].iter().all(|c| c.is_finite()) && (rotation.norm() - 1.0).abs() < 1e-6;
+    rigid.then(|| Isometry3::from_parts(Translation3::new(x, y, z), Unit::new_unchecked(rotation)))
 }
 
 /// Why plain data is no state of this dictionary.
@@ -316,16 +347,17 @@ fn restore_transform(state: &mut State, exported: &ExportedTransform) -> Result<
             .node(id)
             .is_some_and(|node| state.dictionary.nature(node.node_type()) == Some(Nature::Geometric))
     };
-    let [x, y, z] = exported.translation;
-    let [i, j, k, w] = exported.rotation;
-    let rotation = Quaternion::new(w, i, j, k);
-    let rigid = exported.translation.iter().all(|c| c.is_finite()) && (rotation.norm() - 1.0).abs() < 1e-6;
     let has_parent = state.joint(child).is_some();
-    if !rigid || !geometric(parent) || !geometric(child) || has_parent || parent == child {
+    if !geometric(parent) || !geometric(child) || has_parent || parent == child {
         return Err(wrong());
     }
-    // Not normalised again: the bits must come back as they were.
-    let pose = Isometry3::from_parts(Translation3::new(x, y, z), Unit::new_unchecked(rotation));
-    state.insert_transform(parent, child, pose, exported.since);
+    let pose = pose_of(exported.translation, exported.rotation).ok_or_else(wrong)?;
+    if exported.samples.is_empty() {
+        state.insert_transform(parent, child, pose, exported.since);
+    }
+    for sample in &exported.samples {
+        let pose = pose_of(sample.translation, sample.rotation).ok_or_else(wrong)?;
+        state.insert_sample(parent, child, sample.time, pose, exported.since);
+    }
     Ok(())
 }

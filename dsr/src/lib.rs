@@ -41,7 +41,7 @@
 //! ```
 //!
 //! Map, from the ground up: `id`, `value` → `dictionary` → `pages`, `block`, `names`, `members`, `state` (what a snapshot
-//! is), `undo` → `transaction` (edits, leases, the tree of transforms), `delta`, `replay`, `export` → `chain`, `pattern`,
+//! is), `track`, `undo` → `transaction` (edits, leases, the tree of transforms), `delta`, `replay`, `export` → `chain`, `pattern`,
 //! `reflex` → `snapshot`, `sentence`, `quiver` → `subscription`, `graph`.
 
 mod block;
@@ -63,6 +63,7 @@ mod sentence;
 mod snapshot;
 mod state;
 mod subscription;
+mod track;
 mod transaction;
 mod undo;
 mod value;
@@ -73,7 +74,8 @@ pub use dictionary::{
     Dictionary, DictionaryBuilder, DictionaryError, End, HolderType, Nature, Permission, Signature, Token,
 };
 pub use export::{
-    Export, ExportedAttribute, ExportedEdge, ExportedNode, ExportedTransform, ExportedValue, RestoreError,
+    Export, ExportedAttribute, ExportedEdge, ExportedNode, ExportedSample, ExportedTransform, ExportedValue,
+    RestoreError,
 };
 pub use graph::{Commit, Graph};
 pub use id::{
@@ -88,5 +90,6 @@ pub use reflex::{Bound, Keep, Reflex};
 pub use replay::ReplayError;
 pub use snapshot::{AttributeView, EdgeView, NodeView, Snapshot};
 pub use subscription::{Committed, Deltas, Event, MatchChange, Matches};
+pub use track::HORIZON;
 pub use transaction::{Edit, HolderRef, Lease, Preemption, Priority, Transaction, TransactionError};
 pub use value::{Kind, NewValue, NodeRef, Value};

@@ -57,6 +57,7 @@ impl Mentions {
                 | Change::AttributeRemoved { attribute, .. } => mentions.add_attribute(*attribute),
                 Change::TransformAdded { .. }
                 | Change::TransformChanged { .. }
+                | Change::TransformSampled { .. }
                 | Change::TransformRemoved { .. } => mentions.add_transforms(),
             }
         }

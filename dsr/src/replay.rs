@@ -74,14 +74,22 @@ fn redo(state: &mut State, change: &Change, since: Version) -> Option<()> {
             fits(*node >= state.next && *node < NodeId::NOWHERE && state.names.get(name).is_none())?;
             state.insert_node(*node, name.clone(), *node_type, since);
         }
-        Change::TransformAdded { parent, child, new } => {
+        Change::TransformSampled { parent, child, time, new, .. } => {
+            let joint = state.joint(*child)?;
+            fits(joint.parent == *parent && joint.track.is_some())?;
+            state.insert_sample(*parent, *child, *time, *new, since);
+        }
+        Change::TransformAdded { parent, child, new, time } => {
             fits(
                 state.node(*parent).is_some()
                     && state.node(*child).is_some()
                     && state.joint(*child).is_none()
                     && parent != child,
             )?;
-            state.insert_transform(*parent, *child, *new, since);
+            match time {
+                Some(time) => state.insert_sample(*parent, *child, *time, *new, since),
+                None => state.insert_transform(*parent, *child, *new, since),
+            }
         }
         Change::TransformChanged { parent, child, old, new } => {
             let joint = state.joint(*child)?;

@@ -113,7 +113,8 @@ impl Teller<'_> {
             Change::AttributeRemoved { holder, attribute, old } => {
                 write!(line, "no longer: {} {}", self.attribute(*holder, *attribute), self.value(old))
             }
-            Change::TransformAdded { parent, child, new }
+            Change::TransformAdded { parent, child, new, .. }
+            | Change::TransformSampled { parent, child, new, .. }
             | Change::TransformChanged { parent, child, new, .. } => {
                 write!(line, "{}", place(*parent, *child, new))
             }

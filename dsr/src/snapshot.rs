@@ -103,6 +103,12 @@ impl<'a> NodeView<'a> {
         self.state.joint(self.id).map(|joint| (joint.parent, &joint.transform, joint.since))
     }
 
+    /// The stamped poses that the edge from its parent remembers, in order of time; none of one that stands.
+    pub fn poses(&self) -> impl Iterator<Item = (Time, &'a Isometry3<f64>)> + use<'a> {
+        let track = self.state.joint(self.id).and_then(|joint| joint.track.as_ref());
+        track.into_iter().flat_map(|track| track.samples()).map(|sample| (sample.time, &sample.pose))
+    }
+
     /// What hangs below it in the geometric quiver, by id.
     pub fn children(&self) -> &'a [NodeId] {
         self.state.children(self.id)
@@ -201,9 +207,26 @@ impl Snapshot {
         self.state.cell(holder.into(), attribute).map(Cell::view)
     }
 
-    /// The pose of frame `to` in frame `from`: maps coordinates of `to` into `from`. See the README.
+    /// The pose of frame `to` in frame `from`, each pose between them the newest there is: maps coordinates of `to`
+    /// into `from`. See the README.
     pub fn transform(&self, from: NodeId, to: NodeId) -> Result<Isometry3<f64>, ChainError> {
         self.state.transform(from, to)
+    }
+
+    /// The pose of frame `to` in frame `from` at a time. Poses that move are interpolated; times outside what one of
+    /// them remembers are refused with the name of the edge.
+    pub fn transform_at(&self, from: NodeId, to: NodeId, time: Time) -> Result<Isometry3<f64>, ChainError> {
+        self.state.transform_at(from, to, time)
+    }
+
+    /// The newest time at which all poses between the two frames are known; `None` if all of them stand.
+    pub fn common_time(&self, from: NodeId, to: NodeId) -> Result<Option<Time>, ChainError> {
+        self.state.common_time(from, to)
+    }
+
+    /// The pose of frame `to` in frame `from` at their newest common time.
+    pub fn transform_together(&self, from: NodeId, to: NodeId) -> Result<Isometry3<f64>, ChainError> {
+        self.state.transform_together(from, to)
     }
 
     /// The distance between the origins of two frames.

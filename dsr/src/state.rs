@@ -19,6 +19,7 @@ use crate::members::Members;
 use crate::names::Names;
 use crate::pages::Pages;
 use crate::reflex::Registry;
+use crate::track::Track;
 use crate::undo::{Log, Undo};
 use crate::value::Value;
 
@@ -114,6 +115,11 @@ impl State {
     pub(crate) fn joint(&self, id: NodeId) -> Option<&Joint> {
         let (block, slot) = place(id);
         self.frames.get(block)?.joints[slot].as_ref()
+    }
+
+    /// The block with the joints of sixteen nodes, for walks that stay in one.
+    pub(crate) fn frames(&self, block: usize) -> Option<&Frames> {
+        self.frames.get(block)
     }
 
     /// What hangs below a node, ascending.
@@ -227,13 +233,81 @@ impl State {
         transform: Isometry3<f64>,
         since: Version,
     ) {
-        let same = |joint: &Joint| joint.parent == parent && same_transform(&joint.transform, &transform);
+        let same = |joint: &Joint| {
+            joint.parent == parent && joint.track.is_none() && same_transform(&joint.transform, &transform)
+        };
         if self.joint(child).is_some_and(same) {
             return;
         }
-        let old = self.put_joint(child, Some(Joint { parent, transform, since }));
+        let old =
+            self.put_joint(child, Some(Joint { parent, transform, since, track: None, newest: Time(0) }));
         self.log.entries.push(Undo::Joint { child, old });
         self.log.mentions.add_transforms();
+    }
+
+    /// Says where `child` was below `parent` at a time; the child must have no other parent. What is older than the
+    /// edge's buffer is left out.
+    pub(crate) fn insert_sample(
+        &mut self,
+        parent: NodeId,
+        child: NodeId,
+        time: Time,
+        pose: Isometry3<f64>,
+        since: Version,
+    ) {
+        self.log.mentions.add_transforms();
+        let Some(track) = self.joint(child).and_then(|joint| joint.track.as_ref()) else {
+            let track = Some(Arc::new(Track::new(time, pose)));
+            let old =
+                self.put_joint(child, Some(Joint { parent, transform: pose, since, track, newest: time }));
+            self.log.entries.push(Undo::Joint { child, old });
+            return;
+        };
+        if time < track.horizon() || track.sample(time).is_some_and(|old| same_transform(old, &pose)) {
+            return;
+        }
+        if let Some(joint) = self.joint_mut(child)
+            && let Some(track) = &mut joint.track
+        {
+            let newer = time >= track.newest();
+            let old = Arc::make_mut(track).put(time, pose);
+            let entry = Undo::Sample { child, time, old, newest: joint.transform, since: joint.since };
+            if newer {
+                (joint.transform, joint.since, joint.newest) = (pose, since, time);
+            }
+            self.log.entries.push(entry);
+        }
+    }
+
+    pub(crate) fn restore_sample(
+        &mut self,
+        child: NodeId,
+        time: Time,
+        old: Option<Isometry3<f64>>,
+        newest: Isometry3<f64>,
+        since: Version,
+    ) {
+        if let Some(joint) = self.joint_mut(child)
+            && let Some(track) = &mut joint.track
+        {
+            match old {
+                Some(pose) => _ = Arc::make_mut(track).put(time, pose),
+                None => Arc::make_mut(track).take(time),
+            }
+            (joint.transform, joint.since, joint.newest) = (newest, since, track.newest());
+        }
+    }
+
+    /// Lets go of the poses of an edge that nobody can see any more.
+    pub(crate) fn evict(&mut self, child: NodeId) {
+        if let Some(track) = self.joint_mut(child).and_then(|joint| joint.track.as_mut()) {
+            Arc::make_mut(track).evict();
+        }
+    }
+
+    fn joint_mut(&mut self, child: NodeId) -> Option<&mut Joint> {
+        let (block, slot) = place(child);
+        self.frames.get_mut(block)?.joints[slot].as_mut()
     }
 
     /// Takes `child` off its parent, if it has one.
@@ -380,10 +454,7 @@ impl State {
                 }
             }
             Kept::Joint(child) => {
-                let (block, slot) = place(child);
-                if let Some(frames) = self.frames.get_mut(block)
-                    && let Some(joint) = &mut frames.joints[slot]
-                {
+                if let Some(joint) = self.joint_mut(child) {
                     joint.since = since;
                 }
             }

@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 
 pub use self::error::TransactionError;
 pub use self::lease::{Lease, Preemption, Priority};
-use crate::id::{AgentId, AttributeId, LabelId, ReflexId, ResourceId, TypeId, Version};
+use crate::id::{AgentId, AttributeId, LabelId, ReflexId, ResourceId, Time, TypeId, Version};
 use crate::reflex::Reflex;
 use crate::value::{NewValue, NodeRef};
 
@@ -75,8 +75,11 @@ pub enum Edit {
     SetAttribute { holder: HolderRef, attribute: AttributeId, value: NewValue },
     /// Takes an attribute away; no change if it, or the edge that would hold it, is not there.
     ClearAttribute { holder: HolderRef, attribute: AttributeId },
-    /// Gives the pose of `child` in the frame of `parent`.
+    /// Gives the pose of `child` in the frame of `parent`, which holds at all times until it is changed.
     SetTransform { parent: NodeRef, child: NodeRef, transform: Isometry3<f64> },
+    /// Says where `child` was in the frame of `parent` at a time, and that it moves: the edge keeps the poses of the
+    /// last ten seconds before its newest. No change if the time lies further back.
+    SampleTransform { parent: NodeRef, child: NodeRef, time: Time, transform: Isometry3<f64> },
     /// Takes `child` off `parent`; no change if it does not hang there.
     RemoveTransform { parent: NodeRef, child: NodeRef },
     /// Takes a lease for the writer, from a holder of lower priority if that one yields.
@@ -192,6 +195,17 @@ impl Transaction {
         transform: Isometry3<f64>,
     ) -> &mut Self {
         self.push(Edit::SetTransform { parent: parent.into(), child: child.into(), transform })
+    }
+
+    /// Says where `child` was in the frame of `parent` at a time.
+    pub fn sample_transform(
+        &mut self,
+        parent: impl Into<NodeRef>,
+        child: impl Into<NodeRef>,
+        time: Time,
+        transform: Isometry3<f64>,
+    ) -> &mut Self {
+        self.push(Edit::SampleTransform { parent: parent.into(), child: child.into(), time, transform })
     }
 
     /// Takes `child` off `parent`.

@@ -5,8 +5,10 @@
 //! (what is). Invariant: the log is empty in every published state, and after a roll-back the state is the one of
 //! the mark, to the byte. A reflex that cannot write goes back to its own mark, not to the start.
 
+use nalgebra::Isometry3;
+
 use crate::block::{Cell, Joint};
-use crate::id::{AttributeId, EdgeKey, Holder, NodeId, TypeId, Version};
+use crate::id::{AttributeId, EdgeKey, Holder, NodeId, Time, TypeId, Version};
 use crate::mentions::Mentions;
 use crate::reflex::Registry;
 use crate::state::State;
@@ -27,6 +29,8 @@ pub(crate) enum Undo {
     Cell { holder: Holder, attribute: AttributeId, old: Option<(Value, Version)> },
     /// The node hung there.
     Joint { child: NodeId, old: Option<Joint> },
+    /// The buffer had this at that time, and the newest pose was this.
+    Sample { child: NodeId, time: Time, old: Option<Isometry3<f64>>, newest: Isometry3<f64>, since: Version },
 }
 
 /// Where the state was when a transaction or a reflex began.
@@ -127,6 +131,9 @@ impl State {
             }
             Undo::Joint { child, old } => {
                 self.put_joint(child, old);
+            }
+            Undo::Sample { child, time, old, newest, since } => {
+                self.restore_sample(child, time, old, newest, since);
             }
         }
     }

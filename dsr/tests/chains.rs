@@ -116,3 +116,86 @@ proptest! {
         prop_assert_eq!(reached, nodes.len());
     }
 }
+
+/// The world with an arm on a base: the base moves along x a metre a second, the arm turns a radian a second.
+fn moving() -> (Graph, [NodeId; 4]) {
+    let graph = world::ward();
+    for at in 0..=20_u64 {
+        #[expect(clippy::cast_precision_loss, reason = "small")]
+        let seconds = at as f64 / 10.0;
+        let base = format!("sample world clarc {} {seconds} 0", at * 100_000_000);
+        world::commit(&graph, "dsr", &base).unwrap();
+        if at <= 15 {
+            let turned = world::pose([0.0, 1.0, 0.0, seconds]);
+            let time = Time(at * 100_000_000);
+            graph
+                .edit(AgentId::DSR, Time(0), |tx| _ = tx.sample_transform("clarc", "camera", time, turned))
+                .unwrap();
+        }
+    }
+    let now = graph.snapshot();
+    let ids = ["world", "clarc", "camera", "carlos"].map(|name| now.node(name).unwrap());
+    (graph, ids)
+}
+
+#[test]
+fn a_chain_at_a_time_is_interpolated() {
+    let (graph, [world, clarc, camera, carlos]) = moving();
+    let now = graph.snapshot();
+    let then = Time(1_234_000_000);
+    assert!(near(&now.transform_at(world, clarc, then).unwrap(), &world::pose([1.234, 0.0, 0.0, 0.0])));
+    assert!(near(&now.transform_at(world, camera, then).unwrap(), &world::pose([1.234, 1.0, 0.0, 1.234])));
+    // Through the common ancestor; the person stands at (3, 0) at all times.
+    let seen = now.transform_at(camera, carlos, then).unwrap();
+    let wanted = world::pose([1.234, 1.0, 0.0, 1.234]).inv_mul(&world::pose([3.0, 0.0, 0.0, 0.0]));
+    assert!(near(&seen, &wanted));
+    // The newest of each, and the newest that all have.
+    assert!(near(&now.transform(world, camera).unwrap(), &world::pose([2.0, 1.0, 0.0, 1.5])));
+    assert_eq!(now.common_time(world, camera), Ok(Some(Time(1_500_000_000))));
+    assert_eq!(now.common_time(world, carlos), Ok(None));
+    assert!(near(&now.transform_together(carlos, camera).unwrap(), &{
+        world::pose([3.0, 0.0, 0.0, 0.0]).inv_mul(&world::pose([1.5, 1.0, 0.0, 1.5]))
+    }));
+}
+
+#[test]
+fn extrapolation_is_refused_by_name() {
+    let (graph, [world, _, camera, carlos]) = moving();
+    let now = graph.snapshot();
+    let asked = Time(1_600_000_000);
+    let refused = ChainError::Extrapolation {
+        parent: "clarc".into(),
+        child: "camera".into(),
+        asked,
+        first: Time(0),
+        last: Time(1_500_000_000),
+    };
+    assert_eq!(now.transform_at(carlos, camera, asked), Err(refused.clone()));
+    assert_eq!(
+        refused.to_string(),
+        "'camera' in 'clarc' is known from 0 to 1500000000 ns, not at 1600000000"
+    );
+    // Edges above the closest common ancestor are not asked.
+    assert!(now.transform_at(world, carlos, Time(99_000_000_000)).is_ok());
+}
+
+/// A new parent is a new edge with a buffer of its own; snapshots show the one or the other, never a mixture.
+#[test]
+fn reparenting_is_atomic_and_begins_anew() {
+    let (graph, [world, clarc, camera, _]) = moving();
+    let before = graph.snapshot();
+    let moved = "no-transform clarc camera\nsample world camera 5 7 0";
+    world::commit(&graph, "dsr", moved).unwrap();
+    let now = graph.snapshot();
+    assert_eq!(now.get(camera).unwrap().poses().count(), 1);
+    assert_eq!(before.get(camera).unwrap().poses().count(), 16);
+    assert!(near(&now.transform_at(world, camera, Time(5)).unwrap(), &world::pose([7.0, 0.0, 0.0, 0.0])));
+    assert!(now.transform_at(clarc, camera, Time(4)).is_err());
+    // What is written late has its place; what is refused leaves no pose behind.
+    world::commit(&graph, "dsr", "sample world camera 3 5 0").unwrap();
+    world::commit(&graph, "dsr", "sample world camera 9 9 9\nno-node nobody").unwrap_err();
+    let now = graph.snapshot();
+    assert_eq!(now.get(camera).unwrap().poses().map(|(time, _)| time.0).collect::<Vec<_>>(), [3, 5]);
+    assert!(near(&now.transform(world, camera).unwrap(), &world::pose([7.0, 0.0, 0.0, 0.0])));
+    assert!(near(&now.transform_at(world, camera, Time(4)).unwrap(), &world::pose([6.0, 0.0, 0.0, 0.0])));
+}

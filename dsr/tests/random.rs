@@ -31,8 +31,10 @@ struct Model {
     edges: BTreeSet<[String; 3]>,
     /// Holder (one word, or three), attribute, value.
     attributes: BTreeMap<(Vec<String>, String), Vec<String>>,
-    /// Child to parent and place.
+    /// Child to parent and place; "moves" for one that moves.
     transforms: BTreeMap<String, (String, String)>,
+    /// Child and time to place.
+    samples: BTreeMap<(String, u64), String>,
 }
 
 impl Model {
@@ -91,6 +93,7 @@ impl Model {
                 self.attributes
                     .retain(|(holder, _), value| holder[..] != [name] && value[..] != ["node", name]);
                 self.transforms.retain(|child, (parent, _)| child != name && parent != name);
+                self.samples.retain(|(child, _), _| self.transforms.contains_key(child));
                 self.nodes.remove(name).is_some()
             }
             ["edge", from, label, to] => {
@@ -117,7 +120,19 @@ impl Model {
             }
             ["transform", parent, child, ..] => {
                 let place = words[3..].join(" ");
+                self.samples.retain(|(moving, _), _| moving != child);
                 let old = self.transforms.insert(child.into(), (parent.into(), place));
+                parent != child
+                    && old.is_none_or(|(other, _)| other == parent)
+                    && self.typed(parent, "place")
+                    && self.typed(child, "place")
+            }
+            ["sample", parent, child, time, x, y] => {
+                let old = self.transforms.insert(child.into(), (parent.into(), "moves".into()));
+                if old.as_ref().is_none_or(|(_, place)| place != "moves") {
+                    self.samples.retain(|(moving, _), _| moving != child);
+                }
+                self.samples.insert((child.into(), time.parse().unwrap()), format!("{x} {y} 0 0"));
                 parent != child
                     && old.is_none_or(|(other, _)| other == parent)
                     && self.typed(parent, "place")
@@ -126,6 +141,7 @@ impl Model {
             ["no-transform", parent, child] => {
                 if self.transforms.get(child).is_some_and(|(found, _)| found == parent) {
                     self.transforms.remove(child);
+                    self.samples.retain(|(moving, _), _| moving != child);
                 }
                 self.typed(parent, "place") && self.typed(child, "place")
             }
@@ -173,8 +189,15 @@ impl Model {
             model.edges.insert(key);
         }
         for t in &export.transforms {
-            let [x, y, _] = t.translation;
-            model.transforms.insert(t.child.to_string(), (t.parent.to_string(), format!("{x} {y} 0 0")));
+            let place = |[x, y, _]: [f64; 3]| format!("{x} {y} 0 0");
+            for sample in &t.samples {
+                model.samples.insert((t.child.to_string(), sample.time.0), place(sample.translation));
+            }
+            if let Some(newest) = t.samples.last() {
+                assert_eq!(newest.translation, t.translation, "the newest pose is the pose");
+            }
+            let kind = if t.samples.is_empty() { place(t.translation) } else { "moves".into() };
+            model.transforms.insert(t.child.to_string(), (t.parent.to_string(), kind));
         }
         model
     }
@@ -226,6 +249,7 @@ fn line() -> impl Strategy<Value = String> {
         4 => edge_value.prop_map(|value| format!("set-edge {value}")),
         1 => prop::sample::select(&["score", "patient"][..]).prop_map(|a| format!("clear barthel {a}")),
         4 => (place(), place(), 0..3, 0..3).prop_map(|(a, b, x, y)| format!("transform {a} {b} {x} {y} 0 0")),
+        4 => (place(), place(), 0..6, 0..3).prop_map(|(a, b, t, x)| format!("sample {a} {b} {t} {x} 0")),
         2 => (place(), place()).prop_map(|(a, b)| format!("no-transform {a} {b}")),
     ]
 }

@@ -49,6 +49,7 @@ impl Touched {
                 }
                 dsr::Change::TransformAdded { .. }
                 | dsr::Change::TransformChanged { .. }
+                | dsr::Change::TransformSampled { .. }
                 | dsr::Change::TransformRemoved { .. } => touched.push(Token::Transforms, Vec::new()),
             }
         }

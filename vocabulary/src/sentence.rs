@@ -183,7 +183,9 @@ pub fn describe_edit(snapshot: &Snapshot, edit: &Edit) -> Option<Sentence> {
         Edit::ClearAttribute { holder, attribute: id } => {
             format!("{} is not defined", attribute(holder, *id))
         }
-        Edit::SetTransform { parent, child, .. } => format!("{} has a pose in {}", node(child), node(parent)),
+        Edit::SetTransform { parent, child, .. } | Edit::SampleTransform { parent, child, .. } => {
+            format!("{} has a pose in {}", node(child), node(parent))
+        }
         Edit::RemoveTransform { parent, child } => {
             format!("{} has no pose in {}", node(child), node(parent))
         }

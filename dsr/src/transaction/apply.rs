@@ -7,6 +7,8 @@
 
 use std::sync::Arc;
 
+use nalgebra::Isometry3;
+
 use super::error::TransactionError;
 use super::{Edit, HolderRef, Preemption, Transaction, tree};
 use crate::block::Node;
@@ -155,24 +157,13 @@ pub(crate) fn apply(
             Ok(())
         }
         Edit::SetTransform { parent, child, transform } => {
-            let (parent, child) = transform_to_write(state, writer, parent, child)?;
-            let numbers = transform.translation.vector.iter().chain(transform.rotation.coords.iter());
-            if !numbers.copied().all(f64::is_finite) {
-                return Err(TransactionError::NotFinite { token: "a transform".into() });
-            }
-            if parent == child {
-                return Err(TransactionError::Cycle { parent: state.name(parent), child: state.name(child) });
-            }
-            if let Some(joint) = state.joint(child)
-                && joint.parent != parent
-            {
-                return Err(TransactionError::SecondParent {
-                    child: state.name(child),
-                    parent: state.name(joint.parent),
-                    refused: state.name(parent),
-                });
-            }
+            let (parent, child) = joint_to_write(state, writer, parent, child, transform)?;
             state.insert_transform(parent, child, *transform, since);
+            Ok(())
+        }
+        Edit::SampleTransform { parent, child, time, transform } => {
+            let (parent, child) = joint_to_write(state, writer, parent, child, transform)?;
+            state.insert_sample(parent, child, *time, *transform, since);
             Ok(())
         }
         Edit::RemoveTransform { parent, child } => {
@@ -366,6 +357,32 @@ fn fitting(state: &State, attribute: AttributeId, value: &NewValue) -> Result<Va
             };
             Err(TransactionError::WrongKind { attribute: name.clone(), expected, found })
         }
+    }
+}
+
+/// The ends of a geometric edge that may get this pose.
+fn joint_to_write(
+    state: &State,
+    writer: AgentId,
+    parent: &NodeRef,
+    child: &NodeRef,
+    transform: &Isometry3<f64>,
+) -> Result<(NodeId, NodeId), TransactionError> {
+    let (parent, child) = transform_to_write(state, writer, parent, child)?;
+    let numbers = transform.translation.vector.iter().chain(transform.rotation.coords.iter());
+    if !numbers.copied().all(f64::is_finite) {
+        return Err(TransactionError::NotFinite { token: "a transform".into() });
+    }
+    if parent == child {
+        return Err(TransactionError::Cycle { parent: state.name(parent), child: state.name(child) });
+    }
+    match state.joint(child) {
+        Some(joint) if joint.parent != parent => Err(TransactionError::SecondParent {
+            child: state.name(child),
+            parent: state.name(joint.parent),
+            refused: state.name(parent),
+        }),
+        _ => Ok((parent, child)),
     }
 }
 

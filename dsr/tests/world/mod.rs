@@ -107,6 +107,10 @@ pub(crate) fn edit(dictionary: &Dictionary, transaction: &mut Transaction, line:
         ["transform", parent, child, x, y, z, yaw] => {
             transaction.set_transform(parent, child, pose([x, y, z, yaw].map(number)))
         }
+        ["sample", parent, child, time, x, y] => {
+            let pose = pose([number(x), number(y), 0.0, 0.0]);
+            transaction.sample_transform(parent, child, Time(time.parse().unwrap()), pose)
+        }
         ["no-transform", parent, child] => transaction.remove_transform(parent, child),
         ["claim", r, priority, yields] => {
             let preemption = if yields == "yields" { Preemption::Yields } else { Preemption::Finishes };

@@ -1,0 +1,277 @@
+//! Where a frame was in its parent, as stamped poses of the last ten seconds.
+//!
+//! Problem: sensors are late, so one asks where the camera was when the picture was taken, and the answer lies
+//! between two poses. Idea: a list in order of time, cut into chunks behind `Arc`: a write copies one chunk while a
+//! snapshot holds it, a look is two binary searches and an interpolation. Translations are interpolated linearly,
+//! rotations along the great circle (slerp), the short way round. Invariant: no chunk is empty, times rise
+//! strictly, and nothing is said of times outside the buffer. What lies further back than [`HORIZON`] is invisible
+//! at once and is let go of by the chunk.
+//!
+//! Source: Foote, "tf: the transform library", TePRA 2013 (the buffer and its length); Shoemake, "Animating
+//! rotation with quaternion curves", SIGGRAPH 1985 (slerp).
+
+use std::sync::Arc;
+
+use nalgebra::{Isometry3, Quaternion, Translation3, Unit, UnitQuaternion};
+
+use crate::id::Time;
+
+/// How far back the poses of an edge reach from its newest: ten seconds.
+pub const HORIZON: Time = Time(10_000_000_000);
+
+/// How many poses share a chunk.
+const CHUNK: usize = 32;
+
+#[derive(Debug, Clone)]
+pub(crate) struct Sample {
+    pub(crate) time: Time,
+    pub(crate) pose: Isometry3<f64>,
+}
+
+/// Chunks with the time of their first sample, ascending; never empty.
+#[derive(Debug, Clone)]
+pub(crate) struct Track {
+    chunks: Vec<(Time, Arc<Vec<Sample>>)>,
+    newest: Time,
+}
+
+impl Track {
+    pub(crate) fn new(time: Time, pose: Isometry3<f64>) -> Self {
+        Self { chunks: vec![(time, Arc::new(vec![Sample { time, pose }]))], newest: time }
+    }
+
+    /// The time of the newest sample.
+    pub(crate) fn newest(&self) -> Time {
+        self.newest
+    }
+
+    /// The time before which nothing is visible.
+    pub(crate) fn horizon(&self) -> Time {
+        Time(self.newest.0.saturating_sub(HORIZON.0))
+    }
+
+    /// The visible samples, in order of time.
+    pub(crate) fn samples(&self) -> impl Iterator<Item = &Sample> {
+        let start = self.horizon();
+        self.chunks.iter().flat_map(|(_, chunk)| chunk.iter()).filter(move |sample| sample.time >= start)
+    }
+
+    /// The sample of exactly this time.
+    pub(crate) fn sample(&self, time: Time) -> Option<&Isometry3<f64>> {
+        let chunk = &self.chunks[self.chunk_of(time)].1;
+        chunk.binary_search_by_key(&time, |sample| sample.time).ok().map(|at| &chunk[at].pose)
+    }
+
+    fn chunk_of(&self, time: Time) -> usize {
+        self.chunks.partition_point(|(first, _)| *first <= time).saturating_sub(1)
+    }
+
+    /// Puts a sample in its place; gives the one of the same time that was there.
+    pub(crate) fn put(&mut self, time: Time, pose: Isometry3<f64>) -> Option<Isometry3<f64>> {
+        let at = self.chunk_of(time);
+        self.newest = self.newest.max(time);
+        let is_last = at + 1 == self.chunks.len();
+        let (first, chunk) = &mut self.chunks[at];
+        let place = match chunk.binary_search_by_key(&time, |sample| sample.time) {
+            Ok(place) => return Some(std::mem::replace(&mut Arc::make_mut(chunk)[place].pose, pose)),
+            Err(place) => place,
+        };
+        if chunk.len() < CHUNK {
+            Arc::make_mut(chunk).insert(place, Sample { time, pose });
+            *first = (*first).min(time);
+        } else if is_last && place == chunk.len() {
+            let mut fresh = Vec::with_capacity(CHUNK);
+            fresh.push(Sample { time, pose });
+            self.chunks.push((time, Arc::new(fresh)));
+        } else {
+            let chunk = Arc::make_mut(chunk);
+            chunk.insert(place, Sample { time, pose });
+            *first = (*first).min(time);
+            let half = chunk.split_off(CHUNK / 2);
+            self.chunks.insert(at + 1, (half[0].time, Arc::new(half)));
+        }
+        None
+    }
+
+    /// Takes the sample of exactly this time back; another one must be left.
+    pub(crate) fn take(&mut self, time: Time) {
+        let at = self.chunk_of(time);
+        let (first, chunk) = &mut self.chunks[at];
+        if let Ok(place) = chunk.binary_search_by_key(&time, |sample| sample.time) {
+            Arc::make_mut(chunk).remove(place);
+            match chunk.first() {
+                Some(sample) => *first = sample.time,
+                None => _ = self.chunks.remove(at),
+            }
+        }
+        if let Some(last) = self.chunks.last().and_then(|(_, chunk)| chunk.last()) {
+            self.newest = last.time;
+        }
+    }
+
+    /// Lets go of chunks that nobody can see any more.
+    pub(crate) fn evict(&mut self) {
+        let start = self.horizon();
+        let gone = self.chunks.partition_point(|(first, _)| *first <= start).saturating_sub(1);
+        self.chunks.drain(..gone);
+    }
+
+    /// The first sample of a chunk after a time. Sensors are regular: look first where it would be if this one were.
+    fn after(&self, index: usize, time: Time) -> usize {
+        let (first, chunk) = &self.chunks[index];
+        let end = self.chunks.get(index + 1).map_or(self.newest.0 + 1, |(next, _)| next.0);
+        let (span, into) = (end.saturating_sub(first.0).max(1), time.0.saturating_sub(first.0));
+        let guess = usize::try_from(into.saturating_mul(chunk.len() as u64) / span).unwrap_or(0);
+        let after = |at: usize| chunk.get(at).is_none_or(|sample| sample.time > time);
+        for at in [guess + 1, guess] {
+            if at <= chunk.len() && after(at) && (at == 0 || !after(at - 1)) {
+                return at;
+            }
+        }
+        chunk.partition_point(|sample| sample.time <= time)
+    }
+
+    /// The pose at a time, or the first and the last time of the buffer.
+    pub(crate) fn at(&self, time: Time) -> Result<Isometry3<f64>, (Time, Time)> {
+        let outside = || (self.samples().next().map_or(self.newest, |first| first.time), self.newest);
+        if time > self.newest || time < self.horizon() {
+            return Err(outside());
+        }
+        let index = self.chunk_of(time);
+        let chunk = &self.chunks[index].1;
+        let after = self.after(index, time);
+        let Some(before) = after.checked_sub(1).map(|at| &chunk[at]) else { return Err(outside()) };
+        if before.time == time {
+            return Ok(before.pose);
+        }
+        let next = chunk.get(after).or_else(|| self.chunks.get(index + 1)?.1.first());
+        match next {
+            // The earlier one may lie beyond the horizon: then so does what is between.
+            Some(next) if before.time >= self.horizon() => {
+                #[expect(clippy::cast_precision_loss, reason = "two samples lie at most ten seconds apart")]
+                let part = (time.0 - before.time.0) as f64 / (next.time.0 - before.time.0) as f64;
+                Ok(between(&before.pose, &next.pose, part))
+            }
+            _ => Err(outside()),
+        }
+    }
+}
+
+/// The pose at `part` of the way from `a` to `b`.
+pub(crate) fn between(a: &Isometry3<f64>, b: &Isometry3<f64>, part: f64) -> Isometry3<f64> {
+    let translation = a.translation.vector.lerp(&b.translation.vector, part);
+    Isometry3::from_parts(Translation3::from(translation), slerp(&a.rotation, &b.rotation, part))
+}
+
+/// Along the great circle, the short way. With `s` the squared sine of half the angle `θ` between the two quaternions,
+/// `θ² = 4·asin²(√s)`, and the weights are `sin(tθ)/sin θ = t·sinc(tθ)/sinc(θ)`: for the small angles between poses
+/// that follow each other both are short series in `θ²`, without a root or a call of the mathematical library.
+fn slerp(a: &UnitQuaternion<f64>, b: &UnitQuaternion<f64>, part: f64) -> UnitQuaternion<f64> {
+    let dot = a.coords.dot(&b.coords);
+    let (dot, sign) = if dot < 0.0 { (-dot, -1.0) } else { (dot, 1.0) };
+    let (first, second) = if dot > 0.99 {
+        let s = (0.5 - 0.5 * dot).max(0.0);
+        // asin(√s)² = s + s²/3 + 8s³/45 + 4s⁴/35 + 128s⁵/1575 + 128s⁶/2079 …
+        let asin2 = s
+            * (1.0
+                + s * (1.0 / 3.0
+                    + s * (8.0 / 45.0 + s * (4.0 / 35.0 + s * (128.0 / 1575.0 + s * (128.0 / 2079.0))))));
+        let theta2 = 4.0 * asin2;
+        let whole = sinc(theta2);
+        let rest = 1.0 - part;
+        (rest * sinc(rest * rest * theta2) / whole, part * sinc(part * part * theta2) / whole)
+    } else {
+        let theta = dot.min(1.0).acos();
+        let whole = theta.sin();
+        (((1.0 - part) * theta).sin() / whole, (part * theta).sin() / whole)
+    };
+    let coords = a.coords * first + b.coords * (second * sign);
+    Unit::new_unchecked(Quaternion::from(coords))
+}
+
+/// `sin(x)/x` for a small `x`, of its square.
+fn sinc(x2: f64) -> f64 {
+    const C: [f64; 5] = [1.0 / 6.0, 1.0 / 20.0, 1.0 / 42.0, 1.0 / 72.0, 1.0 / 110.0];
+    1.0 - x2 * C[0] * (1.0 - x2 * C[1] * (1.0 - x2 * C[2] * (1.0 - x2 * C[3] * (1.0 - x2 * C[4]))))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use nalgebra::Vector3;
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn pose(at: u64) -> Isometry3<f64> {
+        #[expect(clippy::cast_precision_loss, reason = "small")]
+        let at = at as f64;
+        Isometry3::new(Vector3::new(at, 0.0, -at), Vector3::new(0.0, at / 7.0, 0.3))
+    }
+
+    proptest! {
+        /// A track is a sorted map of what was put and not taken back.
+        #[test]
+        fn a_track_is_a_map(first in 0_u64..2000, edits in prop::collection::vec((0_u64..2000, any::<bool>()), 0..400)) {
+            let mut track = Track::new(Time(first), pose(first));
+            let mut model = BTreeMap::from([(first, pose(first))]);
+            let held = track.clone();
+            for (time, put) in edits {
+                if put {
+                    let old = track.put(Time(time), pose(time + 1));
+                    prop_assert_eq!(old, model.insert(time, pose(time + 1)));
+                } else if model.len() > 1 {
+                    track.take(Time(time));
+                    model.remove(&time);
+                }
+                track.evict();
+                let seen: Vec<_> = track.samples().map(|s| (s.time.0, s.pose)).collect();
+                prop_assert_eq!(&seen, &model.iter().map(|(t, p)| (*t, *p)).collect::<Vec<_>>());
+                let (start, end) = (*model.keys().next().unwrap(), *model.keys().last().unwrap());
+                prop_assert_eq!(track.newest(), Time(end));
+                for asked in [time, start, end, (start + end) / 2] {
+                    let before = model.range(..=asked).next_back();
+                    let after = model.range(asked..).next();
+                    match (before, after) {
+                        (Some((t0, a)), Some((t1, b))) => {
+                            let found = track.at(Time(asked)).unwrap();
+                            #[expect(clippy::cast_precision_loss, reason = "small")]
+                            let part = if t0 == t1 { 0.0 } else { (asked - t0) as f64 / (t1 - t0) as f64 };
+                            let wanted = a.lerp_slerp(b, part);
+                            prop_assert!((found.translation.vector - wanted.translation.vector).norm() < 1e-9);
+                            prop_assert!(found.rotation.angle_to(&wanted.rotation) < 1e-7);
+                            prop_assert!((found.rotation.norm() - 1.0).abs() < 1e-12);
+                        }
+                        _ => prop_assert_eq!(track.at(Time(asked)), Err((Time(start), Time(end)))),
+                    }
+                }
+            }
+            prop_assert_eq!(held.samples().count(), 1, "a copy never changes");
+        }
+
+        /// The series agree with the functions, where one takes over from the other too.
+        #[test]
+        fn slerp_is_exact(angle in 0.0_f64..3.1, part in 0.0_f64..1.0) {
+            let axis = Vector3::y_axis();
+            let (a, b) = (UnitQuaternion::identity(), UnitQuaternion::from_axis_angle(&axis, angle));
+            let wanted = UnitQuaternion::from_axis_angle(&axis, angle * part);
+            prop_assert!((slerp(&a, &b, part).coords - wanted.coords).norm() < 1e-13);
+            let other = Unit::new_unchecked(-b.into_inner());
+            prop_assert!((slerp(&a, &other, part).coords - wanted.coords).norm() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn what_is_older_than_the_horizon_is_gone() {
+        let mut track = Track::new(Time(0), pose(0));
+        for at in 1..=2_000 {
+            track.put(Time(at * 10_000_000), pose(at));
+            track.evict();
+        }
+        assert_eq!(track.samples().count(), 1_001);
+        assert!(track.chunks.len() <= 1_001 / CHUNK + 2, "chunks are let go of");
+        assert_eq!(track.at(Time(9_999_999_999)), Err((Time(10_000_000_000), Time(20_000_000_000))));
+        assert_eq!(track.at(Time(10_000_000_000)), Ok(pose(1_000)));
+    }
+}
