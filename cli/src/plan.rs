@@ -120,6 +120,15 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
             answer.end("unsolvable", &reason, console);
             Exit::No
         }
+        Outcome::Unsupported(feature) => {
+            let text = format!("this search does not support {feature}");
+            let span = files.problem.metric.as_ref().map_or(files.problem.goal_span, |m| m.expression.span);
+            let mut message = Message::error(text.clone()).at(&files.problem_source, span);
+            message.severity = Severity::Unsupported;
+            message.show(console);
+            answer.end("unsupported", &text, console);
+            Exit::Unsupported
+        }
         Outcome::LimitReached(limit) => no_answer(limit_words(*limit), &mut answer, console),
     }
 }

@@ -62,6 +62,9 @@ pub fn decide(model: &Model, request: &Request) -> Decision {
             Some(why) => Decision::Rejected(why),
         },
         Outcome::Unsolvable(reason) => Decision::NoPlan(unsolvable(model, &reason, &request.barred)),
+        Outcome::Unsupported(feature) => {
+            Decision::Rejected(format!("the planner does not support {feature}"))
+        }
         Outcome::LimitReached(_) => Decision::LimitReached(request.expansions),
     }
 }

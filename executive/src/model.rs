@@ -7,7 +7,7 @@
 
 use indexmap::IndexSet;
 use low_to_high::Fact;
-use pddl::model::{Domain, Name, ObjectId, PredicateId, Problem};
+use pddl::model::{Domain, FluentFact, FluentValue, GroundApplication, Name, ObjectId, PredicateId, Problem};
 use planner::{FactId, GroundAtom, GroundError, GroundOptions, OperatorId, State, Task, ground};
 use rustc_hash::FxHashMap;
 
@@ -139,6 +139,23 @@ impl Model {
                 });
             }
         };
+        let numbers: Vec<_> = self.task.numbers(state).collect();
+        let objects: Vec<_> = self.task.object_values(state).collect();
+        let is_changed = |application: &GroundApplication| {
+            numbers.iter().any(|(other, _)| *other == application)
+                || objects.iter().any(|value| value.fluent == *application)
+                || self.task.is_object_fluent(application)
+        };
+        problem.fluents.retain(|fluent| !is_changed(&fluent.application));
+        let numbers = numbers.into_iter().filter_map(|(application, value)| {
+            Some((application.clone(), FluentValue::Number(value?.to_f64())))
+        });
+        let objects = objects.into_iter().map(|v| (v.fluent.clone(), FluentValue::Object(v.object)));
+        problem.fluents.extend(numbers.chain(objects).map(|(application, value)| FluentFact {
+            application,
+            value,
+            span: self.problem.goal_span,
+        }));
         for fact in state.facts() {
             if let Some(atom) = &self.task.facts()[fact].atom
                 && !self.domain.predicates[atom.predicate].derived

@@ -24,6 +24,8 @@ ids! {
     FactId;
     /// A ground operator.
     OperatorId;
+    /// A numeric fluent that changes.
+    FluentId;
 }
 
 /// A state that a search has met; its registry knows the bits.

@@ -23,6 +23,7 @@
 //! | module | holds |
 //! |---|---|
 //! | `ground` | from schemas to facts and operators |
+//! | `number` | exact numbers, expressions over fluents |
 //! | `task` | the grounded task, states, successors, axioms, the delete relaxation |
 //! | `heuristics` | estimators, one file each |
 //! | `search` | search algorithms, configurations, the entry point |
@@ -33,6 +34,10 @@ mod ids;
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test")]
 mod lifted_tests;
+mod number;
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test")]
+mod random_numbers;
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test")]
 mod random_tests;
@@ -41,7 +46,8 @@ mod task;
 
 pub use ground::{Feature, GroundError, GroundOptions, Origin, ground};
 pub use heuristics::{Costs, HeuristicKind, Properties};
-pub use ids::{FactId, OperatorId};
+pub use ids::{FactId, FluentId, OperatorId};
+pub use number::Number;
 pub use search::{
     BfwsSettings, Budget, Count, EagerSettings, Engine, Improved, LazySettings, Limit, Order, Outcome, Plan,
     Quality, Query, Report, SearchConfiguration, Statistics, Threads, UnsolvableReason, Width, improve,

@@ -190,6 +190,7 @@ proptest! {
                 }
                 Outcome::Unsolvable(_) => prop_assert_eq!(optimum, None, "{}", name),
                 Outcome::LimitReached(Limit::Incomplete) if !configuration.complete => {}
+                Outcome::Unsupported(feature) => prop_assert!(false, "{name}: {feature}"),
                 Outcome::LimitReached(limit) => prop_assert!(false, "{name}: {limit:?}"),
             }
         }

@@ -6,7 +6,7 @@
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use planner::{
-    Budget, GroundError, GroundOptions, Impossible, Limit, Outcome, Plan, Quality, Query,
+    Budget, Feature, GroundError, GroundOptions, Impossible, Limit, Outcome, Plan, Quality, Query,
     SearchConfiguration, Task, UnsolvableReason, ground, improve, solve,
 };
 use std::fs;
@@ -60,6 +60,11 @@ fn every_configuration_agrees_with_every_expectation() {
             Err(other) => panic!("{:?}: {other}", case.path),
         };
         for configuration in SearchConfiguration::ALL {
+            if configuration.optimal && !task.has_additive_costs() {
+                let refused = solve(&task, &Query::of(&task), configuration, &Budget::default()).outcome;
+                assert_eq!(refused, Outcome::Unsupported(Feature::OptimalMetric));
+                continue;
+            }
             if configuration.optimal && case.expected == "solvable" {
                 continue;
             }
@@ -87,6 +92,7 @@ fn check(case: &Case, task: &Task, configuration: &SearchConfiguration, outcome:
         {
             return;
         }
+        Outcome::Unsupported(feature) => panic!("{place}: {feature}"),
         Outcome::LimitReached(limit) => panic!("{place}: {limit:?}"),
         Outcome::Unsolvable(UnsolvableReason::SpaceExhausted) => "exhausted".to_owned(),
         Outcome::Unsolvable(UnsolvableReason::Impossible(Impossible::Atoms(atoms))) => {

@@ -176,6 +176,7 @@ impl Question<'_> {
         let plan = match solve(&grounded, &Query::of(&grounded), &search, &budget).outcome {
             Outcome::Solved(plan) => plan,
             Outcome::Unsolvable(_) => return Answer::Unsolvable,
+            Outcome::Unsupported(feature) => return Answer::Unknown(format!("{feature} are not supported")),
             Outcome::LimitReached(limit) => {
                 let why = match limit {
                     Limit::Interrupted => "the time is over",

@@ -60,6 +60,7 @@ impl ::lsp::Tools for Tools {
                 let sentence = format!("there is no plan: {}", why_unsolvable(&grounded, &reason));
                 Planned::Unsolvable(remark(Severity::Error, sentence, (File::Problem, problem.goal_span)))
             }
+            Outcome::Unsupported(feature) => Planned::Limit(format!("{feature} are not supported")),
             Outcome::LimitReached(limit) => Planned::Limit(limit_words(limit).to_owned()),
         }
     }

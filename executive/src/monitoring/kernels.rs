@@ -4,7 +4,7 @@
 //! state. Cost: building is linear in the sum of the kernels; a change of one fact touches only the
 //! kernels that mention it; the furthest kernel is found in one pass over the counters.
 //!
-//! Exact for operators without conditional effects and tasks without axioms; [`Monitor`](super::Monitor)
+//! Exact for operators without conditional or numeric effects and tasks without axioms; [`Monitor`](super::Monitor)
 //! simulates the others.
 
 use planner::{FactId, Goal, OperatorId, State, Task};
@@ -25,7 +25,11 @@ pub(super) struct Kernels {
 impl Kernels {
     /// Whether regression is exact for this plan.
     pub(super) fn can_regress(task: &Task, plan: &[OperatorId]) -> bool {
-        task.axioms().is_empty() && plan.iter().all(|&o| task.operators()[o].conditional.is_empty())
+        let regresses = |&o: &OperatorId| {
+            let operator = &task.operators()[o];
+            operator.conditional.is_empty() && !operator.changes_numbers()
+        };
+        task.axioms().is_empty() && plan.iter().all(regresses)
     }
 
     /// Regresses `goal` through `plan`, and counts against `state`.

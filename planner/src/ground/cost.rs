@@ -1,149 +1,108 @@
-//! Action costs: which fluents the metric adds up, and what an operator adds to them.
+//! The metric: what an operator adds to it.
 //!
 //! Idea: a metric that minimises a weighted sum of fluents without arguments, which actions only
-//! increase by static values, is a sum of operator costs. Fluents that nothing reads are ignored.
-//! Without such a metric every action costs 1. Costs become integers by a common power of ten.
+//! increase by static values and without conditions, is a sum of operator costs, and every search
+//! knows those ([`Measure::Sum`]). Costs become integers by a common power of ten. Without a metric
+//! that some action changes every action costs 1. Any other metric, a maximised one for instance, is
+//! evaluated along a plan ([`Measure::Value`]); operators then cost what they add to it in the
+//! initial state, at least 0, which guides a search and proves nothing.
 
-use super::error::{Feature, GroundError, Origin};
+use super::fluents::Fluents;
+use crate::number::Number;
 use pddl::Span;
 use pddl::model::{
     Application, ArithmeticOperator, AssignOperator, AssignedValue, Domain, Effect, EffectKind, Expression,
-    ExpressionKind, FluentValue, FunctionId, FunctionValue, Objective, Problem, Term,
+    ExpressionKind, FunctionId, Metric, Objective, Problem, Term,
 };
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashMap;
 
 /// A weighted increase.
 #[derive(Clone, Debug)]
 pub(crate) struct CostTerm {
-    weight: f64,
+    weight: Number,
     expression: Expression,
 }
 
-/// What costs are in this task.
-pub(crate) struct CostModel<'a> {
-    domain: &'a Domain,
-    /// Weight of each fluent that the metric reads; `None` without a metric on fluents.
-    weights: Option<FxHashMap<FunctionId, f64>>,
-    values: FxHashMap<(FunctionId, Vec<u32>), f64>,
-    assigned: FxHashSet<FunctionId>,
+/// How the quality of plans is measured.
+#[derive(Clone, Debug)]
+pub(crate) enum Measure {
+    /// By their length.
+    Length,
+    /// By the sum of their operators' costs: the weight of each fluent that the metric reads, and of
+    /// each step.
+    Sum { weights: FxHashMap<FunctionId, Number>, step: Number },
+    /// By the metric's value in the end.
+    Value(Metric),
 }
 
-impl<'a> CostModel<'a> {
-    pub(crate) fn new(domain: &'a Domain, problem: &Problem) -> Result<Self, GroundError> {
-        let mut assigned = FxHashSet::default();
-        for action in &domain.actions {
-            assigned_functions(&action.effect, &mut assigned);
+/// What costs are in this task.
+pub(crate) struct CostModel {
+    pub(crate) measure: Measure,
+}
+
+/// Why an operator has no cost of its own.
+pub(crate) enum NoCost {
+    /// It has no result, so it can never be applied.
+    Inapplicable,
+    /// It improves the metric.
+    Negative,
+}
+
+impl CostModel {
+    /// `additive` says whether a sum of operator costs may be tried.
+    pub(crate) fn new(domain: &Domain, problem: &Problem, fluents: &Fluents, additive: bool) -> Self {
+        let Some(metric) = &problem.metric else { return Self { measure: Measure::Length } };
+        let sign = if metric.objective == Objective::Minimize { 1 } else { -1 };
+        let mut sum = WeightedSum::default();
+        let linear = sum.add(&metric.expression, Number::integer(sign)).is_some();
+        sum.weights.retain(|f, w| !w.is_zero() && fluents.changes(*f));
+        let value = Self { measure: Measure::Value(metric.clone()) };
+        if !linear || !additive || sum.step.sign() < 0 {
+            return value;
         }
-        let mut values = FxHashMap::default();
-        for fluent in &problem.fluents {
-            if let FluentValue::Number(n) = fluent.value {
-                let row = fluent.application.arguments.iter().map(|o| o.0).collect();
-                values.insert((fluent.application.function, row), n);
-            }
+        if sum.weights.is_empty() {
+            // A metric that no action changes, or `total-time` alone: the length of the plan.
+            return Self { measure: Measure::Length };
         }
-        let mut model = Self { domain, weights: None, values, assigned };
-        if let Some(metric) = &problem.metric {
-            let unsupported = GroundError::Unsupported {
-                feature: Feature::Metric,
-                origin: Origin::Problem,
-                span: metric.expression.span,
-            };
-            let mut weights = FxHashMap::default();
-            let sign = if metric.objective == Objective::Minimize { 1.0 } else { -1.0 };
-            if !linear(&metric.expression, sign, &mut weights) {
-                return Err(unsupported);
-            }
-            weights.retain(|f, w| *w != 0.0 && model.assigned.contains(f));
-            if weights.values().any(|&w| w < 0.0) {
-                return Err(unsupported);
-            }
-            // A metric that no action changes (total-time) leaves the length of the plan to minimise.
-            model.weights = (!weights.is_empty()).then_some(weights);
-        }
-        Ok(model)
+        let sums = domain.actions.iter().all(|a| only_adds(&a.effect, true, &sum.weights, fluents));
+        if sums { Self { measure: Measure::Sum { weights: sum.weights, step: sum.step } } } else { value }
     }
 
-    /// What a numeric effect adds to the operator's cost; `None` if nothing reads it.
-    pub(crate) fn effect(
+    /// What a numeric effect adds to the operator's cost.
+    pub(crate) fn term(
         &self,
         operator: AssignOperator,
         application: &Application,
         value: &AssignedValue,
-        span: Span,
-    ) -> Result<Option<CostTerm>, GroundError> {
-        let refuse = |feature| Err(GroundError::Unsupported { feature, origin: Origin::Domain, span });
-        let AssignedValue::Number(expression) = value else {
-            return refuse(Feature::ObjectFluents);
-        };
-        if self.domain.functions[application.function].value != FunctionValue::Number {
-            return refuse(Feature::ObjectFluents);
-        }
-        let Some(&weight) = self.weights.as_ref().and_then(|w| w.get(&application.function)) else {
-            return Ok(None);
-        };
-        let sign = match operator {
-            AssignOperator::Increase => 1.0,
-            AssignOperator::Decrease => -1.0,
-            _ => return refuse(Feature::Metric),
-        };
-        if !self.is_static(expression) {
-            return refuse(Feature::NumericFluents);
-        }
-        Ok(Some(CostTerm { weight: weight * sign, expression: expression.clone() }))
-    }
-
-    fn is_static(&self, e: &Expression) -> bool {
-        match &e.kind {
-            ExpressionKind::Number(_) => true,
-            ExpressionKind::Fluent(a) => !self.assigned.contains(&a.function),
-            ExpressionKind::Arithmetic(_, parts) => parts.iter().all(|p| self.is_static(p)),
-            ExpressionKind::Duration | ExpressionKind::TotalTime | ExpressionKind::IsViolated(_) => false,
-        }
+    ) -> Option<CostTerm> {
+        let Measure::Sum { weights, .. } = &self.measure else { return None };
+        let weight = *weights.get(&application.function)?;
+        let AssignedValue::Number(expression) = value else { return None };
+        let weight = if operator == AssignOperator::Decrease { weight.negated()? } else { weight };
+        Some(CostTerm { weight, expression: expression.clone() })
     }
 
     /// Whether each action costs 1.
     pub(crate) fn is_unit(&self) -> bool {
-        self.weights.is_none()
+        matches!(self.measure, Measure::Length)
     }
 
-    /// The cost of an operator, or the place of what has no value or makes it negative.
-    pub(crate) fn cost(&self, terms: &[CostTerm], binding: &[u32]) -> Result<f64, Span> {
-        if self.is_unit() {
-            return Ok(1.0);
-        }
-        let mut sum = 0.0;
+    /// The cost of an operator.
+    pub(crate) fn cost(&self, fluents: &Fluents, terms: &[CostTerm], binding: &[u32]) -> Result<f64, NoCost> {
+        let Measure::Sum { step, .. } = &self.measure else { return Ok(1.0) };
+        let mut sum = *step;
         for term in terms {
-            sum += term.weight * self.value(&term.expression, binding).ok_or(term.expression.span)?;
+            let value = fluents.value(&term.expression, binding).map_err(|_| NoCost::Inapplicable)?;
+            let part = term.weight.times(value).ok_or(NoCost::Inapplicable)?;
+            sum = sum.plus(part).ok_or(NoCost::Inapplicable)?;
         }
-        match terms.first() {
-            Some(first) if !sum.is_finite() || sum < 0.0 => Err(first.expression.span),
-            _ => Ok(sum),
-        }
+        if sum.sign() < 0 { Err(NoCost::Negative) } else { Ok(sum.to_f64()) }
     }
+}
 
-    fn value(&self, e: &Expression, binding: &[u32]) -> Option<f64> {
-        Some(match &e.kind {
-            ExpressionKind::Number(n) => *n,
-            ExpressionKind::Fluent(a) => {
-                let row = a.arguments.iter().map(|&t| resolve(t, binding)).collect();
-                *self.values.get(&(a.function, row))?
-            }
-            ExpressionKind::Arithmetic(op, parts) => {
-                let values = parts.iter().map(|p| self.value(p, binding)).collect::<Option<Vec<_>>>()?;
-                let (&first, rest) = values.split_first()?;
-                match op {
-                    ArithmeticOperator::Subtract if rest.is_empty() => -first,
-                    ArithmeticOperator::Add => rest.iter().fold(first, |a, b| a + b),
-                    ArithmeticOperator::Subtract => rest.iter().fold(first, |a, b| a - b),
-                    ArithmeticOperator::Multiply => rest.iter().fold(first, |a, b| a * b),
-                    ArithmeticOperator::Divide => rest.iter().fold(first, |a, b| a / b),
-                }
-            }
-            ExpressionKind::Duration | ExpressionKind::TotalTime | ExpressionKind::IsViolated(_) => {
-                return None;
-            }
-        })
-    }
+/// Where a metric's text is.
+pub(crate) fn metric_span(problem: &Problem) -> Span {
+    problem.metric.as_ref().map_or(problem.goal_span, |metric| metric.expression.span)
 }
 
 pub(crate) fn resolve(term: Term, binding: &[u32]) -> u32 {
@@ -157,38 +116,74 @@ pub(crate) fn resolve(term: Term, binding: &[u32]) -> u32 {
 pub(crate) fn scale(costs: &[f64]) -> u32 {
     (0..6)
         .map(|k| 10_u32.pow(k))
+        .take_while(|&s| s == 1 || costs.iter().all(|c| c * f64::from(s) < f64::from(u32::MAX / 2)))
         .find(|&s| costs.iter().all(|c| ((c * f64::from(s)) - (c * f64::from(s)).round()).abs() < 1e-6))
-        .unwrap_or(1_000_000)
+        .unwrap_or(1)
 }
 
-fn linear(e: &Expression, weight: f64, weights: &mut FxHashMap<FunctionId, f64>) -> bool {
-    match &e.kind {
-        ExpressionKind::Number(_) | ExpressionKind::TotalTime => true,
-        ExpressionKind::Fluent(a) if a.arguments.is_empty() => {
-            *weights.entry(a.function).or_insert(0.0) += weight;
-            true
-        }
-        ExpressionKind::Arithmetic(ArithmeticOperator::Add, parts) => {
-            parts.iter().all(|p| linear(p, weight, weights))
-        }
-        ExpressionKind::Arithmetic(ArithmeticOperator::Multiply, parts) => match parts.as_slice() {
-            [Expression { kind: ExpressionKind::Number(n), .. }, other]
-            | [other, Expression { kind: ExpressionKind::Number(n), .. }] => {
-                linear(other, weight * n, weights)
-            }
-            _ => false,
-        },
-        _ => false,
+struct WeightedSum {
+    weights: FxHashMap<FunctionId, Number>,
+    step: Number,
+}
+
+impl Default for WeightedSum {
+    fn default() -> Self {
+        Self { weights: FxHashMap::default(), step: Number::ZERO }
     }
 }
 
-fn assigned_functions(effect: &Effect, out: &mut FxHashSet<FunctionId>) {
-    match &effect.kind {
-        EffectKind::And(parts) => parts.iter().for_each(|p| assigned_functions(p, out)),
-        EffectKind::Forall(_, inner) | EffectKind::When(_, inner) => assigned_functions(inner, out),
-        EffectKind::Assign(_, application, _) => {
-            out.insert(application.function);
+impl WeightedSum {
+    /// Adds a multiple of the expression; `None` if that is no weighted sum.
+    fn add(&mut self, e: &Expression, weight: Number) -> Option<()> {
+        match &e.kind {
+            ExpressionKind::Number(_) => Some(()),
+            ExpressionKind::TotalTime => {
+                self.step = self.step.plus(weight)?;
+                Some(())
+            }
+            ExpressionKind::Fluent(a) if a.arguments.is_empty() => {
+                let known = self.weights.entry(a.function).or_insert(Number::ZERO);
+                *known = known.plus(weight)?;
+                Some(())
+            }
+            ExpressionKind::Arithmetic(ArithmeticOperator::Add, parts) => {
+                parts.iter().try_for_each(|p| self.add(p, weight))
+            }
+            ExpressionKind::Arithmetic(ArithmeticOperator::Subtract, parts) => {
+                let (first, rest) = parts.split_first()?;
+                let negative = weight.negated()?;
+                self.add(first, if rest.is_empty() { negative } else { weight })?;
+                rest.iter().try_for_each(|p| self.add(p, negative))
+            }
+            ExpressionKind::Arithmetic(ArithmeticOperator::Multiply, parts) => match parts.as_slice() {
+                [Expression { kind: ExpressionKind::Number(n), .. }, other]
+                | [other, Expression { kind: ExpressionKind::Number(n), .. }] => {
+                    self.add(other, weight.times(Number::from_f64(*n)?)?)
+                }
+                _ => None,
+            },
+            _ => None,
         }
-        EffectKind::Add(_) | EffectKind::Delete(_) => {}
+    }
+}
+
+/// Whether the effect changes weighted fluents by adding static values without conditions only.
+fn only_adds(
+    effect: &Effect,
+    unconditional: bool,
+    weights: &FxHashMap<FunctionId, Number>,
+    fluents: &Fluents,
+) -> bool {
+    match &effect.kind {
+        EffectKind::And(parts) => parts.iter().all(|p| only_adds(p, unconditional, weights, fluents)),
+        EffectKind::Forall(_, inner) | EffectKind::When(_, inner) => {
+            only_adds(inner, false, weights, fluents)
+        }
+        EffectKind::Assign(operator, application, value) => {
+            let adds = matches!(operator, AssignOperator::Increase | AssignOperator::Decrease);
+            let by_static = matches!(value, AssignedValue::Number(by) if fluents.is_static(by));
+            !weights.contains_key(&application.function) || (unconditional && adds && by_static)
+        }
+        EffectKind::Add(_) | EffectKind::Delete(_) => true,
     }
 }

@@ -25,18 +25,12 @@ impl Default for GroundOptions<'_> {
 /// A language feature that forward search does not handle yet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Feature {
-    /// Numbers in conditions, or numeric effects that conditions, costs or the metric read.
-    NumericFluents,
-    /// Functions to objects.
-    ObjectFluents,
+    /// Numbers of more digits than 128 bits hold.
+    LargeNumbers,
     /// Durative actions.
     DurativeActions,
-    /// A metric that is not a sum of increasing costs to be minimised.
-    Metric,
-    /// An action whose cost is negative or undefined.
-    NegativeCost,
-    /// A cost that depends on a condition or a quantifier.
-    ConditionalCost,
+    /// A proof that no plan is better, by a metric that is not a sum of costs of actions.
+    OptimalMetric,
     /// Axioms that depend on their own negation.
     UnstratifiedAxioms,
     /// An initial task network.
@@ -51,12 +45,9 @@ impl std::fmt::Display for Feature {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             Self::Language(feature) => return feature.fmt(f),
-            Self::NumericFluents => "numeric fluents",
-            Self::ObjectFluents => "object fluents",
+            Self::LargeNumbers => "numbers of more than 38 digits",
             Self::DurativeActions => "durative actions",
-            Self::Metric => "this metric",
-            Self::NegativeCost => "negative or undefined action costs",
-            Self::ConditionalCost => "conditional action costs",
+            Self::OptimalMetric => "optimal plans by a metric that is not a sum of costs of actions",
             Self::UnstratifiedAxioms => "axioms that depend on their own negation",
             Self::TaskNetwork => "initial task networks",
             Self::OutsideTheModel => "this language feature",

@@ -1,17 +1,21 @@
 //! Numbers the facts that remain and assembles the task.
 
 use super::atoms::AtomTable;
-use super::cost::{CostModel, scale};
+use super::cost::{CostModel, Measure, scale};
 use super::error::{Feature, GroundError, GroundOptions, Origin};
 use super::exclusion::Exclusions;
+use super::fluents::Fluents;
 use super::formula::Formula;
 use super::instantiate::Lit;
+use super::measure::{Chosen, comparisons};
+use super::numbers::Comparison;
 use super::prune::{Pruned, prune};
 use super::raw::{RawEffects, RawOperator, RawTask, marked};
-use crate::ids::{FactId, id32};
+use crate::ids::{FactId, OperatorId, id32};
 use crate::task::{
     AtomStatus, AxiomProgram, AxiomRule, ConditionalEffect, Fact, Goal, GroundAtom, Impossible, Literals,
-    Mutexes, Names, ObjectValue, Operator, Relaxation, State, SuccessorTree, Task, undominated, variables,
+    Mutexes, Names, Numeric, ObjectValue, Operator, Relaxation, State, SuccessorTree, Task, undominated,
+    variables,
 };
 use pddl::model::{Domain, IndexVec, Problem};
 
@@ -25,7 +29,7 @@ const PARALLEL: usize = 5_000;
 pub(crate) fn finish(
     domain: &Domain,
     problem: &Problem,
-    costs: &CostModel<'_>,
+    (costs, fluents): (&CostModel, &Fluents),
     table: AtomTable,
     raw: RawTask,
     exclusions: &Exclusions,
@@ -35,8 +39,16 @@ pub(crate) fn finish(
     options: &GroundOptions<'_>,
 ) -> Result<Task, GroundError> {
     let known = id32(table.len());
-    let holds = marked(raw.atoms, (0..statics).chain(initial.iter().copied()));
-    let is_derived = |a: u32| a >= known || domain.predicates[table.predicate(a)].derived;
+    let value = |&fluent: &u32| fluents.initial(&raw.numbers.keys[fluent as usize]);
+    let compared = marked(raw.atoms, raw.numbers.atoms.iter().map(|(atom, _)| *atom));
+    let compare = |comparison: &Comparison<u32>| {
+        comparison.expression.evaluate(&value).is_ok_and(|n| comparison.relation.holds(n.sign()))
+    };
+    let equal = raw.numbers.atoms.iter().filter(|(_, c)| compare(c)).map(|(atom, _)| *atom);
+    let holds = marked(raw.atoms, (0..statics).chain(initial.iter().copied()).chain(equal));
+    let is_derived = |a: u32| {
+        if a < known { domain.predicates[table.predicate(a)].derived } else { !compared[a as usize] }
+    };
     let derived = marked(raw.atoms, (statics..raw.atoms).filter(|&a| is_derived(a)));
     let is_exogenous = |a: u32| a < known && options.exogenous.contains(&table.predicate(a));
     let exogenous = marked(raw.atoms, (statics..raw.atoms).filter(|&a| is_exogenous(a)));
@@ -54,7 +66,8 @@ pub(crate) fn finish(
             let value = atom.as_ref().and_then(|a| names.values().value(a.predicate, &a.arguments));
             let value = value.map(|(fluent, object)| ObjectValue { fluent, object });
             let atom = atom.filter(|_| value.is_none());
-            numbers[i] = facts.push(Fact { atom, value, derived: derived[i] }).0;
+            numbers[i] =
+                facts.push(Fact { atom, value, derived: derived[i] || compared[i], compares: compared[i] }).0;
         }
         if a < known {
             status.push(match kept {
@@ -73,10 +86,20 @@ pub(crate) fn finish(
             rules.push(AxiomRule { head: FactId(numbers[*head as usize]), body });
         }
     }
-    let cost_scale =
-        if costs.is_unit() { 1 } else { scale(&raw.operators.iter().map(|o| o.cost).collect::<Vec<_>>()) };
-    let operators: IndexVec<_, _> =
-        raw.operators.iter().filter_map(|o| view.operator(o, cost_scale)).collect();
+    let chosen = Chosen::of(&raw, &pruned, fluents, &costs.measure);
+    let (mut operators, mut amounts) = (IndexVec::new(), Vec::new());
+    for own in &raw.operators {
+        let Some(operator) = view.operator(own, &chosen) else { continue };
+        amounts.push(if chosen.metric.is_some() {
+            chosen.guess(operator.numeric.as_deref())
+        } else {
+            own.cost
+        });
+        operators.push(operator);
+    }
+    let cost_scale = set_costs(&mut operators, &amounts, costs);
+    let fact = |atom: u32| (numbers[atom as usize] != NONE).then(|| FactId(numbers[atom as usize]));
+    let compared = comparisons(&raw, &chosen, fact);
     drop(raw.operators);
 
     let axioms = AxiomProgram::new(&facts, rules).map_err(|cycle| {
@@ -88,7 +111,11 @@ pub(crate) fn finish(
             span: axiom.map_or(problem.goal_span, |x| x.span),
         }
     })?;
-    let mut state = State::empty(facts.len());
+    let Chosen { fluents, stored, metric, .. } = chosen;
+    let effects = operators.iter_mut().filter_map(|o: &mut Operator| o.numeric.as_deref_mut());
+    let numeric = Numeric::new(facts.len().div_ceil(64), fluents, stored, compared, effects);
+    let mut state = State::empty(facts.len(), numeric.words());
+    numeric.initialise(state.words_mut());
     for &a in initial {
         if numbers[a as usize] != NONE {
             state.insert(FactId(numbers[a as usize]));
@@ -99,7 +126,7 @@ pub(crate) fn finish(
     let mutexes = Mutexes::new(facts.len(), &groups, &operators, &state);
     let tree = || SuccessorTree::new(facts.len(), &operators);
     let relaxation = || {
-        let relaxation = Relaxation::new(&facts, &operators, &axioms, &goal);
+        let relaxation = Relaxation::new(&facts, &operators, &axioms, &numeric, &goal);
         (undominated(&relaxation), relaxation)
     };
     let (successors, (undominated, relaxation)) = if operators.len() < PARALLEL {
@@ -127,6 +154,8 @@ pub(crate) fn finish(
         status,
         names,
         cost_scale,
+        numeric,
+        metric,
     })
 }
 
@@ -145,14 +174,34 @@ fn groups(exclusions: &Exclusions, numbers: &[u32], known: u32) -> Vec<Vec<u32>>
     groups
 }
 
-struct View<'a> {
+/// Makes integers of the costs; gives the scale.
+fn set_costs(operators: &mut IndexVec<OperatorId, Operator>, amounts: &[f64], costs: &CostModel) -> u32 {
+    // Where nothing costs anything, fewer steps are better.
+    if costs.is_unit() || (matches!(costs.measure, Measure::Value(_)) && amounts.iter().all(|&a| a == 0.0)) {
+        operators.iter_mut().for_each(|operator| operator.cost = 1);
+        return 1;
+    }
+    let scale = scale(amounts);
+    for (operator, amount) in operators.iter_mut().zip(amounts) {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "not negative; saturates"
+        )]
+        let cost = (amount * f64::from(scale)).round() as u32;
+        operator.cost = cost;
+    }
+    scale
+}
+
+pub(super) struct View<'a> {
     pruned: &'a Pruned,
     numbers: &'a [u32],
 }
 
 impl View<'_> {
     /// The facts of a conjunction; `None` if it never holds.
-    fn literals(&self, literals: &[Lit]) -> Option<Literals> {
+    pub(super) fn literals(&self, literals: &[Lit]) -> Option<Literals> {
         let (mut positive, mut negative) = (0, 0);
         for &l in literals {
             match self.pruned.constant(l) {
@@ -186,7 +235,7 @@ impl View<'_> {
     }
 
     /// The operator, unless it can never be applied or changes nothing that is needed.
-    fn operator(&self, raw: &RawOperator, cost_scale: u32) -> Option<Operator> {
+    fn operator(&self, raw: &RawOperator, chosen: &Chosen) -> Option<Operator> {
         let (adds, deletes) = self.effects(&raw.effects);
         let mut conditional = Vec::new();
         for (condition, effects) in &raw.conditional {
@@ -196,16 +245,12 @@ impl View<'_> {
                 conditional.push(ConditionalEffect { condition, adds, deletes });
             }
         }
-        if adds.is_empty() && deletes.is_empty() && conditional.is_empty() {
+        let numeric = chosen.effects(raw, self);
+        let counts = numeric.as_ref().is_some_and(|effects| !effects.updates.is_empty());
+        if adds.is_empty() && deletes.is_empty() && conditional.is_empty() && !counts {
             return None;
         }
         let precondition = self.literals(&raw.precondition)?;
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "not negative; saturates"
-        )]
-        let cost = (raw.cost * f64::from(cost_scale)).round() as u32;
         Some(Operator {
             action: raw.action,
             arguments: raw.arguments.clone(),
@@ -213,7 +258,8 @@ impl View<'_> {
             adds,
             deletes,
             conditional: conditional.into(),
-            cost,
+            numeric,
+            cost: 1,
         })
     }
 }

@@ -10,7 +10,10 @@
 
 use super::error::{Feature, GroundError, Origin};
 use super::universe::{Range, Universe};
-use pddl::model::{Condition, ConditionKind, PredicateId, Term, VariableId};
+use crate::number::Relation;
+use pddl::model::{
+    Comparison, Condition, ConditionKind, Expression, ExpressionKind, PredicateId, Term, VariableId,
+};
 use std::sync::Arc;
 
 /// An atom or its negation over terms.
@@ -40,6 +43,29 @@ pub(crate) enum Formula {
         term: Term,
         range: Arc<Range>,
     },
+    /// How `left - right` relates to 0. Without a value it is in no relation, so negation is another
+    /// relation and not the opposite truth.
+    Compare {
+        relation: Relation,
+        left: Arc<Expression>,
+        right: Arc<Expression>,
+    },
+}
+
+/// The relation of a comparison or of its negation, and whether its sides are to be swapped.
+fn relation(comparison: Comparison, positive: bool) -> (Relation, bool) {
+    match (comparison, positive) {
+        (Comparison::Greater, true) => (Relation::Positive, false),
+        (Comparison::GreaterEqual, true) => (Relation::NonNegative, false),
+        (Comparison::Less, true) => (Relation::Positive, true),
+        (Comparison::LessEqual, true) => (Relation::NonNegative, true),
+        (Comparison::Equal, true) => (Relation::Zero, false),
+        (Comparison::Equal, false) => (Relation::NonZero, false),
+        (Comparison::Greater, false) => (Relation::NonNegative, true),
+        (Comparison::GreaterEqual, false) => (Relation::Positive, true),
+        (Comparison::Less, false) => (Relation::NonNegative, false),
+        (Comparison::LessEqual, false) => (Relation::Positive, false),
+    }
 }
 
 impl Formula {
@@ -87,8 +113,14 @@ impl Formula {
             (ConditionKind::HasType(term, types), _) => {
                 Self::OneOf { positive, term: *term, range: universe.range(types) }
             }
-            (ConditionKind::Compare(..), _) => return unsupported(Feature::NumericFluents),
-            (ConditionKind::FluentIs(..), _) => return unsupported(Feature::ObjectFluents),
+            (ConditionKind::Compare(comparison, left, right), _) => {
+                let (relation, swapped) = relation(*comparison, positive);
+                let (left, right) = if swapped { (right, left) } else { (left, right) };
+                let share = |side: &Expression| Arc::new(side.clone());
+                Self::Compare { relation, left: share(left), right: share(right) }
+            }
+            // These became atoms before.
+            (ConditionKind::FluentIs(..), _) => return unsupported(Feature::OutsideTheModel),
         })
     }
 
@@ -122,7 +154,7 @@ impl Formula {
     fn rank(&self) -> u8 {
         match self {
             Self::Same { .. } | Self::OneOf { .. } => 0,
-            Self::Literal(_) => 1,
+            Self::Literal(_) | Self::Compare { .. } => 1,
             Self::And(_) => 2,
             Self::Or(_) => 3,
             Self::Exists(..) => 4,
@@ -187,6 +219,15 @@ impl Formula {
             Self::Literal(literal) => literal.arguments.iter().for_each(term),
             Self::Same { left, right, .. } => [left, right].into_iter().for_each(term),
             Self::OneOf { term: of, .. } => term(of),
+            Self::Compare { left, right, .. } => {
+                for side in [left, right] {
+                    side.each(&mut |part| {
+                        if let ExpressionKind::Fluent(fluent) = &part.kind {
+                            fluent.arguments.iter().for_each(&mut term);
+                        }
+                    });
+                }
+            }
         }
     }
 
@@ -236,7 +277,7 @@ impl Formula {
         match self {
             Self::And(parts) | Self::Or(parts) => parts.iter().map(Self::leaves).sum(),
             Self::Exists(_, inner) | Self::Forall(_, inner) => inner.leaves(),
-            Self::Literal(_) | Self::Same { .. } | Self::OneOf { .. } => 1,
+            Self::Literal(_) | Self::Same { .. } | Self::OneOf { .. } | Self::Compare { .. } => 1,
         }
     }
 

@@ -10,7 +10,9 @@ use super::budget::Guard;
 use super::cost::resolve;
 use super::error::GroundOptions;
 use super::exclusion::{Exclusions, Marks};
+use super::fluents::{Fluents, Key};
 use super::formula::{Formula, Literal};
+use super::numbers::{Comparison, Numbers};
 use super::universe::Range;
 use crate::ids::id32;
 use pddl::model::VariableId;
@@ -30,6 +32,8 @@ pub(crate) enum Ground {
     Conjunction(Vec<Lit>),
     And(Vec<Ground>),
     Or(Vec<Ground>),
+    /// A comparison, and whether it must hold or must not.
+    Compare(Box<Comparison<Key>>),
 }
 
 /// Folds formulas and keeps the auxiliary atoms that they need.
@@ -39,6 +43,9 @@ pub(crate) struct Instantiator<'a> {
     pub(crate) exclusions: &'a Exclusions,
     pub(crate) marks: Marks,
     pub(super) guard: Guard<'a>,
+    pub(crate) fluents: &'a Fluents,
+    /// Fluents and comparisons met.
+    pub(crate) numbers: Numbers,
     auxiliary: FxHashMap<Vec<Vec<Lit>>, u32>,
     /// Rules of the auxiliary atoms: head, body.
     pub(crate) rules: Vec<(u32, Vec<Lit>)>,
@@ -50,11 +57,12 @@ impl<'a> Instantiator<'a> {
         table: &'a AtomTable,
         is_static: &'a [bool],
         exclusions: &'a Exclusions,
+        fluents: &'a Fluents,
         options: &'a GroundOptions<'a>,
     ) -> Self {
-        let (next, marks) = (id32(table.len()), Marks::new(exclusions));
+        let (next, marks, numbers) = (id32(table.len()), Marks::new(exclusions), Numbers::default());
         let (auxiliary, rules, guard) = (FxHashMap::default(), Vec::new(), Guard::new(options));
-        Self { table, is_static, exclusions, marks, guard, auxiliary, rules, next }
+        Self { table, is_static, exclusions, marks, guard, fluents, numbers, auxiliary, rules, next }
     }
 
     /// Atoms of the table, then auxiliary ones.
@@ -90,6 +98,9 @@ impl<'a> Instantiator<'a> {
                 } else {
                     Ground::False
                 }
+            }
+            Formula::Compare { relation, left, right } => {
+                Comparison::fold(*relation, left, right, self.fluents, binding)
             }
             Formula::Same { positive, left, right } => {
                 if (resolve(*left, binding) == resolve(*right, binding)) == *positive {
@@ -220,6 +231,10 @@ impl<'a> Instantiator<'a> {
                 out.extend(literals);
                 true
             }
+            Ground::Compare(comparison) => {
+                out.push(self.comparison(&comparison) << 1);
+                true
+            }
             Ground::And(parts) => parts.into_iter().all(|p| self.collect(p, out)),
             Ground::Or(options) => {
                 let mut rows: Vec<Vec<Lit>> =
@@ -233,6 +248,13 @@ impl<'a> Instantiator<'a> {
                 true
             }
         }
+    }
+
+    /// The atom that says whether a comparison holds.
+    pub(crate) fn comparison(&mut self, comparison: &Comparison<Key>) -> u32 {
+        let known = self.numbers.comparison(comparison, self.next);
+        self.next = self.next.max(known + 1);
+        known
     }
 
     fn auxiliary(&mut self, rows: Vec<Vec<Lit>>) -> u32 {

@@ -15,9 +15,12 @@ mod cost;
 mod error;
 mod exclusion;
 mod finish;
+mod fluents;
 mod formula;
 mod instantiate;
 mod join;
+mod measure;
+mod numbers;
 mod plan;
 mod prune;
 mod raw;
@@ -30,12 +33,14 @@ pub(crate) use atoms::AtomTable;
 pub use error::{Feature, GroundError, GroundOptions, Origin};
 
 use crate::task::{Names, Task};
-use cost::CostModel;
+use cost::{CostModel, Measure, metric_span};
 use exclusion::Exclusions;
+use fluents::Fluents;
 use formula::Formula;
 use pddl::Diagnostic;
 use pddl::model::Feature as Language;
 use pddl::model::{Domain, Effect, EffectKind, Idx, PredicateId, Problem};
+use raw::Failure;
 use universe::Universe;
 pub(crate) use values::ValuePredicates;
 
@@ -50,9 +55,36 @@ pub fn ground(domain: &Domain, problem: &Problem, options: &GroundOptions<'_>) -
         Some((domain, problem, values)) => (domain, problem, values.clone()),
         None => (domain, problem, ValuePredicates::none(domain)),
     };
-    let costs = CostModel::new(domain, problem)?;
+    match build(domain, problem, values.clone(), options, true) {
+        Err(Failure::NegativeCost) => build(domain, problem, values, options, false),
+        result => result,
+    }
+    .map_err(|failure| match failure {
+        Failure::Ground(error) => error,
+        // Costs that are evaluated along the plan are never negative ones.
+        Failure::NegativeCost => GroundError::Unsupported {
+            feature: Feature::OptimalMetric,
+            origin: Origin::Problem,
+            span: metric_span(problem),
+        },
+    })
+}
+
+/// Grounds a model without object fluents. `additive` says whether costs may be tried to be summed up.
+fn build(
+    domain: &Domain,
+    problem: &Problem,
+    values: ValuePredicates,
+    options: &GroundOptions<'_>,
+    additive: bool,
+) -> Result<Task, Failure> {
+    let mut fluents = Fluents::new(domain, problem)?;
+    let costs = CostModel::new(domain, problem, &fluents, additive);
+    if let Measure::Value(metric) = &costs.measure {
+        fluents.reads(&metric.expression, Origin::Problem)?;
+    }
     let mut universe = Universe::new(domain, problem);
-    let schemas = schema::schemas(domain, &mut universe, &costs)?;
+    let schemas = schema::schemas(domain, &mut universe, &costs, &fluents)?;
     let is_static = static_predicates(domain, options.exogenous);
 
     let mut table = AtomTable::new(domain.predicates.len(), problem.objects.len());
@@ -79,21 +111,22 @@ pub fn ground(domain: &Domain, problem: &Problem, options: &GroundOptions<'_>) -
     let slots = universe.slots(&problem.goal_variables);
     let exclusions =
         Exclusions::new(domain, problem, &values, options.exogenous, &reached.table, statics, &initial);
+    let models = (&costs, &fluents);
     let raw = raw::instantiate(
         &schemas,
         &reached,
         &is_static,
         &exclusions,
-        &costs,
+        models,
         &values,
         (&goal, &slots),
         options,
     )?;
     let names = Names::of(domain, problem, values);
-    finish::finish(
+    Ok(finish::finish(
         domain,
         problem,
-        &costs,
+        models,
         reached.table,
         raw,
         &exclusions,
@@ -101,7 +134,7 @@ pub fn ground(domain: &Domain, problem: &Problem, options: &GroundOptions<'_>) -
         &initial,
         names,
         options,
-    )
+    )?)
 }
 
 fn ids_of(table: &AtomTable) -> u32 {

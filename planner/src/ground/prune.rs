@@ -8,8 +8,10 @@
 //! Source: Helmert, "The Fast Downward planning system", JAIR 2006, §5.1 (relevance); Helmert 2009.
 
 use super::instantiate::Lit;
+use super::numbers::{Comparison, RawChange};
 use super::raw::{RawEffects, RawTask};
 use crate::ids::id32;
+use crate::number::{Expression, Influence};
 
 /// What is known of each atom.
 pub(crate) struct Pruned {
@@ -19,6 +21,10 @@ pub(crate) struct Pruned {
     pub(crate) never: Vec<bool>,
     /// Read by the goal, a condition of a useful operator, or the outside.
     pub(crate) needed: Vec<bool>,
+    /// Numeric fluents that something needed reads.
+    pub(crate) read: Vec<bool>,
+    /// Numeric fluents that only the metric reads.
+    pub(crate) measured: Vec<bool>,
 }
 
 impl Pruned {
@@ -69,6 +75,8 @@ pub(crate) fn prune(raw: &RawTask, initial: &[bool], derived: &[bool], exogenous
         always: (0..n).map(|a| !derived[a] && !reached[a << 1 | 1]).collect(),
         never: (0..n).map(|a| !reached[a << 1]).collect(),
         needed: vec![false; n],
+        read: vec![false; raw.numbers.keys.len()],
+        measured: vec![false; raw.numbers.keys.len()],
     };
     loop {
         let mut changed = false;
@@ -90,10 +98,14 @@ pub(crate) fn prune(raw: &RawTask, initial: &[bool], derived: &[bool], exogenous
 fn reachable(raw: &RawTask, initial: &[bool], derived: &[bool], exogenous: &[bool]) -> Vec<bool> {
     let mut nodes =
         Nodes { missing: Vec::new(), effects: Vec::new(), effect_ends: vec![0], pairs: Vec::new() };
+    let readers = readers(raw);
     for op in &raw.operators {
         nodes.push([&op.precondition, &[]], &op.effects);
         for (condition, effects) in &op.conditional {
             nodes.push([&op.precondition, condition], effects);
+        }
+        for change in &op.numbers {
+            nodes.push([&op.precondition, &change.condition], &influenced(raw, &readers, change));
         }
     }
     for (head, body) in &raw.rules {
@@ -163,6 +175,57 @@ fn grouped(pairs: &[(u32, u32)]) -> Vec<(u32, u32)> {
     sorted
 }
 
+/// By numeric fluent: positions of the comparisons that read it.
+fn readers(raw: &RawTask) -> Vec<Vec<u32>> {
+    let mut readers = vec![Vec::new(); raw.numbers.keys.len()];
+    for (position, (_, comparison)) in (0..).zip(&raw.numbers.atoms) {
+        comparison.expression.each_fluent(&mut |&fluent| readers[fluent as usize].push(position));
+    }
+    readers
+}
+
+/// The comparisons that a change may make true and false.
+fn influenced(raw: &RawTask, readers: &[Vec<u32>], change: &RawChange) -> RawEffects {
+    let mut effects = RawEffects::default();
+    for &position in &readers[change.fluent as usize] {
+        let (atom, comparison) = &raw.numbers.atoms[position as usize];
+        let compared = (comparison.relation, &comparison.expression);
+        let influence = Influence::of(compared, &change.fluent, change.change, change.value.as_ref());
+        if influence.may_hold {
+            effects.adds.push(*atom);
+        }
+        if influence.may_fail {
+            effects.deletes.push(*atom);
+        }
+    }
+    effects
+}
+
+/// Marks what the metric reads, directly or through effects; gives the changes of that.
+fn measured<'r>(raw: &'r RawTask, changed_by: &[(u32, u32)], pruned: &mut Pruned) -> Vec<&'r RawChange> {
+    let mut queue = Vec::new();
+    let mark = |expression: &Expression<u32>, pruned: &mut Pruned, queue: &mut Vec<u32>| {
+        expression.each_fluent(&mut |&fluent| {
+            if !std::mem::replace(&mut pruned.measured[fluent as usize], true) {
+                queue.push(fluent);
+            }
+        });
+    };
+    let mut changes = Vec::new();
+    raw.metric.iter().for_each(|metric| mark(metric, pruned, &mut queue));
+    while let Some(fluent) = queue.pop() {
+        let of = raw.atoms + fluent;
+        let from = changed_by.partition_point(|&(a, _)| a < of);
+        for &(_, i) in changed_by[from..].iter().take_while(|&&(a, _)| a == of) {
+            for change in raw.operators[i as usize].numbers.iter().filter(|c| c.fluent == fluent) {
+                change.value.iter().for_each(|value| mark(value, pruned, &mut queue));
+                changes.push(change);
+            }
+        }
+    }
+    changes
+}
+
 fn relevance(raw: &RawTask, exogenous: &[bool], pruned: &mut Pruned) {
     // By atom: the operators that change it and the rules that derive it (numbered after them).
     let n = raw.atoms as usize;
@@ -174,7 +237,13 @@ fn relevance(raw: &RawTask, exogenous: &[bool], pruned: &mut Pruned) {
         }
     }
     changed_by.extend(raw.rules.iter().enumerate().map(|(i, (head, _))| (*head, id32(operators + i))));
+    // Numeric fluents come after the atoms.
+    for (i, op) in raw.operators.iter().enumerate() {
+        changed_by.extend(op.numbers.iter().map(|change| (raw.atoms + change.fluent, id32(i))));
+    }
     let changed_by = grouped(&changed_by);
+    let mut compared: Vec<Option<&Comparison<u32>>> = vec![None; n];
+    raw.numbers.atoms.iter().for_each(|(atom, comparison)| compared[*atom as usize] = Some(comparison));
     let mut queue: Vec<u32> = Vec::new();
     let need = |l: Lit, pruned: &mut Pruned, queue: &mut Vec<u32>| {
         let atom = (l >> 1) as usize;
@@ -182,14 +251,27 @@ fn relevance(raw: &RawTask, exogenous: &[bool], pruned: &mut Pruned) {
             queue.push(l >> 1);
         }
     };
+    let read = |expression: &Expression<u32>, pruned: &mut Pruned, queue: &mut Vec<u32>| {
+        expression.each_fluent(&mut |&fluent| {
+            if !std::mem::replace(&mut pruned.read[fluent as usize], true) {
+                queue.push(raw.atoms + fluent);
+            }
+        });
+    };
     for &l in &raw.goal {
         need(l, pruned, &mut queue);
+    }
+    for change in measured(raw, &changed_by, pruned) {
+        change.condition.iter().for_each(|&l| need(l, pruned, &mut queue));
     }
     for a in (0..n).filter(|&a| exogenous[a]) {
         need(id32(a) << 1, pruned, &mut queue);
     }
     let mut seen = vec![false; operators + raw.rules.len()];
     while let Some(atom) = queue.pop() {
+        if let Some(comparison) = compared.get(atom as usize).copied().flatten() {
+            read(&comparison.expression, pruned, &mut queue);
+        }
         let from = changed_by.partition_point(|&(a, _)| a < atom);
         for &(_, i) in changed_by[from..].iter().take_while(|&&(a, _)| a == atom) {
             let i = i as usize;
@@ -205,6 +287,12 @@ fn relevance(raw: &RawTask, exogenous: &[bool], pruned: &mut Pruned) {
             }
             if !std::mem::replace(&mut seen[i], true) {
                 op.precondition.iter().for_each(|&l| need(l, pruned, &mut queue));
+            }
+            for change in op.numbers.iter().filter(|c| raw.atoms + c.fluent == atom) {
+                if !pruned.is_refuted(&change.condition) {
+                    change.condition.iter().for_each(|&l| need(l, pruned, &mut queue));
+                    change.value.iter().for_each(|value| read(value, pruned, &mut queue));
+                }
             }
             for (condition, effects) in &op.conditional {
                 let touches = effects.adds.contains(&atom) || effects.deletes.contains(&atom);

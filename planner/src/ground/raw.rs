@@ -6,15 +6,18 @@
 
 use super::atoms::AtomTable;
 use super::budget::{self, Stop};
-use super::cost::{CostModel, CostTerm, resolve};
-use super::error::{Feature, GroundError, GroundOptions, Origin};
+use super::cost::{CostModel, Measure, NoCost, resolve};
+use super::error::{GroundError, GroundOptions};
 use super::exclusion::Exclusions;
+use super::fluents::Fluents;
 use super::formula::Formula;
 use super::instantiate::{Ground, Instantiator, Lit, consistent};
 use super::join::{Bindings, Reached};
+use super::numbers::{Numbers, RawChange, changes};
 use super::schema::{Product, Schema, SchemaEffect};
 use super::values::ValuePredicates;
 use crate::ids::id32;
+use crate::number::Expression;
 use pddl::model::{ActionId, Name, ObjectId, VariableId};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
@@ -29,6 +32,9 @@ pub(crate) struct RawEffects {
     pub(crate) deletes: Vec<u32>,
 }
 
+/// Condition, whether it adds, atom.
+type GroundEffect = (Vec<Lit>, bool, u32);
+
 /// An operator over atoms of the table.
 #[derive(Clone, Debug)]
 pub(crate) struct RawOperator {
@@ -38,6 +44,7 @@ pub(crate) struct RawOperator {
     pub(crate) effects: RawEffects,
     pub(crate) conditional: Vec<(Vec<Lit>, RawEffects)>,
     pub(crate) cost: f64,
+    pub(crate) numbers: Vec<RawChange>,
 }
 
 impl RawOperator {
@@ -60,6 +67,23 @@ pub(crate) struct RawTask {
     pub(crate) exclusive: Option<(u32, u32)>,
     /// Atoms of the table, then auxiliary ones.
     pub(crate) atoms: u32,
+    /// Numeric fluents, and comparisons of them among the auxiliary atoms.
+    pub(crate) numbers: Numbers,
+    /// What plans are measured by, if that is no sum of costs.
+    pub(crate) metric: Option<Expression<u32>>,
+}
+
+/// Why there are no instances.
+pub(crate) enum Failure {
+    Ground(GroundError),
+    /// Costs are no sum: an operator improves the metric.
+    NegativeCost,
+}
+
+impl From<GroundError> for Failure {
+    fn from(error: GroundError) -> Self {
+        Self::Ground(error)
+    }
 }
 
 /// Instantiates everything.
@@ -69,12 +93,12 @@ pub(crate) fn instantiate(
     reached: &Reached,
     is_static: &[bool],
     exclusions: &Exclusions,
-    costs: &CostModel<'_>,
+    (costs, fluents): (&CostModel, &Fluents),
     values: &ValuePredicates,
     goal: (&Formula, &[std::sync::Arc<super::universe::Range>]),
     options: &GroundOptions<'_>,
-) -> Result<RawTask, GroundError> {
-    let mut work = Instantiator::new(&reached.table, is_static, exclusions, options);
+) -> Result<RawTask, Failure> {
+    let mut work = Instantiator::new(&reached.table, is_static, exclusions, fluents, options);
     let mut operators = Vec::new();
     let mut bytes = 0;
     let mut rules = Vec::new();
@@ -83,16 +107,16 @@ pub(crate) fn instantiate(
         let mut seen = FxHashSet::default();
         for row in 0..bindings.rows {
             if row.is_multiple_of(1024) && (options.interrupted)() {
-                return Err(GroundError::Interrupted { schema: schema.name.clone() });
+                return Err(GroundError::Interrupted { schema: schema.name.clone() }.into());
             }
             if bytes > options.bytes() {
-                return Err(stopped(Stop::Memory, schema, bindings.rows));
+                return Err(stopped(Stop::Memory, schema, bindings.rows).into());
             }
             work.guard.begin();
             bind(schema, bindings, row, &mut binding);
             let condition = work.fold(&schema.condition, &schema.slots, &mut binding);
             if let Some(stop) = work.guard.stopped() {
-                return Err(stopped(stop, schema, bindings.rows));
+                return Err(stopped(stop, schema, bindings.rows).into());
             }
             match &schema.product {
                 Product::Axiom { predicate, arguments } => {
@@ -102,19 +126,30 @@ pub(crate) fn instantiate(
                         rules.push((head, body));
                     }
                 }
-                Product::Action { id, effects, costs: terms } => {
+                Product::Action { id, effects, costs: terms, numbers } => {
                     let alternatives = work.alternatives(condition, COPIES);
                     if alternatives.is_empty() {
                         continue;
                     }
                     let arguments = &binding[..schema.parameters];
                     let arguments: Box<[ObjectId]> = arguments.iter().map(|&o| ObjectId(o)).collect();
-                    let cost = cost(costs, terms, &binding)?;
+                    let cost = match costs.cost(fluents, terms, &binding) {
+                        Ok(cost) => cost,
+                        Err(NoCost::Inapplicable) => continue,
+                        Err(NoCost::Negative) => return Err(Failure::NegativeCost),
+                    };
                     let all = expand(&mut work, schema, effects, &mut binding);
                     if let Some(stop) = work.guard.stopped() {
-                        return Err(stopped(stop, schema, bindings.rows));
+                        return Err(stopped(stop, schema, bindings.rows).into());
                     }
-                    let clashes = clashes(work.table, values, &all);
+                    let mut clashes = clashes(work.table, values, &all);
+                    let Some(changes) = changes(&mut work, schema, numbers, &mut binding, &mut clashes)
+                    else {
+                        continue;
+                    };
+                    if let Some(stop) = work.guard.stopped() {
+                        return Err(stopped(stop, schema, bindings.rows).into());
+                    }
                     for precondition in alternatives {
                         let Some(precondition) = work.without(precondition, &clashes) else { continue };
                         // Hoisted variables may leave no trace: one operator of equals is enough.
@@ -123,7 +158,7 @@ pub(crate) fn instantiate(
                         {
                             continue;
                         }
-                        let new = operator(&mut work, *id, &arguments, precondition, &all, cost);
+                        let new = operator(&mut work, *id, &arguments, precondition, (&all, &changes), cost);
                         bytes += new.bytes();
                         operators.push(new);
                     }
@@ -143,7 +178,7 @@ pub(crate) fn instantiate(
         }
     }
     if let Some(stop) = work.guard.stopped() {
-        return Err(stopped_at(stop, Name::new("goal"), 1));
+        return Err(stopped_at(stop, Name::new("goal"), 1).into());
     }
     let mut exclusive = None;
     match consistent(literals) {
@@ -157,7 +192,13 @@ pub(crate) fn instantiate(
         }
     }
     rules.append(&mut work.rules);
-    Ok(RawTask { operators, rules, goal: literals, refuted, exclusive, atoms: work.atoms() })
+    let metric = match &costs.measure {
+        Measure::Value(metric) => fluents.fold(&metric.expression, &[]).ok(),
+        Measure::Length | Measure::Sum { .. } => None,
+    };
+    let metric = metric.map(|metric| work.numbers.expression(&metric));
+    let (atoms, numbers) = (work.atoms(), work.numbers);
+    Ok(RawTask { operators, rules, goal: literals, refuted, exclusive, atoms, numbers, metric })
 }
 
 fn stopped(stop: Stop, schema: &Schema, instances: usize) -> GroundError {
@@ -192,21 +233,13 @@ fn bind(schema: &Schema, bindings: &Bindings, row: usize, binding: &mut [u32]) {
     }
 }
 
-fn cost(costs: &CostModel<'_>, terms: &[CostTerm], binding: &[u32]) -> Result<f64, GroundError> {
-    costs.cost(terms, binding).map_err(|span| GroundError::Unsupported {
-        feature: Feature::NegativeCost,
-        origin: Origin::Domain,
-        span,
-    })
-}
-
 /// All ground effects: condition, whether it adds, atom.
 fn expand(
     work: &mut Instantiator<'_>,
     schema: &Schema,
     effects: &[SchemaEffect],
     binding: &mut [u32],
-) -> Vec<(Vec<Lit>, bool, u32)> {
+) -> Vec<GroundEffect> {
     let mut found = Vec::with_capacity(effects.len());
     for effect in effects {
         if effect.is_simple() {
@@ -245,8 +278,8 @@ fn expand(
 }
 
 /// Conditions under which an object fluent would get two values at once.
-fn clashes(table: &AtomTable, values: &ValuePredicates, effects: &[(Vec<Lit>, bool, u32)]) -> Vec<Vec<Lit>> {
-    let given = |(condition, positive, atom): &(Vec<Lit>, bool, u32)| {
+fn clashes(table: &AtomTable, values: &ValuePredicates, effects: &[GroundEffect]) -> Vec<Vec<Lit>> {
+    let given = |(condition, positive, atom): &GroundEffect| {
         let is_value = *positive && values.function(table.predicate(*atom)).is_some();
         is_value.then(|| (condition.clone(), *atom))
     };
@@ -274,7 +307,12 @@ fn are_rivals(table: &AtomTable, values: &ValuePredicates, a: u32, b: u32) -> bo
         && table.row(a).split_last().map(|(_, fluent)| fluent) == table.row(b).split_last().map(|(_, f)| f)
 }
 
-fn each_binding(vs: &[VariableId], schema: &Schema, binding: &mut [u32], f: &mut dyn FnMut(&mut [u32])) {
+pub(super) fn each_binding(
+    vs: &[VariableId],
+    schema: &Schema,
+    binding: &mut [u32],
+    f: &mut dyn FnMut(&mut [u32]),
+) {
     match vs.split_first() {
         None => f(binding),
         Some((first, rest)) => {
@@ -291,32 +329,36 @@ fn operator(
     action: ActionId,
     arguments: &[ObjectId],
     mut precondition: Vec<Lit>,
-    effects: &[(Vec<Lit>, bool, u32)],
+    (effects, changes): (&[GroundEffect], &[RawChange]),
     cost: f64,
 ) -> RawOperator {
     let mut always = RawEffects::default();
     let mut by_condition: BTreeMap<Vec<Lit>, RawEffects> = BTreeMap::new();
     // Leaves the groups of the precondition marked.
     work.without_implied(&mut precondition);
+    let marks = &work.marks;
+    // What the precondition excludes does not hold, and need not be deleted.
+    let is_absent =
+        |atom: u32| precondition.binary_search(&(atom << 1)).is_err() && marks.exclude(work.exclusions, atom);
+    let contradicts = |condition: &[Lit]| {
+        let absent = condition.iter().any(|&l| l & 1 == 0 && is_absent(l >> 1));
+        absent || condition.iter().any(|l| precondition.binary_search(&(l ^ 1)).is_ok())
+    };
+    let given = |l: Lit| precondition.binary_search(&l).is_ok() || (l & 1 == 1 && is_absent(l >> 1));
     for (condition, positive, atom) in effects {
-        // What the precondition excludes does not hold, and need not be deleted.
-        let is_absent = |atom: u32| {
-            precondition.binary_search(&(atom << 1)).is_err() && work.marks.exclude(work.exclusions, atom)
-        };
-        let refuted = |&l: &Lit| l & 1 == 0 && is_absent(l >> 1);
-        if (!positive && is_absent(*atom)) || condition.iter().any(refuted) {
+        if (!positive && is_absent(*atom)) || contradicts(condition) {
             continue;
         }
-        if condition.iter().any(|l| precondition.binary_search(&(l ^ 1)).is_ok()) {
-            continue;
-        }
-        let given = |l: Lit| precondition.binary_search(&l).is_ok() || (l & 1 == 1 && is_absent(l >> 1));
         let open: Vec<Lit> = condition.iter().copied().filter(|&l| !given(l)).collect();
         let into = if open.is_empty() { &mut always } else { by_condition.entry(open).or_default() };
         (if *positive { &mut into.adds } else { &mut into.deletes }).push(*atom);
     }
+    let mut numbers: Vec<RawChange> =
+        changes.iter().filter(|change| !contradicts(&change.condition)).cloned().collect();
+    numbers.iter_mut().for_each(|change| change.condition.retain(|&l| !given(l)));
     RawOperator {
         action,
+        numbers,
         arguments: arguments.into(),
         precondition,
         effects: tidy(always),

@@ -2,10 +2,14 @@
 
 use super::budget;
 use super::cost::{CostModel, CostTerm};
-use super::error::{Feature, GroundError, Origin};
+use super::error::{GroundError, Origin};
+use super::fluents::Fluents;
 use super::formula::Formula;
 use super::universe::{Range, Universe};
-use pddl::model::{Action, ActionId, Axiom, Domain, Effect, EffectKind, Name, PredicateId, Term, VariableId};
+use pddl::model::{
+    Action, ActionId, Application, AssignOperator, AssignedValue, Axiom, Domain, Effect, EffectKind,
+    Expression, Name, PredicateId, Term, VariableId,
+};
 use std::sync::Arc;
 
 /// An effect under its quantifiers and conditions.
@@ -24,11 +28,31 @@ impl SchemaEffect {
     }
 }
 
+/// A numeric effect under its quantifiers and conditions.
+#[derive(Clone, Debug)]
+pub(crate) struct NumericEffect {
+    pub(crate) quantified: Vec<VariableId>,
+    pub(crate) condition: Formula,
+    pub(crate) operator: AssignOperator,
+    pub(crate) fluent: Application,
+    /// `None` takes the value away.
+    pub(crate) value: Option<Expression>,
+}
+
+/// What an action does to numbers.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct NumericEffects {
+    /// Of fluents that something reads.
+    pub(crate) changes: Vec<NumericEffect>,
+    /// Changes of fluents that nothing reads by what is static: all of this must have a value.
+    pub(crate) defined: Vec<(AssignOperator, Application, Expression)>,
+}
+
 /// What a schema's instances are.
 #[derive(Clone, Debug)]
 pub(crate) enum Product {
     /// Operators.
-    Action { id: ActionId, effects: Vec<SchemaEffect>, costs: Vec<CostTerm> },
+    Action { id: ActionId, effects: Vec<SchemaEffect>, costs: Vec<CostTerm>, numbers: NumericEffects },
     /// Rules for this head.
     Axiom { predicate: PredicateId, arguments: Box<[Term]> },
 }
@@ -63,11 +87,12 @@ const RULES_PER_AXIOM: usize = 32;
 pub(crate) fn schemas(
     domain: &Domain,
     universe: &mut Universe<'_>,
-    costs: &CostModel<'_>,
+    costs: &CostModel,
+    fluents: &Fluents,
 ) -> Result<Vec<Schema>, GroundError> {
     let mut found = Vec::new();
     for (id, action) in domain.actions.enumerate() {
-        found.push(of_action(id, action, universe, costs)?);
+        found.push(of_action(id, action, universe, costs, fluents)?);
     }
     for axiom in &domain.axioms {
         of_axiom(domain, axiom, universe, &mut found)?;
@@ -79,20 +104,21 @@ fn of_action(
     id: ActionId,
     action: &Action,
     universe: &mut Universe<'_>,
-    costs: &CostModel<'_>,
+    costs: &CostModel,
+    fluents: &Fluents,
 ) -> Result<Schema, GroundError> {
     let mut hoisted = Vec::new();
     let condition = Formula::of(&action.precondition, true, Origin::Domain, universe)?.hoisted(&mut hoisted);
-    let mut product = (Vec::new(), Vec::new());
-    collect(&action.effect, &[], &Formula::always(), costs, universe, &mut product)?;
-    let (effects, costs) = product;
+    let mut product = Collected::default();
+    collect(&action.effect, &Around::nothing(), (costs, fluents), universe, &mut product)?;
+    let Collected { effects, costs, numbers } = product;
     Ok(Schema {
         name: action.name.clone(),
         slots: universe.slots(&action.variables),
         parameters: action.variables.parameters,
         hoisted,
         condition,
-        product: Product::Action { id, effects, costs },
+        product: Product::Action { id, effects, costs, numbers },
     })
 }
 
@@ -121,18 +147,41 @@ fn of_axiom(
     Ok(())
 }
 
+#[derive(Default)]
+struct Collected {
+    effects: Vec<SchemaEffect>,
+    costs: Vec<CostTerm>,
+    numbers: NumericEffects,
+}
+
+/// What is around an effect. An atom may be added once per witness of an existential condition, so these
+/// are quantified like universal ones; a number must not be increased once per witness.
+#[derive(Clone)]
+struct Around {
+    quantified: Vec<VariableId>,
+    condition: Formula,
+    universal: Vec<VariableId>,
+    exact: Formula,
+}
+
+impl Around {
+    fn nothing() -> Self {
+        let always = Formula::always;
+        Self { quantified: Vec::new(), condition: always(), universal: Vec::new(), exact: always() }
+    }
+}
+
 fn collect(
     effect: &Effect,
-    quantified: &[VariableId],
-    condition: &Formula,
-    costs: &CostModel<'_>,
+    around: &Around,
+    models: (&CostModel, &Fluents),
     universe: &mut Universe<'_>,
-    out: &mut (Vec<SchemaEffect>, Vec<CostTerm>),
+    out: &mut Collected,
 ) -> Result<(), GroundError> {
     let mut push = |positive, atom: &pddl::model::Atom| {
-        out.0.push(SchemaEffect {
-            quantified: quantified.to_vec(),
-            condition: condition.clone(),
+        out.effects.push(SchemaEffect {
+            quantified: around.quantified.clone(),
+            condition: around.condition.clone(),
             positive,
             predicate: atom.predicate,
             arguments: atom.arguments.clone().into(),
@@ -141,33 +190,46 @@ fn collect(
     match &effect.kind {
         EffectKind::And(parts) => {
             for part in parts {
-                collect(part, quantified, condition, costs, universe, out)?;
+                collect(part, around, models, universe, out)?;
             }
         }
         EffectKind::Add(atom) => push(true, atom),
         EffectKind::Delete(atom) => push(false, atom),
         EffectKind::Forall(vs, inner) => {
-            let mut all = quantified.to_vec();
-            all.extend(vs);
-            collect(inner, &all, condition, costs, universe, out)?;
+            let mut all = around.clone();
+            all.quantified.extend(vs);
+            all.universal.extend(vs);
+            collect(inner, &all, models, universe, out)?;
         }
         EffectKind::When(when, inner) => {
-            let mut all = quantified.to_vec();
-            let when = Formula::of(when, true, Origin::Domain, universe)?.hoisted(&mut all);
-            let both = Formula::and(vec![condition.clone(), when]);
-            collect(inner, &all, &both, costs, universe, out)?;
+            let mut all = around.clone();
+            let when = Formula::of(when, true, Origin::Domain, universe)?;
+            all.exact = Formula::and(vec![all.exact, when.clone()]);
+            let when = when.hoisted(&mut all.quantified);
+            all.condition = Formula::and(vec![all.condition, when]);
+            collect(inner, &all, models, universe, out)?;
         }
         EffectKind::Assign(operator, application, value) => {
-            let conditional = !quantified.is_empty() || !condition.conjuncts().is_empty();
-            if let Some(term) = costs.effect(*operator, application, value, effect.span)? {
-                if conditional {
-                    return Err(GroundError::Unsupported {
-                        feature: Feature::ConditionalCost,
-                        origin: Origin::Domain,
-                        span: effect.span,
-                    });
+            let (costs, fluents) = models;
+            out.costs.extend(costs.term(*operator, application, value));
+            let value = match value {
+                AssignedValue::Number(expression) => Some(expression.clone()),
+                AssignedValue::Object(_) | AssignedValue::Undefined => None,
+            };
+            let simple = around.universal.is_empty() && around.exact.conjuncts().is_empty();
+            match value {
+                Some(value)
+                    if simple && !fluents.is_tracked(application.function) && fluents.is_static(&value) =>
+                {
+                    out.numbers.defined.push((*operator, application.clone(), value));
                 }
-                out.1.push(term);
+                value => out.numbers.changes.push(NumericEffect {
+                    quantified: around.universal.clone(),
+                    condition: around.exact.clone(),
+                    operator: *operator,
+                    fluent: application.clone(),
+                    value,
+                }),
             }
         }
     }

@@ -8,6 +8,7 @@
 //! Source: Richter & Westphal, "The LAMA planner", JAIR 2010, §6; restarts: Richter, Thayer & Ruml, "The
 //! joy of forgetting: faster anytime search via restarting", ICAPS 2010.
 
+use super::configuration::LAMA;
 use super::elimination::without_needless;
 use super::lazy::{Lazy, LazySettings};
 use super::portfolio::{self, Sink, Threads};
@@ -52,6 +53,9 @@ pub fn improve(
         return Improved { report, quality: Quality::Unproven(Limit::Incomplete) };
     };
     on_plan(first);
+    if !task.has_additive_costs() {
+        return improve_metric(task, query, report, budget, on_plan);
+    }
     if configuration.optimal {
         return Improved { report, quality: Quality::Optimal };
     }
@@ -76,12 +80,47 @@ pub fn improve(
         Sink::Better(&mut better),
     );
     let quality = match more.outcome {
-        Outcome::Unsolvable(_) => Quality::Optimal,
+        Outcome::Unsolvable(_) if !task.numeric.has_overflowed() => Quality::Optimal,
+        Outcome::Unsolvable(_) | Outcome::Unsupported(_) => Quality::Unproven(Limit::Incomplete),
         Outcome::LimitReached(limit) => Quality::Unproven(limit),
         Outcome::Solved(_) => Quality::Unproven(Limit::Incomplete),
     };
     report.statistics += more.statistics;
     report.outcome = Outcome::Solved(best);
+    Improved { report, quality }
+}
+
+/// Improves a metric that is no sum of costs: no bound holds, so searches of several kinds go on past
+/// the plans that they find, and each plan that measures better is handed on. Nothing is proven.
+fn improve_metric(
+    task: &Task,
+    query: &Query<'_>,
+    mut report: Report,
+    budget: &Budget<'_>,
+    on_plan: &mut (dyn FnMut(&Plan) + Send),
+) -> Improved {
+    const ENGINES: &[(Engine, u32)] = &[(Engine::Improving, 1), (LAMA, 1)];
+    let Outcome::Solved(first) = &report.outcome else {
+        return Improved { report, quality: Quality::Unproven(Limit::Incomplete) };
+    };
+    let mut best = (task.quality(query.state, &first.operators), first.clone());
+    let bound = Bound::none();
+    let expansions = budget.expansions.map(|e| e.saturating_sub(report.statistics.expanded));
+    let rest = Budget { expansions, ..*budget };
+    let mut better = |plan: &Plan| {
+        let quality = task.quality(query.state, &plan.operators);
+        if quality.is_some_and(|new| best.0.is_none_or(|old| new.is_below(old))) {
+            best = (quality, plan.clone());
+            on_plan(plan);
+        }
+    };
+    let more = portfolio::run(task, query, ENGINES, Threads::One, &bound, &rest, Sink::Every(&mut better));
+    let quality = match more.outcome {
+        Outcome::LimitReached(limit) => Quality::Unproven(limit),
+        _ => Quality::Unproven(Limit::Incomplete),
+    };
+    report.statistics += more.statistics;
+    report.outcome = Outcome::Solved(best.1);
     Improved { report, quality }
 }
 

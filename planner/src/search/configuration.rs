@@ -96,7 +96,7 @@ const fn bfws(width: Width, count: Count) -> Engine {
     Engine::Bfws(BfwsSettings { width, count })
 }
 
-const LAMA: Engine = lazy(&[Ff, Landmarks], &[Ff, Landmarks]);
+pub(super) const LAMA: Engine = lazy(&[Ff, Landmarks], &[Ff, Landmarks]);
 const LANDMARKS: Engine = lazy(&[Landmarks], &[]);
 const BFWS_LANDMARKS: Engine = bfws(Width::AnyOne, Count::Landmarks);
 const BFWS: Engine = bfws(Width::AnyOne, Count::Goals);

@@ -34,7 +34,13 @@ pub(crate) fn without_needless(task: &Task, query: &Query<'_>, plan: &Plan) -> P
         std::mem::swap(&mut state, &mut next);
         i += 1;
     }
-    Plan::of(task, kept)
+    let shorter = Plan::of(task, kept);
+    // A step that the goal does not need may be good for the metric.
+    let measure = |plan: &Plan| task.quality(query.state, &plan.operators);
+    match (measure(plan), measure(&shorter)) {
+        (Some(whole), Some(less)) if whole.is_below(less) => plan.clone(),
+        _ => shorter,
+    }
 }
 
 /// The steps after the first, as far as they can be done without it, if they reach the goal.

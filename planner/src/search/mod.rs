@@ -36,6 +36,7 @@ pub(crate) use query::Barred;
 pub use query::Query;
 pub(crate) use searcher::Searcher;
 
+use crate::ground::Feature;
 use crate::heuristics::{Combine, Costs, Explorer};
 use crate::task::{Impossible, Task};
 use portfolio::Sink;
@@ -47,6 +48,10 @@ pub fn solve(
     configuration: &SearchConfiguration,
     budget: &Budget<'_>,
 ) -> Report {
+    if configuration.optimal && !task.has_additive_costs() {
+        let outcome = Outcome::Unsupported(Feature::OptimalMetric);
+        return Report { outcome, statistics: Statistics::default() };
+    }
     if let Some(reason) = &query.goal.impossible {
         return Report::unsolvable(UnsolvableReason::Impossible(reason.clone()));
     }
@@ -55,6 +60,9 @@ pub fn solve(
     }
     let SearchConfiguration { members, threads, .. } = *configuration;
     let mut report = portfolio::run(task, query, members, threads, &Bound::none(), budget, Sink::First);
+    if task.numeric.has_overflowed() && matches!(report.outcome, Outcome::Unsolvable(_)) {
+        report.outcome = Outcome::LimitReached(Limit::Incomplete);
+    }
     if let Outcome::Solved(plan) = &mut report.outcome
         && !configuration.optimal
     {

@@ -1,6 +1,7 @@
 //! What comes of a search.
 
 use super::Limit;
+use crate::ground::Feature;
 use crate::ids::OperatorId;
 use crate::task::{Impossible, Task};
 
@@ -38,6 +39,8 @@ pub enum Outcome {
     Unsolvable(UnsolvableReason),
     /// No answer within the budget.
     LimitReached(Limit),
+    /// The configuration cannot answer this for such a task.
+    Unsupported(Feature),
 }
 
 /// What a search did.

@@ -39,6 +39,8 @@ pub(crate) enum Sink<'s> {
     First,
     /// Each that is cheaper than all before is handed on, and the searches continue below its cost.
     Better(&'s mut (dyn FnMut(&Plan) + Send)),
+    /// Each is handed on, and the searches continue.
+    Every(&'s mut (dyn FnMut(&Plan) + Send)),
 }
 
 /// A search with its share.
@@ -195,6 +197,10 @@ impl<'a, 's> Portfolio<'a, 's> {
                         pool.keep(member);
                         self.over.store(true, Relaxed);
                     }
+                    Sink::Every(report) => {
+                        report(&plan);
+                        pool.keep(member);
+                    }
                     Sink::Better(report) => {
                         if plan.cost < self.bound.get() {
                             self.bound.lower(plan.cost);
@@ -204,7 +210,7 @@ impl<'a, 's> Portfolio<'a, 's> {
                     }
                 }
             }
-            Some(answer @ Outcome::Unsolvable(_)) => {
+            Some(answer @ (Outcome::Unsolvable(_) | Outcome::Unsupported(_))) => {
                 pool.answer.get_or_insert(answer);
                 pool.keep(member);
                 self.over.store(true, Relaxed);

@@ -277,7 +277,7 @@ mod tests {
         ) {
             let mut facts: IndexVec<FactId, Fact> = IndexVec::new();
             (0..BASIC + 3 * EACH).for_each(|f| {
-                facts.push(Fact { atom: None, value: None, derived: f >= BASIC });
+                facts.push(Fact { atom: None, value: None, derived: f >= BASIC, compares: false });
             });
             let literals = |facts: &[u32]| {
                 let mut sorted: Vec<FactId> = facts.iter().map(|&f| FactId(f)).collect();

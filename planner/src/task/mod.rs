@@ -8,8 +8,11 @@
 
 mod axioms;
 mod domination;
+mod fluents;
+mod metric;
 mod mutexes;
 mod names;
+mod numeric;
 mod operator;
 mod relaxation;
 mod state;
@@ -18,9 +21,11 @@ mod successors;
 pub(crate) use axioms::AxiomProgram;
 pub use axioms::AxiomRule;
 pub(crate) use domination::undominated;
+pub(crate) use metric::Metric;
 pub(crate) use mutexes::variables;
 pub use mutexes::{Mutexes, Variable};
 pub(crate) use names::Names;
+pub(crate) use numeric::{Fluent, Numeric, NumericEffects, Update, changed};
 pub use operator::{ConditionalEffect, Goal, Impossible, Literals, Operator};
 pub(crate) use relaxation::{AXIOM, Relaxation, Rows};
 pub use state::State;
@@ -56,8 +61,10 @@ pub struct Fact {
     pub atom: Option<GroundAtom>,
     /// The object fluent whose value it tells, if it does.
     pub value: Option<ObjectValue>,
-    /// Whether axioms decide it.
+    /// Whether axioms or numbers decide it.
     pub derived: bool,
+    /// Whether it compares numbers.
+    pub compares: bool,
 }
 
 /// What grounding found out about a ground atom.
@@ -87,6 +94,9 @@ pub struct Task {
     pub(crate) cost_scale: u32,
     pub(crate) mutexes: Mutexes,
     pub(crate) variables: Vec<Variable>,
+    pub(crate) numeric: Numeric,
+    /// `None` where costs add up to it.
+    pub(crate) metric: Option<Metric>,
     pub(crate) successors: SuccessorTree,
     pub(crate) relaxation: Relaxation,
     /// The relaxation without what other operators do as well.
@@ -158,9 +168,10 @@ impl Task {
     }
 
     /// The state in which of the basic facts exactly these hold; derived ones follow by the axioms
-    /// (those listed are ignored).
+    /// (those listed are ignored). Numbers are what they are initially.
     pub fn state(&self, facts: impl IntoIterator<Item = FactId>) -> State {
-        let mut state = State::empty(self.facts.len());
+        let mut state = State::empty(self.facts.len(), self.numeric.words());
+        self.numeric.initialise(state.words_mut());
         for fact in facts {
             if !self.facts[fact].derived {
                 state.insert(fact);
@@ -196,7 +207,11 @@ impl Task {
 
     /// Turns `next`, a copy of `state`, into the successor.
     pub(crate) fn apply(&self, operator: OperatorId, state: &[u64], next: &mut [u64]) {
-        self.operators[operator].apply(state, next);
+        let own = &self.operators[operator];
+        own.apply(state, next);
+        if let Some(effects) = &own.numeric {
+            self.numeric.apply(effects, state, next);
+        }
         self.axioms.update(state, next);
     }
 

@@ -66,6 +66,10 @@ impl Task {
             (None, Some(ObjectValue { fluent, object })) => {
                 format!("(= {} {})", self.names.fluent(fluent), self.names.objects[*object])
             }
+            (None, None) if self.facts[fact].compares => {
+                let own = self.numeric.comparisons.iter().find(|c| c.fact == fact);
+                own.map_or_else(String::new, |c| self.comparison_name(c.relation, &c.expression))
+            }
             (None, None) => format!("(auxiliary-{})", fact.0),
         }
     }

@@ -1,6 +1,6 @@
 //! Ground operators, conjunctions of literals, goals.
 
-use super::{GroundAtom, contains, set, unset};
+use super::{GroundAtom, NumericEffects, contains, set, unset};
 use crate::ids::FactId;
 use pddl::model::{ActionId, ObjectId};
 
@@ -57,19 +57,27 @@ pub struct Operator {
     pub deletes: Box<[FactId]>,
     /// What else happens.
     pub conditional: Box<[ConditionalEffect]>,
+    /// What it does to numbers.
+    pub(crate) numeric: Option<Box<NumericEffects>>,
     /// Its cost in units of `1 / Task::cost_scale`.
     pub cost: u32,
 }
 
 impl Operator {
+    /// Whether it changes numbers that something reads.
+    pub fn changes_numbers(&self) -> bool {
+        self.numeric.as_ref().is_some_and(|effects| !effects.updates.is_empty())
+    }
+
     /// Bytes that it holds, about.
     pub(crate) fn memory_bytes(&self) -> usize {
         let facts = |c: &Literals| 4 * c.len();
         let more = |e: &ConditionalEffect| 100 + facts(&e.condition) + 4 * (e.adds.len() + e.deletes.len());
         let own =
             4 * (self.arguments.len() + self.adds.len() + self.deletes.len()) + facts(&self.precondition);
+        let numbers = self.numeric.as_ref().map_or(0, |e| 200 * (1 + e.updates.len() + e.metric.len()));
         // Four boxes of their own.
-        size_of::<Self>() + 64 + own + self.conditional.iter().map(more).sum::<usize>()
+        size_of::<Self>() + 64 + own + numbers + self.conditional.iter().map(more).sum::<usize>()
     }
 
     pub(crate) fn apply(&self, state: &[u64], next: &mut [u64]) {

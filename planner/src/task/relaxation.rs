@@ -8,7 +8,7 @@
 //!
 //! Source: Hoffmann & Nebel, "The FF planning system", JAIR 2001, §3; negations as in Helmert 2006.
 
-use super::{AxiomProgram, Fact, Goal, Literals, Operator, contains, for_each_set};
+use super::{AxiomProgram, Fact, Goal, Literals, Numeric, Operator, contains, for_each_set};
 use crate::ids::{FactId, OperatorId, id32};
 use pddl::model::{Idx, IndexVec};
 
@@ -89,12 +89,15 @@ impl Relaxation {
         facts: &IndexVec<FactId, Fact>,
         operators: &IndexVec<OperatorId, Operator>,
         axioms: &AxiomProgram,
+        numeric: &Numeric,
         goal: &Goal,
     ) -> Self {
         let mut graph = Self { facts: facts.len(), negation: vec![0; facts.len()], ..Self::default() };
-        let conditions = operators
-            .iter()
-            .flat_map(|o| std::iter::once(&o.precondition).chain(o.conditional.iter().map(|e| &e.condition)));
+        let conditions = operators.iter().flat_map(|o| {
+            let updates = o.numeric.iter().flat_map(|e| e.updates.iter());
+            let conditional = o.conditional.iter().map(|e| &e.condition);
+            std::iter::once(&o.precondition).chain(conditional).chain(updates.map(|u| &u.condition))
+        });
         for literals in conditions.chain(axioms.rules().iter().map(|r| &r.body)).chain([&goal.literals]) {
             for &f in &literals.negative {
                 if graph.negation[f.index()] == 0 {
@@ -109,6 +112,9 @@ impl Relaxation {
         }
         for (id, op) in operators.enumerate() {
             graph.node(id.0, op.cost, &[&op.precondition], &op.adds, &op.deletes);
+            for (condition, holds, fails) in op.numeric.iter().flat_map(|e| numeric.influences(e)) {
+                graph.node(id.0, op.cost, &[&op.precondition, condition], &holds, &fails);
+            }
             for e in &op.conditional {
                 graph.node(id.0, op.cost, &[&op.precondition, &e.condition], &e.adds, &e.deletes);
             }
@@ -194,7 +200,7 @@ impl Relaxation {
 
     /// Calls `f` with every proposition that is true in the state.
     pub(crate) fn for_each_true(&self, words: &[u64], mut f: impl FnMut(u32)) {
-        for_each_set(words, &mut f);
+        for_each_set(&words[..self.facts.div_ceil(64)], &mut f);
         for (i, &fact) in self.negated.iter().enumerate() {
             if !contains(words, fact) {
                 f(id32(self.facts + i));

@@ -1,5 +1,7 @@
 //! States as bit sets over facts.
 //!
+//! Numbers, where a task has any, follow the facts in words of their own (`numeric`).
+//!
 //! Idea: one bit a fact, 64 to a word, so that a literal of either sign is one test and copying a
 //! state is a `memcpy`. The free functions work on borrowed words, because a search keeps its states
 //! in one arena.
@@ -10,11 +12,15 @@ use crate::ids::{FactId, id32};
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct State {
     words: Box<[u64]>,
+    /// How many of the words are facts.
+    facts: usize,
 }
 
 impl State {
-    pub(crate) fn empty(facts: usize) -> Self {
-        Self { words: vec![0; facts.div_ceil(64)].into_boxed_slice() }
+    /// Of so many facts, and so many words of numbers.
+    pub(crate) fn empty(facts: usize, numbers: usize) -> Self {
+        let facts = facts.div_ceil(64);
+        Self { words: vec![0; facts + numbers].into_boxed_slice(), facts }
     }
 
     /// Whether the fact holds.
@@ -25,7 +31,7 @@ impl State {
     /// The facts that hold, in order of their ids.
     pub fn facts(&self) -> Vec<FactId> {
         let mut facts = Vec::new();
-        for_each_set(&self.words, |f| facts.push(FactId(f)));
+        for_each_set(&self.words[..self.facts], |f| facts.push(FactId(f)));
         facts
     }
 

@@ -1,6 +1,4 @@
 (define (domain tank)
-  (:requirements :strips :numeric-fluents)
+  (:requirements :strips :durative-actions)
   (:predicates (full))
-  (:functions (level))
-  (:action pour :parameters () :effect (increase (level) 0.1))
-  (:action stop :parameters () :precondition (>= (level) 0.3) :effect (full)))
+  (:durative-action pour :parameters () :duration (= ?duration 3) :condition (and) :effect (at end (full))))

@@ -1,0 +1,6 @@
+(define (domain tank)
+  (:requirements :strips :numeric-fluents)
+  (:predicates (full))
+  (:functions (level))
+  (:action pour :parameters () :effect (increase (level) 0.1))
+  (:action stop :parameters () :precondition (>= (level) 0.3) :effect (full)))

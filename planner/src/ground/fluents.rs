@@ -1,0 +1,210 @@
+//! Numeric fluents before grounding: initial values, and which functions change and are read.
+//!
+//! Idea: a function that no action changes is a table of constants, and expressions fold over it. Of
+//! the others only those that something reads are worth a place in the state. Undefined initial values
+//! are no entries; `total-cost` starts at 0 even where `:init` forgets to say so.
+
+use super::cost::resolve;
+use super::error::{Feature, GroundError, Origin};
+use crate::number::{Expression, NoValue, Number};
+use pddl::Span;
+use pddl::model::{
+    ArithmeticOperator, AssignOperator, AssignedValue, Condition, ConditionKind, Domain, Effect, EffectKind,
+    Expression as Written, ExpressionKind, FluentValue, FunctionId, Problem,
+};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// A numeric fluent: its function and its arguments.
+pub(crate) type Key = (FunctionId, Box<[u32]>);
+
+/// Stands for `total-time`, which is how many steps a plan has.
+pub(crate) const STEPS: FunctionId = FunctionId(u32::MAX);
+
+/// What the model says of numeric fluents.
+pub(crate) struct Fluents {
+    values: FxHashMap<Key, Number>,
+    /// Some action changes it.
+    changed: FxHashSet<FunctionId>,
+    /// Some action assigns it, so that what has no value may get one.
+    assigned: FxHashSet<FunctionId>,
+    /// Some action takes its value away.
+    undefined: FxHashSet<FunctionId>,
+    /// Some condition, effect or metric reads it.
+    read: FxHashSet<FunctionId>,
+}
+
+impl Fluents {
+    pub(crate) fn new(domain: &Domain, problem: &Problem) -> Result<Self, GroundError> {
+        let mut fluents = Self {
+            values: FxHashMap::default(),
+            changed: FxHashSet::default(),
+            assigned: FxHashSet::default(),
+            undefined: FxHashSet::default(),
+            read: FxHashSet::default(),
+        };
+        if let Some(id) = domain.function("total-cost")
+            && domain.functions[id].variables.parameters == 0
+        {
+            fluents.values.insert((id, Box::default()), Number::ZERO);
+        }
+        for fluent in &problem.fluents {
+            if let FluentValue::Number(value) = fluent.value {
+                let row = fluent.application.arguments.iter().map(|o| o.0).collect();
+                let number = Number::from_f64(value).ok_or(large(Origin::Problem, fluent.span))?;
+                fluents.values.insert((fluent.application.function, row), number);
+            }
+        }
+        for action in &domain.actions {
+            fluents.condition(&action.precondition, Origin::Domain)?;
+            fluents.effect(&action.effect)?;
+        }
+        for axiom in &domain.axioms {
+            fluents.condition(&axiom.body, Origin::Domain)?;
+        }
+        fluents.condition(&problem.goal, Origin::Problem)?;
+        Ok(fluents)
+    }
+
+    fn condition(&mut self, condition: &Condition, origin: Origin) -> Result<(), GroundError> {
+        match &condition.kind {
+            ConditionKind::And(parts) | ConditionKind::Or(parts) => {
+                parts.iter().try_for_each(|part| self.condition(part, origin))
+            }
+            ConditionKind::Not(inner) | ConditionKind::Exists(_, inner) | ConditionKind::Forall(_, inner) => {
+                self.condition(inner, origin)
+            }
+            ConditionKind::Imply(left, right) => {
+                self.condition(left, origin)?;
+                self.condition(right, origin)
+            }
+            ConditionKind::Compare(_, left, right) => {
+                self.reads(left, origin)?;
+                self.reads(right, origin)
+            }
+            ConditionKind::Atom(_)
+            | ConditionKind::HasType(..)
+            | ConditionKind::Same(..)
+            | ConditionKind::FluentIs(..) => Ok(()),
+        }
+    }
+
+    fn effect(&mut self, effect: &Effect) -> Result<(), GroundError> {
+        match &effect.kind {
+            EffectKind::And(parts) => parts.iter().try_for_each(|part| self.effect(part)),
+            EffectKind::Forall(_, inner) => self.effect(inner),
+            EffectKind::When(when, inner) => {
+                self.condition(when, Origin::Domain)?;
+                self.effect(inner)
+            }
+            EffectKind::Assign(operator, application, value) => {
+                self.changed.insert(application.function);
+                if *operator == AssignOperator::Assign {
+                    self.assigned.insert(application.function);
+                }
+                match value {
+                    AssignedValue::Number(expression) => self.reads(expression, Origin::Domain)?,
+                    AssignedValue::Undefined => {
+                        self.undefined.insert(application.function);
+                    }
+                    AssignedValue::Object(_) => {}
+                }
+                Ok(())
+            }
+            EffectKind::Add(_) | EffectKind::Delete(_) => Ok(()),
+        }
+    }
+
+    /// Marks what an expression reads.
+    pub(crate) fn reads(&mut self, expression: &Written, origin: Origin) -> Result<(), GroundError> {
+        let mut large_at = None;
+        expression.each(&mut |part| match &part.kind {
+            ExpressionKind::Fluent(application) => {
+                self.read.insert(application.function);
+            }
+            ExpressionKind::Number(value) if Number::from_f64(*value).is_none() => large_at = Some(part.span),
+            _ => {}
+        });
+        large_at.map_or(Ok(()), |span| Err(large(origin, span)))
+    }
+
+    pub(crate) fn initial(&self, key: &Key) -> Option<Number> {
+        self.values.get(key).copied()
+    }
+
+    pub(crate) fn changes(&self, function: FunctionId) -> bool {
+        self.changed.contains(&function)
+    }
+
+    /// Whether a fluent may have no value in some state.
+    pub(crate) fn may_be_undefined(&self, key: &Key) -> bool {
+        self.undefined.contains(&key.0) || !self.values.contains_key(key)
+    }
+
+    /// Whether a fluent has a value in some state.
+    pub(crate) fn may_be_defined(&self, key: &Key) -> bool {
+        self.assigned.contains(&key.0) || self.values.contains_key(key)
+    }
+
+    /// Whether states may have to hold it. Of the others, who changes one needs only that it has a
+    /// value, and the initial value tells.
+    pub(crate) fn is_tracked(&self, function: FunctionId) -> bool {
+        let among = |set: &FxHashSet<FunctionId>| set.contains(&function);
+        among(&self.read) || among(&self.assigned) || among(&self.undefined)
+    }
+
+    /// Whether its value is the same in all states.
+    pub(crate) fn is_static(&self, expression: &Written) -> bool {
+        let mut fixed = true;
+        expression.each(&mut |part| {
+            fixed &= match &part.kind {
+                ExpressionKind::Fluent(application) => !self.changes(application.function),
+                ExpressionKind::Number(_) | ExpressionKind::Arithmetic(..) => true,
+                ExpressionKind::Duration | ExpressionKind::TotalTime | ExpressionKind::IsViolated(_) => false,
+            };
+        });
+        fixed
+    }
+
+    /// An expression under a binding, constants folded.
+    pub(crate) fn fold(&self, expression: &Written, binding: &[u32]) -> Result<Expression<Key>, NoValue> {
+        match &expression.kind {
+            ExpressionKind::Number(value) => {
+                Number::from_f64(*value).map(Expression::constant).ok_or(NoValue::Overflow)
+            }
+            ExpressionKind::Fluent(application) => {
+                let row = application.arguments.iter().map(|&t| resolve(t, binding)).collect();
+                let key = (application.function, row);
+                match self.initial(&key) {
+                    Some(value) if !self.changes(key.0) => Ok(Expression::constant(value)),
+                    _ if self.may_be_defined(&key) => Ok(Expression::fluent(key)),
+                    _ => Err(NoValue::Undefined),
+                }
+            }
+            ExpressionKind::Arithmetic(operator, parts) => {
+                let mut parts = parts.iter().map(|part| self.fold(part, binding));
+                let first = parts.next().unwrap_or(Ok(Expression::constant(Number::ZERO)))?;
+                if *operator == ArithmeticOperator::Subtract && parts.len() == 0 {
+                    return first.negated();
+                }
+                parts.try_fold(first, |sum, part| match operator {
+                    ArithmeticOperator::Add => sum.plus(part?),
+                    ArithmeticOperator::Subtract => sum.minus(part?),
+                    ArithmeticOperator::Multiply => sum.times(part?),
+                    ArithmeticOperator::Divide => sum.over(part?),
+                })
+            }
+            // In a metric alone: what counts the steps.
+            ExpressionKind::TotalTime => Ok(Expression::fluent((STEPS, Box::default()))),
+            ExpressionKind::Duration | ExpressionKind::IsViolated(_) => Err(NoValue::Undefined),
+        }
+    }
+
+    /// The value of an expression that is static.
+    pub(crate) fn value(&self, expression: &Written, binding: &[u32]) -> Result<Number, NoValue> {
+        self.fold(expression, binding)?.as_constant().ok_or(NoValue::Undefined)
+    }
+}
+
+fn large(origin: Origin, span: Span) -> GroundError {
+    GroundError::Unsupported { feature: Feature::LargeNumbers, origin, span }
+}

@@ -1,0 +1,231 @@
+//! Numeric effects and comparisons under a binding.
+//!
+//! Idea: a comparison of what changes is an atom like any other, except that numbers decide it; so
+//! operators, goals, axioms and every search take numeric conditions without knowing. What would make
+//! an action have no result (a value that is undefined, two changes of one fluent that disagree)
+//! becomes part of its precondition. Invariant: an instance is applicable exactly where its action is.
+
+use super::cost::resolve;
+use super::fluents::{Fluents, Key};
+use super::instantiate::{Ground, Instantiator, Lit, consistent};
+use super::raw::each_binding;
+use super::schema::{NumericEffects, Schema};
+use crate::ids::id32;
+use crate::number::{Change, Expression, NoValue, Number, Relation};
+use pddl::model::{AssignOperator, Expression as Written};
+use rustc_hash::FxHashMap;
+
+/// An expression in a relation to 0.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Comparison<V> {
+    pub(crate) relation: Relation,
+    pub(crate) expression: Expression<V>,
+}
+
+impl Comparison<Key> {
+    pub(crate) fn fold(
+        relation: Relation,
+        left: &Written,
+        right: &Written,
+        fluents: &Fluents,
+        binding: &[u32],
+    ) -> Ground {
+        let difference = || fluents.fold(left, binding)?.minus(fluents.fold(right, binding)?);
+        let Ok(expression) = difference() else { return Ground::False };
+        match expression.as_constant() {
+            Some(value) if relation.holds(value.sign()) => Ground::True,
+            Some(_) => Ground::False,
+            None => Ground::Compare(Box::new(Self { relation, expression })),
+        }
+    }
+}
+
+/// A change of a numeric fluent.
+#[derive(Clone, Debug)]
+pub(crate) struct RawChange {
+    pub(crate) condition: Vec<Lit>,
+    pub(crate) fluent: u32,
+    pub(crate) change: Change,
+    /// `None` takes the value away.
+    pub(crate) value: Option<Expression<u32>>,
+}
+
+/// Fluents and comparisons, numbered as they are met.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Numbers {
+    fluents: FxHashMap<Key, u32>,
+    pub(crate) keys: Vec<Key>,
+    comparisons: FxHashMap<Comparison<u32>, u32>,
+    /// Atoms of comparisons.
+    pub(crate) atoms: Vec<(u32, Comparison<u32>)>,
+}
+
+impl Numbers {
+    pub(crate) fn fluent(&mut self, key: &Key) -> u32 {
+        if let Some(&known) = self.fluents.get(key) {
+            return known;
+        }
+        let next = id32(self.keys.len());
+        self.keys.push(key.clone());
+        self.fluents.insert(key.clone(), next);
+        next
+    }
+
+    pub(crate) fn expression(&mut self, expression: &Expression<Key>) -> Expression<u32> {
+        expression.map(&mut |key| self.fluent(key))
+    }
+
+    /// The atom of a comparison: `next` if it was not met before.
+    pub(crate) fn comparison(&mut self, comparison: &Comparison<Key>, next: u32) -> u32 {
+        let own =
+            Comparison { relation: comparison.relation, expression: self.expression(&comparison.expression) };
+        if let Some(&atom) = self.comparisons.get(&own) {
+            return atom;
+        }
+        self.atoms.push((next, own.clone()));
+        self.comparisons.insert(own, next);
+        next
+    }
+}
+
+/// A change before its fluents are numbered.
+struct Instance {
+    condition: Vec<Lit>,
+    fluent: Key,
+    change: Change,
+    value: Option<Expression<Key>>,
+}
+
+/// The numeric effects of an instance of a schema. Conjunctions under which they have no result are
+/// added to `never`; `None` if they never have one.
+pub(crate) fn changes(
+    work: &mut Instantiator<'_>,
+    schema: &Schema,
+    effects: &NumericEffects,
+    binding: &mut [u32],
+    never: &mut Vec<Vec<Lit>>,
+) -> Option<Vec<RawChange>> {
+    let fluents = work.fluents;
+    for (operator, application, value) in &effects.defined {
+        let row = application.arguments.iter().map(|&t| resolve(t, binding)).collect();
+        fluents.initial(&(application.function, row))?;
+        let value = fluents.value(value, binding).ok()?;
+        if *operator == AssignOperator::ScaleDown && value.is_zero() {
+            return None;
+        }
+    }
+    let mut instances: Vec<Instance> = Vec::new();
+    for effect in &effects.changes {
+        each_binding(&effect.quantified, schema, binding, &mut |binding| {
+            let condition = work.fold(&effect.condition, &schema.slots, binding);
+            let Some(condition) = work.conjunction(condition) else { return };
+            let row = effect.fluent.arguments.iter().map(|&t| resolve(t, binding)).collect();
+            let fluent = (effect.fluent.function, row);
+            let (change, value) = match &effect.value {
+                None => (Change::Assign, Ok(None)),
+                Some(value) => {
+                    let (change, value) = folded(effect.operator, value, fluents, binding);
+                    (change, value.map(Some))
+                }
+            };
+            match value {
+                Ok(value) if change == Change::Assign || fluents.may_be_defined(&fluent) => {
+                    instances.push(Instance { condition, fluent, change, value });
+                }
+                _ => never.push(condition),
+            }
+        });
+    }
+    for instance in &instances {
+        undefined(work, instance, never);
+    }
+    for (i, first) in instances.iter().enumerate() {
+        for second in instances[i + 1..].iter().filter(|s| s.fluent == first.fluent) {
+            clash(work, first, second, never);
+        }
+    }
+    if never.iter().any(Vec::is_empty) {
+        return None;
+    }
+    // A fluent assigned the same value twice is assigned once.
+    let mut found: Vec<RawChange> = Vec::new();
+    for Instance { condition, fluent, change, value } in instances {
+        let value = value.map(|value| work.numbers.expression(&value));
+        let raw = RawChange { condition, fluent: work.numbers.fluent(&fluent), change, value };
+        let again = found.iter().any(|known| {
+            change == Change::Assign
+                && known.change == change
+                && known.fluent == raw.fluent
+                && known.value == raw.value
+                && known.condition == raw.condition
+        });
+        if !again {
+            found.push(raw);
+        }
+    }
+    Some(found)
+}
+
+fn folded(
+    operator: AssignOperator,
+    value: &Written,
+    fluents: &Fluents,
+    binding: &[u32],
+) -> (Change, Result<Expression<Key>, NoValue>) {
+    let value = fluents.fold(value, binding);
+    match operator {
+        AssignOperator::Assign => (Change::Assign, value),
+        AssignOperator::Increase => (Change::Shift, value),
+        AssignOperator::Decrease => (Change::Shift, value.and_then(Expression::negated)),
+        AssignOperator::ScaleUp => (Change::Scale, value),
+        AssignOperator::ScaleDown => {
+            (Change::Scale, value.and_then(|value| Expression::constant(Number::ONE).over(value)))
+        }
+    }
+}
+
+/// Forbids what would read a fluent without a value or divide by 0.
+fn undefined(work: &mut Instantiator<'_>, instance: &Instance, never: &mut Vec<Vec<Lit>>) {
+    let fluents = work.fluents;
+    let mut must = Vec::new();
+    if instance.change != Change::Assign && fluents.may_be_undefined(&instance.fluent) {
+        must.push(Expression::fluent(instance.fluent.clone()));
+    }
+    if let Some(value) = &instance.value {
+        let mut open = value.divides();
+        value.each_fluent(&mut |key| open |= fluents.may_be_undefined(key));
+        if open {
+            must.push(value.clone());
+        }
+    }
+    for expression in must {
+        let atom = work.comparison(&Comparison { relation: Relation::Defined, expression });
+        let both = instance.condition.iter().copied().chain([atom << 1 | 1]);
+        never.extend(consistent(both.collect()));
+    }
+}
+
+/// Forbids that both changes of one fluent happen and disagree.
+fn clash(work: &mut Instantiator<'_>, first: &Instance, second: &Instance, never: &mut Vec<Vec<Lit>>) {
+    let mut both: Vec<Lit> = first.condition.iter().chain(&second.condition).copied().collect();
+    match (first.change, second.change) {
+        (Change::Shift, Change::Shift) | (Change::Scale, Change::Scale) => return,
+        (Change::Assign, Change::Assign) => match (&first.value, &second.value) {
+            (None, None) => return,
+            (Some(a), Some(b)) => {
+                let Ok(expression) = a.clone().minus(b.clone()) else { return };
+                match expression.as_constant() {
+                    Some(difference) if difference.is_zero() => return,
+                    Some(_) => {}
+                    None => {
+                        let differ = Comparison { relation: Relation::NonZero, expression };
+                        both.push(work.comparison(&differ) << 1);
+                    }
+                }
+            }
+            _ => {}
+        },
+        _ => {}
+    }
+    never.extend(consistent(both));
+}

@@ -1,0 +1,110 @@
+//! Fluents as the outside sees them: values in a state, names of comparisons.
+
+use super::{ObjectValue, State, Task};
+use crate::ids::FluentId;
+use crate::number::{Expression, Number, Operator, Relation};
+use pddl::model::{GroundApplication, Idx};
+
+impl Task {
+    /// The numeric fluents that change and that something reads, with their values in a state.
+    pub fn numbers<'t>(
+        &'t self,
+        state: &'t State,
+    ) -> impl Iterator<Item = (&'t GroundApplication, Option<Number>)> {
+        let fluents = self.numeric.fluents[..self.numeric.stored].iter().enumerate();
+        fluents.map(|(i, fluent)| {
+            (&fluent.application, self.numeric.value(state.words(), FluentId::from_index(i)))
+        })
+    }
+
+    /// The object fluents that change and have a value in a state.
+    pub fn object_values<'t>(&'t self, state: &'t State) -> impl Iterator<Item = &'t ObjectValue> {
+        let values = self.facts.enumerate().filter(|(id, _)| state.contains(*id));
+        values.filter_map(|(_, fact)| fact.value.as_ref())
+    }
+
+    /// Whether states say what the value of this object fluent is, and whether it has one.
+    pub fn is_object_fluent(&self, fluent: &GroundApplication) -> bool {
+        let mut values = self.facts.iter().filter_map(|fact| fact.value.as_ref());
+        values.any(|value| value.fluent == *fluent)
+    }
+
+    /// The state with other values of numeric fluents; those that are not in [`numbers`](Self::numbers)
+    /// are ignored. Comparisons and derived facts follow.
+    pub fn with_numbers<'v>(
+        &self,
+        state: &State,
+        values: impl IntoIterator<Item = (&'v GroundApplication, Option<Number>)>,
+    ) -> State {
+        let mut next = state.clone();
+        for (application, value) in values {
+            let stored = &self.numeric.fluents[..self.numeric.stored];
+            if let Some(i) = stored.iter().position(|f| f.application == *application) {
+                self.numeric.set(next.words_mut(), FluentId::from_index(i), value);
+            }
+        }
+        self.numeric.compare_all(next.words_mut());
+        self.axioms.close(next.words_mut());
+        next
+    }
+
+    /// `(>= (fuel a) 3)`.
+    pub(super) fn comparison_name(&self, relation: Relation, expression: &Expression<FluentId>) -> String {
+        let Expression::Linear(linear) = expression else {
+            return compared(relation, &self.expression_name(expression), "0", false);
+        };
+        // Terms to the left, the constant to the right, and no sum of negative terms.
+        let turned = linear.terms.iter().all(|(_, c)| c.sign() <= 0);
+        let sign = |number: Number| if turned { number.negated().unwrap_or(number) } else { number };
+        let terms: Vec<String> = linear.terms.iter().map(|(f, c)| self.term_name(*f, sign(*c))).collect();
+        let left = match terms.as_slice() {
+            [one] => one.clone(),
+            all => format!("(+ {})", all.join(" ")),
+        };
+        let right = if turned { Some(linear.constant) } else { linear.constant.negated() };
+        compared(relation, &left, &right.unwrap_or(linear.constant).to_string(), turned)
+    }
+
+    fn term_name(&self, fluent: FluentId, coefficient: Number) -> String {
+        let name = self.fluent_name(fluent);
+        if coefficient == Number::ONE { name } else { format!("(* {coefficient} {name})") }
+    }
+
+    fn fluent_name(&self, fluent: FluentId) -> String {
+        self.names.fluent(&self.numeric.fluents[fluent.index()].application)
+    }
+
+    fn expression_name(&self, expression: &Expression<FluentId>) -> String {
+        let (head, parts): (&str, Vec<String>) = match expression {
+            Expression::Linear(linear) => {
+                let terms = linear.terms.iter().map(|(f, c)| self.term_name(*f, *c));
+                let constant = Some(linear.constant).filter(|c| !c.is_zero() || linear.terms.is_empty());
+                ("+", terms.chain(constant.map(|c| c.to_string())).collect())
+            }
+            Expression::Tree(operator, parts) => {
+                let head = match operator {
+                    Operator::Add => "+",
+                    Operator::Multiply => "*",
+                    Operator::Divide => "/",
+                };
+                (head, parts.iter().map(|part| self.expression_name(part)).collect())
+            }
+        };
+        match parts.as_slice() {
+            [one] => one.clone(),
+            all => format!("({head} {})", all.join(" ")),
+        }
+    }
+}
+
+fn compared(relation: Relation, left: &str, right: &str, turned: bool) -> String {
+    match (relation, turned) {
+        (Relation::Positive, false) => format!("(> {left} {right})"),
+        (Relation::Positive, true) => format!("(< {left} {right})"),
+        (Relation::NonNegative, false) => format!("(>= {left} {right})"),
+        (Relation::NonNegative, true) => format!("(<= {left} {right})"),
+        (Relation::Zero, _) => format!("(= {left} {right})"),
+        (Relation::NonZero, _) => format!("(not (= {left} {right}))"),
+        (Relation::Defined, _) => format!("(= {left} {left})"),
+    }
+}

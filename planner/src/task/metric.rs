@@ -1,0 +1,69 @@
+//! The metric of tasks whose plans cost more than the sum of their operators.
+
+use super::numeric::{NumericEffects, Update, changed};
+use super::{State, Task};
+use crate::ids::{FluentId, OperatorId};
+use crate::number::{Expression, Number};
+use pddl::model::{Idx, Objective};
+
+/// What a plan is measured by.
+#[derive(Clone, Debug)]
+pub(crate) struct Metric {
+    pub(crate) objective: Objective,
+    pub(crate) expression: Expression<FluentId>,
+    /// The fluent that counts the steps, if the metric reads it.
+    pub(crate) steps: Option<FluentId>,
+}
+
+impl Task {
+    /// Whether a plan's quality is the sum of its operators' costs (the length, without costs), so that
+    /// optimal searches can tell what is optimal.
+    pub fn has_additive_costs(&self) -> bool {
+        self.metric.is_none()
+    }
+
+    /// The metric's value after a plan from `state`, where it is no sum of operators' costs: smaller is
+    /// better, so a metric to maximise comes with the opposite sign. `None` without such a metric, or
+    /// where it has no value. What only the metric reads starts at its initial value.
+    pub fn quality(&self, state: &State, plan: &[OperatorId]) -> Option<Number> {
+        let metric = self.metric.as_ref()?;
+        let numeric = &self.numeric;
+        let mut unseen: Vec<Option<Number>> =
+            numeric.fluents[numeric.stored..].iter().map(|f| f.initial).collect();
+        let mut here = state.clone();
+        for &operator in plan {
+            let next = self.successor(&here, operator);
+            if let Some(effects) = &self.operators[operator].numeric {
+                self.add_up(effects, &here, &mut unseen);
+            }
+            if let Some(steps) = metric.steps {
+                let count = &mut unseen[steps.index() - numeric.stored];
+                *count = count.and_then(|n| n.plus(Number::ONE));
+            }
+            here = next;
+        }
+        let value = metric.expression.evaluate(&|f| self.number(&here, &unseen, *f)).ok()?;
+        if metric.objective == Objective::Minimize { Some(value) } else { value.negated() }
+    }
+
+    fn number(&self, state: &State, unseen: &[Option<Number>], fluent: FluentId) -> Option<Number> {
+        match fluent.index().checked_sub(self.numeric.stored) {
+            None => self.numeric.value(state.words(), fluent),
+            Some(i) => unseen[i],
+        }
+    }
+
+    fn add_up(&self, effects: &NumericEffects, state: &State, unseen: &mut [Option<Number>]) {
+        let applies = |update: &&Update| update.condition.hold_in(state.words());
+        let value = |update: &Update, unseen: &[Option<Number>]| {
+            update.value.as_ref().and_then(|v| v.evaluate(&|f| self.number(state, unseen, *f)).ok())
+        };
+        // All are read before any is written.
+        let values: Vec<(&Update, Option<Number>)> =
+            effects.metric.iter().filter(applies).map(|u| (u, value(u, unseen))).collect();
+        for (update, value) in values {
+            let place = &mut unseen[update.fluent.index() - self.numeric.stored];
+            *place = changed(update.change, *place, value);
+        }
+    }
+}

@@ -1,0 +1,416 @@
+//! Numbers in states: what they are, how operators change them, which comparisons hold.
+//!
+//! Problem: heuristics, successor trees and goals know bits. Idea: the numbers of a state follow its
+//! bits in the same record, and every comparison that some condition reads has a bit of its own, set
+//! again whenever an operator changes a number that it reads. Everything else sees bits only.
+//! Invariant: in every state that a task makes, a comparison's bit says whether it holds, and a number
+//! is exact: where the values of all effects stay multiples of one fraction, a number is a multiple in
+//! one word, else a ratio in two. A result that fits into neither is no value, and from then on
+//! the task owns up that its proofs of unsolvability are none ([`Numeric::has_overflowed`]). Cost: the
+//! changed numbers and the comparisons that read them, per operator.
+
+use super::{Literals, set, unset};
+use crate::ids::{FactId, FluentId};
+use crate::number::{Change, Expression, Influence, NoValue, Number, Relation};
+use pddl::model::{GroundApplication, Idx};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// A numeric fluent that changes.
+#[derive(Clone, Debug)]
+pub(crate) struct Fluent {
+    pub(crate) application: GroundApplication,
+    pub(crate) initial: Option<Number>,
+}
+
+/// A fact that numbers decide.
+#[derive(Clone, Debug)]
+pub(crate) struct Comparison {
+    pub(crate) fact: FactId,
+    pub(crate) relation: Relation,
+    pub(crate) expression: Expression<FluentId>,
+    fast: Option<Fast>,
+}
+
+/// A change of one fluent.
+#[derive(Clone, Debug)]
+pub(crate) struct Update {
+    pub(crate) condition: Literals,
+    pub(crate) fluent: FluentId,
+    pub(crate) change: Change,
+    /// `None` takes the value away.
+    pub(crate) value: Option<Expression<FluentId>>,
+    fast: Option<Fast>,
+}
+
+impl Update {
+    pub(crate) fn new(
+        condition: Literals,
+        fluent: FluentId,
+        change: Change,
+        value: Option<Expression<FluentId>>,
+    ) -> Self {
+        Self { condition, fluent, change, value, fast: None }
+    }
+}
+
+/// What an operator does to numbers.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct NumericEffects {
+    pub(crate) updates: Box<[Update]>,
+    /// Changes of what only the metric reads; no state holds it.
+    pub(crate) metric: Box<[Update]>,
+    /// Positions of the comparisons that read what is updated.
+    pub(crate) rechecked: Box<[u32]>,
+}
+
+/// A weighted sum of words, in units of the layout's fraction.
+#[derive(Clone, Debug)]
+struct Fast {
+    terms: Box<[(u32, i64)]>,
+    constant: i128,
+    divisor: i128,
+}
+
+/// How numbers are written into words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Layout {
+    /// One word: how many of `1 / scale`.
+    Multiple(i64),
+    /// Two words: numerator and denominator.
+    Ratio,
+}
+
+/// No value, as a multiple.
+const NOTHING: i64 = i64::MIN;
+/// Above this, a common denominator is worth nothing.
+const LARGEST_SCALE: i128 = 1_000_000_000;
+
+/// The numeric part of a task.
+#[derive(Clone, Debug)]
+pub(crate) struct Numeric {
+    /// Where numbers start in a state.
+    start: usize,
+    layout: Layout,
+    /// Those that states hold, then those that only the metric reads.
+    pub(crate) fluents: Box<[Fluent]>,
+    pub(crate) stored: usize,
+    pub(crate) comparisons: Box<[Comparison]>,
+    overflowed: Arc<AtomicBool>,
+}
+
+impl Default for Numeric {
+    fn default() -> Self {
+        Self {
+            start: 0,
+            layout: Layout::Multiple(1),
+            fluents: Box::default(),
+            stored: 0,
+            comparisons: Box::default(),
+            overflowed: Arc::default(),
+        }
+    }
+}
+
+impl Numeric {
+    /// `start` is the number of words of facts; the first `stored` of the fluents are in states. Also
+    /// prepares the operators' effects.
+    pub(crate) fn new<'e>(
+        start: usize,
+        fluents: Vec<Fluent>,
+        stored: usize,
+        comparisons: Vec<(FactId, Relation, Expression<FluentId>)>,
+        effects: impl Iterator<Item = &'e mut NumericEffects>,
+    ) -> Self {
+        let mut effects: Vec<&mut NumericEffects> = effects.collect();
+        let updates = effects.iter().flat_map(|e| e.updates.iter());
+        let layout = match common_scale(&fluents[..stored], updates) {
+            Some(scale) => Layout::Multiple(scale),
+            None => Layout::Ratio,
+        };
+        let mut numeric = Self { start, layout, fluents: fluents.into(), stored, ..Self::default() };
+        let comparison = |(fact, relation, expression): (FactId, Relation, Expression<FluentId>)| {
+            let fast = numeric.fast(&expression);
+            Comparison { fact, relation, expression, fast }
+        };
+        numeric.comparisons = comparisons.into_iter().map(comparison).collect();
+        let mut readers: Vec<Vec<u32>> = vec![Vec::new(); stored];
+        for (position, comparison) in (0..).zip(&numeric.comparisons) {
+            comparison.expression.each_fluent(&mut |f| readers[f.index()].push(position));
+        }
+        for effect in &mut effects {
+            for update in &mut effect.updates {
+                update.fast = update.value.as_ref().and_then(|value| numeric.fast(value));
+            }
+            let read = effect.updates.iter().flat_map(|u| readers[u.fluent.index()].iter().copied());
+            let mut rechecked: Vec<u32> = read.collect();
+            rechecked.sort_unstable();
+            rechecked.dedup();
+            effect.rechecked = rechecked.into();
+        }
+        numeric
+    }
+
+    /// How many words a state has for numbers.
+    pub(crate) fn words(&self) -> usize {
+        match self.layout {
+            Layout::Multiple(_) => self.stored,
+            Layout::Ratio => 2 * self.stored,
+        }
+    }
+
+    /// Whether some number was too long. A search that visited everything has then not proven anything.
+    pub(crate) fn has_overflowed(&self) -> bool {
+        self.overflowed.load(Ordering::Relaxed)
+    }
+
+    #[expect(clippy::cast_possible_wrap, reason = "words hold the bits of signed numbers")]
+    pub(crate) fn value(&self, words: &[u64], fluent: FluentId) -> Option<Number> {
+        let i = fluent.index();
+        match self.layout {
+            Layout::Multiple(scale) => {
+                let word = words[self.start + i] as i64;
+                if word == NOTHING {
+                    None
+                } else if scale == 1 {
+                    Some(Number::integer(word))
+                } else {
+                    Number::ratio(i128::from(word), i128::from(scale))
+                }
+            }
+            Layout::Ratio => {
+                let numerator = words[self.start + 2 * i] as i64;
+                Number::ratio(i128::from(numerator), i128::from(words[self.start + 2 * i + 1] as i64))
+            }
+        }
+    }
+
+    #[expect(clippy::cast_sign_loss, reason = "words hold the bits of signed numbers")]
+    pub(crate) fn set(&self, words: &mut [u64], fluent: FluentId, value: Option<Number>) {
+        let i = fluent.index();
+        let short = |n: i128| i64::try_from(n).ok().filter(|&n| n != NOTHING);
+        let fits = match self.layout {
+            Layout::Multiple(scale) => {
+                let multiple = |number: Number| {
+                    let all = number.numerator().checked_mul(i128::from(scale))?;
+                    (all % number.denominator() == 0).then(|| short(all / number.denominator()))?
+                };
+                let word = value.map_or(Some(NOTHING), multiple);
+                words[self.start + i] = word.unwrap_or(NOTHING) as u64;
+                word.is_some()
+            }
+            Layout::Ratio => {
+                let ratio = |number: Number| Some((short(number.numerator())?, short(number.denominator())?));
+                let both = value.map_or(Some((0, 0)), ratio);
+                let (numerator, denominator) = both.unwrap_or((0, 0));
+                words[self.start + 2 * i] = numerator as u64;
+                words[self.start + 2 * i + 1] = denominator as u64;
+                both.is_some()
+            }
+        };
+        if !fits {
+            self.overflowed.store(true, Ordering::Relaxed);
+        }
+    }
+
+    /// Writes the initial values and the comparisons that hold then.
+    pub(crate) fn initialise(&self, words: &mut [u64]) {
+        for (i, fluent) in self.fluents[..self.stored].iter().enumerate() {
+            self.set(words, FluentId::from_index(i), fluent.initial);
+        }
+        self.compare_all(words);
+    }
+
+    /// Sets the bit of every comparison.
+    pub(crate) fn compare_all(&self, words: &mut [u64]) {
+        self.comparisons.iter().for_each(|comparison| self.compare(comparison, words));
+    }
+
+    /// Makes an operator's changes to `next`, a copy of `state`; answers whether a comparison changed.
+    pub(crate) fn apply(&self, effects: &NumericEffects, state: &[u64], next: &mut [u64]) {
+        for update in effects.updates.iter().filter(|u| u.condition.hold_in(state)) {
+            self.update(update, state, next);
+        }
+        for &position in &effects.rechecked {
+            self.compare(&self.comparisons[position as usize], next);
+        }
+    }
+
+    #[expect(clippy::cast_sign_loss, clippy::cast_possible_wrap, reason = "words hold signed numbers' bits")]
+    fn update(&self, update: &Update, state: &[u64], next: &mut [u64]) {
+        // Additions and assignments of multiples, which most are.
+        if let (Layout::Multiple(_), Some(fast), Change::Shift | Change::Assign) =
+            (self.layout, &update.fast, update.change)
+        {
+            let at = self.start + update.fluent.index();
+            let before = if update.change == Change::Shift { next[at] as i64 } else { 0 };
+            let sum = self.sum(fast, state).filter(|s| before != NOTHING && s % fast.divisor == 0);
+            let after = sum.and_then(|sum| i64::try_from(i128::from(before) + sum / fast.divisor).ok());
+            if let Some(after) = after.filter(|&a| a != NOTHING) {
+                next[at] = after as u64;
+                return;
+            }
+        }
+        let value = match update.value.as_ref().map(|v| v.evaluate(&|&f| self.value(state, f))) {
+            None | Some(Err(NoValue::Undefined)) => None,
+            Some(Ok(value)) => Some(value),
+            Some(Err(NoValue::Overflow)) => {
+                self.overflowed.store(true, Ordering::Relaxed);
+                None
+            }
+        };
+        let before = self.value(next, update.fluent);
+        let after = changed(update.change, before, value);
+        if after.is_none() && value.is_some() && before.is_some() {
+            self.overflowed.store(true, Ordering::Relaxed);
+        }
+        self.set(next, update.fluent, after);
+    }
+
+    /// What an operator may make of the comparisons: under which condition, which may come to hold and
+    /// which may fail.
+    pub(crate) fn influences<'e>(
+        &self,
+        effects: &'e NumericEffects,
+    ) -> Vec<(&'e Literals, Vec<FactId>, Vec<FactId>)> {
+        let mut found: Vec<(&Literals, Vec<FactId>, Vec<FactId>)> = Vec::new();
+        for update in &effects.updates {
+            let known = found.iter().position(|(condition, ..)| **condition == update.condition);
+            let place = known.unwrap_or_else(|| {
+                found.push((&update.condition, Vec::new(), Vec::new()));
+                found.len() - 1
+            });
+            for &position in &effects.rechecked {
+                let comparison = &self.comparisons[position as usize];
+                let mut reads = false;
+                comparison.expression.each_fluent(&mut |&f| reads |= f == update.fluent);
+                if !reads {
+                    continue;
+                }
+                let influence = self.influence(update, comparison);
+                let (_, holds, fails) = &mut found[place];
+                if influence.may_hold && !holds.contains(&comparison.fact) {
+                    holds.push(comparison.fact);
+                }
+                if influence.may_fail && !fails.contains(&comparison.fact) {
+                    fails.push(comparison.fact);
+                }
+            }
+        }
+        found
+    }
+
+    fn influence(&self, update: &Update, comparison: &Comparison) -> Influence {
+        let compared = (comparison.relation, &comparison.expression);
+        Influence::of(compared, &update.fluent, update.change, update.value.as_ref())
+    }
+
+    fn compare(&self, comparison: &Comparison, words: &mut [u64]) {
+        if self.holds(comparison, words) {
+            set(words, comparison.fact);
+        } else {
+            unset(words, comparison.fact);
+        }
+    }
+
+    fn holds(&self, comparison: &Comparison, words: &[u64]) -> bool {
+        if let Some(fast) = &comparison.fast {
+            let sum = self.sum(fast, words);
+            return sum.is_some_and(|s| comparison.relation.holds(i32::from(s > 0) - i32::from(s < 0)));
+        }
+        match comparison.expression.evaluate(&|&f| self.value(words, f)) {
+            Ok(value) => comparison.relation.holds(value.sign()),
+            Err(NoValue::Undefined) => false,
+            Err(NoValue::Overflow) => {
+                self.overflowed.store(true, Ordering::Relaxed);
+                false
+            }
+        }
+    }
+
+    /// `divisor` times the value; `None` if some fluent has none.
+    #[expect(clippy::cast_possible_wrap, reason = "words hold the bits of signed numbers")]
+    fn sum(&self, fast: &Fast, words: &[u64]) -> Option<i128> {
+        let mut sum = fast.constant;
+        for &(fluent, coefficient) in &fast.terms {
+            let word = words[self.start + fluent as usize] as i64;
+            if word == NOTHING {
+                return None;
+            }
+            // Below 2^63 each, and too few terms to leave 127 bits.
+            sum += i128::from(coefficient) * i128::from(word);
+        }
+        Some(sum)
+    }
+
+    fn fast(&self, expression: &Expression<FluentId>) -> Option<Fast> {
+        const SMALL: i128 = 1 << 40;
+        let (Layout::Multiple(scale), Expression::Linear(linear)) = (self.layout, expression) else {
+            return None;
+        };
+        let constant = linear.constant.times(Number::integer(scale))?;
+        let divisor = linear.terms.iter().try_fold(constant.denominator(), |all, (_, coefficient)| {
+            common_multiple(all, coefficient.denominator()).filter(|&m| m < SMALL)
+        })?;
+        let whole = |number: Number| number.numerator().checked_mul(divisor / number.denominator());
+        let term = |(fluent, coefficient): &(FluentId, Number)| {
+            let factor = whole(*coefficient).filter(|f| f.abs() < SMALL)?;
+            (fluent.index() < self.stored).then_some((fluent.0, i64::try_from(factor).ok()?))
+        };
+        let constant = whole(constant).filter(|c| c.abs() < SMALL * SMALL)?;
+        Some(Fast { terms: linear.terms.iter().map(term).collect::<Option<_>>()?, constant, divisor })
+    }
+}
+
+/// The fluent after a change; `None` if it then has no value.
+pub(crate) fn changed(change: Change, before: Option<Number>, value: Option<Number>) -> Option<Number> {
+    match change {
+        Change::Assign => value,
+        Change::Shift => before?.plus(value?),
+        Change::Scale => before?.times(value?),
+    }
+}
+
+fn common_multiple(a: i128, b: i128) -> Option<i128> {
+    let (mut x, mut y) = (a, b);
+    while y != 0 {
+        (x, y) = (y, x % y);
+    }
+    (a / x).checked_mul(b)
+}
+
+/// The denominator of which all numbers stay fractions, if there is one.
+fn common_scale<'u>(fluents: &[Fluent], updates: impl Iterator<Item = &'u Update> + Clone) -> Option<i64> {
+    let add = |scale: i128, number: Number| {
+        common_multiple(scale, number.denominator()).filter(|&s| s <= LARGEST_SCALE)
+    };
+    let mut scale = fluents.iter().filter_map(|f| f.initial).try_fold(1, add)?;
+    for update in updates.clone().filter(|u| u.change != Change::Scale) {
+        if let Some(Expression::Linear(linear)) = &update.value {
+            scale = add(scale, linear.constant)?;
+        }
+    }
+    let whole = |number: &Number| number.denominator() == 1;
+    let keeps = |update: &Update| match (&update.value, update.change) {
+        (None, _) => true,
+        (Some(Expression::Linear(linear)), Change::Scale) => {
+            let factors = linear.terms.iter().map(|(_, c)| c);
+            whole(&linear.constant) && factors.clone().all(whole) && (scale == 1 || factors.len() == 0)
+        }
+        (Some(Expression::Linear(linear)), _) => linear.terms.iter().all(|(_, c)| whole(c)),
+        (Some(tree), _) => scale == 1 && is_whole(tree),
+    };
+    updates.into_iter().all(keeps).then(|| i64::try_from(scale).ok())?
+}
+
+/// Whether whole numbers give a whole number.
+fn is_whole(expression: &Expression<FluentId>) -> bool {
+    match expression {
+        Expression::Linear(linear) => {
+            let mut numbers = linear.terms.iter().map(|(_, c)| c).chain([&linear.constant]);
+            numbers.all(|number| number.denominator() == 1)
+        }
+        Expression::Tree(crate::number::Operator::Divide, _) => false,
+        Expression::Tree(_, parts) => parts.iter().all(is_whole),
+    }
+}

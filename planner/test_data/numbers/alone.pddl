@@ -1,0 +1,5 @@
+; expect: impossible (sealed)
+(define (problem alone) (:domain numbers)
+  (:objects a - jug)
+  (:init (= (price) -1) (= (level a) 1))
+  (:goal (sealed)))

@@ -1,0 +1,5 @@
+; expect: impossible (split)
+(define (problem by-nothing) (:domain numbers)
+  (:objects a - jug)
+  (:init (= (size a) 0) (= (level a) 0) (= (taken) 0) (= (steps) 0))
+  (:goal (split)))

@@ -1,2 +1,0 @@
-; expect: unsupported numeric fluents
-(define (problem tank) (:domain numbers) (:init (= (fuel) 1)) (:goal (done)))
