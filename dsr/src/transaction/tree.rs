@@ -36,7 +36,8 @@ pub(super) fn check(state: &State, mark: Mark) -> Result<Option<NodeId>, Transac
         Err(_) => parent_now(id),
     };
 
-    for &id in &touched {
+    // The edit that closed a cycle is the last one on it.
+    for &id in touched.iter().rev() {
         if let Some(parent) = parent_now(id)
             && parent_before(id) != Some(parent)
             && closes_cycle(state, id)
