@@ -236,6 +236,10 @@ impl View<'_> {
 
     /// The operator, unless it can never be applied or changes nothing that is needed.
     fn operator(&self, raw: &RawOperator, chosen: &Chosen) -> Option<Operator> {
+        // What a useless operator reads was not kept.
+        if !raw.numbers.is_empty() && self.pruned.is_refuted(&raw.precondition) {
+            return None;
+        }
         let (adds, deletes) = self.effects(&raw.effects);
         let mut conditional = Vec::new();
         for (condition, effects) in &raw.conditional {
