@@ -18,7 +18,7 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Work of a first turn.
-const FIRST_TURN: u64 = 1 << 18;
+const FIRST_TURN: u64 = 1 << 20;
 /// Work before a second thread joins.
 const ALONE: u64 = 1 << 21;
 /// Nodes of a relaxation for which the second thread joins at once.
@@ -173,7 +173,7 @@ impl<'a, 's> Portfolio<'a, 's> {
         let work = member.meter.work();
         let others: usize = self.meters.iter().map(Meter::held).sum::<usize>() - member.meter.held();
         let turn = Turn {
-            until: work + FIRST_TURN.max(work / 8),
+            until: work + FIRST_TURN.max(work / 4),
             bytes: self.budget.memory_bytes.map_or(UNLIMITED, |most| most.saturating_sub(others)),
             expansions: match self.budget.expansions {
                 Some(most) => member.expanded + most.saturating_sub(pool.expanded),
