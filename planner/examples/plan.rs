@@ -1,4 +1,4 @@
-//! `plan DOMAIN PROBLEM [SEARCH] [-o PLAN]`: grounds and solves, for measuring. The command that users
+//! `plan DOMAIN PROBLEM [SEARCH] [-o PLAN] [--timeout S]`: grounds and solves, for measuring. The command that users
 //! call is `pelea plan`.
 #![allow(clippy::print_stdout, clippy::print_stderr, missing_docs)]
 
@@ -9,6 +9,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let start = Instant::now();
     let mut arguments: Vec<String> = std::env::args().skip(1).collect();
     let output = arguments.iter().position(|a| a == "-o").map(|i| arguments.drain(i..i + 2).nth(1));
+    let timeout = arguments.iter().position(|a| a == "--timeout").map(|i| arguments.drain(i..i + 2).nth(1));
+    let timeout = timeout.flatten().map_or(Ok(300.0), |text| text.parse())?;
     let [domain, problem, rest @ ..] = arguments.as_slice() else {
         return Err("DOMAIN PROBLEM [SEARCH]".into());
     };
@@ -23,7 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let problem = pddl::parse_problem(&read(problem)?, &domain);
     let problem = problem.model.ok_or_else(|| format!("{:?}", problem.diagnostics))?;
     eprintln!("parsed     {:9.3} s", start.elapsed().as_secs_f64());
-    let late = move || start.elapsed() > Duration::from_secs(300);
+    let late = move || start.elapsed() > Duration::from_secs_f64(timeout);
     let task = ground(&domain, &problem, &GroundOptions { interrupted: &late, ..GroundOptions::default() })?;
     eprintln!(
         "grounded   {:9.3} s, {} facts, {} operators, {} axioms, {} goals",

@@ -10,6 +10,7 @@
 //! Source: Lipovetzky & Geffner, "Best-first width search: exploration and exploitation in classical
 //! planning", AAAI 2017; the same, "A polynomial planning algorithm that beats LAMA and FF", ICAPS 2017.
 
+use super::meter::price_of_state;
 use super::novelty::{Novelty, NoveltyTable};
 use super::open_list::OpenList;
 use super::registry::StateRegistry;
@@ -146,7 +147,7 @@ impl<'a> Bfws<'a> {
         task.successors.applicable(&self.here, &mut self.successors);
         self.job.barred.filter(&mut self.successors);
         for i in 0..self.successors.len() {
-            if meter.spend(self.next.len() + 16) {
+            if meter.spend(price_of_state(self.next.len())) {
                 return None;
             }
             let operator = self.successors[i];

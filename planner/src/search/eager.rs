@@ -7,6 +7,7 @@
 //! Source: Hart, Nilsson & Raphael, "A formal basis for the heuristic determination of minimum cost
 //! paths", 1968; Pohl, "Heuristic search viewed as path finding in a graph", AIJ 1970.
 
+use super::meter::price_of_state;
 use super::registry::StateRegistry;
 use super::{Job, Limit, Order, Outcome, Plan, Searcher, Signal, Statistics, Turn, UnsolvableReason};
 use crate::heuristics::{Costs, Estimate, Heuristic, HeuristicKind, View};
@@ -111,7 +112,7 @@ impl<'a> Eager<'a> {
         task.successors.applicable(&self.here, &mut self.successors);
         self.job.barred.filter(&mut self.successors);
         for i in 0..self.successors.len() {
-            if meter.spend(self.next.len() + 16) {
+            if meter.spend(price_of_state(self.next.len())) {
                 return None;
             }
             let operator = self.successors[i];

@@ -7,6 +7,7 @@
 //!
 //! Source: Hoffmann & Nebel, "The FF planning system", JAIR 2001, §5.1.
 
+use super::meter::price_of_state;
 use super::registry::StateRegistry;
 use super::{Job, Limit, Outcome, Plan, Searcher, Signal, Statistics, Turn, UnsolvableReason};
 use crate::heuristics::{Costs, Estimate, Ff};
@@ -97,7 +98,7 @@ impl<'a> HillClimbing<'a> {
         self.job.barred.filter(&mut operators);
         self.statistics.expanded += 1;
         for operator in operators {
-            if meter.spend(here.len() + 16) {
+            if meter.spend(price_of_state(here.len())) {
                 return None;
             }
             self.next.copy_from_slice(&here);

@@ -8,6 +8,7 @@
 //!
 //! Source: Richter & Westphal, "The LAMA planner", JAIR 2010, §3 and §5; Helmert 2006, §5.3.
 
+use super::meter;
 use super::open_list::OpenList;
 use super::registry::StateRegistry;
 use super::{Job, Limit, Order, Outcome, Plan, Searcher, Signal, Statistics, Turn, UnsolvableReason};
@@ -116,7 +117,7 @@ impl<'a> Lazy<'a> {
         self.next.copy_from_slice(words);
         task.apply(operator, words, &mut self.next);
         self.statistics.generated += 1;
-        self.job.meter.spend(self.next.len() + 16);
+        self.job.meter.spend(meter::price_of_state(self.next.len()));
         let (id, new) = self.registry.insert(&self.next, Some((from, operator)));
         for list in &mut self.lists {
             list.heuristic.step(from, operator, id, &self.next);
@@ -143,7 +144,7 @@ impl<'a> Lazy<'a> {
         self.successors.clear();
         task.successors.applicable(&self.next, &mut self.successors);
         self.job.barred.filter(&mut self.successors);
-        self.job.meter.spend(self.successors.len() * 4);
+        self.job.meter.spend(self.successors.len() * 16);
         self.preferred.clear();
         self.statistics.evaluated += 1;
         let view = View { id, words: &self.next, applicable: &self.successors };

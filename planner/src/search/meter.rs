@@ -3,7 +3,7 @@
 //! Problem: a search must end within milliseconds of an interruption, also in the middle of one large
 //! estimate or while its landmarks are being found, and a portfolio must deal out turns without a
 //! clock, so that the same call gives the same answer. Idea: whatever loops [`Meter::spend`]s units of
-//! work, a few nanoseconds each; the caller's closure is asked every so many units, and a turn is a
+//! work, about a nanosecond each; the caller's closure is asked every so many units, and a turn is a
 //! number of units. Invariant: once stopped, a meter stays stopped, and no estimate made after that is
 //! believed.
 
@@ -15,6 +15,11 @@ const INTERVAL: u64 = 1 << 16;
 
 /// Bytes for whom nobody sets a limit.
 pub(crate) const UNLIMITED: usize = usize::MAX / 8;
+
+/// Work of building a state, looking it up and storing it: some misses of the cache, then its words.
+pub(crate) fn price_of_state(words: usize) -> usize {
+    256 + words * 16
+}
 
 /// Counts for one search. Only one thread writes at a time.
 #[derive(Debug)]

@@ -80,7 +80,7 @@ impl NoveltyTable {
 
     /// Units of work that a judgement takes.
     pub(crate) fn price(&self) -> usize {
-        if self.pairs { self.words * self.words * 2 } else { self.words }
+        if self.pairs { self.words * self.words * 8 } else { self.words * 4 + 32 }
     }
 
     pub(crate) fn memory(&self) -> usize {
