@@ -140,6 +140,17 @@ impl Flow {
         self.curves.values().all(|curve| curve.as_constant().is_some())
     }
 
+    /// The fluents that have a curve.
+    pub(super) fn fluents(&self) -> impl Iterator<Item = &GroundApplication> {
+        self.curves.keys()
+    }
+
+    /// The fluents that change.
+    pub(super) fn moving(&self) -> impl Iterator<Item = &GroundApplication> {
+        let moving = self.curves.iter().filter(|(_, curve)| curve.as_constant().is_none());
+        moving.map(|(fluent, _)| fluent)
+    }
+
     /// Gives every running fluent its value so many seconds after the last happening.
     pub(super) fn apply(&self, after: &Instant, state: &mut State) -> Result<(), NoResult> {
         let near = after.near();

@@ -41,6 +41,11 @@ pub(super) struct Footprint {
 pub(super) struct Dependencies(FxHashMap<PredicateId, FxHashSet<PredicateId>>);
 
 impl Dependencies {
+    /// The derived predicates, each with what it depends on.
+    pub(super) fn each(&self) -> impl Iterator<Item = (PredicateId, &FxHashSet<PredicateId>)> {
+        self.0.iter().map(|(&derived, below)| (derived, below))
+    }
+
     pub(super) fn new(domain: &Domain) -> Self {
         let mut below: FxHashMap<PredicateId, FxHashSet<PredicateId>> = FxHashMap::default();
         for axiom in &domain.axioms {

@@ -7,17 +7,19 @@
 //!
 //! Invariant: `now` is the time of the last happening, and `state` is the state right after it.
 //!
-//! Cost: the conditions of each point, and of each running action once per happening; footprints only
-//! for points that are nearer to another one than the separation.
+//! Cost: the conditions of each point, and at each happening those of the running actions that read what changed
+//! (`watch`); footprints only for points that are nearer to another one than the separation.
 //!
 //! Source: Fox & Long, "PDDL2.1", JAIR 2003, Definitions 16 to 20; Edelkamp & Hoffmann, "PDDL2.2", 2004.
 
+mod active;
 mod crowd;
 mod flow;
 mod footprint;
 mod nature;
 mod point;
 mod timeline;
+mod watch;
 
 pub(crate) use flow::Passage;
 pub(crate) use nature::bind_functions;
@@ -29,11 +31,12 @@ use crate::expression::NumericFault;
 use crate::number::Number;
 use crate::root::{Instant, Undecided, in_order};
 use crate::run::{End, Validator};
-use crate::scene::{Binding, Clock};
+use crate::scene::Clock;
 use crate::state::{Moment, State};
 use crate::trace::{Diff, Happening, Recorder, Trace};
 use crate::trajectory::Since;
-use crate::verdict::{ChangeFault, Failure, StepIndex, Valid};
+use crate::verdict::{ChangeFault, Failure, Valid};
+use active::{Active, Actives, Ticket};
 use crowd::Crowd;
 use flow::{Flow, Present};
 use footprint::{Dependencies, Footprint};
@@ -41,6 +44,7 @@ use nature::{Instance, Nature};
 use pddl::TemporalPlan;
 use pddl::model::{Condition, DurativeAction, Given, ProcessId, TimeSpecifier};
 use timeline::{Point, timeline};
+use watch::{Basis, Watch};
 
 /// How often what happens by itself may begin and end at one instant.
 const MOST_UNRESTS: usize = 100;
@@ -60,15 +64,18 @@ pub(crate) fn run(
     mut trace: Option<&mut Trace>,
 ) -> Checked<Valid> {
     let points = timeline(validator.problem, plan);
+    let dependencies = Dependencies::new(validator.domain);
     let mut run = Run {
         validator,
         plan,
-        dependencies: Dependencies::new(validator.domain),
+        basis: Basis::new(validator.domain, &validator.strata, &dependencies),
+        dependencies,
         demands: validator.demands(state),
         state,
         now: Number::ZERO,
         causes: Vec::new(),
-        active: Vec::new(),
+        active: Actives::default(),
+        watch: Watch::default(),
         crowd: Crowd::default(),
         unrests: 0,
         wrote_fluents: false,
@@ -168,19 +175,6 @@ fn crowded(points: &[Point], happening: &[Point], separation: Number) -> bool {
     happening.len() > 1 || before.is_some_and(near) || after.is_some_and(near)
 }
 
-/// A durative action that runs.
-#[derive(Clone, Debug)]
-struct Active<'v> {
-    step: StepIndex,
-    action: &'v DurativeAction,
-    binding: Binding,
-    duration: Number,
-    /// Effects at the end whose conditions at the start held, each with its bindings.
-    armed: Vec<(usize, Binding)>,
-    /// Preferences over the whole time that have held until now, each with its bindings.
-    kept: Vec<(usize, Binding)>,
-}
-
 /// Something begins or ends by itself.
 struct Unrest {
     /// When, after the last happening.
@@ -201,11 +195,14 @@ struct Run<'s, 'v, 'a> {
     validator: &'v Validator<'a>,
     plan: &'v TemporalPlan,
     dependencies: Dependencies,
+    basis: Basis<'v>,
     state: &'s mut State,
     demands: Demands<'v>,
     now: Number,
     causes: Vec<Cause>,
-    active: Vec<Active<'v>>,
+    active: Actives<'v>,
+    /// Who of them must be asked again.
+    watch: Watch,
     /// What happened a moment ago.
     crowd: Crowd,
     /// How often something began or ended by itself.
@@ -304,7 +301,10 @@ impl<'v> Run<'_, 'v, '_> {
 
     /// How fluents run from now on.
     fn course(&mut self, processes: &[Instance<ProcessId>]) -> Checked<Course> {
-        self.state.rounded |= !self.now.is_exact();
+        if !self.state.rounded && !self.now.is_exact() {
+            self.state.rounded = true;
+            self.watch.all_changed();
+        }
         let running = self.running(processes)?;
         let present = Present { universe: &self.validator.universe, state: self.state, now: self.now };
         let flow = Flow::new(&running, present).map_err(|fault| self.change(fault))?;
@@ -347,6 +347,7 @@ impl<'v> Run<'_, 'v, '_> {
     }
 
     fn set(&mut self, flow: &Flow, after: &Instant) -> Checked {
+        flow.fluents().for_each(|fluent| self.watch.flowed(fluent));
         flow.apply(after, self.state).map_err(|fault| {
             let fault = NumericFault::of(fault, pddl::Span::default());
             self.change(ChangeFault::Numeric(fault))
@@ -357,7 +358,8 @@ impl<'v> Run<'_, 'v, '_> {
     /// one between any two of them.
     fn instants_of(&mut self, flow: &Flow, from: &Instant, length: Number) -> Checked<Vec<(Instant, bool)>> {
         let mut critical = Vec::new();
-        for active in &self.active {
+        for ticket in self.watch.readers(flow.moving()) {
+            let Some(active) = self.active.get(ticket) else { continue };
             let clock = Clock { duration: Some(active.duration), ..Clock::at(self.now) };
             let scene = self.validator.scene(self.state, &active.action.variables, clock);
             let mut binding = active.binding.clone();
@@ -387,23 +389,23 @@ impl<'v> Run<'_, 'v, '_> {
         }))
     }
 
-    /// Asks for everything that must hold all the time.
+    /// Asks for everything that must hold all the time and may have changed.
     fn invariants(&mut self, at: Number) -> Checked {
-        for index in 0..self.active.len() {
-            let Active { step, action, duration, .. } = self.active[index];
+        for ticket in self.watch.due() {
+            let Some(&Active { step, action, duration, .. }) = self.active.get(ticket) else { continue };
             for condition in over_all(action) {
                 self.derive_for(condition);
                 let clock = Clock { duration: Some(duration), ..Clock::at(at) };
                 let scene = self.validator.scene(self.state, &action.variables, clock);
-                let binding = &mut self.active[index].binding;
+                let Some(Active { binding, .. }) = self.active.get_mut(ticket) else { continue };
                 if !scene.holds(condition, binding) {
                     let causes = Causes::Listed(&self.causes);
                     let parts = self.validator.lacks(scene, causes, condition, binding);
                     return Err(Box::new(Failure::Invariant { step, time: at, parts }));
                 }
             }
-            self.disarm(index, at);
-            self.judge_kept(index, at);
+            self.disarm(ticket, at);
+            self.judge_kept(ticket, at);
         }
         Ok(())
     }
@@ -411,9 +413,10 @@ impl<'v> Run<'_, 'v, '_> {
 
 impl Run<'_, '_, '_> {
     /// Drops the effects at the end whose condition `over all` does not hold.
-    fn disarm(&mut self, index: usize, at: Number) {
-        let Active { action, duration, .. } = self.active[index];
-        let mut armed = std::mem::take(&mut self.active[index].armed);
+    fn disarm(&mut self, ticket: Ticket, at: Number) {
+        let Some(active) = self.active.get_mut(ticket) else { return };
+        let (action, duration) = (active.action, active.duration);
+        let mut armed = std::mem::take(&mut active.armed);
         let clock = Clock { duration: Some(duration), ..Clock::at(at) };
         armed.retain_mut(|(effect, binding)| {
             given(&action.effects[*effect].given, &TimeSpecifier::OverAll).all(|condition| {
@@ -421,13 +424,16 @@ impl Run<'_, '_, '_> {
                 self.validator.scene(self.state, &action.variables, clock).holds(condition, binding)
             })
         });
-        self.active[index].armed = armed;
+        if let Some(active) = self.active.get_mut(ticket) {
+            active.armed = armed;
+        }
     }
 
     /// Counts the preferences over the whole time that do not hold now; each is counted once.
-    fn judge_kept(&mut self, index: usize, at: Number) {
-        let Active { action, duration, .. } = self.active[index];
-        let mut kept = std::mem::take(&mut self.active[index].kept);
+    fn judge_kept(&mut self, ticket: Ticket, at: Number) {
+        let Some(active) = self.active.get_mut(ticket) else { return };
+        let (action, duration) = (active.action, active.duration);
+        let mut kept = std::mem::take(&mut active.kept);
         let clock = Clock { duration: Some(duration), ..Clock::at(at) };
         kept.retain_mut(|(preference, binding)| {
             let preference = &action.preferences[*preference];
@@ -440,7 +446,9 @@ impl Run<'_, '_, '_> {
             }
             holds
         });
-        self.active[index].kept = kept;
+        if let Some(active) = self.active.get_mut(ticket) {
+            active.kept = kept;
+        }
     }
 }
 

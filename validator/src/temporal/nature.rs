@@ -13,9 +13,10 @@
 //!
 //! Source: Fox & Long, "Modelling mixed discrete-continuous domains for planning", JAIR 2006, §4.
 
+use super::active::Active;
 use super::flow::{Flow, Running};
 use super::footprint::{Footprint, Reader};
-use super::{Active, Checked, Run};
+use super::{Checked, Run};
 use crate::cause::Cause;
 use crate::condition::Strictness;
 use crate::effect::Changes;
@@ -179,6 +180,7 @@ impl Run<'_, '_, '_> {
                 self.causes.push(at);
                 own.each_write(|_, _| self.wrote_fluents = true);
                 let moment = self.moment();
+                self.watch.changed(&own);
                 own.apply(self.state, moment, diff.as_deref_mut())
                     .map_err(|fault| Box::new(Failure::Effect { at, fault }))?;
             }
@@ -198,7 +200,7 @@ impl Run<'_, '_, '_> {
     /// Everything that changes continuously now.
     pub(super) fn running(&self, processes: &[Instance<ProcessId>]) -> Checked<Vec<Running<'_>>> {
         let mut running = Vec::new();
-        for Active { action, binding, duration, .. } in &self.active {
+        for Active { action, binding, duration, .. } in self.active.continuous() {
             let clock = Clock { duration: Some(*duration), ..Clock::at(self.now) };
             let scene = self.validator.scene(self.state, &action.variables, clock);
             for effect in &action.continuous {

@@ -4,10 +4,11 @@
 //! then the points are held against each other and against those a moment ago, and only then the state
 //! changes. So nothing sees half of a happening.
 
+use super::active::Active;
 use super::footprint::{Footprint, Reader};
 use super::nature::bind_functions;
 use super::timeline::{Point, end, start};
-use super::{Active, Checked, Run, given};
+use super::{Checked, Run, given};
 use crate::cause::{Cause, Causes};
 use crate::condition::compares;
 use crate::effect::Changes;
@@ -76,11 +77,12 @@ impl<'v> Run<'_, 'v, '_> {
         for deed in &deeds {
             self.causes.push(deed.what);
             let moment = self.moment();
+            self.watch.changed(&deed.changes);
             deed.changes
                 .apply(self.state, moment, diff.as_deref_mut())
                 .map_err(|fault| Box::new(Failure::Effect { at: deed.what, fault }))?;
         }
-        self.active.extend(started);
+        started.into_iter().for_each(|active| self.join(active));
         Ok(())
     }
 
@@ -152,10 +154,12 @@ impl<'v> Run<'_, 'v, '_> {
     }
 
     fn end(&mut self, index: StepIndex, started: &mut Vec<Active<'v>>, crowded: bool) -> Checked<Deed> {
-        let find = |list: &[Active<'_>]| list.iter().position(|active| active.step == index);
-        let mut active = match find(&self.active) {
-            Some(at) => self.active.remove(at),
-            None => started.remove(find(started).expect("an end comes after its start")),
+        let mut active = match self.leave(index) {
+            Some(active) => active,
+            None => {
+                let now = started.iter().rposition(|active| active.step == index);
+                started.remove(now.expect("an end comes after its start"))
+            }
         };
         self.half(&mut active, &TimeSpecifier::End, crowded)
     }
