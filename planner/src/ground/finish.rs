@@ -14,8 +14,8 @@ use super::raw::{RawEffects, RawOperator, RawTask, marked};
 use crate::ids::{FactId, OperatorId, id32};
 use crate::task::{
     AtomStatus, AxiomProgram, AxiomRule, ConditionalEffect, Fact, Goal, GroundAtom, Impossible, Literals,
-    Mutexes, Names, Numeric, ObjectValue, Operator, Relaxation, State, SuccessorTree, Task, undominated,
-    variables,
+    Mutexes, Names, Numeric, ObjectValue, Operator, Packing, Relaxation, State, SuccessorTree, Task,
+    undominated, variables,
 };
 use pddl::model::{Domain, IndexVec, Problem};
 
@@ -139,8 +139,10 @@ pub(crate) fn finish(
         })
     };
     let is_derived: Vec<bool> = facts.iter().map(|f| f.derived).collect();
+    let variables = variables(&mutexes, &is_derived);
     Ok(Task {
-        variables: variables(&mutexes, &is_derived),
+        packing: Packing::new(facts.len(), &variables),
+        variables,
         mutexes,
         successors,
         undominated,

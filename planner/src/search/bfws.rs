@@ -74,7 +74,7 @@ pub(crate) struct Bfws<'a> {
     job: Job<'a>,
     ff: Ff<'a>,
     count: Box<dyn Heuristic + Send + 'a>,
-    registry: StateRegistry,
+    registry: StateRegistry<'a>,
     nodes: Vec<Node>,
     counters: Vec<Counter>,
     counted: usize,
@@ -100,7 +100,7 @@ impl<'a> Bfws<'a> {
                 Count::Landmarks => HeuristicKind::Landmarks,
             }
             .build(&job, Costs::Unit),
-            registry: StateRegistry::new(words),
+            registry: StateRegistry::new(job.task, job.state.words()),
             nodes: Vec::new(),
             counters: Vec::new(),
             counted: 0,
@@ -142,7 +142,7 @@ impl<'a> Bfws<'a> {
         };
         let (task, meter) = (self.job.task, self.job.meter);
         self.statistics.expanded += 1;
-        self.here.copy_from_slice(self.registry.words(id));
+        self.registry.read(id, &mut self.here);
         self.successors.clear();
         task.successors.applicable(&self.here, &mut self.successors);
         self.job.barred.filter(&mut self.successors);

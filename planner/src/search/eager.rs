@@ -40,7 +40,7 @@ pub(crate) struct Eager<'a> {
     job: Job<'a>,
     order: Order,
     heuristic: Box<dyn Heuristic + Send + 'a>,
-    registry: StateRegistry,
+    registry: StateRegistry<'a>,
     nodes: Vec<Node>,
     open: BinaryHeap<Reverse<Entry>>,
     inserted: u64,
@@ -57,7 +57,7 @@ impl<'a> Eager<'a> {
         Self {
             heuristic: settings.heuristic.build(&job, settings.costs),
             order: settings.order,
-            registry: StateRegistry::new(job.task.words_per_state()),
+            registry: StateRegistry::new(job.task, job.state.words()),
             nodes: Vec::new(),
             open: BinaryHeap::new(),
             inserted: 0,
@@ -103,7 +103,7 @@ impl<'a> Eager<'a> {
             return None;
         }
         let (task, meter) = (self.job.task, self.job.meter);
-        self.here.copy_from_slice(self.registry.words(id));
+        self.registry.read(id, &mut self.here);
         if self.job.goal.holds_in(&self.here) {
             return Some(Outcome::Solved(Plan::of(task, self.registry.path(id))));
         }

@@ -30,7 +30,7 @@ pub(crate) struct HillClimbing<'a> {
     base: Vec<u64>,
     height: Estimate,
     followed: Followed,
-    registry: StateRegistry,
+    registry: StateRegistry<'a>,
     queue: VecDeque<(StateId, Vec<OperatorId>)>,
     begun: bool,
     statistics: Statistics,
@@ -45,7 +45,7 @@ impl<'a> HillClimbing<'a> {
             base: job.state.words().to_vec(),
             height: Estimate::DEAD_END,
             followed: Followed::Helpful,
-            registry: StateRegistry::new(job.task.words_per_state()),
+            registry: StateRegistry::new(job.task, job.state.words()),
             queue: VecDeque::new(),
             begun: false,
             statistics: Statistics::default(),
@@ -57,7 +57,7 @@ impl<'a> HillClimbing<'a> {
     /// Starts a breadth-first search at `base`.
     fn plateau(&mut self, followed: Followed, helpful: Vec<OperatorId>) {
         self.followed = followed;
-        self.registry = StateRegistry::new(self.job.task.words_per_state());
+        self.registry = StateRegistry::new(self.job.task, &self.base);
         self.queue.clear();
         let (id, _) = self.registry.insert(&self.base, None);
         self.queue.push_back((id, helpful));
@@ -90,7 +90,8 @@ impl<'a> HillClimbing<'a> {
             return None;
         };
         let (task, meter) = (self.job.task, self.job.meter);
-        let here = self.registry.words(id).to_vec();
+        let mut here = self.next.clone();
+        self.registry.read(id, &mut here);
         let mut operators = helpful;
         if self.followed == Followed::All {
             task.successors.applicable(&here, &mut operators);

@@ -51,7 +51,7 @@ pub(crate) struct Lazy<'a> {
     job: Job<'a>,
     order: Order,
     lists: Vec<Lists<'a>>,
-    registry: StateRegistry,
+    registry: StateRegistry<'a>,
     /// The cost of the way by which each state was reached.
     reached_at: Vec<u64>,
     begun: bool,
@@ -60,6 +60,7 @@ pub(crate) struct Lazy<'a> {
     statistics: Statistics,
     successors: Vec<OperatorId>,
     preferred: Vec<OperatorId>,
+    here: Vec<u64>,
     next: Vec<u64>,
 }
 
@@ -78,13 +79,14 @@ impl<'a> Lazy<'a> {
         Self {
             lists: settings.heuristics.iter().map(list).collect(),
             order: settings.order,
-            registry: StateRegistry::new(job.task.words_per_state()),
+            registry: StateRegistry::new(job.task, job.state.words()),
             reached_at: Vec::new(),
             begun: false,
             pruned: false,
             statistics: Statistics::default(),
             successors: Vec::new(),
             preferred: Vec::new(),
+            here: job.state.words().to_vec(),
             next: job.state.words().to_vec(),
             job,
         }
@@ -113,9 +115,9 @@ impl<'a> Lazy<'a> {
             self.pruned |= self.order == Order::Greedy;
             return None;
         }
-        let words = self.registry.words(from);
-        self.next.copy_from_slice(words);
-        task.apply(operator, words, &mut self.next);
+        self.registry.read(from, &mut self.here);
+        self.next.copy_from_slice(&self.here);
+        task.apply(operator, &self.here, &mut self.next);
         self.statistics.generated += 1;
         self.job.meter.spend(meter::price_of_state(self.next.len()));
         let (id, new) = self.registry.insert(&self.next, Some((from, operator)));

@@ -2,18 +2,24 @@
 //!
 //! Problem: millions of states must be stored, found again and traced back. Idea: words in segments
 //! that never move, and an open-addressing table of ids whose keys are the words themselves.
+//! Where that makes them much smaller, states are packed into finite-domain variables.
 //! Invariant: an id is the position of insertion and never changes. Cost: the
 //! state's bits plus about 16 bytes.
 
 use super::meter::UNLIMITED;
 use crate::ids::{OperatorId, StateId, id32};
+use crate::task::{Packing, Task};
 
 /// Ids stay well below 2^32.
 const MOST_STATES: usize = u32::MAX as usize / 2;
 const NONE: u32 = u32::MAX;
 
 /// The states.
-pub(crate) struct StateRegistry {
+pub(crate) struct StateRegistry<'t> {
+    /// `None` where states are kept as they are.
+    packing: Option<&'t Packing>,
+    /// A packed state.
+    packed: Vec<u64>,
     width: usize,
     per_segment: usize,
     segments: Vec<Vec<u64>>,
@@ -22,11 +28,16 @@ pub(crate) struct StateRegistry {
     slots: Vec<u32>,
 }
 
-impl StateRegistry {
-    /// For states of `width` words.
-    pub(crate) fn new(width: usize) -> Self {
+impl<'t> StateRegistry<'t> {
+    /// For the states that operators reach from `first`.
+    pub(crate) fn new(task: &'t Task, first: &[u64]) -> Self {
+        // A made-up state may hold two facts of a group, and then there is no variable of them.
+        let packing = task.packing.as_ref().filter(|_| task.mutexes.keep(first));
+        let width = packing.map_or(first.len(), |p| p.width(first.len()));
         let per_segment = (1_usize << 14).div_ceil(width.max(1)).max(16).next_power_of_two();
         Self {
+            packing,
+            packed: vec![0; if packing.is_some() { width } else { 0 }],
             width,
             per_segment,
             segments: Vec::new(),
@@ -36,7 +47,15 @@ impl StateRegistry {
         }
     }
 
-    pub(crate) fn words(&self, id: StateId) -> &[u64] {
+    /// A state's words.
+    pub(crate) fn read(&self, id: StateId, words: &mut [u64]) {
+        match self.packing {
+            Some(packing) => packing.unpack(self.stored(id), words),
+            None => words.copy_from_slice(self.stored(id)),
+        }
+    }
+
+    fn stored(&self, id: StateId) -> &[u64] {
         let i = id.0 as usize;
         let start = i % self.per_segment * self.width;
         &self.segments[i / self.per_segment][start..start + self.width]
@@ -44,12 +63,21 @@ impl StateRegistry {
 
     /// The state's id, and whether it is new.
     pub(crate) fn insert(&mut self, words: &[u64], from: Option<(StateId, OperatorId)>) -> (StateId, bool) {
+        let Some(packing) = self.packing else { return self.store(words, from) };
+        let mut packed = std::mem::take(&mut self.packed);
+        packing.pack(words, &mut packed);
+        let stored = self.store(&packed, from);
+        self.packed = packed;
+        stored
+    }
+
+    fn store(&mut self, words: &[u64], from: Option<(StateId, OperatorId)>) -> (StateId, bool) {
         let mask = self.slots.len() - 1;
         let mut slot = spread(words) & mask;
         loop {
             match self.slots[slot] {
                 NONE => break,
-                id if self.words(StateId(id)) == words => return (StateId(id), false),
+                id if self.stored(StateId(id)) == words => return (StateId(id), false),
                 _ => slot = (slot + 1) & mask,
             }
         }
@@ -77,7 +105,7 @@ impl StateRegistry {
         let mut slots = vec![NONE; self.slots.len() * 2];
         let mask = slots.len() - 1;
         for id in 0..id32(self.parents.len()) {
-            let mut slot = spread(self.words(StateId(id))) & mask;
+            let mut slot = spread(self.stored(StateId(id))) & mask;
             while slots[slot] != NONE {
                 slot = (slot + 1) & mask;
             }

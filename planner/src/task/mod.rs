@@ -14,6 +14,7 @@ mod mutexes;
 mod names;
 mod numeric;
 mod operator;
+mod packing;
 mod relaxation;
 mod state;
 mod successors;
@@ -27,6 +28,7 @@ pub use mutexes::{Mutexes, Variable};
 pub(crate) use names::Names;
 pub(crate) use numeric::{Fluent, Numeric, NumericEffects, Update, changed};
 pub use operator::{ConditionalEffect, Goal, Impossible, Literals, Operator};
+pub(crate) use packing::Packing;
 pub(crate) use relaxation::{AXIOM, Relaxation, Rows};
 pub use state::State;
 pub(crate) use state::{contains, for_each_set, set, unset};
@@ -97,6 +99,7 @@ pub struct Task {
     pub(crate) numeric: Numeric,
     /// `None` where costs add up to it.
     pub(crate) metric: Option<Metric>,
+    pub(crate) packing: Option<Packing>,
     pub(crate) successors: SuccessorTree,
     pub(crate) relaxation: Relaxation,
     /// The relaxation without what other operators do as well.

@@ -8,7 +8,7 @@
 //!
 //! Source: Helmert, "Concise finite-domain representations for PDDL planning tasks", AIJ 2009, §5–6.
 
-use super::{Operator, Rows, State};
+use super::{Operator, Rows, State, contains};
 use crate::ids::{FactId, OperatorId, id32};
 use pddl::model::{Idx, IndexVec};
 
@@ -100,6 +100,12 @@ impl Mutexes {
             }
         }
         false
+    }
+
+    /// Whether at most one fact of each group holds.
+    pub(crate) fn keep(&self, words: &[u64]) -> bool {
+        let held = |g: usize| self.group(g).filter(|&f| contains(words, f)).count();
+        (0..self.len()).all(|g| held(g) <= 1)
     }
 
     /// Whether a state keeps all groups.
