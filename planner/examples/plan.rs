@@ -1,4 +1,5 @@
-//! `plan DOMAIN PROBLEM [SEARCH] [-o PLAN] [--timeout S]`: grounds and solves, for measuring. The command that users
+//! `plan DOMAIN PROBLEM [SEARCH] [-o PLAN] [--timeout S]`: grounds and solves, for measuring;
+//! with `--improve` goes on to better plans until the time is over. The command that users
 //! call is `pelea plan`.
 #![allow(clippy::print_stdout, clippy::print_stderr, missing_docs)]
 
@@ -11,6 +12,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let output = arguments.iter().position(|a| a == "-o").map(|i| arguments.drain(i..i + 2).nth(1));
     let timeout = arguments.iter().position(|a| a == "--timeout").map(|i| arguments.drain(i..i + 2).nth(1));
     let timeout = timeout.flatten().map_or(Ok(300.0), |text| text.parse())?;
+    let improving = arguments.iter().position(|a| a == "--improve").map(|i| arguments.remove(i)).is_some();
     let [domain, problem, rest @ ..] = arguments.as_slice() else {
         return Err("DOMAIN PROBLEM [SEARCH]".into());
     };
@@ -36,7 +38,20 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         task.goal().literals.len()
     );
     let budget = Budget { interrupted: &late, memory_bytes: Some(4 << 30), ..Budget::default() };
-    let report = solve(&task, &Query::of(&task), &configuration, &budget);
+    let report = if improving {
+        let mut tell = |plan: &planner::Plan| {
+            eprintln!(
+                "{:9.3} s, cost {}",
+                start.elapsed().as_secs_f64(),
+                plan.cost / u64::from(task.cost_scale())
+            );
+        };
+        let improved = planner::improve(&task, &Query::of(&task), &configuration, &budget, &mut tell);
+        eprintln!("{:9.3} s, {:?}", start.elapsed().as_secs_f64(), improved.quality);
+        improved.report
+    } else {
+        solve(&task, &Query::of(&task), &configuration, &budget)
+    };
     let Outcome::Solved(plan) = &report.outcome else {
         eprintln!("{:9.3} s {report:?}", start.elapsed().as_secs_f64());
         return Ok(());

@@ -45,7 +45,7 @@ mod search;
 mod task;
 
 pub use ground::{Feature, GroundError, GroundOptions, Origin, ground};
-pub use heuristics::{Costs, HeuristicKind, Properties};
+pub use heuristics::{Costs, HeuristicKind, Properties, Supported};
 pub use ids::{FactId, FluentId, OperatorId};
 pub use number::Number;
 pub use search::{

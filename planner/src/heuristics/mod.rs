@@ -33,6 +33,21 @@ pub struct Properties {
     pub consistent: bool,
     /// Infinite only where the goal cannot be reached.
     pub safe: bool,
+    /// Parts of the language under which the above holds.
+    pub supports: &'static [Supported],
+}
+
+/// A part of the language that estimates must know of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Supported {
+    /// Literals that must not hold.
+    NegativeConditions,
+    /// Effects under a condition.
+    ConditionalEffects,
+    /// Derived facts; their negation counts as true.
+    Axioms,
+    /// What operators cost.
+    ActionCosts,
 }
 
 /// Which costs of operators a heuristic counts.
@@ -57,7 +72,7 @@ impl Costs {
     }
 }
 
-/// The estimators that configurations name. All support conditional effects, axioms and negation.
+/// The estimators that configurations name; [`HeuristicKind::properties`] says what they promise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HeuristicKind {
     /// 0 everywhere.
@@ -88,7 +103,18 @@ impl HeuristicKind {
             Self::LmCut => (true, false),
             Self::GoalCount | Self::Add | Self::Ff | Self::Landmarks => (false, false),
         };
-        Properties { admissible, consistent, safe: true }
+        // Those that count facts or landmarks take every operator for the same.
+        const ALL: &[Supported] = &[
+            Supported::NegativeConditions,
+            Supported::ConditionalEffects,
+            Supported::Axioms,
+            Supported::ActionCosts,
+        ];
+        let supports = match self {
+            Self::GoalCount | Self::Landmarks => ALL.split_at(3).0,
+            _ => ALL,
+        };
+        Properties { admissible, consistent, safe: true, supports }
     }
 
     /// An estimator for one job. Where its meter is stopped meanwhile, it is of no use.

@@ -3,7 +3,8 @@
 //! Idea: once there is a plan, its cost is a bound for all that follows. Steps that the plan can do
 //! without are taken out; then greedy search that counts costs, and weighted A* with falling weights,
 //! each started afresh with the bound of the last. When the last of them has nothing left below the
-//! bound, the plan is optimal.
+//! bound, the plan is optimal. Meanwhile windows of the best plan are made cheaper, on a thread of their
+//! own unless the same call has to give the same answer.
 //!
 //! Source: Richter & Westphal, "The LAMA planner", JAIR 2010, §6; restarts: Richter, Thayer & Ruml, "The
 //! joy of forgetting: faster anytime search via restarting", ICAPS 2010.
@@ -11,13 +12,16 @@
 use super::configuration::LAMA;
 use super::elimination::without_needless;
 use super::lazy::{Lazy, LazySettings};
-use super::portfolio::{self, Sink, Threads};
+use super::portfolio::{self, Alarm, Sink, Threads};
+use super::windows::Windows;
 use super::{
-    Bound, Budget, Engine, Job, Limit, Order, Outcome, Plan, Query, Report, SearchConfiguration, Searcher,
-    Statistics, Turn, solve,
+    Bound, Budget, Engine, Job, Limit, Meter, Order, Outcome, Plan, Query, Report, SearchConfiguration,
+    Searcher, Statistics, Turn, solve,
 };
 use crate::heuristics::{Costs, HeuristicKind};
 use crate::task::Task;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::sync::{Mutex, PoisonError};
 
 /// How good the last plan is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,26 +63,52 @@ pub fn improve(
     if configuration.optimal {
         return Improved { report, quality: Quality::Optimal };
     }
-    let mut best = first.clone();
     let bound = Bound::none();
-    bound.lower(best.cost);
-    let threads = if configuration.deterministic { Threads::One } else { Threads::Two };
-    let expansions = budget.expansions.map(|e| e.saturating_sub(report.statistics.expanded));
-    let rest = Budget { expansions, ..*budget };
-    let mut better = |plan: &Plan| {
-        best = without_needless(task, query, plan);
-        bound.lower(best.cost);
-        on_plan(&best);
+    bound.lower(first.cost);
+    let best = Mutex::new(Best { plan: first.clone(), on_plan });
+    let offer = |plan: &Plan| {
+        let mut best = best.lock().unwrap_or_else(PoisonError::into_inner);
+        if plan.cost < best.plan.cost {
+            best.plan = plan.clone();
+            bound.lower(plan.cost);
+            (best.on_plan)(plan);
+        }
+        best.plan.clone()
     };
-    let more = portfolio::run(
-        task,
-        query,
-        &[(Engine::Improving, 1)],
-        threads,
-        &bound,
-        &rest,
-        Sink::Better(&mut better),
-    );
+    let expansions = budget.expansions.map(|e| e.saturating_sub(report.statistics.expanded));
+    let over = AtomicBool::new(false);
+    let interrupted = || over.load(Relaxed) || (budget.interrupted)();
+    // The searches below the bound have most of the memory: windows are small.
+    let rest = Budget { expansions, memory_bytes: budget.memory_bytes.map(|m| m / 8 * 7), ..*budget };
+    let small = Budget {
+        expansions: None,
+        memory_bytes: budget.memory_bytes.map(|m| m / 8),
+        interrupted: &interrupted,
+    };
+    let (barred, meter) = (query.barred(task), Meter::new(small));
+    let polish = |most| {
+        Windows { task, query: *query, barred: &barred, meter: &meter, most }
+            .run(offer(&Plan { operators: Vec::new(), cost: u64::MAX }), &mut |plan| offer(&plan))
+    };
+    let search = || {
+        let mut better = |plan: &Plan| drop(offer(&without_needless(task, query, plan)));
+        let sink = Sink::Better(&mut better);
+        portfolio::run(task, query, &[(Engine::Improving, 1)], Threads::One, &bound, &rest, sink)
+    };
+    let (polished, more) = if configuration.deterministic {
+        let polished = polish(POLISH);
+        (polished, search())
+    } else {
+        std::thread::scope(|scope| {
+            let other = scope.spawn(|| polish(u64::MAX));
+            let _alarm = Alarm(&over);
+            let more = search();
+            // What is proven to be the best cannot be polished; what was interrupted may not be.
+            over.store(true, Relaxed);
+            (other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), more)
+        })
+    };
+    report.statistics += polished;
     let quality = match more.outcome {
         Outcome::Unsolvable(_) if !task.numeric.has_overflowed() => Quality::Optimal,
         Outcome::Unsolvable(_) | Outcome::Unsupported(_) => Quality::Unproven(Limit::Incomplete),
@@ -86,7 +116,8 @@ pub fn improve(
         Outcome::Solved(_) => Quality::Unproven(Limit::Incomplete),
     };
     report.statistics += more.statistics;
-    report.outcome = Outcome::Solved(best);
+    let best = best.into_inner().unwrap_or_else(PoisonError::into_inner);
+    report.outcome = Outcome::Solved(best.plan);
     Improved { report, quality }
 }
 
@@ -122,6 +153,15 @@ fn improve_metric(
     report.statistics += more.statistics;
     report.outcome = Outcome::Solved(best.1);
     Improved { report, quality }
+}
+
+/// Work on windows where there is only one thread.
+const POLISH: u64 = 1 << 27;
+
+/// The best plan so far and whom to tell of better ones.
+struct Best<'p> {
+    plan: Plan,
+    on_plan: &'p mut (dyn FnMut(&Plan) + Send),
 }
 
 /// The weights of the estimates, one search each; the first search is greedy.

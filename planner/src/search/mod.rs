@@ -21,6 +21,7 @@ mod portfolio;
 mod query;
 mod registry;
 mod searcher;
+mod windows;
 
 pub use anytime::{Improved, Quality, improve};
 pub use bfws::{BfwsSettings, Count, Width};

@@ -56,6 +56,6 @@ impl<T> OpenList<T> {
 
     /// Bytes held by the items.
     pub(crate) fn memory(&self) -> usize {
-        self.len * size_of::<T>() * 3 / 2
+        self.len * size_of::<T>() * 2
     }
 }

@@ -134,7 +134,7 @@ pub(crate) fn run(
 }
 
 /// Ends the other thread's work where this one panics.
-struct Alarm<'a>(&'a AtomicBool);
+pub(crate) struct Alarm<'a>(pub(crate) &'a AtomicBool);
 
 impl Drop for Alarm<'_> {
     fn drop(&mut self) {

@@ -131,6 +131,6 @@ impl Heuristic for LandmarkCount<'_> {
     }
 
     fn memory(&self) -> usize {
-        self.accepted.len() * 8
+        self.accepted.capacity() * 8
     }
 }

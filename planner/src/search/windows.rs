@@ -1,0 +1,130 @@
+//! Cheaper ways between two states of a plan.
+//!
+//! Idea: cut a window out of the plan; what the rest of the plan needs, followed back to the window's
+//! end, is a small goal, and a cheaper way to it from the window's start makes the whole plan cheaper.
+//! Windows start everywhere and grow, and when all have been tried each may take longer. Invariant: a
+//! plan is handed out only if it was replayed to the goal and costs less. What conditional effects and
+//! axioms need is not followed back; the replay finds out.
+//!
+//! Source: Siddiqui & Haslum, "Continuing plan quality optimisation", JAIR 2015, §4.
+
+use super::lazy::{Lazy, LazySettings};
+use super::{Barred, Bound, Job, Meter, Order, Outcome, Plan, Query, Searcher, Statistics, Turn};
+use crate::heuristics::{Costs, HeuristicKind};
+use crate::ids::{FactId, OperatorId};
+use crate::task::{Goal, Literals, State, Task};
+use std::collections::BTreeSet;
+
+/// Work for a window in the first round; it doubles with each.
+const WORK: u64 = 1 << 22;
+/// Rounds, at most.
+const ROUNDS: u32 = 8;
+/// Steps in the smallest windows; they double up to the whole plan.
+const SMALLEST: usize = 6;
+
+/// What windows are cut for.
+pub(crate) struct Windows<'a> {
+    pub(crate) task: &'a Task,
+    pub(crate) query: Query<'a>,
+    pub(crate) barred: &'a Barred,
+    pub(crate) meter: &'a Meter<'a>,
+    /// Work in all, at most.
+    pub(crate) most: u64,
+}
+
+impl Windows<'_> {
+    /// Makes the plan cheaper. `exchange` is told of each cheaper plan and answers with the cheapest that
+    /// anybody knows.
+    pub(crate) fn run(&self, mut plan: Plan, exchange: &mut dyn FnMut(Plan) -> Plan) -> Statistics {
+        let mut statistics = Statistics::default();
+        for round in 0..ROUNDS {
+            let mut size = SMALLEST;
+            loop {
+                let mut start = 0;
+                while start < plan.operators.len() {
+                    if self.is_over() {
+                        return statistics;
+                    }
+                    let end = (start + size).min(plan.operators.len());
+                    match self.shorten(&plan, start, end, WORK << round, &mut statistics) {
+                        Some(better) => plan = exchange(better),
+                        None => start += (size / 2).max(1),
+                    }
+                }
+                if size >= plan.operators.len() {
+                    break;
+                }
+                size *= 2;
+            }
+            plan = exchange(plan);
+        }
+        statistics
+    }
+
+    fn is_over(&self) -> bool {
+        self.meter.spend(1) || self.meter.work() >= self.most
+    }
+
+    fn shorten(
+        &self,
+        plan: &Plan,
+        start: usize,
+        end: usize,
+        work: u64,
+        statistics: &mut Statistics,
+    ) -> Option<Plan> {
+        let task = self.task;
+        let (before, rest) = plan.operators.split_at(start);
+        let (window, after) = rest.split_at(end - start);
+        let state = self.replay(self.query.state, before)?;
+        let goal = Goal::new(self.needed(after));
+        let bound = Bound::none();
+        bound.lower(Plan::of(task, window.to_vec()).cost);
+        let (barred, meter) = (self.barred, self.meter);
+        let job = Job { task, state: &state, goal: &goal, barred, meter, bound: &bound };
+        const FF: &[HeuristicKind] = &[HeuristicKind::Ff];
+        let order = Order::Weighted(1);
+        let mut search =
+            Lazy::new(job, &LazySettings { heuristics: FF, preferred: FF, costs: Costs::Real, order });
+        let until = (meter.work() + work).min(self.most);
+        let outcome = search.advance(&Turn { until, ..meter.whole() });
+        *statistics += search.statistics();
+        let Some(Outcome::Solved(found)) = outcome else { return None };
+        let operators = [before, &found.operators, after].concat();
+        let end = self.replay(self.query.state, &operators)?;
+        let better = Plan::of(task, operators);
+        (self.query.goal.holds_in(end.words()) && better.cost < plan.cost).then_some(better)
+    }
+
+    fn replay(&self, from: &State, steps: &[OperatorId]) -> Option<State> {
+        let mut state = from.clone();
+        let mut next = from.clone();
+        for &operator in steps {
+            self.meter.spend(state.words().len() + 16);
+            if !self.task.is_applicable(&state, operator) {
+                return None;
+            }
+            next.words_mut().copy_from_slice(state.words());
+            self.task.apply(operator, state.words(), next.words_mut());
+            std::mem::swap(&mut state, &mut next);
+        }
+        Some(state)
+    }
+
+    /// What must hold before `steps` for them to be done and to end in the goal.
+    fn needed(&self, steps: &[OperatorId]) -> Literals {
+        let facts = |facts: &[FactId]| facts.iter().copied().collect::<BTreeSet<_>>();
+        let goal = &self.query.goal.literals;
+        let (mut positive, mut negative) = (facts(&goal.positive), facts(&goal.negative));
+        for &step in steps.iter().rev() {
+            let operator = &self.task.operators[step];
+            self.meter.spend(operator.adds.len() + operator.deletes.len() + 16);
+            // Axioms decide anew after each step.
+            positive.retain(|f| !operator.adds.contains(f) && !self.task.facts[*f].derived);
+            negative.retain(|f| !operator.deletes.contains(f) && !self.task.facts[*f].derived);
+            positive.extend(&operator.precondition.positive);
+            negative.extend(&operator.precondition.negative);
+        }
+        Literals { positive: positive.into_iter().collect(), negative: negative.into_iter().collect() }
+    }
+}
