@@ -10,8 +10,12 @@
 //!                 "expanded": 2, "evaluated": 2, "generated": 4}}
 //! ```
 //!
+//! With `--anytime` there is `optimal`, whether no plan is better, and a record for each plan before.
+//!
 //! `outcome` is `solved`, `unsolvable` (with the reason in `message`), `limit` (with which) or
 //! `unsupported`; `statistics` is null where grounding did not end.
+
+mod anytime;
 
 use crate::clock::{Deadline, Seconds, Stopwatch};
 use crate::console::Console;
@@ -24,7 +28,7 @@ use crate::validate::{Figure, finding_message};
 use clap::Args;
 use pddl::{PlanStep, Severity, Source, Span};
 use planner::{
-    Budget, GroundError, GroundOptions, Impossible, Limit, Origin, Outcome, Query, Report,
+    Budget, GroundError, GroundOptions, Impossible, Limit, Origin, Outcome, Quality, Query, Report,
     SearchConfiguration, Task, UnsolvableReason, ground, solve,
 };
 use serde::Serialize;
@@ -56,6 +60,9 @@ pub(crate) struct Arguments {
     /// Find a plan of least cost.
     #[arg(long, conflicts_with = "search")]
     optimal: bool,
+    /// Go on to better plans until the timeout, or until there is none; each is written as PLAN.1, PLAN.2 …
+    #[arg(long)]
+    anytime: bool,
 }
 
 fn search(name: &str) -> Result<SearchConfiguration, String> {
@@ -105,7 +112,18 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         memory_bytes: Some(memory.saturating_sub(task.memory_bytes())),
         interrupted: &interrupted,
     };
-    let report = solve(&task, &Query::of(&task), &configuration, &budget);
+    let output = arguments.output.as_deref();
+    let report = if arguments.anytime {
+        match anytime::run(&files, &task, &configuration, &budget, output, console) {
+            Ok(improved) => {
+                answer.optimal = Some(improved.quality == Quality::Optimal);
+                improved.report
+            }
+            Err(exit) => return exit,
+        }
+    } else {
+        solve(&task, &Query::of(&task), &configuration, &budget)
+    };
     let statistics = StatisticsRecord::of(&task, &report, [read_ms, ground_ms, watch.milliseconds()]);
     console.note(&statistics.line(configuration.name));
     answer.statistics = Some(statistics);
@@ -205,6 +223,9 @@ fn solved(
         }
         None => console.result(text.trim_end()),
     }
+    if let Some(optimal) = answer.optimal {
+        console.note(if optimal { "no plan is better" } else { "there may be better plans" });
+    }
     answer.solved(&valid, kind, console);
     Exit::Yes
 }
@@ -280,6 +301,9 @@ struct Answer {
     cost: Option<Figure>,
     cost_kind: Option<&'static str>,
     search: &'static str,
+    /// Whether no plan is better; where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    optimal: Option<bool>,
     message: Option<String>,
     statistics: Option<StatisticsRecord>,
 }
@@ -293,6 +317,7 @@ impl Answer {
             cost: None,
             cost_kind: None,
             search,
+            optimal: None,
             message: None,
             statistics: None,
         }

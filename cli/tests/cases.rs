@@ -142,6 +142,41 @@ fn a_written_plan_is_the_printed_plan() {
 }
 
 #[test]
+fn better_plans_are_written_one_after_the_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write(
+        "domain.pddl",
+        "(define (domain ways) (:requirements :strips :action-costs)
+          (:predicates (at0) (at1) (at2) (at3)) (:functions (total-cost) - number)
+          (:action fly :parameters () :precondition (at0) :effect (and (at3) (increase (total-cost) 10)))
+          (:action ride :parameters () :precondition (at0) :effect (and (at1) (increase (total-cost) 2)))
+          (:action walk :parameters () :precondition (at1) :effect (and (at2) (increase (total-cost) 2)))
+          (:action swim :parameters () :precondition (at2) :effect (and (at3) (increase (total-cost) 2))))",
+    );
+    write(
+        "problem.pddl",
+        "(define (problem way) (:domain ways) (:init (at0) (= (total-cost) 0)) (:goal (at3))
+          (:metric minimize (total-cost)))",
+    );
+    let run = |arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_pelea"));
+        let output = command.args(arguments).current_dir(folder.path()).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap())
+    };
+    let (_, told) = run(&["plan", "domain.pddl", "problem.pddl", "--anytime", "-o", "out.plan"]);
+    assert!(told.contains("plan 2: 3 steps, cost 6") && told.contains("no plan is better"), "{told}");
+    let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
+    assert_eq!(read("out.plan.1"), "(fly)\n; cost = 10 (general cost)\n");
+    assert_eq!(read("out.plan.2"), "(ride)\n(walk)\n(swim)\n; cost = 6 (general cost)\n");
+    assert_eq!(read("out.plan"), read("out.plan.2"));
+    let (records, _) = run(&["plan", "domain.pddl", "problem.pddl", "--anytime", "--json"]);
+    assert_eq!(records.matches("\"better-plan\"").count(), 2, "{records}");
+    assert!(records.contains("\"optimal\":true"), "{records}");
+}
+
+#[test]
 fn a_closed_pipe_is_no_error() {
     let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/validate-verbose");
     let mut child = Command::new(env!("CARGO_BIN_EXE_pelea"))

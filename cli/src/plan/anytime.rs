@@ -1,0 +1,144 @@
+//! `pelea plan --anytime`: better and better plans until the time is over or none is better.
+//!
+//! The search runs in a thread of its own and sends its plans; here each one is validated, written as
+//! `PLAN.1`, `PLAN.2` … and told before the next is looked at. The best one is written as `PLAN`, too, or
+//! printed where there is no such file. As JSON each plan is
+//!
+//! ```json
+//! {"kind": "better-plan", "number": 2, "steps": 7, "cost": 12, "cost_kind": "general cost",
+//!  "after_ms": 812.5, "file": "PLAN.2"}
+//! ```
+
+use super::{bug, cost_kind, written};
+use crate::clock::Stopwatch;
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::files;
+use crate::render::Message;
+use crate::task::TaskFiles;
+use crate::validate::Figure;
+use pddl::model::Objective;
+use planner::{Budget, Improved, Query, SearchConfiguration, Task, improve};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc;
+use validator::{Valid, Verdict};
+
+/// A plan on its way.
+#[derive(Serialize)]
+struct Better {
+    kind: &'static str,
+    number: usize,
+    steps: u32,
+    cost: Figure,
+    cost_kind: &'static str,
+    after_ms: f64,
+    file: Option<String>,
+}
+
+/// Where plans go.
+struct Writer<'a> {
+    files: &'a TaskFiles,
+    task: &'a Task,
+    output: Option<&'a Path>,
+    watch: Stopwatch,
+    count: usize,
+    best: Option<Valid>,
+}
+
+/// Looks for plans until there is none better, or `budget` ends it. Every better plan is written when
+/// it is found.
+///
+/// # Errors
+/// The exit code where a plan is not valid or cannot be written; that has been told.
+pub(super) fn run(
+    files: &TaskFiles,
+    task: &Task,
+    configuration: &SearchConfiguration,
+    budget: &Budget<'_>,
+    output: Option<&Path>,
+    console: &mut Console<'_>,
+) -> Result<Improved, Exit> {
+    let stop = AtomicBool::new(false);
+    let interrupted = || stop.load(Ordering::Relaxed) || (budget.interrupted)();
+    let budget = Budget { interrupted: &interrupted, ..*budget };
+    let (sender, plans) = mpsc::channel();
+    let mut writer = Writer { files, task, output, watch: Stopwatch::start(), count: 0, best: None };
+    std::thread::scope(|scope| {
+        let search = scope.spawn(|| {
+            let sender = sender;
+            // Nobody listens any more once something is wrong, and then the search is told to stop.
+            improve(task, &Query::of(task), configuration, &budget, &mut |plan| {
+                drop(sender.send(plan.clone()));
+            })
+        });
+        let mut failure = None;
+        for plan in plans {
+            if let Err(exit) = writer.take(&plan, console) {
+                stop.store(true, Ordering::Relaxed);
+                failure = Some(exit);
+                break;
+            }
+        }
+        let improved = search.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        failure.map_or(Ok(improved), Err)
+    })
+}
+
+impl Writer<'_> {
+    /// Validates, writes and tells a plan, if it is better.
+    fn take(&mut self, found: &planner::Plan, console: &mut Console<'_>) -> Result<(), Exit> {
+        let (text, plan) = written(self.task, found);
+        let verdict = validator::validate(&self.files.domain, &self.files.problem, &plan);
+        let Verdict::Valid(valid) = verdict else {
+            return Err(bug(&verdict, &plan, &text, self.files, console));
+        };
+        if self.best.as_ref().is_some_and(|best| !is_better(&valid, best)) {
+            return Ok(());
+        }
+        self.count += 1;
+        let kind = cost_kind(self.files);
+        let file = self.output.map(|path| numbered(path, self.count));
+        if let Some(file) = &file {
+            files::write(file, &format!("{text}; cost = {} ({kind})\n", valid.cost())).map_err(|error| {
+                Message::error(error.to_string()).show(console);
+                Exit::Unwritable
+            })?;
+        }
+        let after_ms = self.watch.milliseconds();
+        let place = file.as_ref().map(|file| format!(", written to {}", file.display()));
+        console.note(&format!(
+            "plan {}: {} steps, cost {}, after {after_ms} ms{}",
+            self.count,
+            valid.steps,
+            valid.cost(),
+            place.unwrap_or_default()
+        ));
+        console.record(&Better {
+            kind: "better-plan",
+            number: self.count,
+            steps: valid.steps,
+            cost: Figure(valid.cost()),
+            cost_kind: kind,
+            after_ms,
+            file: file.map(|file| file.display().to_string()),
+        });
+        self.best = Some(valid);
+        Ok(())
+    }
+}
+
+/// `PLAN.2`.
+fn numbered(path: &Path, number: usize) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(format!(".{number}"));
+    PathBuf::from(name)
+}
+
+fn is_better(new: &Valid, old: &Valid) -> bool {
+    match new.metric.map(|metric| metric.objective) {
+        Some(Objective::Maximize) => new.cost() > old.cost(),
+        Some(Objective::Minimize) | None => new.cost() < old.cost(),
+    }
+}
