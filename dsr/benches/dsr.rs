@@ -96,6 +96,60 @@ fn subscriptions(c: &mut Criterion) {
     });
     drop(matches);
 
+    // A thousand patterns of three nodes, two of them named, of which one matches what changes.
+    let place = dictionary.node_type("place").unwrap();
+    for count in [1, 1_000] {
+        let mut subscribers: Vec<_> = (0..count)
+            .map(|at| {
+                let mut pattern = PatternBuilder::new(&dictionary);
+                let between = pattern.variable("between", place);
+                let (start, end) = (format!("n{}", 5 + 8 * at), format!("n{}", 10 + 8 * at));
+                pattern.edge(start.as_str(), ward.label, between).edge(between, ward.label, end.as_str());
+                let mut matches = ward.graph.subscribe(pattern.build().unwrap());
+                while matches.try_recv().is_some() {}
+                matches
+            })
+            .collect();
+        let mut round = 0_u64;
+        c.bench_function(&format!("patterns/{count} subscribed, one concerned, commit and match"), |bench| {
+            bench.iter(|| {
+                round += 1;
+                let (a, b) = (ward.nodes[5], ward.nodes[9]);
+                let mut tx = Transaction::new(AgentId::DSR);
+                if round.is_multiple_of(2) {
+                    tx.remove_edge(a, ward.label, b)
+                } else {
+                    tx.add_edge(a, ward.label, b)
+                };
+                ward.graph.commit(&tx, Time(round)).unwrap();
+                subscribers[0].try_recv()
+            });
+        });
+    }
+    // One pattern with ten thousand matches: the change is one of them.
+    let mut open = PatternBuilder::new(&dictionary);
+    let (a, b, d) = (open.variable("a", place), open.variable("b", place), open.variable("d", place));
+    open.edge(a, ward.label, b).edge(b, ward.label, d);
+    open.without(|p| _ = p.edge(a, ward.label, d));
+    let mut everywhere = ward.graph.subscribe(open.build().unwrap());
+    while everywhere.try_recv().is_some() {}
+    let mut round = 0_u64;
+    c.bench_function("patterns/one with 10,000 matches, commit and match", |bench| {
+        bench.iter(|| {
+            round += 1;
+            let (a, b) = (ward.nodes[50], ward.nodes[90]);
+            let mut tx = Transaction::new(AgentId::DSR);
+            if round.is_multiple_of(2) {
+                tx.remove_edge(a, ward.label, b)
+            } else {
+                tx.add_edge(a, ward.label, b)
+            };
+            ward.graph.commit(&tx, Time(round)).unwrap();
+            everywhere.try_recv()
+        });
+    });
+    drop(everywhere);
+
     // The same with the subscriber parked on another thread, which answers over a channel.
     let mut matches = ward.graph.subscribe(pattern);
     let (told, heard) = std::sync::mpsc::sync_channel(1);

@@ -14,7 +14,7 @@
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use arc_swap::ArcSwapOption;
 
@@ -22,9 +22,9 @@ use crate::delta::Delta;
 use crate::dictionary::Dictionary;
 use crate::export::{self, Export, RestoreError};
 use crate::id::{AgentId, ReflexId, Time, Version};
-use crate::mentions::Mentions;
 use crate::pattern::Pattern;
 use crate::replay::{self, ReplayError};
+use crate::routes::Routes;
 use crate::snapshot::Snapshot;
 use crate::state::State;
 use crate::subscription::{CAPACITY, Committed, Deltas, Matches, Queue};
@@ -65,7 +65,7 @@ struct Shared {
 /// What the commit lock guards.
 struct Writer {
     state: Arc<State>,
-    queues: Vec<Weak<Queue>>,
+    queues: Routes,
     /// For how many more commits there is always a published state.
     publishing: u32,
 }
@@ -79,7 +79,7 @@ const LONG: usize = 64;
 impl Drop for Shared {
     fn drop(&mut self) {
         let writer = self.commit.get_mut().unwrap_or_else(PoisonError::into_inner);
-        for waker in writer.queues.iter().filter_map(Weak::upgrade).filter_map(|queue| queue.close()) {
+        for waker in writer.queues.queues().filter_map(|queue| queue.close()) {
             waker();
         }
     }
@@ -111,7 +111,7 @@ impl Graph {
 
     fn with(state: State) -> Self {
         let dictionary = Arc::clone(&state.dictionary);
-        let writer = Writer { state: Arc::new(state), queues: Vec::new(), publishing: 0 };
+        let writer = Writer { state: Arc::new(state), queues: Routes::default(), publishing: 0 };
         let shared = Shared {
             dictionary,
             commit: Mutex::new(writer),
@@ -165,12 +165,7 @@ impl Graph {
         let published = !(delta.changes.is_empty() && delta.reflexes.is_empty());
         if published && !writer.queues.is_empty() {
             let committed = Committed { delta: Arc::clone(&delta), snapshot: snapshot.clone() };
-            let touched = Mentions::of(&delta);
-            writer.queues.retain(|queue| {
-                let Some(queue) = queue.upgrade() else { return false };
-                wakers.extend(queue.push(&committed, &touched));
-                true
-            });
+            writer.queues.concerned(&delta, &writer.state, |queue| wakers.extend(queue.push(&committed)));
         }
         drop(guard);
         for waker in wakers {
@@ -248,8 +243,8 @@ impl Graph {
     /// The same, with a queue of this capacity.
     pub fn subscribe_with(&self, pattern: impl Into<Arc<Pattern>>, capacity: NonZeroUsize) -> Matches {
         let pattern = pattern.into();
-        let queue = Queue::new(capacity, Some(pattern.mentions().clone()));
-        let start = self.register(&queue);
+        let queue = Queue::new(capacity);
+        let start = self.register(&queue, Some(Arc::clone(&pattern)));
         Matches::new(queue, pattern, start)
     }
 
@@ -260,15 +255,16 @@ impl Graph {
 
     /// The same, with a queue of this capacity.
     pub fn subscribe_deltas_with(&self, capacity: NonZeroUsize) -> Deltas {
-        let queue = Queue::new(capacity, None);
-        let start = self.register(&queue);
+        let queue = Queue::new(capacity);
+        let start = self.register(&queue, None);
         Deltas { queue, start }
     }
 
     /// Under the commit lock, so that no commit falls between the snapshot and the first event.
-    fn register(&self, queue: &Arc<Queue>) -> Snapshot {
-        let mut writer = self.lock();
-        writer.queues.push(Arc::downgrade(queue));
+    fn register(&self, queue: &Arc<Queue>, pattern: Option<Arc<Pattern>>) -> Snapshot {
+        let mut guard = self.lock();
+        let writer = &mut *guard;
+        writer.queues.add(queue, pattern, &writer.state);
         Snapshot::new(Arc::clone(&writer.state))
     }
 

@@ -42,7 +42,8 @@
 //!
 //! Map, from the ground up: `id`, `value` → `dictionary` → `pages`, `block`, `names`, `members`, `state` (what a snapshot
 //! is), `track`, `undo` → `transaction` (edits, leases, the tree of transforms), `delta`, `replay`, `export` → `chain`, `pattern`,
-//! `reflex` → `snapshot`, `sentence`, `quiver` → `subscription`, `graph`.
+//! `reflex` → `snapshot`, `sentence`, `quiver` → `subscription`,
+//! `routes`, `graph`.
 
 mod block;
 mod chain;
@@ -59,6 +60,7 @@ mod pattern;
 mod quiver;
 mod reflex;
 mod replay;
+mod routes;
 mod sentence;
 mod snapshot;
 mod state;

@@ -14,6 +14,7 @@ mod builder;
 mod check;
 mod matcher;
 mod plan;
+mod seed;
 
 use std::ops::Deref;
 use std::sync::Arc;
@@ -22,7 +23,9 @@ use serde::{Deserialize, Serialize};
 
 pub use self::builder::PatternBuilder;
 pub use self::check::PatternError;
-use self::plan::Step;
+use self::plan::{Mask, Step};
+use self::seed::Seed;
+pub(crate) use self::seed::{Fixed, Route, Slices};
 use crate::id::{AttributeId, LabelId, NodeId, TypeId};
 use crate::mentions::Mentions;
 use crate::value::Value;
@@ -211,6 +214,8 @@ pub struct Pattern {
     /// The constants, which have the last slots.
     constants: Vec<Constant>,
     body: Conjunction<Slot>,
+    /// Where joins begin when something changes.
+    seeds: Vec<Seed>,
     /// The join order when no variable is fixed.
     plan: Vec<Step>,
     mentions: Mentions,
@@ -233,6 +238,10 @@ impl Pattern {
         &self.mentions
     }
 }
+
+/// Join orders that a subscriber has needed, by what was fixed.
+#[derive(Debug, Default)]
+pub(crate) struct Plans(Vec<(Mask, Vec<Step>)>);
 
 /// One match: a node for each variable, in the order in which they were declared.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]

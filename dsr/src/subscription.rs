@@ -1,7 +1,8 @@
 //! Subscriptions: who wants to know gets told, and nobody ever waits for who does not listen.
 //!
-//! Idea: a commit only puts a reference to the new state into the queues whose pattern it may concern; the
-//! subscriber matches, on its own thread and in its own time. Overflow policy: a queue holds at most its capacity;
+//! Idea: a commit only puts its delta and a reference to the new state into the queues whose pattern it may concern
+//! (`routes`); the subscriber matches, on its own thread and in its own time, from the changed edge outwards
+//! (`pattern::seed`). Invariant: what a subscriber holds is what matching its pattern from scratch would give. Overflow policy: a queue holds at most its capacity;
 //! when full, what is in it is dropped, the subscriber is marked as lagging and goes on from the newest state, so a
 //! pattern subscriber misses intermediate matches but never ends up with a wrong set of them. Waking: a blocked
 //! `recv` by a condition variable, anything else (an async task) by a callback, called after the commit's lock
@@ -11,10 +12,11 @@ use std::collections::{BTreeSet, VecDeque};
 use std::num::NonZeroUsize;
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 
+use rustc_hash::FxHashMap;
+
 use crate::delta::Delta;
-use crate::id::Version;
-use crate::mentions::Mentions;
-use crate::pattern::{Binding, Pattern};
+use crate::id::{NodeId, Version};
+use crate::pattern::{Binding, Fixed, Pattern, Plans, Slices};
 use crate::snapshot::Snapshot;
 
 /// How many commits a queue holds unless the subscriber says otherwise.
@@ -60,8 +62,6 @@ pub(crate) struct Queue {
     content: Mutex<Content>,
     ready: Condvar,
     capacity: usize,
-    /// Only commits that touch this; `None` for all.
-    filter: Option<Mentions>,
 }
 
 #[derive(Default)]
@@ -73,15 +73,12 @@ struct Content {
 }
 
 impl Queue {
-    pub(crate) fn new(capacity: NonZeroUsize, filter: Option<Mentions>) -> Arc<Self> {
-        Arc::new(Self { content: Mutex::default(), ready: Condvar::new(), capacity: capacity.get(), filter })
+    pub(crate) fn new(capacity: NonZeroUsize) -> Arc<Self> {
+        Arc::new(Self { content: Mutex::default(), ready: Condvar::new(), capacity: capacity.get() })
     }
 
-    /// Takes note of a commit, if it concerns the subscriber; gives the callback to call later.
-    pub(crate) fn push(&self, committed: &Committed, touched: &Mentions) -> Option<Waker> {
-        if self.filter.as_ref().is_some_and(|filter| !filter.intersects(touched)) {
-            return None;
-        }
+    /// Takes note of a commit; gives the callback to call later.
+    pub(crate) fn push(&self, committed: &Committed) -> Option<Waker> {
         let mut content = self.content();
         if content.commits.len() >= self.capacity {
             content.missed += content.commits.len() as u64;
@@ -200,12 +197,16 @@ pub struct Matches {
     queue: Arc<Queue>,
     pattern: Arc<Pattern>,
     held: BTreeSet<Binding>,
+    /// Per variable, what is held by its node.
+    by_node: Vec<FxHashMap<NodeId, BTreeSet<Binding>>>,
+    plans: Plans,
     start: Option<Snapshot>,
 }
 
 impl Matches {
     pub(crate) fn new(queue: Arc<Queue>, pattern: Arc<Pattern>, start: Snapshot) -> Self {
-        Self { queue, pattern, held: BTreeSet::new(), start: Some(start) }
+        let by_node = pattern.variables().map(|_| FxHashMap::default()).collect();
+        Self { queue, pattern, held: BTreeSet::new(), by_node, plans: Plans::default(), start: Some(start) }
     }
 
     /// The pattern.
@@ -221,11 +222,11 @@ impl Matches {
     /// The next change, if there is one. Commits that change no match are passed over.
     pub fn try_recv(&mut self) -> Option<MatchChange> {
         loop {
-            let (snapshot, missed) = match self.start.take() {
-                Some(start) => (start, 0),
-                None => content_of(self.queue.try_recv()?),
+            let event = match self.start.take() {
+                Some(snapshot) => Event::Lagged { missed: 0, snapshot },
+                None => self.queue.try_recv()?,
             };
-            if let Some(change) = self.look(snapshot, missed) {
+            if let Some(change) = self.look(event) {
                 return Some(change);
             }
         }
@@ -234,11 +235,11 @@ impl Matches {
     /// Waits for the next change; `None` when all handles of the graph are gone.
     pub fn recv(&mut self) -> Option<MatchChange> {
         loop {
-            let (snapshot, missed) = match self.start.take() {
-                Some(start) => (start, 0),
-                None => content_of(self.queue.recv()?),
+            let event = match self.start.take() {
+                Some(snapshot) => Event::Lagged { missed: 0, snapshot },
+                None => self.queue.recv()?,
             };
-            if let Some(change) = self.look(snapshot, missed) {
+            if let Some(change) = self.look(event) {
                 return Some(change);
             }
         }
@@ -257,21 +258,92 @@ impl Matches {
         self.start.is_none() && self.queue.is_closed()
     }
 
-    fn look(&mut self, snapshot: Snapshot, missed: u64) -> Option<MatchChange> {
-        let now: BTreeSet<_> = self.pattern.matches(&snapshot).into_iter().collect();
-        let appeared: Vec<_> = now.difference(&self.held).cloned().collect();
-        let disappeared: Vec<_> = self.held.difference(&now).cloned().collect();
-        self.held = now;
+    fn look(&mut self, event: Event) -> Option<MatchChange> {
+        let (mut appeared, mut disappeared) = (Vec::new(), Vec::new());
+        let (snapshot, missed) = match event {
+            Event::Lagged { missed, snapshot } => {
+                self.match_all(&snapshot, &mut appeared, &mut disappeared);
+                (snapshot, missed)
+            }
+            Event::Committed(Committed { delta, snapshot }) => {
+                match self.pattern.slices(&delta, snapshot.state()) {
+                    Slices::All => self.match_all(&snapshot, &mut appeared, &mut disappeared),
+                    Slices::These(slices) => {
+                        for fixed in &slices {
+                            self.match_slice(fixed, &snapshot, &mut appeared, &mut disappeared);
+                        }
+                        appeared.sort_unstable();
+                        disappeared.sort_unstable();
+                    }
+                }
+                (snapshot, 0)
+            }
+        };
         if appeared.is_empty() && disappeared.is_empty() && missed == 0 {
             return None;
         }
         Some(MatchChange { version: snapshot.version(), appeared, disappeared, snapshot, missed })
     }
-}
 
-fn content_of(event: Event) -> (Snapshot, u64) {
-    match event {
-        Event::Committed(committed) => (committed.snapshot, 0),
-        Event::Lagged { missed, snapshot } => (snapshot, missed),
+    fn match_all(
+        &mut self,
+        snapshot: &Snapshot,
+        appeared: &mut Vec<Binding>,
+        disappeared: &mut Vec<Binding>,
+    ) {
+        let now: BTreeSet<_> = self.pattern.matches(snapshot).into_iter().collect();
+        appeared.extend(now.difference(&self.held).cloned());
+        disappeared.extend(self.held.difference(&now).cloned());
+        disappeared.iter().for_each(|binding| self.lose(binding));
+        appeared.iter().for_each(|binding| self.find(binding));
+    }
+
+    /// Holds the matches with these nodes against those held with these nodes.
+    fn match_slice(
+        &mut self,
+        fixed: &Fixed,
+        snapshot: &Snapshot,
+        appeared: &mut Vec<Binding>,
+        disappeared: &mut Vec<Binding>,
+    ) {
+        let now = self.pattern.matches_of(snapshot.state(), fixed, &mut self.plans);
+        let held_with = |(at, node): &(usize, NodeId)| self.by_node[*at].get(node);
+        // The smallest of the sets that all of them are in; one that is empty says that there are none.
+        let sets = fixed.iter().map(held_with).min_by_key(|set| set.map_or(0, BTreeSet::len)).flatten();
+        let agrees = |binding: &&Binding| fixed.iter().all(|(at, node)| binding[*at] == *node);
+        let gone: Vec<_> = sets
+            .into_iter()
+            .flatten()
+            .filter(agrees)
+            .filter(|held| now.binary_search(held).is_err())
+            .cloned()
+            .collect();
+        gone.iter().for_each(|binding| self.lose(binding));
+        disappeared.extend(gone);
+        for binding in now {
+            if !self.held.contains(&binding) {
+                self.find(&binding);
+                appeared.push(binding);
+            }
+        }
+    }
+
+    fn find(&mut self, binding: &Binding) {
+        for (sets, node) in self.by_node.iter_mut().zip(binding.iter()) {
+            sets.entry(*node).or_default().insert(binding.clone());
+        }
+        self.held.insert(binding.clone());
+    }
+
+    fn lose(&mut self, binding: &Binding) {
+        for (sets, node) in self.by_node.iter_mut().zip(binding.iter()) {
+            if let Some(set) = sets.get_mut(node) {
+                set.remove(binding);
+                if set.is_empty() {
+                    sets.remove(node);
+                }
+            }
+        }
+        self.held.remove(binding);
     }
 }

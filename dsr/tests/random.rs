@@ -326,6 +326,29 @@ fn patterns(d: &Dictionary) -> Vec<(Pattern, Brute)> {
         })
     }));
 
+    // The only person: a local variable that nothing but its type binds.
+    let mut p = PatternBuilder::new(d);
+    let who = p.variable("who", kind("person"));
+    p.without(|p| {
+        let other = p.variable("other", kind("person"));
+        p.distinct(who, other);
+    });
+    list.push((p.build().unwrap(), |s, n| {
+        let person = s.dictionary().node_type("person").unwrap();
+        !s.nodes_of(person).any(|other| other != n[0])
+    }));
+
+    // Three nodes in a row, and the last does not know the first.
+    let mut p = PatternBuilder::new(d);
+    let (a, b) = (p.variable("a", kind("place")), p.variable("b", kind("place")));
+    let c = p.variable("c", kind("object"));
+    p.edge(a, label("knows"), b).edge(b, label("knows"), c);
+    p.without(|p| _ = p.edge(c, label("knows"), a));
+    list.push((p.build().unwrap(), |s, n| {
+        let knows = |from, to| edge(s, Some(from), "knows", Some(to));
+        knows(n[0], n[1]) && knows(n[1], n[2]) && !knows(n[2], n[0])
+    }));
+
     let mut p = PatternBuilder::new(d);
     let (a, b) = (p.variable("a", kind("place")), p.variable("b", kind("place")));
     p.distance(a, b, Comparison::LessOrEqual, 1.5).distinct(a, b);

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::plan::{Mask, plan};
 use super::{
     Atom, Carrier, Comparison, Conjunction, Constant, Pattern, Right, SLOTS, Scope, Slot, Term, Variable,
+    seed,
 };
 use crate::dictionary::{Dictionary, HolderType, Nature};
 use crate::id::{AttributeId, LabelId, NodeId, TypeId};
@@ -84,7 +85,9 @@ pub(super) fn compile(
     let mut bound = Mask::default();
     (types.len()..count).for_each(|slot| bound.insert(slot_at(slot)));
     let plan = plan(&body, bound);
-    Ok(Pattern { variables, locals, constants, body, plan, mentions })
+    let mut seeds = Vec::new();
+    seed::seeds(&body, &mut seeds);
+    Ok(Pattern { variables, locals, constants, body, seeds, plan, mentions })
 }
 
 fn slot_at(index: usize) -> Slot {

@@ -5,7 +5,7 @@
 use std::ops::ControlFlow;
 
 use super::plan::{Mask, Step, plan};
-use super::{Atom, Binding, Carrier, Comparison, Pattern, Right, SLOTS, Slot, Variable};
+use super::{Atom, Binding, Carrier, Comparison, Fixed, Pattern, Plans, Right, SLOTS, Slot, Variable};
 use crate::id::{AttributeId, EdgeKey, Holder, NodeId, TypeId};
 use crate::snapshot::Snapshot;
 use crate::state::State;
@@ -29,6 +29,42 @@ impl Pattern {
         found
     }
 
+    /// The matches that give these variables these nodes, in order, by a join order that is kept for the next time.
+    pub(crate) fn matches_of(&self, state: &State, fixed: &Fixed, plans: &mut Plans) -> Vec<Binding> {
+        let mut slots = [NodeId::NOWHERE; SLOTS];
+        let mut bound = self.bind_constants(state, &mut slots);
+        let run = Run { pattern: self, state };
+        for &(at, node) in fixed {
+            if (bound.contains(slot(at)) && slots[at] != node) || !run.admits(slot(at), node) {
+                return Vec::new();
+            }
+            slots[at] = node;
+            bound.insert(slot(at));
+        }
+        let known = plans.0.iter().position(|(mask, _)| *mask == bound);
+        let at = known.unwrap_or_else(|| {
+            plans.0.push((bound, plan(&self.body, bound)));
+            plans.0.len() - 1
+        });
+        let mut found = Vec::new();
+        let _ = run.steps(&plans.0[at].1, &mut slots, &mut |slots| {
+            found.push(Binding(slots[..self.variables.len()].to_vec()));
+            ControlFlow::Continue(())
+        });
+        found.sort_unstable();
+        found
+    }
+
+    fn bind_constants(&self, state: &State, slots: &mut Slots) -> Mask {
+        let mut bound = Mask::default();
+        let first = self.variables.len() + self.locals.len();
+        for (at, node) in self.constants_in(state).enumerate() {
+            slots[first + at] = node;
+            bound.insert(slot(first + at));
+        }
+        bound
+    }
+
     /// Whether there is a match.
     pub fn holds(&self, snapshot: &Snapshot) -> bool {
         self.holds_in(snapshot.state(), &[])
@@ -45,12 +81,7 @@ impl Pattern {
 
     fn run_all(&self, state: &State, fixed: &[(Variable, NodeId)], emit: Emit<'_>) -> ControlFlow<()> {
         let mut slots = [NodeId::NOWHERE; SLOTS];
-        let mut bound = Mask::default();
-        let first_constant = self.variables.len() + self.locals.len();
-        for (at, node) in self.constants_in(state).enumerate() {
-            slots[first_constant + at] = node;
-            bound.insert(slot(first_constant + at));
-        }
+        let mut bound = self.bind_constants(state, &mut slots);
         let run = Run { pattern: self, state };
         let mut any = false;
         for &(variable, node) in fixed {
@@ -71,7 +102,7 @@ impl Pattern {
         }
     }
 
-    fn type_of(&self, slot: Slot) -> Option<TypeId> {
+    pub(super) fn type_of(&self, slot: Slot) -> Option<TypeId> {
         let at = usize::from(slot.0);
         match self.variables.get(at) {
             Some((_, id)) => Some(*id),

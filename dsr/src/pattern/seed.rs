@@ -1,0 +1,259 @@
+//! From a change to the matches that it may concern: where a join begins at the changed edge.
+//!
+//! Problem: matching a pattern again for each commit costs what the graph is large; the commit changed an edge. Idea:
+//! a match can only come or go if one of its atoms, at the nodes of the match, changed. So each atom is a seed: the
+//! change gives nodes to the variables of that atom, and only matches that have them there are looked at again. An
+//! atom of a negated part gives nodes to those of its variables that the pattern has outside.
+//!
+//! Invariant: matches outside the slices of a delta are the same before and after it. Where a change gives no
+//! variable a node (a constant comes or goes, a distance may have changed, a negated part shares no variable with
+//! the atom), all matches are looked at again. A variable that an edge or an attribute binds needs no seed of its
+//! own for nodes that come and go, because their edges and attributes come and go with them.
+//!
+//! Source: the semi-naive evaluation of Datalog (Bancilhon and Ramakrishnan, SIGMOD 1986), with single changes as
+//! the deltas.
+
+use smallvec::SmallVec;
+
+use super::plan::Mask;
+use super::{Atom, Carrier, Comparison, Conjunction, Constant, Pattern, Right, Slot};
+use crate::delta::{Change, Delta};
+use crate::id::{AttributeId, Holder, LabelId, NodeId, TypeId};
+use crate::state::State;
+
+/// An atom as the beginning of a join.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Seed {
+    Edge {
+        label: LabelId,
+        from: Slot,
+        to: Slot,
+    },
+    NodeAttribute {
+        attribute: AttributeId,
+        node: Slot,
+    },
+    EdgeAttribute {
+        attribute: AttributeId,
+        label: LabelId,
+        from: Slot,
+        to: Slot,
+    },
+    /// A variable that nothing but its type binds.
+    Loose(Slot),
+    Transforms,
+}
+
+/// The seeds of a conjunction and of the negated parts in it.
+pub(super) fn seeds(part: &Conjunction<Slot>, into: &mut Vec<Seed>) {
+    let mut bound = Mask::default();
+    for atom in &part.atoms {
+        match atom {
+            Atom::Edge { from, label, to } => {
+                into.push(Seed::Edge { label: *label, from: *from, to: *to });
+                bound.insert(*from);
+                bound.insert(*to);
+            }
+            Atom::Present { holder, attribute } => carrier(holder, *attribute, &mut bound, into),
+            Atom::Guard { holder, attribute, comparison, operand } => {
+                carrier(holder, *attribute, &mut bound, into);
+                match operand {
+                    Right::Attribute(holder, attribute) => carrier(holder, *attribute, &mut bound, into),
+                    Right::Term(slot) if *comparison == Comparison::Equal => bound.insert(*slot),
+                    Right::Term(_) | Right::Value(_) => {}
+                }
+            }
+            Atom::Distance { .. } => into.push(Seed::Transforms),
+            Atom::Without(inner) => seeds(inner, into),
+            Atom::Distinct(..) => {}
+        }
+    }
+    into.extend(part.variables.iter().filter(|slot| !bound.contains(**slot)).map(|slot| Seed::Loose(*slot)));
+}
+
+fn carrier(holder: &Carrier<Slot>, attribute: AttributeId, bound: &mut Mask, into: &mut Vec<Seed>) {
+    match *holder {
+        Carrier::Node(node) => {
+            into.push(Seed::NodeAttribute { attribute, node });
+            bound.insert(node);
+        }
+        Carrier::Edge { from, label, to } => {
+            into.push(Seed::EdgeAttribute { attribute, label, from, to });
+            bound.insert(from);
+            bound.insert(to);
+        }
+    }
+}
+
+/// Nodes for some of the variables.
+pub(crate) type Fixed = SmallVec<[(usize, NodeId); 2]>;
+
+/// The matches that a delta may concern.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Slices {
+    All,
+    These(SmallVec<[Fixed; 4]>),
+}
+
+/// What a change must touch to concern a pattern.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Route {
+    Label(LabelId),
+    LabelFrom(LabelId, NodeId),
+    LabelTo(LabelId, NodeId),
+    Attribute(AttributeId),
+    AttributeAt(AttributeId, NodeId),
+    Type(TypeId),
+    /// The coming and going of a node.
+    Node(NodeId),
+    Transforms,
+}
+
+impl Pattern {
+    /// What stands for a slot in a state, if it is a constant.
+    fn constant(&self, slot: Slot, state: &State) -> Option<NodeId> {
+        let at = usize::from(slot.0).checked_sub(self.variables.len() + self.locals.len())?;
+        self.constants.get(at).map(|constant| match constant {
+            Constant::Node(id) => *id,
+            Constant::Named(name) => state.names.get(name).unwrap_or(NodeId::NOWHERE),
+        })
+    }
+
+    /// The names of nodes that the pattern speaks of.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &std::sync::Arc<str>> {
+        self.constants.iter().filter_map(|constant| match constant {
+            Constant::Named(name) => Some(name),
+            Constant::Node(_) => None,
+        })
+    }
+
+    /// The routes by which changes reach the pattern, with the constants of this state.
+    pub(crate) fn routes(&self, state: &State) -> Vec<Route> {
+        let mut routes = Vec::new();
+        for seed in &self.seeds {
+            match *seed {
+                Seed::Edge { label, from, to } => {
+                    routes.push(match (self.constant(from, state), self.constant(to, state)) {
+                        (Some(from), _) => Route::LabelFrom(label, from),
+                        (None, Some(to)) => Route::LabelTo(label, to),
+                        (None, None) => Route::Label(label),
+                    });
+                }
+                Seed::NodeAttribute { attribute, node } => routes.push(match self.constant(node, state) {
+                    Some(node) => Route::AttributeAt(attribute, node),
+                    None => Route::Attribute(attribute),
+                }),
+                Seed::EdgeAttribute { attribute, from, to, .. } => {
+                    routes.push(match self.constant(from, state).or(self.constant(to, state)) {
+                        Some(end) => Route::AttributeAt(attribute, end),
+                        None => Route::Attribute(attribute),
+                    });
+                }
+                Seed::Loose(slot) => {
+                    let wanted = self.type_of(slot);
+                    let subtypes = state
+                        .dictionary
+                        .types()
+                        .filter(|&sub| wanted.is_some_and(|wanted| state.dictionary.is_a(sub, wanted)));
+                    routes.extend(subtypes.map(Route::Type));
+                }
+                Seed::Transforms => routes.push(Route::Transforms),
+            }
+        }
+        routes.extend(self.constants.iter().filter_map(|constant| match constant {
+            Constant::Node(id) => Some(Route::Node(*id)),
+            Constant::Named(_) => None,
+        }));
+        routes
+    }
+
+    /// The matches that a delta may concern; the state is the one after it.
+    pub(crate) fn slices(&self, delta: &Delta, state: &State) -> Slices {
+        let mut slices = SmallVec::new();
+        for change in &delta.changes {
+            if self.concerns_constant(change) {
+                return Slices::All;
+            }
+            for seed in &self.seeds {
+                match self.grow(*seed, change, state) {
+                    Growth::Nothing => {}
+                    Growth::Slice(fixed) if fixed.is_empty() => return Slices::All,
+                    Growth::Slice(fixed) if slices.contains(&fixed) => {}
+                    Growth::Slice(fixed) => slices.push(fixed),
+                }
+            }
+        }
+        Slices::These(slices)
+    }
+
+    /// Whether a node that the pattern speaks of comes or goes.
+    fn concerns_constant(&self, change: &Change) -> bool {
+        let (Change::NodeAdded { node, name, .. } | Change::NodeRemoved { node, name, .. }) = change else {
+            return false;
+        };
+        self.constants.iter().any(|constant| match constant {
+            Constant::Node(id) => id == node,
+            Constant::Named(found) => found == name,
+        })
+    }
+
+    fn grow(&self, seed: Seed, change: &Change, state: &State) -> Growth {
+        match (seed, change) {
+            (Seed::Edge { label, from, to }, Change::EdgeAdded { edge } | Change::EdgeRemoved { edge })
+                if edge.label == label =>
+            {
+                self.fix(&[(from, edge.from), (to, edge.to)], state)
+            }
+            (
+                _,
+                Change::AttributeAdded { holder, attribute: changed, .. }
+                | Change::AttributeChanged { holder, attribute: changed, .. }
+                | Change::AttributeRemoved { holder, attribute: changed, .. },
+            ) => match (seed, holder) {
+                (Seed::NodeAttribute { attribute, node }, Holder::Node(id)) if attribute == *changed => {
+                    self.fix(&[(node, *id)], state)
+                }
+                (Seed::EdgeAttribute { attribute, label, from, to }, Holder::Edge(key))
+                    if attribute == *changed && label == key.label =>
+                {
+                    self.fix(&[(from, key.from), (to, key.to)], state)
+                }
+                _ => Growth::Nothing,
+            },
+            (
+                Seed::Loose(slot),
+                Change::NodeAdded { node, node_type, .. } | Change::NodeRemoved { node, node_type, .. },
+            ) if self.type_of(slot).is_some_and(|wanted| state.dictionary.is_a(*node_type, wanted)) => {
+                self.fix(&[(slot, *node)], state)
+            }
+            (
+                Seed::Transforms,
+                Change::TransformAdded { .. }
+                | Change::TransformChanged { .. }
+                | Change::TransformSampled { .. }
+                | Change::TransformRemoved { .. },
+            ) => Growth::Slice(Fixed::new()),
+            _ => Growth::Nothing,
+        }
+    }
+
+    /// Gives the nodes to the variables of the pattern, unless a constant is another node.
+    fn fix(&self, ends: &[(Slot, NodeId)], state: &State) -> Growth {
+        let mut fixed = Fixed::new();
+        for &(slot, node) in ends {
+            let at = usize::from(slot.0);
+            if self.constant(slot, state).is_some_and(|constant| constant != node) {
+                return Growth::Nothing;
+            }
+            if at < self.variables.len() {
+                fixed.push((at, node));
+            }
+        }
+        Growth::Slice(fixed)
+    }
+}
+
+enum Growth {
+    Nothing,
+    Slice(Fixed),
+}

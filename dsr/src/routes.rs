@@ -1,0 +1,179 @@
+//! Who hears of a commit: from what changed to the subscribers whose pattern it may concern.
+//!
+//! Problem: a thousand subscribers asked one by one cost more than the commit. Idea: each pattern is listed under
+//! the tokens that its atoms need, with the constant node at an end where there is one; a change looks up a handful
+//! of keys. A pattern that speaks of a node by name is listed under the node of that name, and listed anew when one
+//! of that name comes or goes. Cost: two or three hash look-ups per change, whatever the number of subscribers.
+
+use std::sync::{Arc, Weak};
+
+use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
+
+use crate::delta::{Change, Delta};
+use crate::id::Holder;
+use crate::pattern::{Pattern, Route};
+use crate::state::State;
+use crate::subscription::Queue;
+
+/// A place in the list of subscribers.
+type Seat = usize;
+
+struct Subscriber {
+    queue: Weak<Queue>,
+    /// `None` for one that wants every commit.
+    pattern: Option<Arc<Pattern>>,
+    routes: Vec<Route>,
+}
+
+#[derive(Default)]
+pub(crate) struct Routes {
+    subscribers: Vec<Option<Subscriber>>,
+    free: Vec<Seat>,
+    every: Vec<Seat>,
+    by_route: FxHashMap<Route, SmallVec<[Seat; 2]>>,
+    by_name: FxHashMap<Arc<str>, SmallVec<[Seat; 2]>>,
+    /// When there are so many subscribers, those that are gone are looked for.
+    sweep: usize,
+}
+
+impl Routes {
+    pub(crate) fn is_empty(&self) -> bool {
+        self.subscribers.len() == self.free.len()
+    }
+
+    pub(crate) fn add(&mut self, queue: &Arc<Queue>, pattern: Option<Arc<Pattern>>, state: &State) {
+        if self.subscribers.len() - self.free.len() >= self.sweep {
+            let gone = |entry: &Option<Subscriber>| {
+                entry.as_ref().is_some_and(|entry| entry.queue.strong_count() == 0)
+            };
+            let seats: Vec<_> =
+                (0..self.subscribers.len()).filter(|&at| gone(&self.subscribers[at])).collect();
+            seats.into_iter().for_each(|seat| self.remove(seat));
+            self.sweep = 16.max(2 * (self.subscribers.len() - self.free.len()));
+        }
+        let routes = pattern.as_ref().map_or_else(Vec::new, |pattern| pattern.routes(state));
+        let subscriber = Subscriber { queue: Arc::downgrade(queue), pattern, routes };
+        let seat = self.free.pop().unwrap_or_else(|| {
+            self.subscribers.push(None);
+            self.subscribers.len() - 1
+        });
+        self.enlist(seat, &subscriber);
+        self.subscribers[seat] = Some(subscriber);
+    }
+
+    /// Calls `tell` for each subscriber that a delta may concern, once; the state is the one after it.
+    pub(crate) fn concerned(&mut self, delta: &Delta, state: &State, mut tell: impl FnMut(&Arc<Queue>)) {
+        let mut seats: SmallVec<[Seat; 16]> = self.every.iter().copied().collect();
+        let mut anew: SmallVec<[Seat; 2]> = SmallVec::new();
+        for change in &delta.changes {
+            for route in routes_of(change) {
+                seats.extend(self.by_route.get(&route).into_iter().flatten().copied());
+            }
+            if let Change::NodeAdded { name, .. } | Change::NodeRemoved { name, .. } = change {
+                anew.extend(self.by_name.get(name).into_iter().flatten().copied());
+            }
+        }
+        seats.extend(anew.iter().copied());
+        seats.sort_unstable();
+        seats.dedup();
+        for seat in anew {
+            self.list_anew(seat, state);
+        }
+        for seat in seats {
+            let queue = self.subscribers[seat].as_ref().map(|subscriber| subscriber.queue.upgrade());
+            match queue {
+                Some(Some(queue)) => tell(&queue),
+                Some(None) => self.remove(seat),
+                None => {}
+            }
+        }
+    }
+
+    /// The subscribers that are there.
+    pub(crate) fn queues(&self) -> impl Iterator<Item = Arc<Queue>> {
+        self.subscribers.iter().flatten().filter_map(|subscriber| subscriber.queue.upgrade())
+    }
+
+    fn enlist(&mut self, seat: Seat, subscriber: &Subscriber) {
+        let Some(pattern) = &subscriber.pattern else {
+            self.every.push(seat);
+            return;
+        };
+        for route in &subscriber.routes {
+            self.by_route.entry(*route).or_default().push(seat);
+        }
+        for name in pattern.names() {
+            self.by_name.entry(name.clone()).or_default().push(seat);
+        }
+    }
+
+    fn strike(&mut self, seat: Seat, subscriber: &Subscriber) {
+        self.every.retain(|other| *other != seat);
+        for route in &subscriber.routes {
+            if let Some(seats) = self.by_route.get_mut(route) {
+                seats.retain(|other| *other != seat);
+                if seats.is_empty() {
+                    self.by_route.remove(route);
+                }
+            }
+        }
+        for name in subscriber.pattern.iter().flat_map(|pattern| pattern.names()) {
+            if let Some(seats) = self.by_name.get_mut(name) {
+                seats.retain(|other| *other != seat);
+                if seats.is_empty() {
+                    self.by_name.remove(name);
+                }
+            }
+        }
+    }
+
+    fn list_anew(&mut self, seat: Seat, state: &State) {
+        if let Some(mut subscriber) = self.subscribers[seat].take() {
+            self.strike(seat, &subscriber);
+            subscriber.routes = subscriber.pattern.as_ref().map_or_else(Vec::new, |p| p.routes(state));
+            self.enlist(seat, &subscriber);
+            self.subscribers[seat] = Some(subscriber);
+        }
+    }
+
+    fn remove(&mut self, seat: Seat) {
+        if let Some(subscriber) = self.subscribers[seat].take() {
+            self.strike(seat, &subscriber);
+            self.free.push(seat);
+        }
+    }
+}
+
+/// The keys under which a change is looked up.
+fn routes_of(change: &Change) -> SmallVec<[Route; 3]> {
+    let mut routes = SmallVec::new();
+    match change {
+        Change::EdgeAdded { edge } | Change::EdgeRemoved { edge } => {
+            routes.push(Route::Label(edge.label));
+            routes.push(Route::LabelFrom(edge.label, edge.from));
+            routes.push(Route::LabelTo(edge.label, edge.to));
+        }
+        Change::AttributeAdded { holder, attribute, .. }
+        | Change::AttributeChanged { holder, attribute, .. }
+        | Change::AttributeRemoved { holder, attribute, .. } => {
+            routes.push(Route::Attribute(*attribute));
+            match holder {
+                Holder::Node(node) => routes.push(Route::AttributeAt(*attribute, *node)),
+                Holder::Edge(key) => {
+                    routes.push(Route::AttributeAt(*attribute, key.from));
+                    routes.push(Route::AttributeAt(*attribute, key.to));
+                }
+            }
+        }
+        Change::NodeAdded { node, node_type, .. } | Change::NodeRemoved { node, node_type, .. } => {
+            routes.push(Route::Type(*node_type));
+            routes.push(Route::Node(*node));
+        }
+        Change::TransformAdded { .. }
+        | Change::TransformChanged { .. }
+        | Change::TransformSampled { .. }
+        | Change::TransformRemoved { .. } => routes.push(Route::Transforms),
+    }
+    routes
+}
