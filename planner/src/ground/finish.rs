@@ -31,7 +31,7 @@ pub(crate) fn finish(
     problem: &Problem,
     (costs, fluents): (&CostModel, &Fluents),
     table: AtomTable,
-    raw: RawTask,
+    mut raw: RawTask,
     exclusions: &Exclusions,
     statics: u32,
     initial: &[u32],
@@ -88,8 +88,9 @@ pub(crate) fn finish(
     }
     let chosen = Chosen::of(&raw, &pruned, fluents, &costs.measure);
     let (mut operators, mut amounts) = (IndexVec::new(), Vec::new());
-    for own in &raw.operators {
-        let Some(operator) = view.operator(own, &chosen) else { continue };
+    // Each raw operator makes room for the next one that is finished.
+    for mut own in std::mem::take(&mut raw.operators) {
+        let Some(operator) = view.operator(&mut own, &chosen) else { continue };
         amounts.push(if chosen.metric.is_some() {
             chosen.guess(operator.numeric.as_deref())
         } else {
@@ -100,7 +101,6 @@ pub(crate) fn finish(
     let cost_scale = set_costs(&mut operators, &amounts, costs);
     let fact = |atom: u32| (numbers[atom as usize] != NONE).then(|| FactId(numbers[atom as usize]));
     let compared = comparisons(&raw, &chosen, fact);
-    drop(raw.operators);
 
     let axioms = AxiomProgram::new(&facts, rules).map_err(|cycle| {
         let predicate = facts[cycle.0].atom.as_ref().map(|a| a.predicate);
@@ -237,7 +237,7 @@ impl View<'_> {
     }
 
     /// The operator, unless it can never be applied or changes nothing that is needed.
-    fn operator(&self, raw: &RawOperator, chosen: &Chosen) -> Option<Operator> {
+    fn operator(&self, raw: &mut RawOperator, chosen: &Chosen) -> Option<Operator> {
         // What a useless operator reads was not kept.
         if !raw.numbers.is_empty() && self.pruned.is_refuted(&raw.precondition) {
             return None;
@@ -259,7 +259,7 @@ impl View<'_> {
         let precondition = self.literals(&raw.precondition)?;
         Some(Operator {
             action: raw.action,
-            arguments: raw.arguments.clone(),
+            arguments: std::mem::take(&mut raw.arguments),
             precondition,
             adds,
             deletes,

@@ -122,6 +122,7 @@ fn build(
         (&goal, &slots),
         options,
     )?;
+    drop(reached.bindings);
     let names = Names::of(domain, problem, values);
     Ok(finish::finish(
         domain,
