@@ -49,9 +49,9 @@ pub use heuristics::{Costs, HeuristicKind, Properties, Supported};
 pub use ids::{FactId, FluentId, OperatorId};
 pub use number::Number;
 pub use search::{
-    BfwsSettings, Budget, Count, EagerSettings, Engine, Improved, LazySettings, Limit, Order, Outcome, Plan,
-    Quality, Query, Report, SearchConfiguration, Statistics, Threads, UnsolvableReason, Width, improve,
-    solve,
+    BfwsSettings, Budget, Candidate, Count, EagerSettings, Engine, Improved, LazySettings, Limit, Order,
+    Outcome, Plan, Preference, Quality, Query, Repaired, Report, SearchConfiguration, Statistics, Threads,
+    UnsolvableReason, Width, improve, repair, solve,
 };
 pub use task::{
     AtomStatus, AxiomRule, ConditionalEffect, Fact, Goal, GroundAtom, Impossible, Literals, Mutexes,

@@ -6,7 +6,9 @@
 
 use crate::heuristics::{Costs, Estimate, HeuristicKind, View};
 use crate::ids::StateId;
-use crate::search::{Bound, Budget, Job, Limit, Meter, Outcome, Query, SearchConfiguration, solve};
+use crate::search::{
+    Bound, Budget, Job, Limit, Meter, Outcome, Preference, Query, SearchConfiguration, repair, solve,
+};
 use crate::{GroundOptions, Task, ground};
 use proptest::prelude::*;
 use std::fmt::Write;
@@ -222,6 +224,47 @@ proptest! {
                 None => prop_assert!(kind.properties().safe),
             }
             prop_assert!(preferred.iter().all(|o| applicable.contains(o)), "{kind:?} prefers what cannot be done");
+        }
+    }
+
+    #[test]
+    fn repaired_plans_reach_the_goal(random in random_task(), surprises in prop::collection::vec(any::<prop::sample::Index>(), 0..4)) {
+        let (task, domain, problem) = grounded(&random);
+        let configuration = SearchConfiguration::default();
+        let solved = |query: &Query<'_>| solve(&task, query, &configuration, &Budget::default()).outcome;
+        let Outcome::Solved(old) = solved(&Query::of(&task)) else { return Ok(()) };
+        // Others act, and the plan does not know.
+        let (mut state, mut before) = (task.initial_state().clone(), Vec::new());
+        for surprise in surprises {
+            let applicable = task.applicable(&state);
+            if !applicable.is_empty() {
+                before.push(*surprise.get(&applicable));
+                state = task.successor(&state, before[before.len() - 1]);
+            }
+        }
+        let query = Query { state: &state, ..Query::of(&task) };
+        for preference in [Preference::Fastest, Preference::Stability, Preference::Cost] {
+            let repaired =
+                repair(&task, &query, &old.operators, &configuration, preference, &Budget::default());
+            match repaired.report.outcome {
+                Outcome::Solved(plan) => {
+                    let steps = before.iter().chain(&plan.operators).map(|&o| &task.operators()[o]);
+                    let steps = steps.map(|o| pddl::PlanStep {
+                        action: o.action,
+                        arguments: o.arguments.to_vec(),
+                        span: pddl::Span::default(),
+                    });
+                    let steps = pddl::SequentialPlan::new(steps.collect());
+                    let verdict = validator::validate(&domain, &problem, &steps);
+                    prop_assert!(verdict.is_valid(), "{preference:?}: {verdict:?}");
+                    let both = [&repaired.reused, &repaired.fresh];
+                    let mut known = both.into_iter().flatten();
+                    prop_assert!(known.clone().any(|c| c.plan == plan));
+                    prop_assert!(preference != Preference::Cost || known.all(|c| c.plan.cost >= plan.cost));
+                }
+                Outcome::Unsolvable(_) => prop_assert!(matches!(solved(&query), Outcome::Unsolvable(_))),
+                other => prop_assert!(false, "{other:?}"),
+            }
         }
     }
 }

@@ -20,6 +20,7 @@ mod outcome;
 mod portfolio;
 mod query;
 mod registry;
+mod repair;
 mod searcher;
 mod windows;
 
@@ -35,6 +36,7 @@ pub use outcome::{Outcome, Plan, Report, Statistics, UnsolvableReason};
 pub use portfolio::Threads;
 pub(crate) use query::Barred;
 pub use query::Query;
+pub use repair::{Candidate, Preference, Repaired, repair};
 pub(crate) use searcher::Searcher;
 
 use crate::ground::Feature;
