@@ -151,14 +151,16 @@ impl Graph {
     /// Applies a transaction, as a whole or not at all.
     pub fn commit(&self, transaction: &Transaction, time: Time) -> Result<Commit, TransactionError> {
         let mut wakers = Vec::new();
+        // What was published is let go of after the lock, not under it: freeing it may take a while.
+        let mut before = None;
         let mut guard = self.lock();
         let writer = &mut *guard;
         transaction.stale_at(writer.state.version)?;
         self.prepare(writer, transaction);
         let outcome = transact(Arc::make_mut(&mut writer.state), transaction, time);
-        // What was published is let go of after the lock, not under it: freeing it may take a while.
-        let _before =
-            (writer.publishing > 0).then(|| self.shared.published.swap(Some(Arc::clone(&writer.state))));
+        if writer.publishing > 0 {
+            before = self.shared.published.swap(Some(Arc::clone(&writer.state)));
+        }
         let outcome = outcome?;
         let snapshot = Snapshot::new(Arc::clone(&writer.state));
         let delta = Arc::new(outcome.delta);
@@ -168,6 +170,7 @@ impl Graph {
             writer.queues.concerned(&delta, &writer.state, |queue| wakers.extend(queue.push(&committed)));
         }
         drop(guard);
+        drop(before);
         for waker in wakers {
             waker();
         }
