@@ -8,7 +8,8 @@
 //!
 //! Invariant: what is offered was applied, and the whole plan then judged valid. Nothing is shared with a planner.
 //!
-//! Cost: at most [`Budget::plans`] changes are tried, and no more than [`Budget::steps`] steps taken.
+//! Cost: at most [`Budget::plans`] changes are tried, and no more than [`Budget::steps`] steps taken, one with times
+//! counting for [`TIMED`].
 
 mod apply;
 mod bridge;
@@ -36,6 +37,9 @@ use pddl::{
 
 /// How many changed plans are searched for a decomposition.
 const SEARCHED_PLANS: usize = 400;
+
+/// What a step with times costs, in steps without: it starts and ends, and things must hold in between.
+const TIMED: usize = 4;
 
 /// How hard to look.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -224,7 +228,10 @@ impl Trials<'_, '_> {
     }
 
     fn pays_for(&mut self, plan: PlanRef<'_>) -> bool {
-        let steps = plan.steps() + 1;
+        let steps = match plan {
+            PlanRef::Temporal(_) => TIMED * (plan.steps() + 1),
+            _ => plan.steps() + 1,
+        };
         if self.budget.plans == 0 || self.budget.steps < steps {
             self.budget.plans = 0;
             return false;

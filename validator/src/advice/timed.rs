@@ -16,9 +16,17 @@ use crate::trace::Trace;
 use crate::verdict::{Failure, StepIndex, Unsatisfied};
 use pddl::model::{ObjectId, TimeSpecifier};
 use pddl::{StepHead, TemporalPlan};
+use std::cell::Cell;
+use std::ops::Range;
 
 /// How many candidates one way of looking may have.
 const CANDIDATES: usize = 512;
+
+/// How many happenings are gone through to see earlier states, and facts copied for that.
+const REPLAYED: usize = 300_000;
+
+/// How many starts and ends, the nearest, a step may be moved to.
+const NEAREST: usize = 2 * CANDIDATES;
 
 /// A failing plan, and what is known of its failure.
 pub(super) struct Case<'c> {
@@ -31,6 +39,8 @@ pub(super) struct Case<'c> {
     pub(super) time: Number,
     /// The steps that fail or are to blame.
     suspects: Vec<usize>,
+    /// What may still be gone through.
+    replays: Cell<usize>,
 }
 
 /// A way of looking for changes.
@@ -47,7 +57,8 @@ pub(super) fn repairs(trials: &mut Trials<'_, '_>, plan: &TemporalPlan, failure:
     let wants = Wants::of(validator, &state, failure);
     let suspects = suspects(plan, failure);
     let time = time(plan, failure);
-    let case = Case { plan, failure, wants, trace, time, suspects };
+    let replays = Cell::new(REPLAYED);
+    let case = Case { plan, failure, wants, trace, time, suspects, replays };
     let (plans, steps) = (trials.budget.plans, trials.budget.steps);
     let share = (plans.div_ceil(WAYS.len()), steps / WAYS.len());
     let mut left = (0, 0);
@@ -73,10 +84,17 @@ pub(super) fn repairs(trials: &mut Trials<'_, '_>, plan: &TemporalPlan, failure:
 }
 
 /// The state after so many happenings.
-pub(super) fn state_after(validator: &Validator<'_>, trace: &Trace, happenings: usize) -> State {
+fn state_after(validator: &Validator<'_>, trace: &Trace, happenings: usize) -> State {
     let mut state = validator.initial.clone();
     state.effort = crate::effort::Effort::for_steps(0);
-    for (happening, moment) in trace.happenings[..happenings].iter().zip(1..) {
+    advance(&mut state, trace, 0..happenings);
+    state
+}
+
+/// Takes a state through some more happenings.
+pub(super) fn advance(state: &mut State, trace: &Trace, happenings: Range<usize>) {
+    let first = u32::try_from(happenings.start).unwrap_or(u32::MAX - 1) + 1;
+    for (happening, moment) in trace.happenings[happenings].iter().zip(first..) {
         let diff = &happening.diff;
         for atom in &diff.added {
             state.facts[atom.predicate].add(&atom.arguments, moment);
@@ -88,7 +106,6 @@ pub(super) fn state_after(validator: &Validator<'_>, trace: &Trace, happenings: 
             state.set_fluent(change.fluent.clone(), change.after);
         }
     }
-    state
 }
 
 /// When it fails; at the end of the plan if that is not said.
@@ -140,6 +157,16 @@ fn suspects(plan: &TemporalPlan, failure: &Failure) -> Vec<usize> {
 }
 
 impl Case<'_> {
+    /// The state after so many happenings, with what follows by axioms, as long as that may cost something.
+    pub(super) fn state_after(&self, validator: &Validator<'_>, happenings: usize) -> Option<State> {
+        let problem = validator.problem;
+        let price = happenings + problem.init.len() + problem.fluents.len() + 1;
+        self.replays.set(self.replays.get().checked_sub(price)?);
+        let mut state = state_after(validator, &self.trace, happenings);
+        validator.derive(&mut state, u32::MAX);
+        Some(state)
+    }
+
     /// All steps: the suspects, then the others, those near to the failure first.
     fn likely(&self) -> Vec<usize> {
         let mut others: Vec<usize> =
@@ -180,8 +207,7 @@ fn arguments(validator: &Validator<'_>, case: &Case<'_>) -> Vec<Repair> {
     for index in case.likely() {
         let step = &case.plan.steps[index];
         let before = case.trace.happenings.partition_point(|happening| happening.time < start(step));
-        let mut state = state_after(validator, &case.trace, before);
-        validator.derive(&mut state, u32::MAX);
+        let Some(state) = case.state_after(validator, before) else { break };
         let look = Look { validator, state: &state };
         for free in 0..step.arguments.len() {
             let mut fixed: Vec<Option<ObjectId>> = step.arguments.iter().copied().map(Some).collect();
@@ -266,8 +292,14 @@ fn times(validator: &Validator<'_>, plan: &TemporalPlan, index: usize) -> Vec<Nu
     let mut times = vec![Number::ZERO];
     let timed = validator.problem.timed.iter().map(|timed| Number::from_decimal(timed.time));
     let others = plan.steps.iter().enumerate().filter(|&(other, _)| other != index);
-    for at in others.flat_map(|(_, other)| [start(other), end(other)]).chain(timed) {
-        let length = until.minus(now).unwrap_or(Number::ZERO);
+    let mut points: Vec<Number> =
+        others.flat_map(|(_, other)| [start(other), end(other)]).chain(timed).collect();
+    if points.len() > NEAREST {
+        points.select_nth_unstable_by_key(NEAREST, |&at| distance(at, now).min(distance(at, until)));
+        points.truncate(NEAREST);
+    }
+    let length = until.minus(now).unwrap_or(Number::ZERO);
+    for at in points {
         for at in [Ok(at), at.plus(gap), at.minus(gap)].into_iter().flatten() {
             times.push(at);
             times.extend(at.minus(length));

@@ -4,7 +4,7 @@
 //! wanted: in the gap that is there, or in one that is made by starting everything after it later.
 
 use super::instances::{Look, conditions_at, each_match};
-use super::timed::{Case, state_after};
+use super::timed::{Case, advance};
 use super::{Repair, decimal};
 use crate::number::Number;
 use crate::run::Validator;
@@ -22,15 +22,23 @@ pub(super) fn insertions(validator: &Validator<'_>, case: &Case<'_>) -> Vec<Repa
     let mut repairs = Vec::new();
     let mut delayed = Vec::new();
     let gap = validator.precision.separation;
-    for count in (0..=happenings.len()).rev().take(PLACES) {
-        let mut state = state_after(validator, &case.trace, count);
-        validator.derive(&mut state, u32::MAX);
+    let first = (happenings.len() + 1).saturating_sub(PLACES);
+    let Some(mut state) = case.state_after(validator, first) else { return Vec::new() };
+    let mut places = Vec::new();
+    for count in first..=happenings.len() {
+        if count > first {
+            advance(&mut state, &case.trace, count - 1..count);
+            validator.derive(&mut state, u32::MAX);
+        }
+        places.push((count, candidates(validator, case, &state)));
+    }
+    for (count, candidates) in places.into_iter().rev() {
         let after = match count.checked_sub(1).and_then(|last| happenings.get(last)) {
             Some(last) => last.time.plus(gap).ok(),
             None => Some(Number::ZERO),
         };
         let Some(after) = after.and_then(decimal) else { continue };
-        for (head, arguments, duration) in candidates(validator, case, &state) {
+        for (head, arguments, duration) in candidates {
             let step = |start: Decimal| TemporalStep {
                 start,
                 head,
