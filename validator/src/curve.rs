@@ -30,6 +30,11 @@ impl Curve {
         Self::new(vec![value])
     }
 
+    /// A value, and what is added to it in a second.
+    pub(crate) fn line(value: Number, slope: Number) -> Self {
+        Self::new(vec![value, slope])
+    }
+
     fn new(mut coefficients: Vec<Number>) -> Self {
         while coefficients.last().is_some_and(|&c| c == Number::ZERO) {
             coefficients.pop();

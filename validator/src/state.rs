@@ -56,12 +56,29 @@ impl Equivalent<GroundApplication> for Borrowed<'_> {
     }
 }
 
+/// A fluent that grows as time passes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Line {
+    /// When it was what the state has noted, in seconds.
+    pub(crate) since: Number,
+    /// By how much it grows in a second.
+    pub(crate) slope: Number,
+}
+
+/// Fluents that run in straight lines, and the time at which the state is looked at.
+#[derive(Clone, Debug)]
+struct Lines {
+    by_fluent: IndexMap<GroundApplication, Line, FxBuildHasher>,
+    now: Number,
+}
+
 /// Facts, what follows from them, and fluents.
 #[derive(Clone, Debug)]
 pub(crate) struct State {
     pub(crate) facts: IndexVec<PredicateId, Relation>,
     pub(crate) derived: IndexVec<PredicateId, Relation>,
     fluents: IndexMap<GroundApplication, Value, FxBuildHasher>,
+    lines: Lines,
     /// What fluents were before they were given a value, if somebody wants to know.
     before: Option<FxHashMap<GroundApplication, Option<Value>>>,
     /// How often a fluent of the function was given a value.
@@ -96,6 +113,7 @@ impl State {
             facts: relations(),
             derived: relations(),
             fluents: IndexMap::default(),
+            lines: Lines { by_fluent: IndexMap::default(), now: Number::ZERO },
             before: None,
             fluent_changes: domain.functions.iter().map(|_| 0).collect(),
             lag: Lag::default(),
@@ -110,12 +128,63 @@ impl State {
     }
 
     pub(crate) fn fluent(&self, application: &GroundApplication) -> Option<Value> {
-        self.fluents.get(application).copied()
+        let value = *self.fluents.get(application)?;
+        if self.lines.by_fluent.is_empty() {
+            return Some(value);
+        }
+        self.on_line(self.lines.by_fluent.get(application), value)
     }
 
     /// The same without a key of its own.
     pub(crate) fn fluent_of(&self, function: FunctionId, arguments: &[ObjectId]) -> Option<Value> {
-        self.fluents.get(&Borrowed { function, arguments }).copied()
+        let fluent = Borrowed { function, arguments };
+        let value = *self.fluents.get(&fluent)?;
+        if self.lines.by_fluent.is_empty() {
+            return Some(value);
+        }
+        self.on_line(self.lines.by_fluent.get(&fluent), value)
+    }
+
+    /// What a fluent is now, if it was `value` when its line began.
+    fn on_line(&self, line: Option<&Line>, value: Value) -> Option<Value> {
+        let (Some(line), Value::Number(number)) = (line, value) else { return Some(value) };
+        let passed = self.lines.now.minus(line.since).ok()?;
+        let number = line.slope.times(passed).and_then(|more| number.plus(more)).ok()?;
+        if !number.is_exact() {
+            self.effort.give_up();
+        }
+        Some(Value::Number(number))
+    }
+
+    /// From now on a fluent grows from its value.
+    pub(crate) fn draw_line(&mut self, fluent: GroundApplication, line: Line) {
+        self.lines.by_fluent.insert(fluent, line);
+    }
+
+    pub(crate) fn line(&self, fluent: &GroundApplication) -> Option<&Line> {
+        self.lines.by_fluent.get(fluent)
+    }
+
+    pub(crate) fn lines(&self) -> impl Iterator<Item = (&GroundApplication, &Line)> {
+        self.lines.by_fluent.iter()
+    }
+
+    pub(crate) fn has_lines(&self) -> bool {
+        !self.lines.by_fluent.is_empty()
+    }
+
+    /// Looks at fluents that run in lines as they are at a time.
+    pub(crate) fn look_at(&mut self, time: Number) {
+        self.lines.now = time;
+    }
+
+    /// Ends all lines where they are.
+    pub(crate) fn settle_lines(&mut self) {
+        let fluents: Vec<GroundApplication> = self.lines.by_fluent.keys().cloned().collect();
+        for fluent in fluents {
+            let value = self.fluent(&fluent);
+            self.set_fluent(fluent, value);
+        }
     }
 
     /// How often a fluent of the function was given a value.
@@ -125,7 +194,7 @@ impl State {
 
     /// All that have a value, in no order.
     pub(crate) fn fluents(&self) -> impl Iterator<Item = (&GroundApplication, Value)> {
-        self.fluents.iter().map(|(fluent, &value)| (fluent, value))
+        self.fluents.iter().filter_map(|(fluent, _)| Some((fluent, self.fluent(fluent)?)))
     }
 
     /// Begins to remember what fluents were.
@@ -141,6 +210,9 @@ impl State {
     /// Gives a fluent a value, or takes it away.
     pub(crate) fn set_fluent(&mut self, application: GroundApplication, value: Option<Value>) {
         self.fluent_changes[application.function] += 1;
+        if !self.lines.by_fluent.is_empty() {
+            self.lines.by_fluent.swap_remove(&application);
+        }
         if let Some(before) = &mut self.before
             && !before.contains_key(&application)
         {

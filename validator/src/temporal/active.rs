@@ -46,6 +46,10 @@ impl<'v> Actives<'v> {
         self.by_ticket.get(ticket.0 as usize)?.as_deref().map(|(active, _)| active)
     }
 
+    pub(super) fn with_reads(&self, ticket: Ticket) -> Option<&(Active<'v>, Reads)> {
+        self.by_ticket.get(ticket.0 as usize)?.as_deref()
+    }
+
     pub(super) fn get_mut(&mut self, ticket: Ticket) -> Option<&mut Active<'v>> {
         self.by_ticket.get_mut(ticket.0 as usize)?.as_deref_mut().map(|(active, _)| active)
     }
@@ -63,11 +67,13 @@ impl<'v> Run<'_, 'v, '_> {
         let ticket = Ticket(number);
         let reads = self.reads(&active);
         self.watch.join(ticket, &reads);
-        if !active.action.continuous.is_empty() {
-            self.active.continuous.insert(ticket);
-        }
         self.active.by_step.insert(active.step, ticket);
+        let continuous = !active.action.continuous.is_empty();
         self.active.by_ticket.push(Some(Box::new((active, reads))));
+        if continuous {
+            self.active.continuous.insert(ticket);
+            self.enter_lane(ticket);
+        }
     }
 
     /// The action of a step, which runs no longer.
@@ -76,6 +82,7 @@ impl<'v> Run<'_, 'v, '_> {
         let (active, reads) = *self.active.by_ticket.get_mut(ticket.0 as usize)?.take()?;
         self.active.continuous.remove(&ticket);
         self.watch.leave(ticket, &reads);
+        self.leave_lane(ticket);
         Some(active)
     }
 

@@ -135,6 +135,11 @@ impl Flow {
         Ok(Self { curves: Arc::new(making.curves) })
     }
 
+    /// With these curves.
+    pub(super) fn of(curves: Vec<(GroundApplication, Curve)>) -> Self {
+        Self { curves: Arc::new(curves.into_iter().collect()) }
+    }
+
     /// Whether nothing changes.
     pub(super) fn is_still(&self) -> bool {
         self.curves.values().all(|curve| curve.as_constant().is_some())

@@ -8,7 +8,7 @@
 //! Invariant: `now` is the time of the last happening, and `state` is the state right after it.
 //!
 //! Cost: the conditions of each point, and at each happening those of the running actions that read what changed
-//! (`watch`); footprints only for points that are nearer to another one than the separation.
+//! (`watch`), and where change is linear only the fluents that are read (`lane`); footprints only for points that are nearer to another one than the separation.
 //!
 //! Source: Fox & Long, "PDDL2.1", JAIR 2003, Definitions 16 to 20; Edelkamp & Hoffmann, "PDDL2.2", 2004.
 
@@ -16,6 +16,7 @@ mod active;
 mod crowd;
 mod flow;
 mod footprint;
+mod lane;
 mod nature;
 mod point;
 mod timeline;
@@ -40,6 +41,7 @@ use active::{Active, Actives, Ticket};
 use crowd::Crowd;
 use flow::{Flow, Present};
 use footprint::{Dependencies, Footprint};
+use lane::Lane;
 use nature::{Instance, Nature};
 use pddl::TemporalPlan;
 use pddl::model::{Condition, DurativeAction, Given, ProcessId, TimeSpecifier};
@@ -75,6 +77,7 @@ pub(crate) fn run(
         now: Number::ZERO,
         causes: Vec::new(),
         active: Actives::default(),
+        lane: None,
         watch: Watch::default(),
         crowd: Crowd::default(),
         unrests: 0,
@@ -82,6 +85,9 @@ pub(crate) fn run(
         timed_is_next: false,
         beside_timed: Vec::new(),
     };
+    if trace.is_none() && run.demands.are_none() {
+        run.lane = Lane::open(validator.domain, validator.problem);
+    }
     let mut recorder = trace.as_mut().map(|trace| Recorder::new(validator, run.state, &mut trace.initial));
     if let Some(recorder) = &mut recorder {
         recorder.settle(run.state);
@@ -201,6 +207,8 @@ struct Run<'s, 'v, 'a> {
     now: Number,
     causes: Vec<Cause>,
     active: Actives<'v>,
+    /// Continuous change, as long as it runs in straight lines.
+    lane: Option<Lane>,
     /// Who of them must be asked again.
     watch: Watch,
     /// What happened a moment ago.
@@ -240,6 +248,9 @@ impl<'v> Run<'_, 'v, '_> {
     /// Lets time pass until just before `time`: what runs, runs; what must hold all the time, must hold;
     /// what happens by itself, happens.
     fn flow_to(&mut self, time: Number, timed: bool, mut diff: Option<&mut Diff>) -> Checked {
+        if self.now < time && self.flow_in_lane(time)? {
+            return Ok(());
+        }
         let mut processes = self.processes(self.now);
         let mut course = None;
         let (mut unrests, mut met, mut passed) = (0, 0, Number::MAX);
@@ -360,21 +371,7 @@ impl<'v> Run<'_, 'v, '_> {
         let mut critical = Vec::new();
         for ticket in self.watch.readers(flow.moving()) {
             let Some(active) = self.active.get(ticket) else { continue };
-            let clock = Clock { duration: Some(active.duration), ..Clock::at(self.now) };
-            let scene = self.validator.scene(self.state, &active.action.variables, clock);
-            let mut binding = active.binding.clone();
-            for condition in over_all(active.action) {
-                flow.critical(condition, scene, &mut binding, length, &mut critical);
-            }
-            for (effect, binding) in &active.armed {
-                for condition in given(&active.action.effects[*effect].given, &TimeSpecifier::OverAll) {
-                    flow.critical(condition, scene, &mut binding.clone(), length, &mut critical);
-                }
-            }
-            for (preference, binding) in &active.kept {
-                let condition = &active.action.preferences[*preference].body.condition;
-                flow.critical(condition, scene, &mut binding.clone(), length, &mut critical);
-            }
+            self.critical_of(active, flow, length, &mut critical);
         }
         for (condition, variables, binding) in self.demands.conditions() {
             let scene = self.validator.scene(self.state, variables, Clock::at(self.now));
@@ -389,24 +386,46 @@ impl<'v> Run<'_, 'v, '_> {
         }))
     }
 
+    /// Adds the instants inside `0..length` at which a condition of an action that runs may change.
+    fn critical_of(&self, active: &Active<'_>, flow: &Flow, length: Number, into: &mut Vec<Instant>) {
+        let clock = Clock { duration: Some(active.duration), ..Clock::at(self.now) };
+        let scene = self.validator.scene(self.state, &active.action.variables, clock);
+        let mut binding = active.binding.clone();
+        for condition in over_all(active.action) {
+            flow.critical(condition, scene, &mut binding, length, into);
+        }
+        for (effect, binding) in &active.armed {
+            for condition in given(&active.action.effects[*effect].given, &TimeSpecifier::OverAll) {
+                flow.critical(condition, scene, &mut binding.clone(), length, into);
+            }
+        }
+        for (preference, binding) in &active.kept {
+            let condition = &active.action.preferences[*preference].body.condition;
+            flow.critical(condition, scene, &mut binding.clone(), length, into);
+        }
+    }
+
     /// Asks for everything that must hold all the time and may have changed.
     fn invariants(&mut self, at: Number) -> Checked {
-        for ticket in self.watch.due() {
-            let Some(&Active { step, action, duration, .. }) = self.active.get(ticket) else { continue };
-            for condition in over_all(action) {
-                self.derive_for(condition);
-                let clock = Clock { duration: Some(duration), ..Clock::at(at) };
-                let scene = self.validator.scene(self.state, &action.variables, clock);
-                let Some(Active { binding, .. }) = self.active.get_mut(ticket) else { continue };
-                if !scene.holds(condition, binding) {
-                    let causes = Causes::Listed(&self.causes);
-                    let parts = self.validator.lacks(scene, causes, condition, binding);
-                    return Err(Box::new(Failure::Invariant { step, time: at, parts }));
-                }
+        self.watch.due().into_iter().try_for_each(|ticket| self.invariant(ticket, at))
+    }
+
+    /// Asks for what must hold as long as an action runs.
+    fn invariant(&mut self, ticket: Ticket, at: Number) -> Checked {
+        let Some(&Active { step, action, duration, .. }) = self.active.get(ticket) else { return Ok(()) };
+        for condition in over_all(action) {
+            self.derive_for(condition);
+            let clock = Clock { duration: Some(duration), ..Clock::at(at) };
+            let scene = self.validator.scene(self.state, &action.variables, clock);
+            let Some(Active { binding, .. }) = self.active.get_mut(ticket) else { continue };
+            if !scene.holds(condition, binding) {
+                let causes = Causes::Listed(&self.causes);
+                let parts = self.validator.lacks(scene, causes, condition, binding);
+                return Err(Box::new(Failure::Invariant { step, time: at, parts }));
             }
-            self.disarm(ticket, at);
-            self.judge_kept(ticket, at);
         }
+        self.disarm(ticket, at);
+        self.judge_kept(ticket, at);
         Ok(())
     }
 }

@@ -223,7 +223,7 @@ impl Run<'_, '_, '_> {
     }
 }
 
-fn each_running<'v>(
+pub(super) fn each_running<'v>(
     scene: Scene<'v>,
     effect: &'v ContinuousEffect,
     mut binding: Binding,

@@ -78,6 +78,9 @@ impl<'v> Run<'_, 'v, '_> {
             self.causes.push(deed.what);
             let moment = self.moment();
             self.watch.changed(&deed.changes);
+            if let Some(lane) = &mut self.lane {
+                deed.changes.each_write(|fluent, _| lane.wrote(fluent));
+            }
             deed.changes
                 .apply(self.state, moment, diff.as_deref_mut())
                 .map_err(|fault| Box::new(Failure::Effect { at: deed.what, fault }))?;

@@ -47,6 +47,17 @@ pub(super) struct Reads {
 }
 
 impl Reads {
+    /// The fluents; `None` if it is open which they are.
+    pub(super) fn fluents(&self) -> Option<impl Iterator<Item = &GroundApplication>> {
+        let open = |key: &Key| matches!(key, Key::FluentWith(..) | Key::Function(_));
+        (!self.keys.iter().any(open)).then(|| {
+            self.keys.iter().filter_map(|key| match key {
+                Key::Fluent(fluent) => Some(fluent),
+                _ => None,
+            })
+        })
+    }
+
     /// Each once.
     pub(super) fn settle(&mut self) {
         if self.keys.len() > 1 {
@@ -276,6 +287,11 @@ impl Watch {
         let mut due = std::mem::take(&mut self.due);
         due.extend(&self.always);
         due
+    }
+
+    /// Who reads the time.
+    pub(super) fn always(&self) -> impl Iterator<Item = Ticket> {
+        self.always.iter().copied()
     }
 
     /// Who reads one of the fluents, or the time.

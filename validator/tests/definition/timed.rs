@@ -7,7 +7,7 @@ use crate::sequential::{outline, task};
 use pddl::{Plan, Source, parse_plan};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
-use validator::validate;
+use validator::{Validator, validate};
 
 /// Holds the validator's verdict against what the definition allows to say; answers the verdict.
 fn compared(sample: &Sample, plan: &str) -> Result<Option<f64>, Fault> {
@@ -57,6 +57,19 @@ proptest! {
         let kind = |sample: &Sample| judged(sample).map_err(|_| ());
         prop_assert_eq!(kind(&sample), kind(&shuffled(&sample, &keys)));
         prop_assert_eq!(judged(&sample), judged(&with_strangers(&sample)));
+    }
+
+    #[test]
+    fn a_trace_changes_nothing(bytes in prop::collection::vec(any::<u8>(), 600)) {
+        // A trace asks for every fluent at every happening; without one, and without constraints, few are looked at.
+        let mut sample = Sample::timed(&bytes);
+        sample.constraints.clear();
+        let plan = sample.plan.join("\n");
+        compared(&sample, &plan).ok();
+        let (domain, problem) = task(&sample.domain(), &sample.problem());
+        let plan = parse_plan(&Source::new("plan", &*plan), &domain, &problem).model.unwrap();
+        let validator = Validator::new(&domain, &problem).unwrap();
+        prop_assert_eq!(validator.validate(&plan), validator.trace(&plan).0);
     }
 
     #[test]
