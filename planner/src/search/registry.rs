@@ -3,8 +3,9 @@
 //! Problem: millions of states must be stored, found again and traced back. Idea: words in segments
 //! that never move, and an open-addressing table of ids whose keys are the words themselves.
 //! Where that makes them much smaller, states are packed into finite-domain variables.
-//! Invariant: an id is the position of insertion and never changes. Cost: the
-//! state's bits plus about 16 bytes.
+//! The table is split before it is large, so that no insertion waits for more than a small part of it
+//! to be moved. Invariant: an id is the position of insertion and never changes. Cost: the state's bits
+//! plus about 16 bytes.
 
 use super::meter::UNLIMITED;
 use crate::ids::{OperatorId, StateId, id32};
@@ -13,6 +14,36 @@ use crate::task::{Packing, Task};
 /// Ids stay well below 2^32.
 const MOST_STATES: usize = u32::MAX as usize / 2;
 const NONE: u32 = u32::MAX;
+/// Slots at which the one table becomes many.
+const SPLIT: usize = 1 << 16;
+/// How many, told apart by the highest bits of the hash.
+const PARTS: usize = 256;
+
+/// A part of the table of ids; its length is a power of two.
+struct Part {
+    slots: Vec<u32>,
+    used: usize,
+}
+
+impl Part {
+    fn of_size(slots: usize) -> Self {
+        Self { slots: vec![NONE; slots], used: 0 }
+    }
+
+    fn add(&mut self, hash: u64, id: u32) {
+        let mask = self.slots.len() - 1;
+        let mut slot = low(hash) & mask;
+        while self.slots[slot] != NONE {
+            slot = (slot + 1) & mask;
+        }
+        self.slots[slot] = id;
+        self.used += 1;
+    }
+
+    fn is_crowded(&self) -> bool {
+        self.used * 3 > self.slots.len() * 2
+    }
+}
 
 /// The states.
 pub(crate) struct StateRegistry<'t> {
@@ -25,7 +56,9 @@ pub(crate) struct StateRegistry<'t> {
     segments: Vec<Vec<u64>>,
     parents: Vec<u32>,
     operators: Vec<u32>,
-    slots: Vec<u32>,
+    /// One or [`PARTS`].
+    parts: Vec<Part>,
+    slots: usize,
 }
 
 impl<'t> StateRegistry<'t> {
@@ -43,7 +76,8 @@ impl<'t> StateRegistry<'t> {
             segments: Vec::new(),
             parents: Vec::new(),
             operators: Vec::new(),
-            slots: vec![NONE; 1024],
+            parts: vec![Part::of_size(1024)],
+            slots: 1024,
         }
     }
 
@@ -72,25 +106,29 @@ impl<'t> StateRegistry<'t> {
     }
 
     fn store(&mut self, words: &[u64], from: Option<(StateId, OperatorId)>) -> (StateId, bool) {
-        let mask = self.slots.len() - 1;
-        let mut slot = spread(words) & mask;
+        let hash = spread(words);
+        let part = self.part(hash);
+        let slots = &self.parts[part].slots;
+        let mask = slots.len() - 1;
+        let mut slot = low(hash) & mask;
         loop {
-            match self.slots[slot] {
+            match slots[slot] {
                 NONE => break,
                 id if self.stored(StateId(id)) == words => return (StateId(id), false),
                 _ => slot = (slot + 1) & mask,
             }
         }
         let id = id32(self.parents.len());
-        self.slots[slot] = id;
+        self.parts[part].slots[slot] = id;
+        self.parts[part].used += 1;
         if (id as usize).is_multiple_of(self.per_segment) {
             self.segments.push(Vec::with_capacity(self.per_segment * self.width));
         }
         self.segments[id as usize / self.per_segment].extend_from_slice(words);
         self.parents.push(from.map_or(NONE, |(s, _)| s.0));
         self.operators.push(from.map_or(NONE, |(_, o)| o.0));
-        if self.parents.len() * 3 > self.slots.len() * 2 {
-            self.grow();
+        if self.parts[part].is_crowded() {
+            self.grow(part);
         }
         (StateId(id), true)
     }
@@ -101,17 +139,25 @@ impl<'t> StateRegistry<'t> {
         self.operators[id.0 as usize] = operator.0;
     }
 
-    fn grow(&mut self) {
-        let mut slots = vec![NONE; self.slots.len() * 2];
-        let mask = slots.len() - 1;
-        for id in 0..id32(self.parents.len()) {
-            let mut slot = spread(self.stored(StateId(id))) & mask;
-            while slots[slot] != NONE {
-                slot = (slot + 1) & mask;
-            }
-            slots[slot] = id;
+    fn part(&self, hash: u64) -> usize {
+        if self.parts.len() == 1 { 0 } else { (hash >> 56) as usize }
+    }
+
+    /// Moves the ids of one part to a part of twice the size, or of the only one to many.
+    fn grow(&mut self, part: usize) {
+        let old = std::mem::replace(&mut self.parts[part], Part::of_size(0));
+        let double = old.slots.len() * 2;
+        if self.parts.len() == 1 && old.slots.len() >= SPLIT {
+            self.parts = (0..PARTS).map(|_| Part::of_size(double / PARTS)).collect();
+        } else {
+            self.parts[part] = Part::of_size(double);
         }
-        self.slots = slots;
+        self.slots += old.slots.len();
+        for id in old.slots.into_iter().filter(|&id| id != NONE) {
+            let hash = spread(self.stored(StateId(id)));
+            let part = self.part(hash);
+            self.parts[part].add(hash, id);
+        }
     }
 
     /// The operators from the first state to this one.
@@ -131,19 +177,56 @@ impl<'t> StateRegistry<'t> {
         if self.parents.len() >= MOST_STATES {
             return UNLIMITED;
         }
-        self.segments.len() * self.per_segment * self.width * 8
-            + self.parents.capacity() * 8
-            + self.slots.len() * 4
+        self.segments.len() * self.per_segment * self.width * 8 + self.parents.capacity() * 8 + self.slots * 4
     }
 }
 
-/// A hash whose low bits are good.
-#[expect(clippy::cast_possible_truncation, reason = "the table is smaller than any usize")]
-fn spread(words: &[u64]) -> usize {
+/// A hash whose lowest and highest bits are good.
+fn spread(words: &[u64]) -> u64 {
     let mut hash = 0x9e37_79b9_7f4a_7c15_u64;
     for &word in words {
         hash = (hash ^ word).wrapping_mul(0xff51_afd7_ed55_8ccd);
         hash ^= hash >> 32;
     }
+    hash
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "the table is smaller than any usize")]
+fn low(hash: u64) -> usize {
     hash as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PARTS, SPLIT, StateRegistry};
+    use crate::ids::{StateId, id32};
+
+    #[test]
+    fn states_are_found_again_before_and_after_the_table_is_split() {
+        let mut registry = StateRegistry {
+            packing: None,
+            packed: Vec::new(),
+            width: 1,
+            per_segment: 1024,
+            segments: Vec::new(),
+            parents: Vec::new(),
+            operators: Vec::new(),
+            parts: vec![super::Part::of_size(1024)],
+            slots: 1024,
+        };
+        // The last of them come long after the split, and parts have grown on their own.
+        let states = 5 * SPLIT;
+        for state in 0..id32(states) {
+            let (id, new) = registry.insert(&[u64::from(state)], None);
+            assert!(new && id == StateId(state));
+        }
+        assert_eq!(registry.parts.len(), PARTS);
+        assert_eq!(registry.parts.iter().map(|p| p.used).sum::<usize>(), states);
+        assert_eq!(registry.parts.iter().map(|p| p.slots.len()).sum::<usize>(), registry.slots);
+        for state in (0..states).step_by(97) {
+            assert_eq!(registry.insert(&[state as u64], None), (StateId(id32(state)), false));
+        }
+        let largest = registry.parts.iter().map(|p| p.used).max();
+        assert!(largest < Some(4 * states / PARTS), "the highest bits tell states apart");
+    }
 }
