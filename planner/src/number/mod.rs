@@ -88,6 +88,11 @@ impl Number {
         if !value.is_finite() {
             return None;
         }
+        // Most numbers are written without a fraction, and a grounder meets them a million times.
+        #[expect(clippy::cast_possible_truncation, reason = "a whole number below 2^53")]
+        if value.fract() == 0.0 && value.abs() < 9e15 {
+            return Some(Self { numerator: value as i128, denominator: 1 });
+        }
         // The shortest decimal form that reads back as `value`, never with an exponent.
         let text = value.to_string();
         let (whole, fraction) = text.split_once('.').unwrap_or((&text, ""));
