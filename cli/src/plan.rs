@@ -26,10 +26,11 @@ use crate::render::Message;
 use crate::task::TaskFiles;
 use crate::validate::{Figure, finding_message};
 use clap::Args;
+use pddl::model::Domain;
 use pddl::{PlanStep, Severity, Source, Span};
 use planner::{
-    Budget, GroundError, GroundOptions, Impossible, Limit, Origin, Outcome, Quality, Query, Report,
-    SearchConfiguration, Task, UnsolvableReason, ground, solve,
+    Budget, GroundError, GroundOptions, Impossible, Limit, Obstacle, Origin, Outcome, Quality, Query, Report,
+    SearchConfiguration, Task, UnsolvableReason, ground, obstacles, solve,
 };
 use serde::Serialize;
 use std::fmt::Write;
@@ -131,7 +132,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     match &report.outcome {
         Outcome::Solved(plan) => solved(arguments, &files, &task, plan, &mut answer, console),
         Outcome::Unsolvable(reason) => {
-            let reason = why_unsolvable(&task, reason);
+            let reason = why_unsolvable(&files.domain, &task, reason);
             Message::error(format!("there is no plan: {reason}"))
                 .at(&files.problem_source, files.problem.goal_span)
                 .show(console);
@@ -274,14 +275,16 @@ fn cost_kind(files: &TaskFiles) -> &'static str {
 }
 
 /// Why there is none.
-pub(crate) fn why_unsolvable(task: &Task, reason: &UnsolvableReason) -> String {
+pub(crate) fn why_unsolvable(domain: &Domain, task: &Task, reason: &UnsolvableReason) -> String {
     let named = |atoms: &[planner::GroundAtom]| {
         atoms.iter().map(|atom| task.atom_name(atom)).collect::<Vec<_>>().join(", ")
     };
     match reason {
         UnsolvableReason::SpaceExhausted => "no reachable state satisfies the goal".to_owned(),
         UnsolvableReason::Impossible(Impossible::Atoms(atoms)) => {
-            format!("the goal needs {}, which nothing can bring about", named(atoms))
+            let chain = atoms.first().map_or_else(Vec::new, |atom| obstacles(domain, task, atom));
+            let why: String = chain.iter().map(|obstacle| hindered(task, obstacle)).collect();
+            format!("the goal needs {}, which nothing can bring about{why}", named(atoms))
         }
         UnsolvableReason::Impossible(Impossible::NegatedAtoms(atoms)) => {
             format!("the goal needs {} to become false, which nothing can bring about", named(atoms))
@@ -290,6 +293,23 @@ pub(crate) fn why_unsolvable(task: &Task, reason: &UnsolvableReason) -> String {
             format!("the goal needs {} together, which exclude each other", named(atoms))
         }
         UnsolvableReason::Impossible(_) => "nothing can bring the goal about".to_owned(),
+    }
+}
+
+/// What stands in the way, as the next part of a sentence.
+fn hindered(task: &Task, obstacle: &Obstacle) -> String {
+    let name = |pattern| task.pattern_name(pattern);
+    match obstacle {
+        Obstacle::NothingGives(wanted) => format!("; no action gives {}", name(wanted)),
+        Obstacle::Needs { wanted, by, needs } => {
+            format!("; for {} {by} needs {}, which is never true", name(wanted), name(needs))
+        }
+        Obstacle::Circle { wanted, by, needs } => {
+            format!("; and for {} {by} needs {}", name(wanted), name(needs))
+        }
+        Obstacle::NeverTogether { wanted, by } => {
+            format!("; for {} what {by} needs is never true together", name(wanted))
+        }
     }
 }
 

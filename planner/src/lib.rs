@@ -24,6 +24,7 @@
 //! |---|---|
 //! | `ground` | from schemas to facts and operators |
 //! | `number` | exact numbers, expressions over fluents |
+//! | `obstacle` | why an atom is never true |
 //! | `task` | the grounded task, states, successors, axioms, the delete relaxation |
 //! | `heuristics` | estimators, one file each |
 //! | `search` | search algorithms, configurations, the entry point |
@@ -35,6 +36,7 @@ mod ids;
 #[allow(clippy::unwrap_used, reason = "a test")]
 mod lifted_tests;
 mod number;
+mod obstacle;
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test")]
 mod random_numbers;
@@ -48,6 +50,7 @@ pub use ground::{Feature, GroundError, GroundOptions, Origin, ground};
 pub use heuristics::{Costs, HeuristicKind, Properties, Supported};
 pub use ids::{FactId, FluentId, OperatorId};
 pub use number::Number;
+pub use obstacle::{Obstacle, Pattern, obstacles};
 pub use search::{
     BfwsSettings, Budget, Candidate, Count, EagerSettings, Engine, Improved, LazySettings, Limit, Order,
     Outcome, Plan, Preference, Quality, Query, Repaired, Report, SearchConfiguration, Statistics, Threads,

@@ -57,7 +57,7 @@ impl ::lsp::Tools for Tools {
                 }
             }
             Outcome::Unsolvable(reason) => {
-                let sentence = format!("there is no plan: {}", why_unsolvable(&grounded, &reason));
+                let sentence = format!("there is no plan: {}", why_unsolvable(&domain, &grounded, &reason));
                 Planned::Unsolvable(remark(Severity::Error, sentence, (File::Problem, problem.goal_span)))
             }
             Outcome::Unsupported(feature) => Planned::Limit(format!("{feature} are not supported")),

@@ -3,6 +3,7 @@
 use super::{GroundAtom, ObjectValue, Operator, Task};
 use crate::ground::ValuePredicates;
 use crate::ids::{FactId, OperatorId};
+use crate::obstacle::Pattern;
 use pddl::model::{Domain, FunctionId, GroundApplication, IndexVec, Name, ObjectId, PredicateId, Problem};
 use std::fmt::Write;
 
@@ -30,6 +31,19 @@ impl Names {
     /// Which predicates stand for object fluents.
     pub(crate) fn values(&self) -> &ValuePredicates {
         &self.values
+    }
+
+    pub(crate) fn pattern(&self, pattern: &Pattern) -> String {
+        let mut text = format!("({}", self.predicates[pattern.predicate]);
+        for argument in &pattern.arguments {
+            match argument {
+                Ok(object) => write!(text, " {}", self.objects[*object]),
+                Err(variable) => write!(text, " ?{}", variable.as_str().trim_start_matches('?')),
+            }
+            .expect("writing to a string does not fail");
+        }
+        text.push(')');
+        text
     }
 
     /// `(f a b)`.
