@@ -39,7 +39,7 @@ use pddl::{
 const SEARCHED_PLANS: usize = 400;
 
 /// What a step with times costs, in steps without: it starts and ends, and things must hold in between.
-const TIMED: usize = 4;
+const TIMED: usize = 8;
 
 /// How hard to look.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

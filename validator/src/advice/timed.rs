@@ -23,7 +23,7 @@ use std::ops::Range;
 const CANDIDATES: usize = 512;
 
 /// How many happenings are gone through to see earlier states, and facts copied for that.
-const REPLAYED: usize = 300_000;
+const REPLAYED: usize = 100_000;
 
 /// How many starts and ends, the nearest, a step may be moved to.
 const NEAREST: usize = 2 * CANDIDATES;

@@ -8,7 +8,8 @@
 //! Invariant: `now` is the time of the last happening, and `state` is the state right after it.
 //!
 //! Cost: the conditions of each point, and at each happening those of the running actions that read what changed
-//! (`watch`), and where change is linear only the fluents that are read (`lane`); footprints only for points that are nearer to another one than the separation.
+//! (`watch`), where change is linear only for the fluents that are read (`lane`); footprints only for points that are
+//! nearer to another one than the separation.
 //!
 //! Source: Fox & Long, "PDDL2.1", JAIR 2003, Definitions 16 to 20; Edelkamp & Hoffmann, "PDDL2.2", 2004.
 
