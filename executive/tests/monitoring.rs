@@ -56,10 +56,8 @@ fn reaches(model: &Model, plan: &[OperatorId], state: &State) -> bool {
     let task = model.task();
     let mut state = state.clone();
     for &operator in plan {
-        if !task.is_applicable(&state, operator) {
-            return false;
-        }
-        state = task.successor(&state, operator);
+        let Some(next) = task.successor(&state, operator) else { return false };
+        state = next;
     }
     task.satisfies(&state, task.goal())
 }
@@ -74,7 +72,7 @@ fn beside(model: &Model, plan: &[OperatorId], steps: usize, flips: &[usize]) -> 
     let task = model.task();
     let mut state = task.initial_state().clone();
     for &operator in &plan[..steps.min(plan.len())] {
-        state = task.successor(&state, operator);
+        state = task.successor(&state, operator).expect("it is the plan");
     }
     let all: Vec<FactId> = task.facts().ids().collect();
     let flipped: Vec<FactId> = flips.iter().map(|&i| all[i % all.len()]).collect();

@@ -33,7 +33,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let Outcome::Solved(plan) = report.outcome else { return Err(format!("{report:?}").into()) };
     let mut states = vec![task.initial_state().clone()];
     for &operator in &plan.operators {
-        states.push(task.successor(states.last().ok_or("one is there")?, operator));
+        let last = states.last().ok_or("one is there")?;
+        states.push(task.successor(last, operator).ok_or("the plan cannot be carried out")?);
     }
     let mut times: Vec<Duration> = Vec::new();
     for _ in 0..rounds {

@@ -215,7 +215,7 @@ proptest! {
                 prop_assert!(held == 1 || (held == 0 && !variable.complete), "{variable:?}");
             }
             for operator in task.applicable(&state) {
-                let next = task.successor(&state, operator);
+                let next = task.successor(&state, operator).unwrap();
                 if found.insert(next.facts()) {
                     queue.push(next);
                 }

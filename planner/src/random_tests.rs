@@ -239,7 +239,7 @@ proptest! {
             let applicable = task.applicable(&state);
             if !applicable.is_empty() {
                 before.push(*surprise.get(&applicable));
-                state = task.successor(&state, before[before.len() - 1]);
+                state = task.successor(&state, before[before.len() - 1]).unwrap();
             }
         }
         let query = Query { state: &state, ..Query::of(&task) };

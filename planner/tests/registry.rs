@@ -116,8 +116,10 @@ fn check(case: &Case, task: &Task, configuration: &SearchConfiguration, outcome:
             let steps = pddl::SequentialPlan::new(steps.collect());
             let verdict = validator::validate(&case.domain, &case.problem, &steps);
             assert!(verdict.is_valid(), "{place}: {verdict:?}");
-            let replayed =
-                plan.operators.iter().fold(task.initial_state().clone(), |s, &o| task.successor(&s, o));
+            let replayed = plan
+                .operators
+                .iter()
+                .fold(task.initial_state().clone(), |s, &o| task.successor(&s, o).expect("applicable"));
             assert!(task.satisfies(&replayed, task.goal()), "{place}");
             #[expect(clippy::cast_precision_loss, reason = "small costs")]
             let cost = plan.cost as f64 / f64::from(task.cost_scale());

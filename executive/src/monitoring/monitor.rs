@@ -60,10 +60,8 @@ impl Monitor {
     fn reaches_goal(&self, task: &Task, state: &State, start: usize) -> bool {
         let mut state = state.clone();
         for &operator in &self.plan[start..] {
-            if !task.is_applicable(&state, operator) {
-                return false;
-            }
-            state = task.successor(&state, operator);
+            let Some(next) = task.successor(&state, operator) else { return false };
+            state = next;
         }
         task.satisfies(&state, &self.goal)
     }
@@ -88,10 +86,10 @@ impl Monitor {
         let mut state = state.clone();
         for &operator in &self.plan[current..] {
             let precondition = &task.operators()[operator].precondition;
-            if !task.is_applicable(&state, operator) {
+            let Some(next) = task.successor(&state, operator) else {
                 return self.unsatisfied(model, current, precondition, &state);
-            }
-            state = task.successor(&state, operator);
+            };
+            state = next;
         }
         self.unsatisfied(model, current, &self.goal.literals, &state)
     }

@@ -157,7 +157,9 @@ impl<'a> Bfws<'a> {
                 continue;
             }
             self.next.copy_from_slice(&self.here);
-            task.apply(operator, &self.here, &mut self.next);
+            if !task.apply(operator, &self.here, &mut self.next) {
+                continue;
+            }
             self.statistics.generated += 1;
             let (child, new) = self.registry.insert(&self.next, Some((id, operator)));
             if !new {

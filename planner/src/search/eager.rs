@@ -123,7 +123,9 @@ impl<'a> Eager<'a> {
             }
             self.statistics.generated += 1;
             self.next.copy_from_slice(&self.here);
-            task.apply(operator, &self.here, &mut self.next);
+            if !task.apply(operator, &self.here, &mut self.next) {
+                continue;
+            }
             let (child, new) = self.registry.insert(&self.next, Some((id, operator)));
             self.heuristic.step(id, operator, child, &self.next);
             let h = if new {

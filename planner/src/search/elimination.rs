@@ -30,7 +30,9 @@ pub(crate) fn without_needless(task: &Task, query: &Query<'_>, plan: &Plan) -> P
             continue;
         }
         next.copy_from_slice(&state);
-        task.apply(kept[i], &state, &mut next);
+        if !task.apply(kept[i], &state, &mut next) {
+            return plan.clone();
+        }
         std::mem::swap(&mut state, &mut next);
         i += 1;
     }
@@ -51,7 +53,9 @@ fn left_out(task: &Task, query: &Query<'_>, from: &[u64], steps: &[OperatorId]) 
     for &operator in &steps[1..] {
         if task.operators[operator].precondition.hold_in(&state) {
             next.copy_from_slice(&state);
-            task.apply(operator, &state, &mut next);
+            if !task.apply(operator, &state, &mut next) {
+                return None;
+            }
             std::mem::swap(&mut state, &mut next);
             done.push(operator);
         }

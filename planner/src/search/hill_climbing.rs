@@ -103,7 +103,9 @@ impl<'a> HillClimbing<'a> {
                 return None;
             }
             self.next.copy_from_slice(&here);
-            task.apply(operator, &here, &mut self.next);
+            if !task.apply(operator, &here, &mut self.next) {
+                continue;
+            }
             self.statistics.generated += 1;
             let (child, new) = self.registry.insert(&self.next, Some((id, operator)));
             if !new {

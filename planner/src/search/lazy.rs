@@ -117,7 +117,9 @@ impl<'a> Lazy<'a> {
         }
         self.registry.read(from, &mut self.here);
         self.next.copy_from_slice(&self.here);
-        task.apply(operator, &self.here, &mut self.next);
+        if !task.apply(operator, &self.here, &mut self.next) {
+            return None;
+        }
         self.statistics.generated += 1;
         self.job.meter.spend(meter::price_of_state(self.next.len()));
         let (id, new) = self.registry.insert(&self.next, Some((from, operator)));

@@ -127,10 +127,8 @@ impl Work<'_> {
     fn reaches(&self, steps: &[OperatorId]) -> bool {
         let mut state = self.query.state.clone();
         for &operator in steps {
-            if !self.task.is_applicable(&state, operator) {
-                return false;
-            }
-            state = self.task.successor(&state, operator);
+            let Some(next) = self.task.successor(&state, operator) else { return false };
+            state = next;
         }
         self.task.satisfies(&state, self.query.goal)
     }
@@ -167,8 +165,11 @@ impl Work<'_> {
         let mut state: State = self.query.state.clone();
         let mut steps = Vec::new();
         for &operator in self.broken {
-            if self.task.is_applicable(&state, operator) && !self.query.excluded.contains(&operator) {
-                state = self.task.successor(&state, operator);
+            if self.query.excluded.contains(&operator) {
+                continue;
+            }
+            if let Some(next) = self.task.successor(&state, operator) {
+                state = next;
                 steps.push(operator);
             }
         }

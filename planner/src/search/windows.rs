@@ -105,7 +105,9 @@ impl Windows<'_> {
                 return None;
             }
             next.words_mut().copy_from_slice(state.words());
-            self.task.apply(operator, state.words(), next.words_mut());
+            if !self.task.apply(operator, state.words(), next.words_mut()) {
+                return None;
+            }
             std::mem::swap(&mut state, &mut next);
         }
         Some(state)

@@ -32,7 +32,7 @@ impl Task {
             numeric.fluents[numeric.stored..].iter().map(|f| f.initial).collect();
         let mut here = state.clone();
         for &operator in plan {
-            let next = self.successor(&here, operator);
+            let next = self.successor(&here, operator)?;
             if let Some(effects) = &self.operators[operator].numeric {
                 self.add_up(effects, &here, &mut unseen);
             }

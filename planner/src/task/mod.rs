@@ -189,11 +189,11 @@ impl Task {
         self.operators[operator].precondition.hold_in(state.words())
     }
 
-    /// The state after an applicable operator.
-    pub fn successor(&self, state: &State, operator: OperatorId) -> State {
+    /// The state after an operator; `None` where it may not be applied, or a number grows too long.
+    pub fn successor(&self, state: &State, operator: OperatorId) -> Option<State> {
         let mut next = state.clone();
-        self.apply(operator, state.words(), next.words_mut());
-        next
+        let applies = self.is_applicable(state, operator);
+        (applies && self.apply(operator, state.words(), next.words_mut())).then_some(next)
     }
 
     /// All operators that are applicable, in a fixed order.
@@ -208,14 +208,19 @@ impl Task {
         goal.holds_in(state.words())
     }
 
-    /// Turns `next`, a copy of `state`, into the successor.
-    pub(crate) fn apply(&self, operator: OperatorId, state: &[u64], next: &mut [u64]) {
+    /// Turns `next`, a copy of `state`, into the successor. `false`: a number grows too long, and `next`
+    /// is no state.
+    #[must_use]
+    pub(crate) fn apply(&self, operator: OperatorId, state: &[u64], next: &mut [u64]) -> bool {
         let own = &self.operators[operator];
         own.apply(state, next);
-        if let Some(effects) = &own.numeric {
-            self.numeric.apply(effects, state, next);
+        if let Some(effects) = &own.numeric
+            && !self.numeric.apply(effects, state, next)
+        {
+            return false;
         }
         self.axioms.update(state, next);
+        true
     }
 
     /// Bytes that the task holds, about.

@@ -5,7 +5,7 @@
 //! again whenever an operator changes a number that it reads. Everything else sees bits only.
 //! Invariant: in every state that a task makes, a comparison's bit says whether it holds, and a number
 //! is exact: where the values of all effects stay multiples of one fraction, a number is a multiple in
-//! one word, else a ratio in two. A result that fits into neither is no value, and from then on
+//! one word, else a ratio in two. A step whose result fits into neither leads nowhere, and from then on
 //! the task owns up that its proofs of unsolvability are none ([`Numeric::has_overflowed`]). Cost: the
 //! changed numbers and the comparisons that read them, per operator.
 
@@ -185,8 +185,9 @@ impl Numeric {
         }
     }
 
+    /// Writes a number; answers whether it fits. One that does not is written as no value.
     #[expect(clippy::cast_sign_loss, reason = "words hold the bits of signed numbers")]
-    pub(crate) fn set(&self, words: &mut [u64], fluent: FluentId, value: Option<Number>) {
+    pub(crate) fn set(&self, words: &mut [u64], fluent: FluentId, value: Option<Number>) -> bool {
         let i = fluent.index();
         let short = |n: i128| i64::try_from(n).ok().filter(|&n| n != NOTHING);
         let fits = match self.layout {
@@ -208,9 +209,7 @@ impl Numeric {
                 both.is_some()
             }
         };
-        if !fits {
-            self.overflowed.store(true, Ordering::Relaxed);
-        }
+        fits || self.overflows()
     }
 
     /// Writes the initial values and the comparisons that hold then.
@@ -223,21 +222,23 @@ impl Numeric {
 
     /// Sets the bit of every comparison.
     pub(crate) fn compare_all(&self, words: &mut [u64]) {
-        self.comparisons.iter().for_each(|comparison| self.compare(comparison, words));
+        for comparison in &self.comparisons {
+            if !self.compare(comparison, words) {
+                unset(words, comparison.fact);
+            }
+        }
     }
 
-    /// Makes an operator's changes to `next`, a copy of `state`; answers whether a comparison changed.
-    pub(crate) fn apply(&self, effects: &NumericEffects, state: &[u64], next: &mut [u64]) {
-        for update in effects.updates.iter().filter(|u| u.condition.hold_in(state)) {
-            self.update(update, state, next);
-        }
-        for &position in &effects.rechecked {
-            self.compare(&self.comparisons[position as usize], next);
-        }
+    /// Makes an operator's changes to `next`, a copy of `state`; answers whether all numbers fit.
+    pub(crate) fn apply(&self, effects: &NumericEffects, state: &[u64], next: &mut [u64]) -> bool {
+        let mut updates = effects.updates.iter().filter(|u| u.condition.hold_in(state));
+        let mut rechecked = effects.rechecked.iter().map(|&position| &self.comparisons[position as usize]);
+        updates.all(|update| self.update(update, state, next))
+            && rechecked.all(|comparison| self.compare(comparison, next))
     }
 
     #[expect(clippy::cast_sign_loss, clippy::cast_possible_wrap, reason = "words hold signed numbers' bits")]
-    fn update(&self, update: &Update, state: &[u64], next: &mut [u64]) {
+    fn update(&self, update: &Update, state: &[u64], next: &mut [u64]) -> bool {
         // Additions and assignments of multiples, which most are.
         if let (Layout::Multiple(_), Some(fast), Change::Shift | Change::Assign) =
             (self.layout, &update.fast, update.change)
@@ -248,23 +249,25 @@ impl Numeric {
             let after = sum.and_then(|sum| i64::try_from(i128::from(before) + sum / fast.divisor).ok());
             if let Some(after) = after.filter(|&a| a != NOTHING) {
                 next[at] = after as u64;
-                return;
+                return true;
             }
         }
         let value = match update.value.as_ref().map(|v| v.evaluate(&|&f| self.value(state, f))) {
             None | Some(Err(NoValue::Undefined)) => None,
             Some(Ok(value)) => Some(value),
-            Some(Err(NoValue::Overflow)) => {
-                self.overflowed.store(true, Ordering::Relaxed);
-                None
-            }
+            Some(Err(NoValue::Overflow)) => return self.overflows(),
         };
         let before = self.value(next, update.fluent);
         let after = changed(update.change, before, value);
         if after.is_none() && value.is_some() && before.is_some() {
-            self.overflowed.store(true, Ordering::Relaxed);
+            return self.overflows();
         }
-        self.set(next, update.fluent, after);
+        self.set(next, update.fluent, after)
+    }
+
+    fn overflows(&self) -> bool {
+        self.overflowed.store(true, Ordering::Relaxed);
+        false
     }
 
     /// What an operator may make of the comparisons: under which condition, which may come to hold and
@@ -305,26 +308,27 @@ impl Numeric {
         Influence::of(compared, &update.fluent, update.change, update.value.as_ref())
     }
 
-    fn compare(&self, comparison: &Comparison, words: &mut [u64]) {
-        if self.holds(comparison, words) {
-            set(words, comparison.fact);
-        } else {
-            unset(words, comparison.fact);
+    /// Sets the comparison's bit; answers whether its sides fit.
+    fn compare(&self, comparison: &Comparison, words: &mut [u64]) -> bool {
+        match self.holds(comparison, words) {
+            Some(true) => set(words, comparison.fact),
+            Some(false) => unset(words, comparison.fact),
+            None => return self.overflows(),
         }
+        true
     }
 
-    fn holds(&self, comparison: &Comparison, words: &[u64]) -> bool {
+    /// `None` where a side is too long.
+    fn holds(&self, comparison: &Comparison, words: &[u64]) -> Option<bool> {
         if let Some(fast) = &comparison.fast {
             let sum = self.sum(fast, words);
-            return sum.is_some_and(|s| comparison.relation.holds(i32::from(s > 0) - i32::from(s < 0)));
+            let holds = |s: i128| comparison.relation.holds(i32::from(s > 0) - i32::from(s < 0));
+            return Some(sum.is_some_and(holds));
         }
         match comparison.expression.evaluate(&|&f| self.value(words, f)) {
-            Ok(value) => comparison.relation.holds(value.sign()),
-            Err(NoValue::Undefined) => false,
-            Err(NoValue::Overflow) => {
-                self.overflowed.store(true, Ordering::Relaxed);
-                false
-            }
+            Ok(value) => Some(comparison.relation.holds(value.sign())),
+            Err(NoValue::Undefined) => Some(false),
+            Err(NoValue::Overflow) => None,
         }
     }
 

@@ -144,7 +144,8 @@ mod tests {
         let mut states = vec![task.initial_state().clone()];
         for i in 0..50 {
             let operators = task.applicable(&states[i]);
-            states.push(task.successor(&states[i], operators[i * 7 % operators.len()]));
+            let next = task.successor(&states[i], operators[i * 7 % operators.len()]);
+            states.push(next.expect("it is applicable"));
         }
         let (mut packed, mut again) = (vec![0; 2], vec![0; 10]);
         for state in states {
