@@ -13,7 +13,7 @@
 use crate::number::Number;
 use crate::scene::{Binding, Scene};
 use crate::state::Value;
-use pddl::model::{Comparison, Condition, ConditionKind, Expression};
+use pddl::model::{Comparison, Condition, ConditionKind, Expression, ExpressionKind, FunctionId};
 use std::cmp::Ordering;
 
 /// What to make of an undefined comparison.
@@ -123,5 +123,32 @@ impl Scene<'_> {
                 (self.fluent(application, binding) == Some(Value::Object(binding.object(*value)))) == wanted
             }
         }
+    }
+}
+
+/// Visits every function that a condition reads.
+pub(crate) fn each_function(condition: &Condition, visit: &mut dyn FnMut(FunctionId)) {
+    match &condition.kind {
+        ConditionKind::And(parts) | ConditionKind::Or(parts) => {
+            parts.iter().for_each(|part| each_function(part, visit));
+        }
+        ConditionKind::Not(part) | ConditionKind::Exists(_, part) | ConditionKind::Forall(_, part) => {
+            each_function(part, visit);
+        }
+        ConditionKind::Imply(if_, then) => {
+            each_function(if_, visit);
+            each_function(then, visit);
+        }
+        ConditionKind::Compare(_, left, right) => {
+            for side in [left, right] {
+                side.each(&mut |part| {
+                    if let ExpressionKind::Fluent(application) = &part.kind {
+                        visit(application.function);
+                    }
+                });
+            }
+        }
+        ConditionKind::FluentIs(application, _) => visit(application.function),
+        ConditionKind::Atom(_) | ConditionKind::Same(..) | ConditionKind::HasType(..) => {}
     }
 }

@@ -14,7 +14,8 @@ use super::meter::price_of_state;
 use super::novelty::{Novelty, NoveltyTable};
 use super::open_list::OpenList;
 use super::registry::StateRegistry;
-use super::{Job, Limit, Outcome, Plan, Searcher, Signal, Statistics, Turn, UnsolvableReason};
+use super::searcher::Stepwise;
+use super::{Job, Limit, Outcome, Plan, Statistics, UnsolvableReason};
 use crate::heuristics::{Costs, Estimate, Ff, Heuristic, HeuristicKind, View};
 use crate::ids::{FactId, OperatorId, StateId, id32};
 use crate::task::contains;
@@ -246,6 +247,12 @@ impl<'a> Bfws<'a> {
         }
         node
     }
+}
+
+impl Stepwise for Bfws<'_> {
+    fn job(&self) -> &Job<'_> {
+        &self.job
+    }
 
     fn memory(&self) -> usize {
         self.registry.memory()
@@ -257,24 +264,12 @@ impl<'a> Bfws<'a> {
             + self.novelty.memory()
             + self.count.memory()
     }
-}
-
-impl Searcher for Bfws<'_> {
-    fn advance(&mut self, turn: &Turn) -> Option<Outcome> {
-        loop {
-            match self.job.meter.signal(turn, self.statistics.expanded, self.memory()) {
-                Signal::Go => {}
-                Signal::Pause => return None,
-                Signal::Stop(limit) => return Some(Outcome::LimitReached(limit)),
-            }
-            let answer = if std::mem::replace(&mut self.begun, true) { self.step() } else { self.begin() };
-            if answer.is_some() {
-                return answer;
-            }
-        }
-    }
 
     fn statistics(&self) -> Statistics {
         self.statistics
+    }
+
+    fn next(&mut self) -> Option<Outcome> {
+        if std::mem::replace(&mut self.begun, true) { self.step() } else { self.begin() }
     }
 }

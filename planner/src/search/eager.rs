@@ -9,7 +9,8 @@
 
 use super::meter::price_of_state;
 use super::registry::StateRegistry;
-use super::{Job, Limit, Order, Outcome, Plan, Searcher, Signal, Statistics, Turn, UnsolvableReason};
+use super::searcher::Stepwise;
+use super::{Job, Limit, Order, Outcome, Plan, Statistics, UnsolvableReason};
 use crate::heuristics::{Costs, Estimate, Heuristic, HeuristicKind, View};
 use crate::ids::{OperatorId, StateId};
 use std::cmp::Reverse;
@@ -145,6 +146,12 @@ impl<'a> Eager<'a> {
         }
         None
     }
+}
+
+impl Stepwise for Eager<'_> {
+    fn job(&self) -> &Job<'_> {
+        &self.job
+    }
 
     fn memory(&self) -> usize {
         self.registry.memory()
@@ -152,28 +159,16 @@ impl<'a> Eager<'a> {
             + self.open.capacity() * size_of::<Entry>()
             + self.heuristic.memory()
     }
-}
-
-impl Searcher for Eager<'_> {
-    fn advance(&mut self, turn: &Turn) -> Option<Outcome> {
-        loop {
-            match self.job.meter.signal(turn, self.statistics.expanded, self.memory()) {
-                Signal::Go => {}
-                Signal::Pause => return None,
-                Signal::Stop(limit) => return Some(Outcome::LimitReached(limit)),
-            }
-            if !std::mem::replace(&mut self.begun, true) {
-                self.begin();
-                continue;
-            }
-            let answer = self.step();
-            if answer.is_some() {
-                return answer;
-            }
-        }
-    }
 
     fn statistics(&self) -> Statistics {
         self.statistics
+    }
+
+    fn next(&mut self) -> Option<Outcome> {
+        if !std::mem::replace(&mut self.begun, true) {
+            self.begin();
+            return None;
+        }
+        self.step()
     }
 }

@@ -9,7 +9,8 @@
 
 use super::meter::price_of_state;
 use super::registry::StateRegistry;
-use super::{Job, Limit, Outcome, Plan, Searcher, Signal, Statistics, Turn, UnsolvableReason};
+use super::searcher::Stepwise;
+use super::{Job, Limit, Outcome, Plan, Statistics, UnsolvableReason};
 use crate::heuristics::{Costs, Estimate, Ff};
 use crate::ids::{OperatorId, StateId};
 use std::collections::VecDeque;
@@ -134,30 +135,25 @@ impl<'a> HillClimbing<'a> {
         }
         None
     }
+}
+
+impl Stepwise for HillClimbing<'_> {
+    fn job(&self) -> &Job<'_> {
+        &self.job
+    }
 
     fn memory(&self) -> usize {
         // The lists of helpful operators hold a few each.
         self.registry.memory() + self.queue.capacity() * (size_of::<(StateId, Vec<OperatorId>)>() + 64)
     }
-}
-
-impl Searcher for HillClimbing<'_> {
-    fn advance(&mut self, turn: &Turn) -> Option<Outcome> {
-        loop {
-            match self.job.meter.signal(turn, self.statistics.expanded, self.memory()) {
-                Signal::Go => {}
-                Signal::Pause => return None,
-                Signal::Stop(limit) => return Some(Outcome::LimitReached(limit)),
-            }
-            let answer = if std::mem::replace(&mut self.begun, true) { self.step() } else { self.begin() };
-            if answer.is_some() && !self.job.meter.is_stopped() || matches!(answer, Some(Outcome::Solved(_)))
-            {
-                return answer;
-            }
-        }
-    }
 
     fn statistics(&self) -> Statistics {
         self.statistics
+    }
+
+    fn next(&mut self) -> Option<Outcome> {
+        let answer = if std::mem::replace(&mut self.begun, true) { self.step() } else { self.begin() };
+        // What a stopped step did not find is no answer: the meter says why.
+        answer.filter(|answer| !self.job.meter.is_stopped() || matches!(answer, Outcome::Solved(_)))
     }
 }

@@ -11,7 +11,8 @@
 use super::meter;
 use super::open_list::OpenList;
 use super::registry::StateRegistry;
-use super::{Job, Limit, Order, Outcome, Plan, Searcher, Signal, Statistics, Turn, UnsolvableReason};
+use super::searcher::Stepwise;
+use super::{Job, Limit, Order, Outcome, Plan, Statistics, UnsolvableReason};
 use crate::heuristics::{Costs, Estimate, Heuristic, HeuristicKind, View};
 use crate::ids::{OperatorId, StateId};
 
@@ -206,30 +207,24 @@ impl<'a> Lazy<'a> {
             list.open.pop()
         }
     }
+}
+
+impl Stepwise for Lazy<'_> {
+    fn job(&self) -> &Job<'_> {
+        &self.job
+    }
 
     fn memory(&self) -> usize {
         let lists: usize =
             self.lists.iter().map(|l| l.open.memory() + l.preferred.memory() + l.heuristic.memory()).sum();
         self.registry.memory() + self.reached_at.capacity() * 8 + lists
     }
-}
-
-impl Searcher for Lazy<'_> {
-    fn advance(&mut self, turn: &Turn) -> Option<Outcome> {
-        loop {
-            match self.job.meter.signal(turn, self.statistics.expanded, self.memory()) {
-                Signal::Go => {}
-                Signal::Pause => return None,
-                Signal::Stop(limit) => return Some(Outcome::LimitReached(limit)),
-            }
-            let answer = if std::mem::replace(&mut self.begun, true) { self.step() } else { self.begin() };
-            if answer.is_some() {
-                return answer;
-            }
-        }
-    }
 
     fn statistics(&self) -> Statistics {
         self.statistics
+    }
+
+    fn next(&mut self) -> Option<Outcome> {
+        if std::mem::replace(&mut self.begun, true) { self.step() } else { self.begin() }
     }
 }

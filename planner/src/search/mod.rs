@@ -31,7 +31,7 @@ pub use configuration::{Engine, Order, SearchConfiguration};
 pub use eager::EagerSettings;
 pub(crate) use job::{Bound, Job};
 pub use lazy::LazySettings;
-pub(crate) use meter::{Meter, Signal, Turn};
+pub(crate) use meter::{Meter, Turn};
 pub use outcome::{Outcome, Plan, Report, Statistics, UnsolvableReason};
 pub use portfolio::Threads;
 pub(crate) use query::Barred;

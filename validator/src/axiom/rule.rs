@@ -9,14 +9,13 @@
 //! Source: Ullman, "Principles of Database and Knowledge-Base Systems", 1988, ch. 3 (semi-naive evaluation).
 
 use super::each_predicate;
-use crate::condition::Strictness;
+use crate::condition::{Strictness, each_function};
 use crate::scene::{Binding, Clock, Scene};
 use crate::solve::Query;
 use crate::state::State;
 use crate::universe::Universe;
 use pddl::model::{
-    Atom, Axiom, Condition, ConditionKind, Domain, Expression, ExpressionKind, FunctionId, ObjectId,
-    PredicateId, VariableId, Variables,
+    Atom, Axiom, Condition, ConditionKind, Domain, FunctionId, ObjectId, PredicateId, VariableId, Variables,
 };
 use std::ops::ControlFlow;
 
@@ -85,37 +84,6 @@ fn divide(branches: &mut Vec<Branch>, whole: &Condition, wanted: bool, parts: &[
         }
     }
     *branches = divided;
-}
-
-fn each_function(condition: &Condition, visit: &mut dyn FnMut(FunctionId)) {
-    fn inside(expression: &Expression, visit: &mut dyn FnMut(FunctionId)) {
-        match &expression.kind {
-            ExpressionKind::Fluent(application) => visit(application.function),
-            ExpressionKind::Arithmetic(_, operands) => operands.iter().for_each(|o| inside(o, visit)),
-            ExpressionKind::Number(_)
-            | ExpressionKind::Duration
-            | ExpressionKind::TotalTime
-            | ExpressionKind::IsViolated(_) => {}
-        }
-    }
-    match &condition.kind {
-        ConditionKind::And(parts) | ConditionKind::Or(parts) => {
-            parts.iter().for_each(|part| each_function(part, visit));
-        }
-        ConditionKind::Not(part) | ConditionKind::Exists(_, part) | ConditionKind::Forall(_, part) => {
-            each_function(part, visit);
-        }
-        ConditionKind::Imply(if_, then) => {
-            each_function(if_, visit);
-            each_function(then, visit);
-        }
-        ConditionKind::Compare(_, left, right) => {
-            inside(left, visit);
-            inside(right, visit);
-        }
-        ConditionKind::FluentIs(application, _) => visit(application.function),
-        ConditionKind::Atom(_) | ConditionKind::HasType(..) | ConditionKind::Same(..) => {}
-    }
 }
 
 impl Rule {

@@ -15,6 +15,7 @@
 use super::active::Ticket;
 use super::footprint::Dependencies;
 use crate::axiom::Strata;
+use crate::condition::each_function;
 use crate::effect::Changes;
 use crate::scene::Binding;
 use crate::state::GroundAtom;
@@ -167,32 +168,6 @@ fn expression(expression: &Expression, binding: &Binding, into: &mut Reads) {
         ExpressionKind::TotalTime | ExpressionKind::IsViolated(_) => into.time = true,
         ExpressionKind::Number(_) | ExpressionKind::Duration | ExpressionKind::Arithmetic(..) => {}
     });
-}
-
-fn each_function(condition: &Condition, visit: &mut dyn FnMut(FunctionId)) {
-    match &condition.kind {
-        ConditionKind::And(parts) | ConditionKind::Or(parts) => {
-            parts.iter().for_each(|part| each_function(part, visit));
-        }
-        ConditionKind::Not(part) | ConditionKind::Exists(_, part) | ConditionKind::Forall(_, part) => {
-            each_function(part, visit);
-        }
-        ConditionKind::Imply(if_, then) => {
-            each_function(if_, visit);
-            each_function(then, visit);
-        }
-        ConditionKind::Compare(_, left, right) => {
-            for side in [left, right] {
-                side.each(&mut |part| {
-                    if let ExpressionKind::Fluent(application) = &part.kind {
-                        visit(application.function);
-                    }
-                });
-            }
-        }
-        ConditionKind::FluentIs(application, _) => visit(application.function),
-        ConditionKind::Atom(_) | ConditionKind::Same(..) | ConditionKind::HasType(..) => {}
-    }
 }
 
 /// The actions that run, by what they read.
