@@ -113,6 +113,7 @@ pub enum Shortfall {
     Subtasks(Vec<Span>),
     /// Nothing that the network can become has this step, wherever it stands.
     Step(StepIndex),
-    /// Some decomposition begins with so many steps, and none was found that begins with more.
+    /// Some decomposition begins with so many steps; none that begins with more was found, among those that could
+    /// still come to the rest. Others may.
     Explained(u32),
 }

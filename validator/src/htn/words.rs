@@ -53,8 +53,8 @@ impl Words<'_> {
                 }
                 let place = self.step_place(StepIndex(*explained));
                 let what = match explained {
-                    0 => "nothing that it can become begins with this".to_owned(),
-                    _ => "it can begin with the steps before this one, and not with this one as well"
+                    0 => "no way was found to begin with this and come to the rest".to_owned(),
+                    _ => "it can begin with the steps before this one, but no way was found from this one to the rest"
                         .to_owned(),
                 };
                 Finding { sentence, place, notes: vec![(place, what)] }
