@@ -37,8 +37,11 @@ struct Row {
     soft: bool,
     broken: bool,
     at: Option<f64>,
-    conditions: Vec<(String, Vec<(f64, Option<f64>)>)>,
+    conditions: Vec<(String, Vec<While>)>,
 }
+
+/// From when to when a condition holds; without an end, to the end of the plan.
+type While = (f64, Option<f64>);
 
 #[derive(Serialize)]
 struct Bar {
