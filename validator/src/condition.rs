@@ -127,18 +127,8 @@ impl Scene<'_> {
 }
 
 /// Visits every function that a condition reads.
-pub(crate) fn each_function(condition: &Condition, visit: &mut dyn FnMut(FunctionId)) {
-    match &condition.kind {
-        ConditionKind::And(parts) | ConditionKind::Or(parts) => {
-            parts.iter().for_each(|part| each_function(part, visit));
-        }
-        ConditionKind::Not(part) | ConditionKind::Exists(_, part) | ConditionKind::Forall(_, part) => {
-            each_function(part, visit);
-        }
-        ConditionKind::Imply(if_, then) => {
-            each_function(if_, visit);
-            each_function(then, visit);
-        }
+pub(crate) fn each_function(condition: &Condition, visit: &mut impl FnMut(FunctionId)) {
+    condition.each(&mut |part| match &part.kind {
         ConditionKind::Compare(_, left, right) => {
             for side in [left, right] {
                 side.each(&mut |part| {
@@ -149,6 +139,6 @@ pub(crate) fn each_function(condition: &Condition, visit: &mut dyn FnMut(Functio
             }
         }
         ConditionKind::FluentIs(application, _) => visit(application.function),
-        ConditionKind::Atom(_) | ConditionKind::Same(..) | ConditionKind::HasType(..) => {}
-    }
+        _ => {}
+    });
 }

@@ -115,22 +115,8 @@ fn each_condition(constraint: &Constraint, visit: &mut dyn FnMut(&Condition)) {
 /// The outermost quantified conditions.
 fn each_quantified(condition: &Condition, visit: &mut dyn FnMut(&Condition)) {
     match &condition.kind {
-        ConditionKind::And(parts) | ConditionKind::Or(parts) => {
-            for part in parts {
-                each_quantified(part, visit);
-            }
-        }
-        ConditionKind::Not(part) => each_quantified(part, visit),
-        ConditionKind::Imply(if_, then) => {
-            each_quantified(if_, visit);
-            each_quantified(then, visit);
-        }
         ConditionKind::Exists(_, body) | ConditionKind::Forall(_, body) => visit(body),
-        ConditionKind::Atom(_)
-        | ConditionKind::HasType(..)
-        | ConditionKind::Same(..)
-        | ConditionKind::Compare(..)
-        | ConditionKind::FluentIs(..) => {}
+        _ => condition.parts().for_each(|part| each_quantified(part, visit)),
     }
 }
 
@@ -156,11 +142,9 @@ pub(crate) fn each_guard<'e>(effect: &'e Effect, visit: &mut dyn FnMut(&'e Condi
 
 pub(crate) fn derived_in_effect(effect: &Effect, strata: &Strata) -> Result<(), IllFormed> {
     match &effect.kind {
-        EffectKind::And(parts) => parts.iter().try_for_each(|part| derived_in_effect(part, strata)),
-        EffectKind::Forall(_, body) | EffectKind::When(_, body) => derived_in_effect(body, strata),
         EffectKind::Add(atom) | EffectKind::Delete(atom) if strata.derives(atom.predicate) => {
             Err(IllFormed::DerivedInEffect { predicate: atom.predicate, span: atom.span })
         }
-        EffectKind::Add(_) | EffectKind::Delete(_) | EffectKind::Assign(..) => Ok(()),
+        _ => effect.parts().iter().try_for_each(|part| derived_in_effect(part, strata)),
     }
 }

@@ -123,13 +123,6 @@ impl Search<'_> {
     fn condition(&self, condition: &Condition) -> Option<Role> {
         let found = |so: bool| so.then_some(Role { deed: Deed::Needs, span: condition.span });
         match &condition.kind {
-            ConditionKind::And(parts) | ConditionKind::Or(parts) => {
-                parts.iter().find_map(|part| self.condition(part))
-            }
-            ConditionKind::Not(part) | ConditionKind::Exists(_, part) | ConditionKind::Forall(_, part) => {
-                self.condition(part)
-            }
-            ConditionKind::Imply(if_, then) => self.condition(if_).or_else(|| self.condition(then)),
             ConditionKind::Atom(atom) => {
                 let derived =
                     matches!(self.over, Shared::Derived { predicate, .. } if *predicate == atom.predicate);
@@ -139,7 +132,7 @@ impl Search<'_> {
                 self.expression(left).or_else(|| self.expression(right))
             }
             ConditionKind::FluentIs(application, _) => found(self.is_fluent(application)),
-            ConditionKind::HasType(..) | ConditionKind::Same(..) => None,
+            _ => condition.parts().find_map(|part| self.condition(part)),
         }
     }
 

@@ -83,34 +83,15 @@ fn each_term_variable(terms: &[Term], visit: &mut dyn FnMut(VariableId)) {
 }
 
 fn each_expression_variable(expression: &Expression, visit: &mut dyn FnMut(VariableId)) {
-    match &expression.kind {
-        ExpressionKind::Fluent(application) => each_term_variable(&application.arguments, visit),
-        ExpressionKind::Arithmetic(_, operands) => {
-            for operand in operands {
-                each_expression_variable(operand, visit);
-            }
+    expression.each(&mut |part| {
+        if let ExpressionKind::Fluent(application) = &part.kind {
+            each_term_variable(&application.arguments, visit);
         }
-        ExpressionKind::Number(_)
-        | ExpressionKind::Duration
-        | ExpressionKind::TotalTime
-        | ExpressionKind::IsViolated(_) => {}
-    }
+    });
 }
 
 fn each_variable(condition: &Condition, visit: &mut dyn FnMut(VariableId)) {
-    match &condition.kind {
-        ConditionKind::And(parts) | ConditionKind::Or(parts) => {
-            for part in parts {
-                each_variable(part, visit);
-            }
-        }
-        ConditionKind::Not(part) | ConditionKind::Exists(_, part) | ConditionKind::Forall(_, part) => {
-            each_variable(part, visit);
-        }
-        ConditionKind::Imply(if_, then) => {
-            each_variable(if_, visit);
-            each_variable(then, visit);
-        }
+    condition.each(&mut |part| match &part.kind {
         ConditionKind::Atom(atom) => each_term_variable(&atom.arguments, visit),
         ConditionKind::HasType(term, _) => each_term_variable(&[*term], visit),
         ConditionKind::Same(left, right) => each_term_variable(&[*left, *right], visit),
@@ -122,7 +103,8 @@ fn each_variable(condition: &Condition, visit: &mut dyn FnMut(VariableId)) {
             each_term_variable(&application.arguments, visit);
             each_term_variable(&[*value], visit);
         }
-    }
+        _ => {}
+    });
 }
 
 /// How to go on when nothing more can be tested.

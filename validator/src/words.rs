@@ -231,16 +231,6 @@ pub(crate) fn show_list(name: &Name, arguments: &[ObjectId], problem: &Problem) 
     text
 }
 
-const fn symbol(comparison: Comparison) -> &'static str {
-    match comparison {
-        Comparison::Less => "<",
-        Comparison::LessEqual => "<=",
-        Comparison::Equal => "=",
-        Comparison::GreaterEqual => ">=",
-        Comparison::Greater => ">",
-    }
-}
-
 pub(crate) struct Words<'a> {
     pub(crate) domain: &'a Domain,
     pub(crate) problem: &'a Problem,
@@ -365,7 +355,7 @@ impl Words<'_> {
                     Ok(value) => format!(
                         "{} takes {actual} s, and its duration must be {} {value}",
                         self.step(*step),
-                        symbol(*comparison)
+                        comparison.symbol()
                     ),
                     Err(fault) => {
                         format!(
@@ -635,7 +625,7 @@ impl Words<'_> {
             Err(fault) => self.numeric(fault),
         };
         let is_not = if wanted { "is not" } else { "should not be" };
-        let mut text = format!("{} {is_not} {} {}", side(left), symbol(comparison), side(right));
+        let mut text = format!("{} {is_not} {} {}", side(left), comparison.symbol(), side(right));
         self.with_fluents(&mut text, left.fluents.iter().chain(&right.fluents));
         text
     }

@@ -45,9 +45,9 @@ fn word(folder: &Path, plan: &str) -> (String, Vec<&'static str>) {
 /// What is in use, not what is required.
 fn parts(domain: &Domain, problem: &Problem, plan: &Plan) -> Vec<&'static str> {
     let conditions = Conditions::of(domain, problem);
-    let effects = || domain.actions.iter().map(|action| &action.effect);
+    let effects = effects(domain);
     let untyped = domain.types.len() == 1;
-    let assigns = effects().any(|effect| each_effect(effect, &|e| matches!(e.kind, EffectKind::Assign(..))));
+    let assigns = effects.iter().any(|e| matches!(e.kind, EffectKind::Assign(..)));
     let parts = [
         ("all", true),
         ("plans without times", matches!(plan, Plan::Sequential(_))),
@@ -65,14 +65,8 @@ fn parts(domain: &Domain, problem: &Problem, plan: &Plan) -> Vec<&'static str> {
             "quantifiers in conditions",
             conditions.has(|c| matches!(c.kind, ConditionKind::Exists(..) | ConditionKind::Forall(..))),
         ),
-        (
-            "conditional effects",
-            effects().any(|e| each_effect(e, &|e| matches!(e.kind, EffectKind::When(..)))),
-        ),
-        (
-            "universal effects",
-            effects().any(|e| each_effect(e, &|e| matches!(e.kind, EffectKind::Forall(..)))),
-        ),
+        ("conditional effects", effects.iter().any(|e| matches!(e.kind, EffectKind::When(..)))),
+        ("universal effects", effects.iter().any(|e| matches!(e.kind, EffectKind::Forall(..)))),
         ("derived predicates", !domain.axioms.is_empty()),
         ("comparisons of numbers", conditions.has(|c| matches!(c.kind, ConditionKind::Compare(..)))),
         ("numbers changed by actions", assigns),
@@ -99,31 +93,19 @@ impl<'a> Conditions<'a> {
     }
 
     fn has(&self, wanted: impl Fn(&Condition) -> bool) -> bool {
-        self.0.iter().any(|condition| each_condition(condition, &wanted))
+        self.0.iter().any(|condition| {
+            let mut has = false;
+            condition.each(&mut |part| has |= wanted(part));
+            has
+        })
     }
 }
 
-fn each_condition(condition: &Condition, wanted: &dyn Fn(&Condition) -> bool) -> bool {
-    wanted(condition)
-        || match &condition.kind {
-            ConditionKind::And(parts) | ConditionKind::Or(parts) => {
-                parts.iter().any(|part| each_condition(part, wanted))
-            }
-            ConditionKind::Not(part) | ConditionKind::Exists(_, part) | ConditionKind::Forall(_, part) => {
-                each_condition(part, wanted)
-            }
-            ConditionKind::Imply(if_, then) => each_condition(if_, wanted) || each_condition(then, wanted),
-            _ => false,
-        }
-}
-
-fn each_effect(effect: &Effect, wanted: &dyn Fn(&Effect) -> bool) -> bool {
-    wanted(effect)
-        || match &effect.kind {
-            EffectKind::And(parts) => parts.iter().any(|part| each_effect(part, wanted)),
-            EffectKind::Forall(_, part) | EffectKind::When(_, part) => each_effect(part, wanted),
-            _ => false,
-        }
+/// Every effect of an action, those inside of others too.
+fn effects(domain: &Domain) -> Vec<&Effect> {
+    let mut all = Vec::new();
+    domain.actions.iter().for_each(|action| action.effect.each(&mut |part| all.push(part)));
+    all
 }
 
 #[test]

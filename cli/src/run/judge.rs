@@ -106,23 +106,9 @@ fn mentioned(perception: &Domain, predicate: &Name, names: &mut BTreeSet<Name>) 
 }
 
 fn collect(condition: &Condition, atoms: &mut Vec<pddl::model::PredicateId>) {
-    match &condition.kind {
-        ConditionKind::And(parts) | ConditionKind::Or(parts) => {
-            for part in parts {
-                collect(part, atoms);
-            }
+    condition.each(&mut |part| {
+        if let ConditionKind::Atom(atom) = &part.kind {
+            atoms.push(atom.predicate);
         }
-        ConditionKind::Not(part) | ConditionKind::Exists(_, part) | ConditionKind::Forall(_, part) => {
-            collect(part, atoms);
-        }
-        ConditionKind::Imply(a, b) => {
-            collect(a, atoms);
-            collect(b, atoms);
-        }
-        ConditionKind::Atom(atom) => atoms.push(atom.predicate),
-        ConditionKind::HasType(..)
-        | ConditionKind::Same(..)
-        | ConditionKind::Compare(..)
-        | ConditionKind::FluentIs(..) => {}
-    }
+    });
 }

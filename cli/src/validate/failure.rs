@@ -7,7 +7,7 @@ use super::network::NetworkRecord;
 use super::record::Figure;
 use crate::render::{At, PlaceRecord};
 use crate::task::TaskFiles;
-use pddl::model::{Comparison, GroundApplication, Name, ObjectId, TypeId};
+use pddl::model::{GroundApplication, Name, ObjectId, TypeId};
 use pddl::{Plan, Source, Span};
 use serde::Serialize;
 use validator::{
@@ -200,7 +200,7 @@ impl Places<'_> {
             Failure::Duration { step, actual, comparison, bound, span } => {
                 record.reason = "duration";
                 record.at = Some(self.cause(Cause::Start(*step)));
-                record.comparison = Some(symbol(*comparison));
+                record.comparison = Some(comparison.symbol());
                 record.left = Some(OperandRecord { value: Some(Figure(*actual)), fluents: Vec::new() });
                 record.right = self.operand(bound);
                 record.place = self.at(File::Domain, *span);
@@ -360,7 +360,7 @@ impl Places<'_> {
             }
             Unsatisfied::Comparison { comparison, wanted, left, right, .. } => {
                 record.kind = "comparison";
-                record.comparison = Some(symbol(*comparison));
+                record.comparison = Some(comparison.symbol());
                 record.wanted = Some(*wanted);
                 record.left = self.operand(left);
                 record.right = self.operand(right);
@@ -390,15 +390,5 @@ impl Places<'_> {
             }
         }
         record
-    }
-}
-
-const fn symbol(comparison: Comparison) -> &'static str {
-    match comparison {
-        Comparison::Less => "<",
-        Comparison::LessEqual => "<=",
-        Comparison::Equal => "=",
-        Comparison::GreaterEqual => ">=",
-        Comparison::Greater => ">",
     }
 }

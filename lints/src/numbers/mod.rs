@@ -246,14 +246,6 @@ fn fold(operator: ArithmeticOperator, values: &[Interval]) -> Interval {
     }
 }
 
-/// Calls `visit` for each part of the expression, itself first.
-pub(crate) fn each_part<'a>(expression: &'a Expression, visit: &mut dyn FnMut(&'a Expression)) {
-    visit(expression);
-    if let ExpressionKind::Arithmetic(_, operands) = &expression.kind {
-        operands.iter().for_each(|o| each_part(o, visit));
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -140,7 +140,7 @@ impl Relaxer<'_> {
     /// A comparison with something that may have any value cannot be refuted.
     fn is_anything(&self, expression: &Expression) -> bool {
         let mut known = true;
-        crate::numbers::each_part(expression, &mut |part| {
+        expression.each(&mut |part| {
             known &= match &part.kind {
                 ExpressionKind::Fluent(application) => {
                     self.numbers.of(application.function) != Some(crate::numbers::Interval::ALL)

@@ -5,7 +5,6 @@ use std::fmt::Write as _;
 use pddl::Source;
 use pddl::model::{Domain, ExpressionKind, Idx, Problem, Term, TypeSet, Variables};
 
-use crate::numbers::each_part;
 use crate::walk::Polarity;
 
 use super::Reachability;
@@ -228,7 +227,7 @@ impl Reachability<'_> {
         };
         let mut known: Vec<String> = Vec::new();
         for side in [&sides.0, &sides.1] {
-            each_part(side, &mut |part| {
+            side.each(&mut |part| {
                 if let ExpressionKind::Fluent(application) = &part.kind {
                     let name = &words.domain.functions[application.function].name;
                     let text = match self.numbers().of(application.function) {

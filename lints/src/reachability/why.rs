@@ -19,7 +19,6 @@ use super::database::{RelationId, Rows};
 use super::join::{Join, Sink, plan, unify};
 use super::rule::{Check, Origin, Part, Pattern, Rule, Schema};
 use super::world::{UNBOUND, resolve};
-use crate::numbers::each_part;
 
 /// Join steps for one question.
 const STEPS: u64 = 300_000;
@@ -310,7 +309,7 @@ impl<'a> Reachability<'a> {
             Piece::Check(Check::Compare(_, _, sides, _), _) => {
                 let mut fixed = true;
                 for side in [&sides.0, &sides.1] {
-                    each_part(side, &mut |part| {
+                    side.each(&mut |part| {
                         if let ExpressionKind::Fluent(application) = &part.kind {
                             fixed &= !numbers.changes(application.function);
                         }

@@ -7,7 +7,7 @@ use pddl::model::{ArithmeticOperator, AssignedValue, Condition, ConditionKind, E
 use crate::finding::Findings;
 use crate::happening::happenings;
 use crate::lint::Check;
-use crate::numbers::{Interval, Numbers, Value, each_part};
+use crate::numbers::{Interval, Numbers, Value};
 use crate::reachability::shortened;
 use crate::view::{DomainView, ProblemView, is_here};
 use crate::{Finding, Level, Lint, Place};
@@ -77,7 +77,7 @@ fn in_problem(view: &ProblemView<'_, '_>, found: &mut Findings) {
 
 fn check(view: &DomainView<'_>, numbers: &Numbers, found: &mut Findings) {
     let mut look = |expression: &Expression| {
-        each_part(expression, &mut |part| {
+        expression.each(&mut |part| {
             let ExpressionKind::Arithmetic(ArithmeticOperator::Divide, operands) = &part.kind else { return };
             for divisor in operands.iter().skip(1) {
                 let zero = Value::In(Interval::point(0.0));
@@ -107,21 +107,10 @@ fn check(view: &DomainView<'_>, numbers: &Numbers, found: &mut Findings) {
 }
 
 fn expressions(of: &Condition, look: &mut dyn FnMut(&Expression)) {
-    match &of.kind {
-        ConditionKind::And(parts) | ConditionKind::Or(parts) => {
-            parts.iter().for_each(|p| expressions(p, look));
-        }
-        ConditionKind::Not(inner) | ConditionKind::Exists(_, inner) | ConditionKind::Forall(_, inner) => {
-            expressions(inner, look);
-        }
-        ConditionKind::Imply(left, right) => {
-            expressions(left, look);
-            expressions(right, look);
-        }
-        ConditionKind::Compare(_, left, right) => {
+    of.each(&mut |part| {
+        if let ConditionKind::Compare(_, left, right) = &part.kind {
             look(left);
             look(right);
         }
-        _ => {}
-    }
+    });
 }

@@ -86,16 +86,15 @@ fn effects(layers: &Layers, domain: &Domain, action: &DurativeAction) -> Vec<Wri
 }
 
 fn collect(domain: &Domain, effect: &Effect, add: &mut impl FnMut(Name, &[Term], Span)) {
-    match &effect.kind {
-        EffectKind::And(parts) => parts.iter().for_each(|e| collect(domain, e, add)),
-        EffectKind::Forall(_, inner) | EffectKind::When(_, inner) => collect(domain, inner, add),
+    effect.each(&mut |part| match &part.kind {
         EffectKind::Add(atom) | EffectKind::Delete(atom) => {
             add(domain.predicates[atom.predicate].name.clone(), &atom.arguments, atom.span);
         }
         EffectKind::Assign(_, to, _) => {
             add(domain.functions[to.function].name.clone(), &to.arguments, to.span);
         }
-    }
+        EffectKind::And(_) | EffectKind::Forall(..) | EffectKind::When(..) => {}
+    });
 }
 
 /// Whether a permission covers a token whatever its variables are bound to.

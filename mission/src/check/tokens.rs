@@ -29,47 +29,33 @@ impl<'d> Tokens<'d> {
     }
 
     fn expression(&mut self, expression: &Expression) {
-        match &expression.kind {
-            ExpressionKind::Fluent(application) => self.application(application),
-            ExpressionKind::Arithmetic(_, operands) => operands.iter().for_each(|e| self.expression(e)),
-            ExpressionKind::Number(_)
-            | ExpressionKind::Duration
-            | ExpressionKind::TotalTime
-            | ExpressionKind::IsViolated(_) => {}
-        }
+        expression.each(&mut |part| {
+            if let ExpressionKind::Fluent(application) = &part.kind {
+                self.application(application);
+            }
+        });
     }
 
     /// Everything that the condition looks at.
     pub(super) fn condition(&mut self, condition: &Condition) {
-        match &condition.kind {
-            ConditionKind::And(parts) | ConditionKind::Or(parts) => {
-                parts.iter().for_each(|c| self.condition(c));
-            }
-            ConditionKind::Not(inner) | ConditionKind::Exists(_, inner) | ConditionKind::Forall(_, inner) => {
-                self.condition(inner);
-            }
-            ConditionKind::Imply(left, right) => {
-                self.condition(left);
-                self.condition(right);
-            }
+        condition.each(&mut |part| match &part.kind {
             ConditionKind::Atom(atom) => self.atom(atom),
-            ConditionKind::HasType(..) | ConditionKind::Same(..) => {}
             ConditionKind::Compare(_, left, right) => {
                 self.expression(left);
                 self.expression(right);
             }
             ConditionKind::FluentIs(application, _) => self.application(application),
-        }
+            _ => {}
+        });
     }
 
     /// Everything that the effect writes (not what its guards look at).
     pub(super) fn effect(&mut self, effect: &Effect) {
-        match &effect.kind {
-            EffectKind::And(parts) => parts.iter().for_each(|e| self.effect(e)),
+        effect.each(&mut |part| match &part.kind {
             EffectKind::Add(atom) | EffectKind::Delete(atom) => self.atom(atom),
             EffectKind::Assign(_, application, _) => self.application(application),
-            EffectKind::Forall(_, inner) | EffectKind::When(_, inner) => self.effect(inner),
-        }
+            EffectKind::And(_) | EffectKind::Forall(..) | EffectKind::When(..) => {}
+        });
     }
 
     /// What a rule's conditions at the times that `when` accepts look at.

@@ -38,6 +38,19 @@ pub enum Comparison {
     Greater,
 }
 
+impl Comparison {
+    /// As it is written.
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Self::Less => "<",
+            Self::LessEqual => "<=",
+            Self::Equal => "=",
+            Self::GreaterEqual => ">=",
+            Self::Greater => ">",
+        }
+    }
+}
+
 /// A condition with its place.
 #[derive(Clone, Debug)]
 pub struct Condition {
@@ -78,6 +91,29 @@ impl Condition {
     /// The condition that always holds.
     pub fn always(span: Span) -> Self {
         Self { kind: ConditionKind::And(Vec::new()), span }
+    }
+
+    /// The conditions right inside of it, in the order in which they stand.
+    pub fn parts(&self) -> impl Iterator<Item = &Self> {
+        let (list, first, second) = match &self.kind {
+            ConditionKind::And(parts) | ConditionKind::Or(parts) => (parts.as_slice(), None, None),
+            ConditionKind::Not(part) | ConditionKind::Exists(_, part) | ConditionKind::Forall(_, part) => {
+                (&[][..], Some(&**part), None)
+            }
+            ConditionKind::Imply(if_, then) => (&[][..], Some(&**if_), Some(&**then)),
+            ConditionKind::Atom(_)
+            | ConditionKind::HasType(..)
+            | ConditionKind::Same(..)
+            | ConditionKind::Compare(..)
+            | ConditionKind::FluentIs(..) => (&[][..], None, None),
+        };
+        list.iter().chain(first).chain(second)
+    }
+
+    /// Visits it and every condition in it.
+    pub fn each<'c>(&'c self, visit: &mut impl FnMut(&'c Condition)) {
+        visit(self);
+        self.parts().for_each(|part| part.each(visit));
     }
 
     /// Whether it is the empty conjunction.

@@ -60,4 +60,19 @@ impl Effect {
     pub fn nothing(span: Span) -> Self {
         Self { kind: EffectKind::And(Vec::new()), span }
     }
+
+    /// The effects right inside of it, in the order in which they stand.
+    pub fn parts(&self) -> &[Self] {
+        match &self.kind {
+            EffectKind::And(parts) => parts,
+            EffectKind::Forall(_, part) | EffectKind::When(_, part) => std::slice::from_ref(part),
+            EffectKind::Add(_) | EffectKind::Delete(_) | EffectKind::Assign(..) => &[],
+        }
+    }
+
+    /// Visits it and every effect in it.
+    pub fn each<'e>(&'e self, visit: &mut impl FnMut(&'e Effect)) {
+        visit(self);
+        self.parts().iter().for_each(|part| part.each(visit));
+    }
 }

@@ -143,34 +143,18 @@ impl Uses {
     }
 
     fn condition(&mut self, condition: &Condition) {
-        match &condition.kind {
-            ConditionKind::And(parts) | ConditionKind::Or(parts) => {
-                parts.iter().for_each(|part| self.condition(part));
+        condition.each(&mut |part| {
+            if matches!(part.kind, ConditionKind::HasType(..)) {
+                self.first(Feature::TypePredicates, [part.span]);
             }
-            ConditionKind::Not(inner) | ConditionKind::Exists(_, inner) | ConditionKind::Forall(_, inner) => {
-                self.condition(inner);
-            }
-            ConditionKind::Imply(left, right) => {
-                self.condition(left);
-                self.condition(right);
-            }
-            ConditionKind::HasType(..) => self.first(Feature::TypePredicates, [condition.span]),
-            ConditionKind::Atom(_)
-            | ConditionKind::Same(..)
-            | ConditionKind::Compare(..)
-            | ConditionKind::FluentIs(..) => {}
-        }
+        });
     }
 
     fn effect(&mut self, effect: &Effect) {
-        match &effect.kind {
-            EffectKind::And(parts) => parts.iter().for_each(|part| self.effect(part)),
-            EffectKind::Forall(_, inner) => self.effect(inner),
-            EffectKind::When(condition, inner) => {
+        effect.each(&mut |part| {
+            if let EffectKind::When(condition, _) = &part.kind {
                 self.condition(condition);
-                self.effect(inner);
             }
-            EffectKind::Add(_) | EffectKind::Delete(_) | EffectKind::Assign(..) => {}
-        }
+        });
     }
 }

@@ -8,16 +8,6 @@ use crate::model::{
     ConditionKind, Effect, EffectKind, Expression, ExpressionKind, Term, TypeSet, VariableId, Variables,
 };
 
-pub(super) fn comparison(comparison: Comparison) -> &'static str {
-    match comparison {
-        Comparison::Less => "<",
-        Comparison::LessEqual => "<=",
-        Comparison::Equal => "=",
-        Comparison::GreaterEqual => ">=",
-        Comparison::Greater => ">",
-    }
-}
-
 /// Words that mean something else in front of a list than a type of that name.
 const RESERVED: &[&str] = &[
     "and",
@@ -144,7 +134,7 @@ impl<'m> Printer<'m> {
 
     fn compare(&mut self, v: &Variables, operator: Comparison, a: &Expression, b: &Expression) {
         self.push("(");
-        self.list(comparison(operator), [a, b], |p, e| p.expression(v, e));
+        self.list(operator.symbol(), [a, b], |p, e| p.expression(v, e));
     }
 
     pub(super) fn expression(&mut self, v: &Variables, expression: &Expression) {

@@ -3,7 +3,6 @@
 use std::fmt::Write as _;
 
 use super::Printer;
-use super::body::comparison;
 use crate::model::{
     Action, Axiom, ContinuousEffect, Direction, DurativeAction, Event, Given, Process, Rule, TimeSpecifier,
     TimedCondition, TimedEffect, Variables,
@@ -67,7 +66,7 @@ impl<'m> Printer<'m> {
         self.list("(and", &action.duration, |p, constraint| {
             let at_end = constraint.when == TimeSpecifier::End;
             p.push(if at_end { "(at end " } else { "" });
-            let _ = write!(p.out, "({} ?duration ", comparison(constraint.comparison));
+            let _ = write!(p.out, "({} ?duration ", constraint.comparison.symbol());
             p.functions = &constraint.functions;
             p.expression(v, &constraint.bound);
             p.functions = &[];

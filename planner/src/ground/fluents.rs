@@ -66,36 +66,16 @@ impl Fluents {
     }
 
     fn condition(&mut self, condition: &Condition, origin: Origin) -> Result<(), GroundError> {
-        match &condition.kind {
-            ConditionKind::And(parts) | ConditionKind::Or(parts) => {
-                parts.iter().try_for_each(|part| self.condition(part, origin))
-            }
-            ConditionKind::Not(inner) | ConditionKind::Exists(_, inner) | ConditionKind::Forall(_, inner) => {
-                self.condition(inner, origin)
-            }
-            ConditionKind::Imply(left, right) => {
-                self.condition(left, origin)?;
-                self.condition(right, origin)
-            }
-            ConditionKind::Compare(_, left, right) => {
-                self.reads(left, origin)?;
-                self.reads(right, origin)
-            }
-            ConditionKind::Atom(_)
-            | ConditionKind::HasType(..)
-            | ConditionKind::Same(..)
-            | ConditionKind::FluentIs(..) => Ok(()),
+        if let ConditionKind::Compare(_, left, right) = &condition.kind {
+            self.reads(left, origin)?;
+            self.reads(right, origin)?;
         }
+        condition.parts().try_for_each(|part| self.condition(part, origin))
     }
 
     fn effect(&mut self, effect: &Effect) -> Result<(), GroundError> {
         match &effect.kind {
-            EffectKind::And(parts) => parts.iter().try_for_each(|part| self.effect(part)),
-            EffectKind::Forall(_, inner) => self.effect(inner),
-            EffectKind::When(when, inner) => {
-                self.condition(when, Origin::Domain)?;
-                self.effect(inner)
-            }
+            EffectKind::When(when, _) => self.condition(when, Origin::Domain)?,
             EffectKind::Assign(operator, application, value) => {
                 self.changed.insert(application.function);
                 if *operator == AssignOperator::Assign {
@@ -108,10 +88,10 @@ impl Fluents {
                     }
                     AssignedValue::Object(_) => {}
                 }
-                Ok(())
             }
-            EffectKind::Add(_) | EffectKind::Delete(_) => Ok(()),
+            EffectKind::And(_) | EffectKind::Forall(..) | EffectKind::Add(_) | EffectKind::Delete(_) => {}
         }
+        effect.parts().iter().try_for_each(|part| self.effect(part))
     }
 
     /// Marks what an expression reads.

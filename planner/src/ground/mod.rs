@@ -171,16 +171,14 @@ fn refuse(domain: &Domain, problem: &Problem) -> Result<(), GroundError> {
 
 /// By predicate: whether nothing changes it.
 fn static_predicates(domain: &Domain, exogenous: &[PredicateId]) -> Vec<bool> {
-    fn visit(effect: &Effect, is_static: &mut [bool]) {
-        match &effect.kind {
-            EffectKind::And(parts) => parts.iter().for_each(|p| visit(p, is_static)),
-            EffectKind::Add(atom) | EffectKind::Delete(atom) => is_static[atom.predicate.index()] = false,
-            EffectKind::Forall(_, inner) | EffectKind::When(_, inner) => visit(inner, is_static),
-            EffectKind::Assign(..) => {}
-        }
-    }
     let mut is_static = vec![true; domain.predicates.len()];
-    domain.actions.iter().for_each(|a| visit(&a.effect, &mut is_static));
+    for action in &domain.actions {
+        action.effect.each(&mut |part| {
+            if let EffectKind::Add(atom) | EffectKind::Delete(atom) = &part.kind {
+                is_static[atom.predicate.index()] = false;
+            }
+        });
+    }
     domain.axioms.iter().for_each(|a| is_static[a.predicate.index()] = false);
     exogenous.iter().for_each(|p| is_static[p.index()] = false);
     is_static

@@ -193,14 +193,6 @@ impl Flow {
         into: &mut Vec<Instant>,
     ) {
         match &condition.kind {
-            ConditionKind::And(parts) | ConditionKind::Or(parts) => {
-                parts.iter().for_each(|part| self.critical(part, scene, binding, length, into));
-            }
-            ConditionKind::Not(part) => self.critical(part, scene, binding, length, into),
-            ConditionKind::Imply(if_, then) => {
-                self.critical(if_, scene, binding, length, into);
-                self.critical(then, scene, binding, length, into);
-            }
             ConditionKind::Exists(variables, body) | ConditionKind::Forall(variables, body) => {
                 each_instance(scene, variables, binding, &mut |binding| {
                     self.critical(body, scene, binding, length, into);
@@ -218,10 +210,7 @@ impl Flow {
                     Err(Undecided) => scene.state.effort.give_up(),
                 }
             }
-            ConditionKind::Atom(_)
-            | ConditionKind::HasType(..)
-            | ConditionKind::Same(..)
-            | ConditionKind::FluentIs(..) => {}
+            _ => condition.parts().for_each(|part| self.critical(part, scene, binding, length, into)),
         }
     }
 }

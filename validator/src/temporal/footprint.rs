@@ -82,14 +82,6 @@ pub(super) struct Reader<'a> {
 impl Reader<'_> {
     pub(super) fn condition(&self, condition: &Condition, binding: &mut Binding, into: &mut Footprint) {
         match &condition.kind {
-            ConditionKind::And(parts) | ConditionKind::Or(parts) => {
-                parts.iter().for_each(|part| self.condition(part, binding, into));
-            }
-            ConditionKind::Not(part) => self.condition(part, binding, into),
-            ConditionKind::Imply(if_, then) => {
-                self.condition(if_, binding, into);
-                self.condition(then, binding, into);
-            }
             ConditionKind::Exists(variables, body) | ConditionKind::Forall(variables, body) => {
                 each_instance(self.scene, variables, binding, &mut |binding| {
                     self.condition(body, binding, into);
@@ -104,7 +96,6 @@ impl Reader<'_> {
                 let arguments = atom.arguments.iter().map(|&t| binding.object(t)).collect();
                 into.needed.insert(GroundAtom { predicate: atom.predicate, arguments });
             }
-            ConditionKind::Same(..) | ConditionKind::HasType(..) => {}
             ConditionKind::Compare(_, left, right) => {
                 self.expression(left, binding, into);
                 self.expression(right, binding, into);
@@ -112,6 +103,7 @@ impl Reader<'_> {
             ConditionKind::FluentIs(application, _) => {
                 into.read.insert(self.scene.ground(application, binding));
             }
+            _ => condition.parts().for_each(|part| self.condition(part, binding, into)),
         }
     }
 

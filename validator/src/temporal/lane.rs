@@ -47,20 +47,18 @@ pub(super) struct Lane {
 
 /// The functions that something changes.
 fn changing(domain: &Domain, problem: &Problem) -> FxHashSet<FunctionId> {
-    fn walk(effect: &Effect, into: &mut FxHashSet<FunctionId>) {
-        match &effect.kind {
-            EffectKind::And(parts) => parts.iter().for_each(|part| walk(part, into)),
-            EffectKind::Forall(_, body) | EffectKind::When(_, body) => walk(body, into),
-            EffectKind::Assign(_, application, _) => {
-                into.insert(application.function);
-            }
-            EffectKind::Add(_) | EffectKind::Delete(_) => {}
-        }
-    }
     let mut found = FxHashSet::default();
-    domain.actions.iter().for_each(|action| walk(&action.effect, &mut found));
+    let mut changed_by = |effect: &Effect| {
+        effect.each(&mut |part| {
+            if let EffectKind::Assign(_, application, _) = &part.kind {
+                found.insert(application.function);
+            }
+        });
+    };
+    domain.actions.iter().for_each(|action| changed_by(&action.effect));
+    let timed = domain.durative_actions.iter().flat_map(|action| &action.effects);
+    timed.for_each(|timed| changed_by(&timed.effect));
     for action in &domain.durative_actions {
-        action.effects.iter().for_each(|timed| walk(&timed.effect, &mut found));
         found.extend(action.continuous.iter().map(|effect| effect.fluent.function));
     }
     for timed in &problem.timed {

@@ -97,17 +97,6 @@ impl<'v> Basis<'v> {
     /// Collects what a condition reads; variables of quantifiers are unbound.
     pub(super) fn condition(&self, condition: &Condition, binding: &Binding, into: &mut Reads) {
         match &condition.kind {
-            ConditionKind::And(parts) | ConditionKind::Or(parts) => {
-                parts.iter().for_each(|part| self.condition(part, binding, into));
-            }
-            ConditionKind::Not(part) => self.condition(part, binding, into),
-            ConditionKind::Imply(if_, then) => {
-                self.condition(if_, binding, into);
-                self.condition(then, binding, into);
-            }
-            ConditionKind::Exists(_, body) | ConditionKind::Forall(_, body) => {
-                self.condition(body, binding, into);
-            }
             ConditionKind::Atom(atom) if self.strata.derives(atom.predicate) => {
                 let predicates = self.predicates.get(&atom.predicate).into_iter().flatten();
                 let functions = self.functions.get(&atom.predicate).into_iter().flatten();
@@ -122,7 +111,6 @@ impl<'v> Basis<'v> {
                     Known::None => Key::Predicate(predicate),
                 });
             }
-            ConditionKind::Same(..) | ConditionKind::HasType(..) => {}
             ConditionKind::Compare(_, left, right) => {
                 expression(left, binding, into);
                 expression(right, binding, into);
@@ -130,6 +118,7 @@ impl<'v> Basis<'v> {
             ConditionKind::FluentIs(application, _) => {
                 into.keys.push(fluent(application.function, &application.arguments, binding));
             }
+            _ => condition.parts().for_each(|part| self.condition(part, binding, into)),
         }
     }
 }
