@@ -63,23 +63,29 @@ enum Kind {
 }
 
 impl Formula {
-    fn each_leaf(&self, visit: &mut dyn FnMut(usize)) {
-        match &self.kind {
-            Kind::Leaf(leaf) => visit(*leaf),
-            Kind::And(parts) | Kind::Or(parts) => parts.iter().for_each(|part| part.each_leaf(visit)),
+    /// What it is made of, in the order in which it is written.
+    fn parts(&self) -> impl Iterator<Item = &Self> {
+        let (first, others): (Option<&Self>, &[Self]) = match &self.kind {
+            Kind::Leaf(_) => (None, &[]),
+            Kind::And(parts) | Kind::Or(parts) => (None, parts),
             Kind::Not(part)
             | Kind::AtEnd(part)
             | Kind::Always(part)
             | Kind::Sometime(part)
             | Kind::Within(_, part)
             | Kind::AtMostOnce(part)
-            | Kind::Hold { body: part, .. } => part.each_leaf(visit),
+            | Kind::Hold { body: part, .. } => (Some(part), &[]),
             Kind::SometimeAfter(if_, then)
             | Kind::SometimeBefore(if_, then)
-            | Kind::AlwaysWithin(_, if_, then) => {
-                if_.each_leaf(visit);
-                then.each_leaf(visit);
-            }
+            | Kind::AlwaysWithin(_, if_, then) => (Some(if_), std::slice::from_ref(&**then)),
+        };
+        first.into_iter().chain(others)
+    }
+
+    fn each_leaf(&self, visit: &mut dyn FnMut(usize)) {
+        match self.kind {
+            Kind::Leaf(leaf) => visit(leaf),
+            _ => self.parts().for_each(|part| part.each_leaf(visit)),
         }
     }
 }
@@ -332,20 +338,7 @@ impl Formula {
     }
 
     fn some_leaf(&self) -> Option<usize> {
-        match &self.kind {
-            Kind::Leaf(leaf) => Some(*leaf),
-            Kind::And(parts) | Kind::Or(parts) => parts.iter().find_map(Self::some_leaf),
-            Kind::Not(part)
-            | Kind::AtEnd(part)
-            | Kind::Always(part)
-            | Kind::Sometime(part)
-            | Kind::Within(_, part)
-            | Kind::AtMostOnce(part)
-            | Kind::SometimeAfter(part, _)
-            | Kind::SometimeBefore(part, _)
-            | Kind::AlwaysWithin(_, part, _)
-            | Kind::Hold { body: part, .. } => part.some_leaf(),
-        }
+        self.leaf().or_else(|| self.parts().find_map(Self::some_leaf))
     }
 }
 

@@ -35,12 +35,8 @@ pub(super) struct FailureRecord {
     time: Option<Figure>,
     #[serde(skip_serializing_if = "Option::is_none")]
     about: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    comparison: Option<&'static str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    left: Option<OperandRecord>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    right: Option<OperandRecord>,
+    #[serde(flatten)]
+    compared: Option<ComparisonRecord>,
     #[serde(skip_serializing_if = "Option::is_none")]
     place: Option<PlaceRecord>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -82,6 +78,14 @@ pub(super) struct CauseRecord {
     place: PlaceRecord,
 }
 
+/// What was compared, and how.
+#[derive(Serialize)]
+struct ComparisonRecord {
+    comparison: &'static str,
+    left: OperandRecord,
+    right: OperandRecord,
+}
+
 /// A side of a comparison. `value` is null where it is undefined.
 #[derive(Serialize)]
 struct OperandRecord {
@@ -109,12 +113,8 @@ struct PartRecord {
     /// Who deleted what is missing, or added what should not be there.
     #[serde(skip_serializing_if = "Option::is_none")]
     by: Option<CauseRecord>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    comparison: Option<&'static str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    left: Option<OperandRecord>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    right: Option<OperandRecord>,
+    #[serde(flatten)]
+    compared: Option<ComparisonRecord>,
     #[serde(skip_serializing_if = "Option::is_none")]
     value: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -171,11 +171,11 @@ impl Places<'_> {
         }
     }
 
-    fn operand(&self, operand: &Operand) -> Option<OperandRecord> {
-        Some(OperandRecord {
+    fn operand(&self, operand: &Operand) -> OperandRecord {
+        OperandRecord {
             value: operand.value.as_ref().ok().copied().map(Figure),
             fluents: operand.fluents.iter().map(|(f, v)| (self.fluent(f), v.map(Figure))).collect(),
-        })
+        }
     }
 
     /// Everything about a failure.
@@ -200,9 +200,11 @@ impl Places<'_> {
             Failure::Duration { step, actual, comparison, bound, span } => {
                 record.reason = "duration";
                 record.at = Some(self.cause(Cause::Start(*step)));
-                record.comparison = Some(comparison.symbol());
-                record.left = Some(OperandRecord { value: Some(Figure(*actual)), fluents: Vec::new() });
-                record.right = self.operand(bound);
+                record.compared = Some(ComparisonRecord {
+                    comparison: comparison.symbol(),
+                    left: OperandRecord { value: Some(Figure(*actual)), fluents: Vec::new() },
+                    right: self.operand(bound),
+                });
                 record.place = self.at(File::Domain, *span);
             }
             Failure::Invariant { step, time, parts } => {
@@ -360,10 +362,12 @@ impl Places<'_> {
             }
             Unsatisfied::Comparison { comparison, wanted, left, right, .. } => {
                 record.kind = "comparison";
-                record.comparison = Some(comparison.symbol());
                 record.wanted = Some(*wanted);
-                record.left = self.operand(left);
-                record.right = self.operand(right);
+                record.compared = Some(ComparisonRecord {
+                    comparison: comparison.symbol(),
+                    left: self.operand(left),
+                    right: self.operand(right),
+                });
             }
             Unsatisfied::Fluent { fluent, value, wanted, actual, .. } => {
                 record.kind = "fluent";
