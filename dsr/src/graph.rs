@@ -1,33 +1,30 @@
-//! The graph: one handle for everybody, one lock for writers, none that a reader of a snapshot would feel.
+//! The graph: one handle for everybody, one lock for writers, none for readers.
 //!
-//! Problem: a state that is edited in place cannot be read meanwhile, and one that is copied for every commit costs
-//! more than the commit. Idea: the state is copied when, and as far as, somebody holds it. A snapshot is a reference
-//! to the state; a commit that finds itself the only holder edits in place, any other copies the blocks it touches.
-//! Taking a snapshot is an atomic load where one of the present version has been taken before. Where none has, the
-//! reader takes it from the state, under the commit lock. A reader that finds the lock held says so, and for the
-//! next commits there is always a published one: readers that come again and again do not wait for writers, and
-//! writers that nobody watches do not copy. A transaction too long to wait for publishes before it begins.
+//! Idea: `kernel` keeps two states that writers edit in turn; this module says how one follows the other (by the delta
+//! that the commit publishes anyway) and when it is not worth it: in a graph of so many nodes that a second copy of
+//! what is written would show, and after a transaction so long that it would cost more than a copy. Then the next
+//! writer copies what it touches. Either way a snapshot is one load, whatever writers do.
 //!
-//! Invariants: what is published is the present version, or the one before the commit in progress; versions are
-//! handed out without gaps; subscribers get commits in order; a transaction that changes nothing makes no version
-//! and wakes nobody.
+//! Invariants: what is published is the present version; versions are handed out without gaps; subscribers get commits
+//! in order, and a subscriber that hears of a commit finds it in the graph; a transaction that changes nothing makes no
+//! version and wakes nobody. No code of others runs under the lock.
 
 use std::num::NonZeroUsize;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-
-use arc_swap::ArcSwapOption;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 
 use crate::delta::Delta;
 use crate::dictionary::Dictionary;
 use crate::export::{self, Export, RestoreError};
-use crate::id::{AgentId, ReflexId, Time, Version};
+use crate::id::{AgentId, NodeId, ReflexId, Time, Version};
+use crate::kernel::{Kernel, Twin};
 use crate::pattern::Pattern;
+use crate::reflex::Registry;
 use crate::replay::{self, ReplayError};
 use crate::routes::Routes;
 use crate::snapshot::Snapshot;
 use crate::state::State;
-use crate::subscription::{CAPACITY, Committed, Deltas, Matches, Queue};
+use crate::subscription::{CAPACITY, Committed, Deltas, Matches, Queue, Waker};
 use crate::transaction::apply::transact;
 use crate::transaction::{Edit, Transaction, TransactionError};
 
@@ -52,36 +49,50 @@ pub struct Graph {
 
 struct Shared {
     dictionary: Arc<Dictionary>,
-    /// Held while a transaction is applied and its commit handed to the queues.
-    commit: Mutex<Writer>,
-    /// A snapshot for whoever asks.
-    published: ArcSwapOption<State>,
-    /// A reader took what is published since the last commit.
-    taken: AtomicBool,
-    /// A reader had to wait for a commit.
-    waited: AtomicBool,
+    kernel: Kernel<State, Writers>,
 }
 
-/// What the commit lock guards.
-struct Writer {
-    state: Arc<State>,
+/// What only writers have.
+struct Writers {
+    version: Version,
     queues: Routes,
-    /// For how many more commits there is always a published state.
-    publishing: u32,
 }
 
-/// For how many commits that no reader takes note of a state is published all the same.
-const PUBLISHED: u32 = 64;
+/// What one commit made of a state.
+pub(crate) struct Step {
+    delta: Arc<Delta>,
+    reflexes: Registry,
+}
 
-/// A transaction of more edits than this does not keep a reader waiting.
+impl Twin for State {
+    type Change = Step;
+
+    fn follow(&mut self, step: &Step) -> bool {
+        self.reflexes.clone_from(&step.reflexes);
+        // A commit that only registered a reflex made no version.
+        step.delta.version == self.version || replay::apply(self, &step.delta).is_ok()
+    }
+}
+
+/// A transaction of more changes than this costs more to follow than to copy.
 const LONG: usize = 64;
+
+/// From so many nodes on there is one state only: what writers touch there is seldom touched again.
+const LARGE: NodeId = NodeId(1 << 17);
 
 impl Drop for Shared {
     fn drop(&mut self) {
-        let writer = self.commit.get_mut().unwrap_or_else(PoisonError::into_inner);
-        for waker in writer.queues.queues().filter_map(|queue| queue.close()) {
-            waker();
-        }
+        let mut writing = self.kernel.write();
+        let wakers: Vec<_> = writing.own().queues.queues().filter_map(|queue| queue.close()).collect();
+        drop(writing);
+        wake(wakers);
+    }
+}
+
+/// Calls the subscribers' callbacks. One that panics is its subscriber's loss, not the committer's.
+fn wake(wakers: Vec<Waker>) {
+    for waker in wakers {
+        let _ = catch_unwind(AssertUnwindSafe(|| waker()));
     }
 }
 
@@ -111,15 +122,8 @@ impl Graph {
 
     fn with(state: State) -> Self {
         let dictionary = Arc::clone(&state.dictionary);
-        let writer = Writer { state: Arc::new(state), queues: Routes::default(), publishing: 0 };
-        let shared = Shared {
-            dictionary,
-            commit: Mutex::new(writer),
-            published: ArcSwapOption::empty(),
-            taken: AtomicBool::new(false),
-            waited: AtomicBool::new(false),
-        };
-        Self { shared: Arc::new(shared) }
+        let writers = Writers { version: state.version, queues: Routes::default() };
+        Self { shared: Arc::new(Shared { dictionary, kernel: Kernel::new(state, writers) }) }
     }
 
     /// The dictionary.
@@ -127,75 +131,44 @@ impl Graph {
         Arc::clone(&self.shared.dictionary)
     }
 
-    /// The present state.
+    /// The present state. Never waits, whatever writers do.
     pub fn snapshot(&self) -> Snapshot {
-        let shared = &*self.shared;
-        if let Some(state) = shared.published.load_full() {
-            // Written only if it changes, so that readers do not take the line from each other.
-            if !shared.taken.load(Ordering::Relaxed) {
-                shared.taken.store(true, Ordering::Relaxed);
-            }
-            return Snapshot::new(state);
-        }
-        let writer = match shared.commit.try_lock() {
-            Ok(writer) => writer,
-            Err(_) => {
-                shared.waited.store(true, Ordering::Relaxed);
-                self.lock()
-            }
-        };
-        shared.published.store(Some(Arc::clone(&writer.state)));
-        Snapshot::new(Arc::clone(&writer.state))
+        Snapshot::new(self.shared.kernel.read())
     }
 
     /// Applies a transaction, as a whole or not at all.
     pub fn commit(&self, transaction: &Transaction, time: Time) -> Result<Commit, TransactionError> {
         let mut wakers = Vec::new();
-        // What was published is let go of after the lock, not under it: freeing it may take a while.
-        let mut before = None;
-        let mut guard = self.lock();
-        let writer = &mut *guard;
-        transaction.stale_at(writer.state.version)?;
-        self.prepare(writer, transaction);
-        let outcome = transact(Arc::make_mut(&mut writer.state), transaction, time);
-        if writer.publishing > 0 {
-            before = self.shared.published.swap(Some(Arc::clone(&writer.state)));
-        }
-        let outcome = outcome?;
-        let snapshot = Snapshot::new(Arc::clone(&writer.state));
+        let mut writing = self.shared.kernel.write();
+        transaction.stale_at(writing.own().version)?;
+        let state = writing.next();
+        let outcome = match transact(state, transaction, time) {
+            Ok(outcome) => outcome,
+            Err(error) => {
+                writing.leave();
+                return Err(error);
+            }
+        };
         let delta = Arc::new(outcome.delta);
-        let published = !(delta.changes.is_empty() && delta.reflexes.is_empty());
-        if published && !writer.queues.is_empty() {
-            let committed = Committed { delta: Arc::clone(&delta), snapshot: snapshot.clone() };
-            writer.queues.concerned(&delta, &writer.state, |queue| wakers.extend(queue.push(&committed)));
+        let changed = !(delta.changes.is_empty() && delta.reflexes.is_empty());
+        let short = delta.changes.len() <= LONG && state.next < LARGE;
+        let step = short.then(|| Step { delta: Arc::clone(&delta), reflexes: state.reflexes.clone() });
+        let (state, before) = writing.publish(step);
+        let snapshot = Snapshot::new(state);
+        if changed {
+            let writers = writing.own();
+            writers.version = delta.version;
+            if !writers.queues.is_empty() {
+                let committed = Committed { delta: Arc::clone(&delta), snapshot: snapshot.clone() };
+                let tell = |queue: &Arc<Queue>| wakers.extend(queue.push(&committed));
+                writers.queues.concerned(&delta, snapshot.state(), tell);
+            }
         }
-        drop(guard);
+        drop(writing);
+        // Freeing may take a while, so it is not done under the lock.
         drop(before);
-        for waker in wakers {
-            waker();
-        }
+        wake(wakers);
         Ok(Commit { version: delta.version, delta, snapshot, guards: outcome.guards })
-    }
-
-    /// Decides whether there is a published state while this transaction is applied.
-    fn prepare(&self, writer: &mut Writer, transaction: &Transaction) {
-        let shared = &*self.shared;
-        let waited = shared.waited.load(Ordering::Relaxed) && shared.waited.swap(false, Ordering::Relaxed);
-        let taken = shared.taken.load(Ordering::Relaxed) && shared.taken.swap(false, Ordering::Relaxed);
-        if waited || (taken && writer.publishing > 0) {
-            writer.publishing = PUBLISHED;
-        } else {
-            writer.publishing = writer.publishing.saturating_sub(1);
-        }
-        if transaction.edits.len() > LONG {
-            writer.publishing = writer.publishing.max(1);
-        }
-        let published = shared.published.load().is_some();
-        if published && writer.publishing == 0 {
-            shared.published.store(None);
-        } else if !published && writer.publishing > 0 {
-            shared.published.store(Some(Arc::clone(&writer.state)));
-        }
     }
 
     /// Writes and commits a transaction.
@@ -265,25 +238,43 @@ impl Graph {
 
     /// Under the commit lock, so that no commit falls between the snapshot and the first event.
     fn register(&self, queue: &Arc<Queue>, pattern: Option<Arc<Pattern>>) -> Snapshot {
-        let mut guard = self.lock();
-        let writer = &mut *guard;
-        writer.queues.add(queue, pattern, &writer.state);
-        Snapshot::new(Arc::clone(&writer.state))
-    }
-
-    /// A panic under the lock is a bug, but not a reason to stop the robot: what was begun is taken back.
-    fn lock(&self) -> MutexGuard<'_, Writer> {
-        self.shared.commit.lock().unwrap_or_else(|poisoned| {
-            let mut writer = poisoned.into_inner();
-            Arc::make_mut(&mut writer.state).abandon();
-            self.shared.commit.clear_poison();
-            writer
-        })
+        let mut writing = self.shared.kernel.write();
+        let present = writing.present();
+        writing.own().queues.add(queue, pattern, &present);
+        Snapshot::new(present)
     }
 }
 
 impl std::fmt::Debug for Graph {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Graph").field("version", &self.snapshot().version()).finish_non_exhaustive()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dictionary::{DictionaryBuilder, Nature};
+
+    /// Would wait for ever if a reader needed anything that a writer has.
+    #[test]
+    fn a_snapshot_is_taken_while_a_writer_is_at_work() {
+        let mut builder = DictionaryBuilder::new();
+        let place = builder.node_type("place", None, Nature::Symbolic).expect("a new type");
+        let graph = Graph::new(builder.build());
+        let add = |name: &str| {
+            graph.edit(AgentId::DSR, Time(0), |tx| _ = tx.add_node(name, place)).expect("a new node").version
+        };
+        for at in 0..5 {
+            let version = add(&format!("n{at}"));
+            let mut writing = graph.shared.kernel.write();
+            let state = writing.next();
+            state.insert_node(state.next, "half done".into(), place, version);
+            let seen = graph.snapshot();
+            assert_eq!((seen.version(), seen.node("half done")), (version, None));
+            // Dropped as by a panic, with the state half edited: the next commits know nothing of it.
+        }
+        assert_eq!(add("last"), Version(6));
+        assert_eq!(graph.snapshot().node("half done"), None);
     }
 }

@@ -43,7 +43,7 @@
 //! Map, from the ground up: `id`, `value` → `dictionary` → `pages`, `block`, `names`, `members`, `state` (what a snapshot
 //! is), `track`, `undo` → `transaction` (edits, leases, the tree of transforms), `delta`, `replay`, `export` → `chain`, `pattern`,
 //! `reflex` → `snapshot`, `sentence`, `quiver` → `subscription`,
-//! `routes`, `graph`.
+//! `routes`, `kernel` (how readers and writers keep out of each other's way), `graph`.
 
 mod block;
 mod chain;
@@ -52,6 +52,7 @@ mod dictionary;
 mod export;
 mod graph;
 mod id;
+mod kernel;
 mod members;
 mod mentions;
 mod names;
@@ -65,6 +66,7 @@ mod sentence;
 mod snapshot;
 mod state;
 mod subscription;
+mod sync;
 mod track;
 mod transaction;
 mod undo;

@@ -22,7 +22,7 @@ use crate::snapshot::Snapshot;
 /// How many commits a queue holds unless the subscriber says otherwise.
 pub(crate) const CAPACITY: NonZeroUsize = NonZeroUsize::new(1024).expect("not zero");
 
-type Waker = Arc<dyn Fn() + Send + Sync>;
+pub(crate) type Waker = Arc<dyn Fn() + Send + Sync>;
 
 /// A commit, as subscribers get it.
 #[derive(Debug, Clone)]

@@ -21,6 +21,9 @@ const HELP: &str = "cargo xtask COMMAND
   ci     test, lint, tidy
   fuzz [TARGET] [SECONDS]
          fuzzes the PDDL front end, 600 s a target; needs `cargo install cargo-fuzz`
+  loom   the graph's kernel in every interleaving of a few threads
+  soak [SECONDS]
+         8 writers, 8 readers and what stalls on one graph, 10 s; ends with an error if an update was lost
   record draws docs/figure-8.svg, the README's picture, from a run
 ";
 
@@ -32,6 +35,8 @@ fn main() -> ExitCode {
         "lint" => lint(),
         "tidy" => tidy(),
         "fuzz" => fuzz::fuzz(&arguments.collect::<Vec<_>>()),
+        "loom" => loom(),
+        "soak" => soak(&arguments.collect::<Vec<_>>()),
         "record" => record::record(),
         "ci" => test().and_then(|()| lint()).and_then(|()| tidy()),
         _ => {
@@ -72,6 +77,18 @@ fn test() -> Result<(), Failure> {
     } else {
         cargo::run(&["test", "--release", "--workspace"])
     }
+}
+
+/// With a folder of its own: the flag is one of all crates, and would build everything anew twice.
+fn loom() -> Result<(), Failure> {
+    let test = ["test", "--release", "-p", "pelea-dsr", "--test", "loom", "--target-dir", "target/loom"];
+    cargo::run_with(&test, "RUSTFLAGS", "--cfg loom")
+}
+
+fn soak(arguments: &[String]) -> Result<(), Failure> {
+    let mut command = vec!["run", "--release", "-p", "pelea-dsr", "--example", "soak", "--"];
+    command.extend(arguments.iter().map(String::as_str));
+    cargo::run(&command)
 }
 
 fn lint() -> Result<(), Failure> {
