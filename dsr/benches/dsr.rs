@@ -6,11 +6,11 @@ use std::hint::black_box;
 use std::sync::Arc;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use dsr::{AgentId, PatternBuilder, Time, Transaction};
+use dsr::{AgentId, Comparison, Pattern, PatternBuilder, Time};
 
 mod ward;
 
-use ward::{three_edits, ward};
+use ward::{Ward, three_edits, toggle, ward};
 
 fn transactions(c: &mut Criterion) {
     for count in [1_000, 10_000, 100_000, 1_000_000] {
@@ -77,110 +77,67 @@ fn subscriptions(c: &mut Criterion) {
     c.bench_function("pattern/3 nodes, one named", |bench| bench.iter(|| pattern.holds(&now)));
 
     // Commit, then the subscriber's match change, on one thread: the cost without any scheduler.
-    let mut matches = ward.graph.subscribe(Arc::clone(&pattern));
+    let mut matches = ward.graph.subscribe(pattern);
     let mut round = 0_u64;
     c.bench_function("wake/commit to match change, same thread", |bench| {
         bench.iter(|| {
             round += 1;
-            let (a, b) = (ward.nodes[5], ward.nodes[9]);
-            let mut tx = Transaction::new(AgentId::DSR);
-            if round.is_multiple_of(2) {
-                tx.remove_edge(a, ward.label, b)
-            } else {
-                tx.add_edge(a, ward.label, b)
-            };
-            tx.add_edge(ward.nodes[0], ward.label, a);
+            let mut tx = toggle(&ward, (5, 9), round);
+            tx.add_edge(ward.nodes[0], ward.label, ward.nodes[5]);
             ward.graph.commit(&tx, Time(round)).unwrap();
             matches.try_recv()
         });
     });
     drop(matches);
 
-    // A thousand patterns of three nodes, two of them named, of which one matches what changes.
     let place = dictionary.node_type("place").unwrap();
+    // Patterns of three nodes, of which one matches what changes: two of its nodes named, or none of them.
+    let named = |at: usize| {
+        let mut pattern = PatternBuilder::new(&dictionary);
+        let between = pattern.variable("between", place);
+        let (start, end) = (format!("n{}", 5 + 8 * at), format!("n{}", 10 + 8 * at));
+        pattern.edge(start.as_str(), ward.label, between).edge(between, ward.label, end.as_str());
+        pattern.build().unwrap()
+    };
+    let nameless = |at: usize| {
+        let mut pattern = PatternBuilder::new(&dictionary);
+        let [a, b, d] = ["a", "b", "d"].map(|name| pattern.variable(name, place));
+        pattern.edge(a, ward.label, b).edge(b, ward.label, d);
+        #[expect(clippy::cast_precision_loss, reason = "small")]
+        pattern.guard(b, ward.score, Comparison::Equal, 1.0 + at as f64);
+        pattern.build().unwrap()
+    };
+    set_score(&ward, 9, 1.0);
     for count in [1, 1_000] {
-        let mut subscribers: Vec<_> = (0..count)
-            .map(|at| {
-                let mut pattern = PatternBuilder::new(&dictionary);
-                let between = pattern.variable("between", place);
-                let (start, end) = (format!("n{}", 5 + 8 * at), format!("n{}", 10 + 8 * at));
-                pattern.edge(start.as_str(), ward.label, between).edge(between, ward.label, end.as_str());
-                let mut matches = ward.graph.subscribe(pattern.build().unwrap());
-                while matches.try_recv().is_some() {}
-                matches
-            })
-            .collect();
-        let mut round = 0_u64;
-        c.bench_function(&format!("patterns/{count} subscribed, one concerned, commit and match"), |bench| {
-            bench.iter(|| {
-                round += 1;
-                let (a, b) = (ward.nodes[5], ward.nodes[9]);
-                let mut tx = Transaction::new(AgentId::DSR);
-                if round.is_multiple_of(2) {
-                    tx.remove_edge(a, ward.label, b)
-                } else {
-                    tx.add_edge(a, ward.label, b)
-                };
-                ward.graph.commit(&tx, Time(round)).unwrap();
-                subscribers[0].try_recv()
-            });
-        });
+        follow(c, &ward, &format!("patterns/{count} with names, one concerned"), (0..count).map(named));
+        follow(c, &ward, &format!("patterns/{count} without names, one concerned"), (0..count).map(nameless));
     }
     // One pattern with ten thousand matches: the change is one of them.
     let mut open = PatternBuilder::new(&dictionary);
-    let (a, b, d) = (open.variable("a", place), open.variable("b", place), open.variable("d", place));
+    let [a, b, d] = ["a", "b", "d"].map(|name| open.variable(name, place));
     open.edge(a, ward.label, b).edge(b, ward.label, d);
     open.without(|p| _ = p.edge(a, ward.label, d));
-    let mut everywhere = ward.graph.subscribe(open.build().unwrap());
-    while everywhere.try_recv().is_some() {}
+    follow(c, &ward, "patterns/one with 10,000 matches", std::iter::once(open.build().unwrap()));
+}
+
+fn set_score(ward: &Ward, at: usize, score: f64) {
+    ward.graph
+        .edit(AgentId::DSR, Time(0), |tx| _ = tx.set_attribute(ward.nodes[at], ward.score, score))
+        .unwrap();
+}
+
+/// Commits an edge that concerns the first of these patterns, and takes the change of its matches.
+fn follow(c: &mut Criterion, ward: &Ward, name: &str, patterns: impl Iterator<Item = Pattern>) {
+    let mut subscribers: Vec<_> = patterns.map(|pattern| ward.graph.subscribe(pattern)).collect();
+    subscribers.iter_mut().for_each(|matches| while matches.try_recv().is_some() {});
     let mut round = 0_u64;
-    c.bench_function("patterns/one with 10,000 matches, commit and match", |bench| {
+    c.bench_function(&format!("{name}, commit and match"), |bench| {
         bench.iter(|| {
             round += 1;
-            let (a, b) = (ward.nodes[50], ward.nodes[90]);
-            let mut tx = Transaction::new(AgentId::DSR);
-            if round.is_multiple_of(2) {
-                tx.remove_edge(a, ward.label, b)
-            } else {
-                tx.add_edge(a, ward.label, b)
-            };
-            ward.graph.commit(&tx, Time(round)).unwrap();
-            everywhere.try_recv()
+            ward.graph.commit(&toggle(ward, (5, 9), round), Time(round)).unwrap();
+            subscribers[0].try_recv()
         });
     });
-    drop(everywhere);
-
-    // The same with the subscriber parked on another thread, which answers over a channel.
-    let mut matches = ward.graph.subscribe(pattern);
-    let (told, heard) = std::sync::mpsc::sync_channel(1);
-    let graph = ward.graph.clone();
-    let subscriber = std::thread::spawn(move || {
-        while let Some(change) = matches.recv() {
-            if told.send(change.version).is_err() {
-                return;
-            }
-        }
-    });
-    while heard.try_recv().is_ok() {}
-    let mut add = false;
-    c.bench_function("wake/commit to parked thread and back", |bench| {
-        bench.iter(|| {
-            let now = graph.snapshot();
-            let (a, b) = (ward.nodes[5], ward.nodes[9]);
-            add = !now.has_edge(a, ward.label, b);
-            let mut tx = Transaction::new(AgentId::DSR);
-            if add {
-                tx.add_edge(a, ward.label, b)
-            } else {
-                tx.remove_edge(a, ward.label, b)
-            };
-            let commit = graph.commit(&tx, Time(1)).unwrap();
-            while heard.recv().unwrap() < commit.version {}
-        });
-    });
-    drop(heard);
-    drop((graph, ward));
-    drop(subscriber);
 }
 
 criterion_group!(benches, transactions, looks, subscriptions);

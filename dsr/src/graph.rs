@@ -10,7 +10,6 @@
 //! version and wakes nobody. No code of others runs under the lock.
 
 use std::num::NonZeroUsize;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
 use crate::delta::Delta;
@@ -24,7 +23,7 @@ use crate::replay::{self, ReplayError};
 use crate::routes::Routes;
 use crate::snapshot::Snapshot;
 use crate::state::State;
-use crate::subscription::{CAPACITY, Committed, Deltas, Matches, Queue, Waker};
+use crate::subscription::{Committed, Deltas, Mailbox, Matches, Queue, Wake};
 use crate::transaction::apply::transact;
 use crate::transaction::{Edit, Transaction, TransactionError};
 
@@ -83,16 +82,9 @@ const LARGE: NodeId = NodeId(1 << 17);
 impl Drop for Shared {
     fn drop(&mut self) {
         let mut writing = self.kernel.write();
-        let wakers: Vec<_> = writing.own().queues.queues().filter_map(|queue| queue.close()).collect();
+        let wakes: Vec<_> = writing.own().queues.queues().filter_map(|queue| queue.close()).collect();
         drop(writing);
-        wake(wakers);
-    }
-}
-
-/// Calls the subscribers' callbacks. One that panics is its subscriber's loss, not the committer's.
-fn wake(wakers: Vec<Waker>) {
-    for waker in wakers {
-        let _ = catch_unwind(AssertUnwindSafe(|| waker()));
+        wakes.into_iter().for_each(Wake::call);
     }
 }
 
@@ -138,7 +130,7 @@ impl Graph {
 
     /// Applies a transaction, as a whole or not at all.
     pub fn commit(&self, transaction: &Transaction, time: Time) -> Result<Commit, TransactionError> {
-        let mut wakers = Vec::new();
+        let mut wakes = Vec::new();
         let mut writing = self.shared.kernel.write();
         transaction.stale_at(writing.own().version)?;
         let state = writing.next();
@@ -160,14 +152,14 @@ impl Graph {
             writers.version = delta.version;
             if !writers.queues.is_empty() {
                 let committed = Committed { delta: Arc::clone(&delta), snapshot: snapshot.clone() };
-                let tell = |queue: &Arc<Queue>| wakers.extend(queue.push(&committed));
+                let tell = |queue: &Arc<Queue>| wakes.extend(queue.push(&committed));
                 writers.queues.concerned(&delta, snapshot.state(), tell);
             }
         }
         drop(writing);
-        // Freeing may take a while, so it is not done under the lock.
+        wakes.into_iter().for_each(Wake::call);
+        // Freeing may take a while, so it is done neither under the lock nor before others can go on.
         drop(before);
-        wake(wakers);
         Ok(Commit { version: delta.version, delta, snapshot, guards: outcome.guards })
     }
 
@@ -213,25 +205,25 @@ impl Graph {
 
     /// Tells how the matches of a pattern change, beginning with those of now.
     pub fn subscribe(&self, pattern: impl Into<Arc<Pattern>>) -> Matches {
-        self.subscribe_with(pattern, CAPACITY)
+        self.subscribe_with(pattern, Mailbox::default())
     }
 
-    /// The same, with a queue of this capacity.
-    pub fn subscribe_with(&self, pattern: impl Into<Arc<Pattern>>, capacity: NonZeroUsize) -> Matches {
+    /// The same, with a queue that is kept so.
+    pub fn subscribe_with(&self, pattern: impl Into<Arc<Pattern>>, mailbox: impl Into<Mailbox>) -> Matches {
         let pattern = pattern.into();
-        let queue = Queue::new(capacity);
+        let queue = Queue::new(mailbox.into());
         let start = self.register(&queue, Some(Arc::clone(&pattern)));
         Matches::new(queue, pattern, start)
     }
 
     /// Tells every commit from now on.
     pub fn subscribe_deltas(&self) -> Deltas {
-        self.subscribe_deltas_with(CAPACITY)
+        self.subscribe_deltas_with(Mailbox::default().capacity)
     }
 
     /// The same, with a queue of this capacity.
     pub fn subscribe_deltas_with(&self, capacity: NonZeroUsize) -> Deltas {
-        let queue = Queue::new(capacity);
+        let queue = Queue::new(capacity.into());
         let start = self.register(&queue, None);
         Deltas { queue, start }
     }

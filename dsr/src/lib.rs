@@ -93,7 +93,7 @@ pub use pattern::{
 pub use reflex::{Bound, Keep, Reflex};
 pub use replay::ReplayError;
 pub use snapshot::{AttributeView, EdgeView, NodeView, Snapshot};
-pub use subscription::{Committed, Deltas, Event, MatchChange, Matches};
+pub use subscription::{Committed, Delivery, Deltas, Event, Mailbox, MatchChange, Matches};
 pub use track::HORIZON;
 pub use transaction::{Edit, HolderRef, Lease, Preemption, Priority, Transaction, TransactionError};
 pub use value::{Kind, NewValue, NodeRef, Value};

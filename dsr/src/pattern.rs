@@ -12,6 +12,7 @@
 
 mod builder;
 mod check;
+mod clue;
 mod matcher;
 mod plan;
 mod seed;
@@ -23,6 +24,7 @@ use serde::{Deserialize, Serialize};
 
 pub use self::builder::PatternBuilder;
 pub use self::check::PatternError;
+pub(crate) use self::clue::{Clue, Ordered, Tip, ValueKey, Way};
 use self::plan::{Mask, Step};
 use self::seed::Seed;
 pub(crate) use self::seed::{Fixed, Route, Slices};
@@ -215,7 +217,7 @@ pub struct Pattern {
     constants: Vec<Constant>,
     body: Conjunction<Slot>,
     /// Where joins begin when something changes.
-    seeds: Vec<Seed>,
+    seeds: Vec<(Seed, Clue)>,
     /// The join order when no variable is fixed.
     plan: Vec<Step>,
     mentions: Mentions,

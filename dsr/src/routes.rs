@@ -1,17 +1,20 @@
 //! Who hears of a commit: from what changed to the subscribers whose pattern it may concern.
 //!
 //! Problem: a thousand subscribers asked one by one cost more than the commit. Idea: each pattern is listed under
-//! the tokens that its atoms need, with the constant node at an end where there is one; a change looks up a handful
-//! of keys. A pattern that speaks of a node by name is listed under the node of that name, and listed anew when one
-//! of that name comes or goes. Cost: two or three hash look-ups per change, whatever the number of subscribers.
+//! what its atoms need (`index`): the token, the constant node at an end where there is one, else the types of the ends
+//! and a clue of what must hold beside it. A pattern that speaks of a node by name is listed under the node of that
+//! name, and listed anew when one of that name comes or goes. Cost: a few hash look-ups per change, whatever the number
+//! of subscribers.
+
+mod index;
 
 use std::sync::{Arc, Weak};
 
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
+use self::index::Index;
 use crate::delta::{Change, Delta};
-use crate::id::Holder;
 use crate::pattern::{Pattern, Route};
 use crate::state::State;
 use crate::subscription::Queue;
@@ -31,7 +34,7 @@ pub(crate) struct Routes {
     subscribers: Vec<Option<Subscriber>>,
     free: Vec<Seat>,
     every: Vec<Seat>,
-    by_route: FxHashMap<Route, SmallVec<[Seat; 2]>>,
+    index: Index,
     by_name: FxHashMap<Arc<str>, SmallVec<[Seat; 2]>>,
     /// When there are so many subscribers, those that are gone are looked for.
     sweep: usize,
@@ -67,9 +70,7 @@ impl Routes {
         let mut seats: SmallVec<[Seat; 16]> = self.every.iter().copied().collect();
         let mut anew: SmallVec<[Seat; 2]> = SmallVec::new();
         for change in &delta.changes {
-            for route in routes_of(change) {
-                seats.extend(self.by_route.get(&route).into_iter().flatten().copied());
-            }
+            self.index.find(change, delta, state, |found| seats.extend_from_slice(found));
             if let Change::NodeAdded { name, .. } | Change::NodeRemoved { name, .. } = change {
                 anew.extend(self.by_name.get(name).into_iter().flatten().copied());
             }
@@ -101,7 +102,7 @@ impl Routes {
             return;
         };
         for route in &subscriber.routes {
-            self.by_route.entry(*route).or_default().push(seat);
+            self.index.add(*route, seat);
         }
         for name in pattern.names() {
             self.by_name.entry(name.clone()).or_default().push(seat);
@@ -111,12 +112,7 @@ impl Routes {
     fn strike(&mut self, seat: Seat, subscriber: &Subscriber) {
         self.every.retain(|other| *other != seat);
         for route in &subscriber.routes {
-            if let Some(seats) = self.by_route.get_mut(route) {
-                seats.retain(|other| *other != seat);
-                if seats.is_empty() {
-                    self.by_route.remove(route);
-                }
-            }
+            self.index.remove(*route, seat);
         }
         for name in subscriber.pattern.iter().flat_map(|pattern| pattern.names()) {
             if let Some(seats) = self.by_name.get_mut(name) {
@@ -143,37 +139,4 @@ impl Routes {
             self.free.push(seat);
         }
     }
-}
-
-/// The keys under which a change is looked up.
-fn routes_of(change: &Change) -> SmallVec<[Route; 3]> {
-    let mut routes = SmallVec::new();
-    match change {
-        Change::EdgeAdded { edge } | Change::EdgeRemoved { edge } => {
-            routes.push(Route::Label(edge.label));
-            routes.push(Route::LabelFrom(edge.label, edge.from));
-            routes.push(Route::LabelTo(edge.label, edge.to));
-        }
-        Change::AttributeAdded { holder, attribute, .. }
-        | Change::AttributeChanged { holder, attribute, .. }
-        | Change::AttributeRemoved { holder, attribute, .. } => {
-            routes.push(Route::Attribute(*attribute));
-            match holder {
-                Holder::Node(node) => routes.push(Route::AttributeAt(*attribute, *node)),
-                Holder::Edge(key) => {
-                    routes.push(Route::AttributeAt(*attribute, key.from));
-                    routes.push(Route::AttributeAt(*attribute, key.to));
-                }
-            }
-        }
-        Change::NodeAdded { node, node_type, .. } | Change::NodeRemoved { node, node_type, .. } => {
-            routes.push(Route::Type(*node_type));
-            routes.push(Route::Node(*node));
-        }
-        Change::TransformAdded { .. }
-        | Change::TransformChanged { .. }
-        | Change::TransformSampled { .. }
-        | Change::TransformRemoved { .. } => routes.push(Route::Transforms),
-    }
-    routes
 }

@@ -2,17 +2,21 @@
 //!
 //! Idea: a commit only puts its delta and a reference to the new state into the queues whose pattern it may concern
 //! (`routes`); the subscriber matches, on its own thread and in its own time, from the changed edge outwards
-//! (`pattern::seed`). Invariant: what a subscriber holds is what matching its pattern from scratch would give. Overflow policy: a queue holds at most its capacity;
-//! when full, what is in it is dropped, the subscriber is marked as lagging and goes on from the newest state, so a
-//! pattern subscriber misses intermediate matches but never ends up with a wrong set of them. Waking: a blocked
-//! `recv` by a condition variable, anything else (an async task) by a callback, called after the commit's lock
-//! is given back, from the committing thread; it must be quick.
+//! (`pattern::seed`). Invariant: what a subscriber holds is what matching its pattern from scratch would give.
+//!
+//! Overflow: a queue that is full is emptied, and from then on keeps one thing, the newest state, until its subscriber
+//! comes for it: so a pattern subscriber misses intermediate matches but never ends up with a wrong set of them, and one
+//! that never comes holds no old state that commits would have to copy around. Waking: a blocked `recv` by a condition
+//! variable, anything else (an async task) by a callback; both after the commit's lock and the queue's are given back,
+//! so that who wakes finds neither taken. What an emptied queue held is freed then too.
 
 use std::collections::{BTreeSet, VecDeque};
 use std::num::NonZeroUsize;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 
 use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
 
 use crate::delta::Delta;
 use crate::id::{NodeId, Version};
@@ -22,7 +26,7 @@ use crate::snapshot::Snapshot;
 /// How many commits a queue holds unless the subscriber says otherwise.
 pub(crate) const CAPACITY: NonZeroUsize = NonZeroUsize::new(1024).expect("not zero");
 
-pub(crate) type Waker = Arc<dyn Fn() + Send + Sync>;
+type Waker = Arc<dyn Fn() + Send + Sync>;
 
 /// A commit, as subscribers get it.
 #[derive(Debug, Clone)]
@@ -57,43 +61,127 @@ impl Event {
     }
 }
 
+/// What a subscriber is told of commits that came since it last looked.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Delivery {
+    /// Each commit by itself, in order.
+    #[default]
+    Each,
+    /// All of them as one: what appeared and went again in between is not told. For who acts on what is, not on what
+    /// was. Only the newest state is kept.
+    Newest,
+}
+
+/// How a subscription's queue is kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Mailbox {
+    /// How many commits it holds; when there are more, the subscriber goes on from the newest state.
+    pub capacity: NonZeroUsize,
+    /// What the subscriber is told.
+    pub delivery: Delivery,
+}
+
+impl Default for Mailbox {
+    fn default() -> Self {
+        Self { capacity: CAPACITY, delivery: Delivery::Each }
+    }
+}
+
+impl From<NonZeroUsize> for Mailbox {
+    fn from(capacity: NonZeroUsize) -> Self {
+        Self { capacity, ..Self::default() }
+    }
+}
+
+impl From<Delivery> for Mailbox {
+    fn from(delivery: Delivery) -> Self {
+        Self { delivery, ..Self::default() }
+    }
+}
+
 /// The writers' end of one subscription.
 pub(crate) struct Queue {
     content: Mutex<Content>,
     ready: Condvar,
-    capacity: usize,
+    mailbox: Mailbox,
 }
 
 #[derive(Default)]
 struct Content {
-    commits: VecDeque<Committed>,
+    /// With the state after each, or only the last one's.
+    commits: VecDeque<(Arc<Delta>, Option<Snapshot>)>,
     missed: u64,
     closed: bool,
+    /// How many threads wait in `recv`.
+    asleep: u32,
     waker: Option<Waker>,
 }
 
-impl Queue {
-    pub(crate) fn new(capacity: NonZeroUsize) -> Arc<Self> {
-        Arc::new(Self { content: Mutex::default(), ready: Condvar::new(), capacity: capacity.get() })
-    }
+/// What is left to do for a queue when no lock is held any more.
+pub(crate) struct Wake {
+    sleeper: Option<Arc<Queue>>,
+    waker: Option<Waker>,
+    _freed: VecDeque<(Arc<Delta>, Option<Snapshot>)>,
+}
 
-    /// Takes note of a commit; gives the callback to call later.
-    pub(crate) fn push(&self, committed: &Committed) -> Option<Waker> {
-        let mut content = self.content();
-        if content.commits.len() >= self.capacity {
-            content.missed += content.commits.len() as u64;
-            content.commits.clear();
+impl Wake {
+    /// Wakes the subscriber. A callback that panics is its subscriber's loss, not the committer's.
+    pub(crate) fn call(self) {
+        if let Some(queue) = &self.sleeper {
+            queue.ready.notify_all();
         }
-        content.commits.push_back(committed.clone());
-        self.ready.notify_all();
-        content.waker.clone()
+        if let Some(waker) = &self.waker {
+            let _ = catch_unwind(AssertUnwindSafe(|| waker()));
+        }
+    }
+}
+
+/// What a queue gives.
+enum Told {
+    /// These commits led to this state.
+    Commits(SmallVec<[Arc<Delta>; 1]>, Snapshot),
+    Lagged {
+        missed: u64,
+        snapshot: Snapshot,
+    },
+}
+
+impl Queue {
+    pub(crate) fn new(mailbox: Mailbox) -> Arc<Self> {
+        Arc::new(Self { content: Mutex::default(), ready: Condvar::new(), mailbox })
     }
 
-    pub(crate) fn close(&self) -> Option<Waker> {
+    /// Takes note of a commit; gives what to do later.
+    pub(crate) fn push(self: &Arc<Self>, committed: &Committed) -> Option<Wake> {
+        let mut content = self.content();
+        let mut freed = VecDeque::new();
+        if content.missed > 0 || content.commits.len() >= self.mailbox.capacity.get() {
+            content.missed += content.commits.len() as u64;
+            freed = std::mem::take(&mut content.commits);
+        } else if self.mailbox.delivery == Delivery::Newest
+            && let Some((delta, before)) = content.commits.back_mut()
+        {
+            freed.push_back((Arc::clone(delta), before.take()));
+        }
+        content.commits.push_back((Arc::clone(&committed.delta), Some(committed.snapshot.clone())));
+        self.wake(&content, freed)
+    }
+
+    pub(crate) fn close(self: &Arc<Self>) -> Option<Wake> {
         let mut content = self.content();
         content.closed = true;
-        self.ready.notify_all();
-        content.waker.clone()
+        self.wake(&content, VecDeque::new())
+    }
+
+    fn wake(
+        self: &Arc<Self>,
+        content: &Content,
+        freed: VecDeque<(Arc<Delta>, Option<Snapshot>)>,
+    ) -> Option<Wake> {
+        let sleeper = (content.asleep > 0).then(|| Arc::clone(self));
+        let waker = content.waker.clone();
+        let nothing = sleeper.is_none() && waker.is_none() && freed.is_empty();
+        (!nothing).then_some(Wake { sleeper, waker, _freed: freed })
     }
 
     fn content(&self) -> std::sync::MutexGuard<'_, Content> {
@@ -101,29 +189,39 @@ impl Queue {
         self.content.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn pop(content: &mut Content) -> Option<Event> {
-        let committed = content.commits.pop_front()?;
+    fn pop(&self, content: &mut Content) -> Option<Told> {
         let missed = std::mem::take(&mut content.missed);
-        if missed == 0 {
-            return Some(Event::Committed(committed));
+        let mut deltas = SmallVec::new();
+        // The last state of what is told; in between there may be none.
+        while let Some((delta, snapshot)) = content.commits.pop_front() {
+            deltas.push(delta);
+            if let Some(snapshot) = snapshot {
+                return Some(if missed == 0 {
+                    Told::Commits(deltas, snapshot)
+                } else {
+                    Told::Lagged { missed: missed + 1, snapshot }
+                });
+            }
         }
-        Some(Event::Lagged { missed: missed + 1, snapshot: committed.snapshot })
+        None
     }
 
-    fn try_recv(&self) -> Option<Event> {
-        Self::pop(&mut self.content())
+    fn try_recv(&self) -> Option<Told> {
+        self.pop(&mut self.content())
     }
 
-    fn recv(&self) -> Option<Event> {
+    fn recv(&self) -> Option<Told> {
         let mut content = self.content();
         loop {
-            if let Some(event) = Self::pop(&mut content) {
-                return Some(event);
+            if let Some(told) = self.pop(&mut content) {
+                return Some(told);
             }
             if content.closed {
                 return None;
             }
+            content.asleep += 1;
             content = self.ready.wait(content).unwrap_or_else(PoisonError::into_inner);
+            content.asleep -= 1;
         }
     }
 
@@ -144,6 +242,19 @@ impl Queue {
     }
 }
 
+impl Told {
+    /// What a subscriber of deltas gets, whose commits are told one by one.
+    fn event(self) -> Event {
+        match self {
+            Self::Commits(deltas, snapshot) => match deltas.into_iter().next() {
+                Some(delta) => Event::Committed(Committed { delta, snapshot }),
+                None => Event::Lagged { missed: 0, snapshot },
+            },
+            Self::Lagged { missed, snapshot } => Event::Lagged { missed, snapshot },
+        }
+    }
+}
+
 /// Every commit from the one after [`Deltas::start`] on.
 pub struct Deltas {
     pub(crate) queue: Arc<Queue>,
@@ -158,12 +269,12 @@ impl Deltas {
 
     /// The next event, if there is one.
     pub fn try_recv(&self) -> Option<Event> {
-        self.queue.try_recv()
+        self.queue.try_recv().map(Told::event)
     }
 
     /// Waits for the next event; `None` when all handles of the graph are gone.
     pub fn recv(&self) -> Option<Event> {
-        self.queue.recv()
+        self.queue.recv().map(Told::event)
     }
 
     /// Calls `wake` whenever there may be something to receive, and now if there is.
@@ -222,11 +333,11 @@ impl Matches {
     /// The next change, if there is one. Commits that change no match are passed over.
     pub fn try_recv(&mut self) -> Option<MatchChange> {
         loop {
-            let event = match self.start.take() {
-                Some(snapshot) => Event::Lagged { missed: 0, snapshot },
+            let told = match self.start.take() {
+                Some(snapshot) => Told::Lagged { missed: 0, snapshot },
                 None => self.queue.try_recv()?,
             };
-            if let Some(change) = self.look(event) {
+            if let Some(change) = self.look(told) {
                 return Some(change);
             }
         }
@@ -235,11 +346,11 @@ impl Matches {
     /// Waits for the next change; `None` when all handles of the graph are gone.
     pub fn recv(&mut self) -> Option<MatchChange> {
         loop {
-            let event = match self.start.take() {
-                Some(snapshot) => Event::Lagged { missed: 0, snapshot },
+            let told = match self.start.take() {
+                Some(snapshot) => Told::Lagged { missed: 0, snapshot },
                 None => self.queue.recv()?,
             };
-            if let Some(change) = self.look(event) {
+            if let Some(change) = self.look(told) {
                 return Some(change);
             }
         }
@@ -258,15 +369,18 @@ impl Matches {
         self.start.is_none() && self.queue.is_closed()
     }
 
-    fn look(&mut self, event: Event) -> Option<MatchChange> {
+    fn look(&mut self, told: Told) -> Option<MatchChange> {
         let (mut appeared, mut disappeared) = (Vec::new(), Vec::new());
-        let (snapshot, missed) = match event {
-            Event::Lagged { missed, snapshot } => {
+        let (snapshot, missed) = match told {
+            Told::Lagged { missed, snapshot } => {
                 self.match_all(&snapshot, &mut appeared, &mut disappeared);
                 (snapshot, missed)
             }
-            Event::Committed(Committed { delta, snapshot }) => {
-                match self.pattern.slices(&delta, snapshot.state()) {
+            Told::Commits(deltas, snapshot) => {
+                // What several commits concern is what each of them does, looked at once, in the last one's state.
+                let mut slices = Slices::default();
+                deltas.iter().for_each(|delta| self.pattern.slices(delta, snapshot.state(), &mut slices));
+                match slices {
                     Slices::All => self.match_all(&snapshot, &mut appeared, &mut disappeared),
                     Slices::These(slices) => {
                         for fixed in &slices {

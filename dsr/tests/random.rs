@@ -8,8 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::num::NonZeroUsize;
 
 use dsr::{
-    Comparison, Dictionary, Event, Graph, HolderTerm, NodeId, Operand, Pattern, PatternBuilder, Snapshot,
-    Term,
+    Comparison, Delivery, Dictionary, Event, Graph, HolderTerm, NodeId, Operand, Pattern, PatternBuilder,
+    Snapshot, Term,
 };
 use proptest::prelude::*;
 
@@ -376,6 +376,56 @@ fn patterns(d: &Dictionary) -> Vec<(Pattern, Brute)> {
             && !(has("urgent") && has("patient") && edge(s, Some(n[0]), "knows", Some(n[1])))
     }));
 
+    // No constant node, but a value: whom an edge concerns is found by the value at its end.
+    let mut p = PatternBuilder::new(d);
+    let (test, part) = (p.variable("test", kind("test")), p.variable("part", kind("part")));
+    p.edge(test, label("is_in"), part).guard(test, attribute("score"), Comparison::Equal, 5.0);
+    list.push((p.build().unwrap(), |s, n| {
+        let score = s.attribute(n[0], s.dictionary().attribute("score").unwrap());
+        edge(s, Some(n[0]), "is_in", Some(n[1])) && score.and_then(dsr::Value::as_number) == Some(5.0)
+    }));
+
+    // The same under a negation, with a number to be crossed.
+    let mut p = PatternBuilder::new(d);
+    let part = p.variable("part", kind("part"));
+    p.without(|p| {
+        let test = p.variable("test", kind("test"));
+        p.edge(test, label("is_in"), part).guard(test, attribute("score"), Comparison::Greater, 5.0);
+    });
+    list.push((p.build().unwrap(), |s, n| {
+        let (test, score) = (s.dictionary().node_type("test").unwrap(), s.dictionary().attribute("score"));
+        let high = |id| s.attribute(id, score.unwrap()).and_then(dsr::Value::as_number) > Some(5.0);
+        !s.nodes_of(test).any(|test| edge(s, Some(test), "is_in", Some(n[0])) && high(test))
+    }));
+
+    // No constant and no value: whom an edge concerns is found by the other edge.
+    let mut p = PatternBuilder::new(d);
+    let (a, b) = (p.variable("a", kind("place")), p.variable("b", kind("person")));
+    let c = p.variable("c", kind("robot"));
+    p.edge(a, label("knows"), b).edge(b, label("is_with"), c);
+    p.without(|p| {
+        let what = p.variable("what", kind("activity"));
+        p.edge(c, label("is"), what).edge(b, label("is"), what);
+    });
+    list.push((p.build().unwrap(), |s, n| {
+        let activity = s.dictionary().node_type("activity").unwrap();
+        let is = |who, what| edge(s, Some(who), "is", Some(what));
+        edge(s, Some(n[0]), "knows", Some(n[1]))
+            && edge(s, Some(n[1]), "is_with", Some(n[2]))
+            && !s.nodes_of(activity).any(|what| is(n[2], what) && is(n[1], what))
+    }));
+
+    // A text on an edge.
+    let mut p = PatternBuilder::new(d);
+    let (test, part) = (p.variable("test", kind("test")), p.variable("part", kind("object")));
+    let says = HolderTerm::edge(test, label("is_in"), part);
+    p.guard(says, attribute("says"), Comparison::Equal, dsr::Value::text("yyy"));
+    list.push((p.build().unwrap(), |s, n| {
+        let key = dsr::EdgeKey { from: n[0], label: s.dictionary().label("is_in").unwrap(), to: n[1] };
+        let says = s.attribute(key, s.dictionary().attribute("says").unwrap());
+        says.and_then(dsr::Value::as_text) == Some("yyy")
+    }));
+
     // Two attributes held against each other; a node found through an edge's attribute.
     let mut p = PatternBuilder::new(d);
     let (a, b) = (p.variable("a", kind("place")), p.variable("b", kind("place")));
@@ -419,6 +469,10 @@ fn check(history: &[Vec<String>]) -> Result<(), TestCaseError> {
     // One that never listens until the end, with room for two commits.
     let two = NonZeroUsize::new(2).unwrap();
     let mut sleepers: Vec<_> = patterns.iter().map(|(p, _)| graph.subscribe_with(p.clone(), two)).collect();
+    // One that listens at the end only, and is told of all commits at once.
+    let mut dreamers: Vec<_> =
+        patterns.iter().map(|(p, _)| graph.subscribe_with(p.clone(), Delivery::Newest)).collect();
+    dreamers.iter_mut().for_each(|dreamer| while dreamer.try_recv().is_some() {});
     let (mut model, mut deltas) = (Model::default(), Vec::new());
     // The same history where nobody listens and snapshots are held only now and then, so that most transactions
     // are applied and taken back in place.
@@ -484,9 +538,14 @@ fn check(history: &[Vec<String>]) -> Result<(), TestCaseError> {
         }
     }
 
-    for (watcher, sleeper) in watchers.iter().zip(&mut sleepers) {
+    for ((watcher, sleeper), dreamer) in watchers.iter().zip(&mut sleepers).zip(&mut dreamers) {
         while sleeper.try_recv().is_some() {}
         prop_assert_eq!(watcher.held(), sleeper.held(), "who lagged has caught up");
+        if let Some(change) = dreamer.try_recv() {
+            prop_assert_eq!(change.missed, 0);
+        }
+        prop_assert!(dreamer.try_recv().is_none(), "all is told at once");
+        prop_assert_eq!(watcher.held(), dreamer.held());
     }
     for (snapshot, bytes) in held {
         prop_assert_eq!(serde_json::to_string(&snapshot.export()).unwrap(), bytes, "held to the end");

@@ -1,4 +1,5 @@
 //! The graph that the benches write to and read from.
+#![allow(dead_code, reason = "each bench uses its own part of the ward")]
 #![allow(clippy::unwrap_used, reason = "a bench that fails says where")]
 
 use dsr::{
@@ -62,5 +63,17 @@ pub(crate) fn three_edits(ward: &Ward, round: u64) -> Transaction {
     tx.set_attribute(a, ward.score, round as f64);
     let text = if round.is_multiple_of(2) { "yyy" } else { "xxx" };
     tx.set_attribute(HolderRef::edge(a, ward.label, b), ward.says, text);
+    tx
+}
+
+/// Adds an edge and takes it away, in turns.
+pub(crate) fn toggle(ward: &Ward, (from, to): (usize, usize), round: u64) -> Transaction {
+    let (from, to) = (ward.nodes[from], ward.nodes[to]);
+    let mut tx = Transaction::new(AgentId::DSR);
+    if round.is_multiple_of(2) {
+        tx.add_edge(from, ward.label, to)
+    } else {
+        tx.remove_edge(from, ward.label, to)
+    };
     tx
 }

@@ -86,7 +86,7 @@ pub(super) fn compile(
     (types.len()..count).for_each(|slot| bound.insert(slot_at(slot)));
     let plan = plan(&body, bound);
     let mut seeds = Vec::new();
-    seed::seeds(&body, &mut seeds);
+    seed::seeds(&[&body], &mut seeds);
     Ok(Pattern { variables, locals, constants, body, seeds, plan, mentions })
 }
 

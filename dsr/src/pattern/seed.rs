@@ -15,6 +15,7 @@
 
 use smallvec::SmallVec;
 
+use super::clue::{self, Clue, Ordered, ValueKey};
 use super::plan::Mask;
 use super::{Atom, Carrier, Comparison, Conjunction, Constant, Pattern, Right, Slot};
 use crate::delta::{Change, Delta};
@@ -44,41 +45,55 @@ pub(super) enum Seed {
     Transforms,
 }
 
-/// The seeds of a conjunction and of the negated parts in it.
-pub(super) fn seeds(part: &Conjunction<Slot>, into: &mut Vec<Seed>) {
+/// The seeds of the last of these conjunctions, which stand within each other, and of the negated parts in it.
+pub(super) fn seeds(around: &[&Conjunction<Slot>], into: &mut Vec<(Seed, Clue)>) {
+    let Some(part) = around.last() else { return };
     let mut bound = Mask::default();
-    for atom in &part.atoms {
+    for (at, atom) in part.atoms.iter().enumerate() {
         match atom {
             Atom::Edge { from, label, to } => {
-                into.push(Seed::Edge { label: *label, from: *from, to: *to });
+                let seed = Seed::Edge { label: *label, from: *from, to: *to };
+                into.push((seed, clue::of_edge((*from, *to), at, around)));
                 bound.insert(*from);
                 bound.insert(*to);
             }
-            Atom::Present { holder, attribute } => carrier(holder, *attribute, &mut bound, into),
+            Atom::Present { holder, attribute } => {
+                carrier(holder, *attribute, Clue::Any, &mut bound, into);
+            }
             Atom::Guard { holder, attribute, comparison, operand } => {
-                carrier(holder, *attribute, &mut bound, into);
+                let clue = clue::of_guard(*comparison, operand);
+                carrier(holder, *attribute, clue, &mut bound, into);
                 match operand {
-                    Right::Attribute(holder, attribute) => carrier(holder, *attribute, &mut bound, into),
+                    Right::Attribute(holder, attribute) => {
+                        carrier(holder, *attribute, Clue::Any, &mut bound, into);
+                    }
                     Right::Term(slot) if *comparison == Comparison::Equal => bound.insert(*slot),
                     Right::Term(_) | Right::Value(_) => {}
                 }
             }
-            Atom::Distance { .. } => into.push(Seed::Transforms),
-            Atom::Without(inner) => seeds(inner, into),
+            Atom::Distance { .. } => into.push((Seed::Transforms, Clue::Any)),
+            Atom::Without(inner) => seeds(&[around, &[inner]].concat(), into),
             Atom::Distinct(..) => {}
         }
     }
-    into.extend(part.variables.iter().filter(|slot| !bound.contains(**slot)).map(|slot| Seed::Loose(*slot)));
+    let loose = part.variables.iter().filter(|slot| !bound.contains(**slot));
+    into.extend(loose.map(|slot| (Seed::Loose(*slot), Clue::Any)));
 }
 
-fn carrier(holder: &Carrier<Slot>, attribute: AttributeId, bound: &mut Mask, into: &mut Vec<Seed>) {
+fn carrier(
+    holder: &Carrier<Slot>,
+    attribute: AttributeId,
+    clue: Clue,
+    bound: &mut Mask,
+    into: &mut Vec<(Seed, Clue)>,
+) {
     match *holder {
         Carrier::Node(node) => {
-            into.push(Seed::NodeAttribute { attribute, node });
+            into.push((Seed::NodeAttribute { attribute, node }, clue));
             bound.insert(node);
         }
         Carrier::Edge { from, label, to } => {
-            into.push(Seed::EdgeAttribute { attribute, label, from, to });
+            into.push((Seed::EdgeAttribute { attribute, label, from, to }, clue));
             bound.insert(from);
             bound.insert(to);
         }
@@ -95,14 +110,26 @@ pub(crate) enum Slices {
     These(SmallVec<[Fixed; 4]>),
 }
 
+impl Default for Slices {
+    fn default() -> Self {
+        Self::These(SmallVec::new())
+    }
+}
+
 /// What a change must touch to concern a pattern.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Route {
-    Label(LabelId),
+    /// An edge between nodes of these types, where the clue holds.
+    Edge(LabelId, TypeId, TypeId, Clue),
     LabelFrom(LabelId, NodeId),
     LabelTo(LabelId, NodeId),
     Attribute(AttributeId),
     AttributeAt(AttributeId, NodeId),
+    /// The attribute has, or had, this value.
+    AttributeIs(AttributeId, ValueKey),
+    /// The attribute crosses the number, and what is above matters, or what is below.
+    Above(AttributeId, Ordered),
+    Below(AttributeId, Ordered),
     Type(TypeId),
     /// The coming and going of a node.
     Node(NodeId),
@@ -130,23 +157,30 @@ impl Pattern {
     /// The routes by which changes reach the pattern, with the constants of this state.
     pub(crate) fn routes(&self, state: &State) -> Vec<Route> {
         let mut routes = Vec::new();
-        for seed in &self.seeds {
-            match *seed {
+        let attribute_of = |attribute, clue| match clue {
+            Clue::Is(key) => Route::AttributeIs(attribute, key),
+            Clue::Above(number) => Route::Above(attribute, number),
+            Clue::Below(number) => Route::Below(attribute, number),
+            Clue::Any | Clue::With(..) | Clue::Beside(..) => Route::Attribute(attribute),
+        };
+        for &(seed, clue) in &self.seeds {
+            match seed {
                 Seed::Edge { label, from, to } => {
+                    let wanted = |slot| self.type_of(slot).unwrap_or(TypeId::OBJECT);
                     routes.push(match (self.constant(from, state), self.constant(to, state)) {
                         (Some(from), _) => Route::LabelFrom(label, from),
                         (None, Some(to)) => Route::LabelTo(label, to),
-                        (None, None) => Route::Label(label),
+                        (None, None) => Route::Edge(label, wanted(from), wanted(to), clue),
                     });
                 }
                 Seed::NodeAttribute { attribute, node } => routes.push(match self.constant(node, state) {
                     Some(node) => Route::AttributeAt(attribute, node),
-                    None => Route::Attribute(attribute),
+                    None => attribute_of(attribute, clue),
                 }),
                 Seed::EdgeAttribute { attribute, from, to, .. } => {
                     routes.push(match self.constant(from, state).or(self.constant(to, state)) {
                         Some(end) => Route::AttributeAt(attribute, end),
-                        None => Route::Attribute(attribute),
+                        None => attribute_of(attribute, clue),
                     });
                 }
                 Seed::Loose(slot) => {
@@ -167,23 +201,27 @@ impl Pattern {
         routes
     }
 
-    /// The matches that a delta may concern; the state is the one after it.
-    pub(crate) fn slices(&self, delta: &Delta, state: &State) -> Slices {
-        let mut slices = SmallVec::new();
+    /// Adds the matches that a delta may concern; the state is the one after it, or a later one if the deltas up to
+    /// that are added too.
+    pub(crate) fn slices(&self, delta: &Delta, state: &State, into: &mut Slices) {
+        let Slices::These(slices) = into else { return };
         for change in &delta.changes {
             if self.concerns_constant(change) {
-                return Slices::All;
+                *into = Slices::All;
+                return;
             }
-            for seed in &self.seeds {
+            for (seed, _) in &self.seeds {
                 match self.grow(*seed, change, state) {
                     Growth::Nothing => {}
-                    Growth::Slice(fixed) if fixed.is_empty() => return Slices::All,
+                    Growth::Slice(fixed) if fixed.is_empty() => {
+                        *into = Slices::All;
+                        return;
+                    }
                     Growth::Slice(fixed) if slices.contains(&fixed) => {}
                     Growth::Slice(fixed) => slices.push(fixed),
                 }
             }
         }
-        Slices::These(slices)
     }
 
     /// Whether a node that the pattern speaks of comes or goes.

@@ -1,0 +1,261 @@
+//! From what changed to who is listed under it.
+//!
+//! Routes with a constant node are keys of one table. Edges without one are sorted by label, then by the types that the
+//! pattern wants at both ends, then by clue; attributes by the value or the number that they are held against. Which
+//! pairs of types a pair of nodes fits is found once and kept. Cost of a change: a look-up per attribute and per label
+//! at the nodes that it touches, and only if some pattern asks for them.
+
+use std::collections::BTreeMap;
+
+use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
+
+use super::Seat;
+use crate::delta::{Change, Delta};
+use crate::dictionary::Dictionary;
+use crate::id::{AttributeId, EdgeKey, Holder, LabelId, TypeId};
+use crate::pattern::{Clue, Ordered, Route, Tip, ValueKey, Way};
+use crate::state::State;
+use crate::value::Value;
+
+type Seats = SmallVec<[Seat; 2]>;
+
+/// The types of the two ends of an edge.
+type Ends = (TypeId, TypeId);
+
+/// The seats of all routes.
+#[derive(Default)]
+pub(super) struct Index {
+    plain: FxHashMap<Route, Seats>,
+    labels: FxHashMap<LabelId, Fan>,
+    thresholds: FxHashMap<AttributeId, Thresholds>,
+}
+
+/// The edges of one label that patterns want with variables at both ends.
+#[derive(Default)]
+struct Fan {
+    /// By the types that are wanted at the ends.
+    classes: FxHashMap<Ends, Class>,
+    /// Which of them nodes of exactly these types fit.
+    fitting: FxHashMap<Ends, SmallVec<[Ends; 2]>>,
+}
+
+#[derive(Default)]
+struct Class {
+    any: Seats,
+    with: FxHashMap<(Tip, AttributeId, ValueKey), Seats>,
+    beside: FxHashMap<(Tip, LabelId, Way), Seats>,
+}
+
+#[derive(Default)]
+struct Thresholds {
+    above: BTreeMap<Ordered, Seats>,
+    below: BTreeMap<Ordered, Seats>,
+}
+
+impl Class {
+    fn list(&mut self, clue: Clue) -> &mut Seats {
+        match clue {
+            Clue::With(tip, attribute, key) => self.with.entry((tip, attribute, key)).or_default(),
+            Clue::Beside(tip, label, way) => self.beside.entry((tip, label, way)).or_default(),
+            Clue::Any | Clue::Is(_) | Clue::Above(_) | Clue::Below(_) => &mut self.any,
+        }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.any.is_empty() && self.with.is_empty() && self.beside.is_empty()
+    }
+}
+
+impl Index {
+    fn list(&mut self, route: Route) -> &mut Seats {
+        match route {
+            Route::Edge(label, from, to, clue) => {
+                let fan = self.labels.entry(label).or_default();
+                fan.fitting.clear();
+                fan.classes.entry((from, to)).or_default().list(clue)
+            }
+            Route::Above(attribute, number) => {
+                self.thresholds.entry(attribute).or_default().above.entry(number).or_default()
+            }
+            Route::Below(attribute, number) => {
+                self.thresholds.entry(attribute).or_default().below.entry(number).or_default()
+            }
+            plain => self.plain.entry(plain).or_default(),
+        }
+    }
+
+    pub(super) fn add(&mut self, route: Route, seat: Seat) {
+        let list = self.list(route);
+        if !list.contains(&seat) {
+            list.push(seat);
+        }
+    }
+
+    pub(super) fn remove(&mut self, route: Route, seat: Seat) {
+        let list = self.list(route);
+        list.retain(|other| *other != seat);
+        if !list.is_empty() {
+            return;
+        }
+        // Nothing is kept of what nobody asks for.
+        match route {
+            Route::Edge(label, from, to, clue) => {
+                let Some(fan) = self.labels.get_mut(&label) else { return };
+                let Some(class) = fan.classes.get_mut(&(from, to)) else { return };
+                match clue {
+                    Clue::With(tip, attribute, key) => _ = class.with.remove(&(tip, attribute, key)),
+                    Clue::Beside(tip, label, way) => _ = class.beside.remove(&(tip, label, way)),
+                    Clue::Any | Clue::Is(_) | Clue::Above(_) | Clue::Below(_) => {}
+                }
+                if class.is_empty() {
+                    fan.classes.remove(&(from, to));
+                }
+                if fan.classes.is_empty() {
+                    self.labels.remove(&label);
+                }
+            }
+            Route::Above(attribute, number) | Route::Below(attribute, number) => {
+                let Some(thresholds) = self.thresholds.get_mut(&attribute) else { return };
+                if matches!(route, Route::Above(..)) {
+                    thresholds.above.remove(&number);
+                } else {
+                    thresholds.below.remove(&number);
+                }
+                if thresholds.above.is_empty() && thresholds.below.is_empty() {
+                    self.thresholds.remove(&attribute);
+                }
+            }
+            plain => _ = self.plain.remove(&plain),
+        }
+    }
+
+    /// Tells the seats that a change of a delta may concern; the state is the one after it. Some more than once.
+    pub(super) fn find(
+        &mut self,
+        change: &Change,
+        delta: &Delta,
+        state: &State,
+        mut tell: impl FnMut(&[Seat]),
+    ) {
+        match change {
+            Change::EdgeAdded { edge } | Change::EdgeRemoved { edge } => {
+                self.plain(Route::LabelFrom(edge.label, edge.from), &mut tell);
+                self.plain(Route::LabelTo(edge.label, edge.to), &mut tell);
+                if let Some(fan) = self.labels.get_mut(&edge.label) {
+                    fan.find(*edge, delta, state, &mut tell);
+                }
+            }
+            Change::AttributeAdded { holder, attribute, new } => {
+                self.attribute(*holder, *attribute, (None, Some(new)), &mut tell);
+            }
+            Change::AttributeChanged { holder, attribute, old, new } => {
+                self.attribute(*holder, *attribute, (Some(old), Some(new)), &mut tell);
+            }
+            Change::AttributeRemoved { holder, attribute, old } => {
+                self.attribute(*holder, *attribute, (Some(old), None), &mut tell);
+            }
+            Change::NodeAdded { node, node_type, .. } | Change::NodeRemoved { node, node_type, .. } => {
+                self.plain(Route::Type(*node_type), &mut tell);
+                self.plain(Route::Node(*node), &mut tell);
+            }
+            Change::TransformAdded { .. }
+            | Change::TransformChanged { .. }
+            | Change::TransformSampled { .. }
+            | Change::TransformRemoved { .. } => self.plain(Route::Transforms, &mut tell),
+        }
+    }
+
+    fn plain(&self, route: Route, tell: &mut impl FnMut(&[Seat])) {
+        if let Some(seats) = self.plain.get(&route) {
+            tell(seats);
+        }
+    }
+
+    fn attribute(
+        &self,
+        holder: Holder,
+        attribute: AttributeId,
+        (old, new): (Option<&Value>, Option<&Value>),
+        tell: &mut impl FnMut(&[Seat]),
+    ) {
+        self.plain(Route::Attribute(attribute), tell);
+        match holder {
+            Holder::Node(node) => self.plain(Route::AttributeAt(attribute, node), tell),
+            Holder::Edge(key) => {
+                self.plain(Route::AttributeAt(attribute, key.from), tell);
+                self.plain(Route::AttributeAt(attribute, key.to), tell);
+            }
+        }
+        for value in [old, new].into_iter().flatten() {
+            self.plain(Route::AttributeIs(attribute, ValueKey::of(value)), tell);
+        }
+        let Some(thresholds) = self.thresholds.get(&attribute) else { return };
+        let number = |value: Option<&Value>| value.and_then(Value::as_number).map(Ordered::of);
+        let (old, new) = (number(old), number(new));
+        // An attribute that is not there is on neither side: as if it came from, or went to, the end of all numbers.
+        let crossed = |absent: Ordered| {
+            let (old, new) = (old.unwrap_or(absent), new.unwrap_or(absent));
+            old.min(new)..=old.max(new)
+        };
+        thresholds.above.range(crossed(Ordered::LEAST)).for_each(|(_, seats)| tell(seats));
+        thresholds.below.range(crossed(Ordered::MOST)).for_each(|(_, seats)| tell(seats));
+    }
+}
+
+impl Fan {
+    fn find(&mut self, edge: EdgeKey, delta: &Delta, state: &State, tell: &mut impl FnMut(&[Seat])) {
+        let (Some(from), Some(to)) = (state.node(edge.from), state.node(edge.to)) else {
+            // A node that went has no type any more: all are told.
+            for class in self.classes.values() {
+                tell(&class.any);
+                class.with.values().chain(class.beside.values()).for_each(|seats| tell(seats));
+            }
+            return;
+        };
+        let exact = (from.node_type(), to.node_type());
+        let fitting = self.fitting.entry(exact).or_insert_with(|| {
+            let fits = |wanted: &&Ends| fit(&state.dictionary, exact, **wanted);
+            self.classes.keys().filter(fits).copied().collect()
+        });
+        for wanted in fitting.iter() {
+            let Some(class) = self.classes.get(wanted) else { continue };
+            tell(&class.any);
+            for (tip, id, node) in [(Tip::From, edge.from, from), (Tip::To, edge.to, to)] {
+                if !class.with.is_empty() {
+                    for cell in node.cells() {
+                        let key = (tip, cell.attribute, ValueKey::of(&cell.value));
+                        class.with.get(&key).into_iter().for_each(|seats| tell(seats));
+                    }
+                }
+                if !class.beside.is_empty() {
+                    let mut look = |label, way| {
+                        class.beside.get(&(tip, label, way)).into_iter().for_each(|seats| tell(seats));
+                    };
+                    let mut out = node.outgoing();
+                    while let Some(first) = out.first() {
+                        look(first.label, Way::Out);
+                        out = &out[out.partition_point(|edge| edge.label == first.label)..];
+                    }
+                    let mut incoming = node.incoming();
+                    while let Some((label, _)) = incoming.first() {
+                        look(*label, Way::In);
+                        incoming = &incoming[incoming.partition_point(|(other, _)| other == label)..];
+                    }
+                    // An edge that went in the same delta is not there any more, but counts.
+                    for change in &delta.changes {
+                        match change {
+                            Change::EdgeRemoved { edge } if edge.from == id => look(edge.label, Way::Out),
+                            Change::EdgeRemoved { edge } if edge.to == id => look(edge.label, Way::In),
+                            _ => {}
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn fit(dictionary: &Dictionary, exact: Ends, wanted: Ends) -> bool {
+    dictionary.is_a(exact.0, wanted.0) && dictionary.is_a(exact.1, wanted.1)
+}
