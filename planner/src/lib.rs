@@ -45,6 +45,9 @@ mod random_numbers;
 mod random_tests;
 mod search;
 mod task;
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test")]
+mod test_support;
 
 pub use ground::{Feature, GroundError, GroundOptions, Origin, ground};
 pub use heuristics::{Costs, HeuristicKind, Properties, Supported};

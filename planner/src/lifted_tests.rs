@@ -5,7 +5,8 @@
 //! every reachable state; grounding must reach the same ones (so that nothing was pruned wrongly),
 //! and each must keep every mutex group.
 
-use crate::{AtomStatus, FactId, GroundOptions, Task, ground};
+use crate::test_support::Grounded;
+use crate::{AtomStatus, FactId, Task};
 use pddl::model::ObjectId;
 use proptest::prelude::*;
 use std::collections::BTreeSet;
@@ -196,10 +197,7 @@ fn facts(task: &Task, domain: &pddl::model::Domain) -> Vec<Option<FactId>> {
 proptest! {
     #[test]
     fn reachable_states_keep_all_groups_and_none_is_lost(lifted in lifted_task()) {
-        let (domain, problem) = lifted.text();
-        let domain = pddl::parse_domain(&pddl::Source::new("domain", domain), &[]).model.unwrap();
-        let problem = pddl::parse_problem(&pddl::Source::new("problem", problem), &domain).model.unwrap();
-        let task = ground(&domain, &problem, &GroundOptions::default()).unwrap();
+        let Grounded { task, domain, .. } = Grounded::new(lifted.text());
         let facts = facts(&task, &domain);
         let known = |state: &u32| {
             let held = facts.iter().enumerate().filter(|(b, _)| state >> b & 1 == 1);

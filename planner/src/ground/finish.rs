@@ -115,7 +115,8 @@ pub(crate) fn finish(
     let effects = operators.iter_mut().filter_map(|o: &mut Operator| o.numeric.as_deref_mut());
     let numeric = Numeric::new(facts.len().div_ceil(64), fluents, stored, compared, effects);
     let mut state = State::empty(facts.len(), numeric.words());
-    numeric.initialise(state.words_mut());
+    let fit = numeric.initialise(state.words_mut());
+    state.note_fit(fit);
     for &a in initial {
         if numbers[a as usize] != NONE {
             state.insert(FactId(numbers[a as usize]));

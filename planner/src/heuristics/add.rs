@@ -1,5 +1,5 @@
 //! hadd: the sum of what the goal's propositions cost in the delete relaxation, as if they were
-//! independent. Neither admissible nor consistent; safe.
+//! independent, an operator as often as a comparison of numbers takes it. Neither admissible nor consistent; safe.
 //!
 //! Source: Bonet & Geffner, "Planning as heuristic search", AIJ 2001, §3.
 

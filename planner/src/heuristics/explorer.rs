@@ -3,13 +3,15 @@
 //! Problem: hmax, hadd and hFF all need, per state, the cost of every proposition. Idea: settle
 //! propositions in order of cost; a node whose last precondition is settled offers its effects at the
 //! sum (or maximum) of its preconditions' costs plus its own. Invariant: when a proposition is
-//! popped at its cost, that cost is final. Cost: linear in the relaxation, plus the queue; arrays are
+//! popped at its cost, that cost is final. Comparisons of numbers count repetitions where that is asked
+//! for (`repetitions`). Cost: linear in the relaxation, plus the queue; arrays are
 //! reset by copying templates, nothing is allocated.
 //!
 //! Source: Bonet & Geffner, "Planning as heuristic search", AIJ 2001; Liu, Koenig & Furcy, "Speeding
 //! up the calculation of heuristics for heuristic search-based planning", AAAI 2002.
 
 use crate::heuristics::Costs;
+use crate::heuristics::repetitions::Repetitions;
 use crate::ids::id32;
 use crate::search::{Job, Meter};
 use crate::task::{AXIOM, Relaxation};
@@ -30,6 +32,15 @@ pub(crate) enum Combine {
     Max,
 }
 
+/// What achieving a comparison of numbers takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Counting {
+    /// The operator once.
+    Once,
+    /// As many repetitions as the state's numbers ask for.
+    Repetitions,
+}
+
 #[derive(Clone, Copy)]
 struct Node {
     cost: u32,
@@ -41,6 +52,7 @@ pub(crate) struct Explorer<'a> {
     graph: &'a Relaxation,
     meter: &'a Meter<'a>,
     combine: Combine,
+    repetitions: Option<Repetitions<'a>>,
     template: Vec<Node>,
     nodes: Vec<Node>,
     cost: Vec<u32>,
@@ -56,7 +68,7 @@ pub(crate) struct Explorer<'a> {
 impl<'a> Explorer<'a> {
     /// On the undominated relaxation.
     pub(crate) fn new(job: &Job<'a>, goal: Vec<u32>, costs: Costs, combine: Combine) -> Self {
-        Self::on(job.relaxation(), job, goal, costs, combine)
+        Self::on(job.relaxation(), job, goal, costs, combine, Counting::Repetitions)
     }
 
     /// On a graph of the caller's choice.
@@ -66,6 +78,7 @@ impl<'a> Explorer<'a> {
         goal: Vec<u32>,
         costs: Costs,
         combine: Combine,
+        counting: Counting,
     ) -> Self {
         let barred = job.barred;
         let template: Vec<Node> = (0..graph.nodes())
@@ -78,12 +91,21 @@ impl<'a> Explorer<'a> {
                 Node { cost, missing: missing + extra }
             })
             .collect();
+        let repetitions = match counting {
+            Counting::Once => None,
+            Counting::Repetitions => Repetitions::new(graph, &job.task.numeric),
+        };
+        let repetitions = match combine {
+            Combine::Sum => repetitions,
+            Combine::Max => repetitions.map(|r| r.with_prices(|node| template[node as usize].cost)),
+        };
         let mut is_goal = vec![false; graph.propositions()];
         goal.iter().for_each(|&p| is_goal[p as usize] = true);
         Self {
             graph,
             meter: job.meter,
             combine,
+            repetitions,
             nodes: template.clone(),
             template,
             cost: vec![UNREACHED; graph.propositions()],
@@ -115,6 +137,15 @@ impl<'a> Explorer<'a> {
         self.supporter[proposition as usize]
     }
 
+    /// How often the supporter of a proposition must be done for it in this state.
+    pub(crate) fn times(&self, proposition: u32, words: &[u64]) -> u32 {
+        let Some(repetitions) = &self.repetitions else { return 1 };
+        let effects = &self.graph.effects;
+        let mut achieved = effects.range(self.supporter(proposition));
+        let effect = achieved.find(|&effect| effects.item(effect) == proposition);
+        effect.and_then(|effect| repetitions.count(effect, words)).unwrap_or(1)
+    }
+
     /// Whether everything that the node needs costs nothing.
     pub(crate) fn is_ready(&self, node: u32) -> bool {
         self.nodes[node as usize].cost == self.template[node as usize].cost
@@ -139,7 +170,7 @@ impl<'a> Explorer<'a> {
         graph.for_each_true(words, |p| self.offer(p, 0, UNREACHED));
         for &node in &graph.free {
             if self.nodes[node as usize].missing == 0 {
-                self.fire(node);
+                self.fire(node, words);
             }
         }
         let mut open = self.goal.len();
@@ -169,7 +200,7 @@ impl<'a> Explorer<'a> {
                 }
                 node.missing -= 1;
                 if node.missing == 0 {
-                    self.fire(n);
+                    self.fire(n, words);
                 }
             }
         }
@@ -187,11 +218,37 @@ impl<'a> Explorer<'a> {
         self.lowest = 0;
     }
 
-    fn fire(&mut self, node: u32) {
+    fn fire(&mut self, node: u32, words: &[u64]) {
         let cost = self.nodes[node as usize].cost;
-        for &p in self.graph.effects.row(node) {
-            self.offer(p, cost, node);
+        let effects = &self.graph.effects;
+        if self.repetitions.is_none() {
+            for &p in effects.row(node) {
+                self.offer(p, cost, node);
+            }
+            return;
         }
+        for effect in effects.range(node) {
+            let p = effects.item(effect);
+            if cost < self.cost[p as usize]
+                && let Some(cost) = self.repeated(node, effect, words)
+            {
+                self.offer(p, cost, node);
+            }
+        }
+    }
+
+    /// What an effect of a node costs with its repetitions; `None` where it never comes about.
+    fn repeated(&self, node: u32, effect: usize, words: &[u64]) -> Option<u32> {
+        let cost = self.nodes[node as usize].cost;
+        let Some(repetitions) = &self.repetitions else { return Some(cost) };
+        let times = repetitions.count(effect, words)?;
+        Some(match self.combine {
+            Combine::Sum => {
+                let more = (times - 1).saturating_mul(self.template[node as usize].cost);
+                cost.saturating_add(more).min(HIGHEST)
+            }
+            Combine::Max => cost.max(repetitions.bound(effect, words)).min(HIGHEST),
+        })
     }
 
     fn offer(&mut self, proposition: u32, cost: u32, by: u32) {

@@ -2,7 +2,8 @@
 //!
 //! Idea: supporters chosen by hadd; walking them back from the goal gives a plan of the relaxation,
 //! whose applicable operators are the ones worth trying first. Neither admissible nor consistent;
-//! safe. Cost: one exploration plus the plan.
+//! safe. An operator is in the plan as often as the comparison of numbers asks that takes it most often.
+//! Cost: one exploration plus the plan.
 //!
 //! Source: Hoffmann & Nebel, "The FF planning system", JAIR 2001, §4; supporters by hadd: Keyder &
 //! Geffner, "Heuristics for planning with action costs revisited", ECAI 2008.
@@ -20,6 +21,8 @@ pub(crate) struct Ff<'a> {
     /// Generation in which a proposition or operator was last marked.
     marked: Vec<u32>,
     used: Vec<u32>,
+    /// How often the relaxed plan has an operator that was used.
+    count: Vec<u32>,
     generation: u32,
     stack: Vec<u32>,
     /// What the last relaxed plan achieves.
@@ -34,6 +37,7 @@ impl<'a> Ff<'a> {
         Self {
             marked: vec![0; task.relaxation.propositions()],
             used: vec![0; task.operators.len()],
+            count: vec![0; task.operators.len()],
             generation: 0,
             stack: Vec::new(),
             achieved: Vec::new(),
@@ -68,12 +72,20 @@ impl<'a> Ff<'a> {
             self.achieved.push(p);
             self.stack.extend_from_slice(graph.preconditions.row(node));
             let number = graph.operator[node as usize];
-            if number == AXIOM || std::mem::replace(&mut self.used[number as usize], generation) == generation
-            {
+            if number == AXIOM {
                 continue;
             }
+            let times = self.explorer.times(p, words);
+            let again = std::mem::replace(&mut self.used[number as usize], generation) == generation;
+            let count = &mut self.count[number as usize];
+            let before = if again { *count } else { 0 };
+            *count = before.max(times);
             let operator = &self.task.operators.as_slice()[number as usize];
-            total = total.saturating_add(self.costs.of(operator.cost));
+            let more = (*count - before).saturating_mul(self.costs.of(operator.cost));
+            total = total.saturating_add(more);
+            if again {
+                continue;
+            }
             let Some(preferred) = preferred.as_deref_mut() else { continue };
             if self.explorer.is_ready(node) && operator.precondition.hold_in(words) {
                 preferred.push(OperatorId(number));

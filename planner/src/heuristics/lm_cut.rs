@@ -8,7 +8,7 @@
 //! Source: Helmert & Domshlak, "Landmarks, critical paths and abstractions: what's the difference
 //! anyway?", ICAPS 2009.
 
-use super::explorer::UNREACHED;
+use super::explorer::{Counting, UNREACHED};
 use super::{Combine, Costs, Estimate, Explorer, Heuristic, View};
 use crate::ids::{OperatorId, id32};
 use crate::search::{Job, Meter};
@@ -33,7 +33,7 @@ impl<'a> LmCut<'a> {
         let graph = &job.task.relaxation;
         Self {
             meter: job.meter,
-            explorer: Explorer::on(graph, job, Vec::new(), costs, Combine::Max),
+            explorer: Explorer::on(graph, job, Vec::new(), costs, Combine::Max, Counting::Once),
             goal: graph.literals(&job.goal.literals),
             achieved_by: graph.effects.transposed(graph.propositions()),
             costs: job.task.operators.iter().map(|o| costs.of(o.cost)).collect(),

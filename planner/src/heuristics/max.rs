@@ -1,4 +1,5 @@
-//! hmax: the dearest proposition of the goal. Admissible (with real costs), consistent, safe.
+//! hmax: the dearest proposition of the goal, a comparison of numbers no less than what it lacks costs
+//! at the lowest price of a unit. Admissible (with real costs), consistent, safe.
 //!
 //! Source: Bonet & Geffner, "Planning as heuristic search", AIJ 2001, §4.
 

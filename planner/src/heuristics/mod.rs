@@ -11,6 +11,7 @@ mod goal_count;
 mod landmarks;
 mod lm_cut;
 mod max;
+mod repetitions;
 
 pub(crate) use explorer::{Combine, Explorer};
 pub(crate) use ff::Ff;
@@ -48,6 +49,9 @@ pub enum Supported {
     Axioms,
     /// What operators cost.
     ActionCosts,
+    /// How often an operator must be repeated for a comparison of numbers; the others take once for
+    /// enough.
+    Repetitions,
 }
 
 /// Which costs of operators a heuristic counts.
@@ -109,9 +113,11 @@ impl HeuristicKind {
             Supported::ConditionalEffects,
             Supported::Axioms,
             Supported::ActionCosts,
+            Supported::Repetitions,
         ];
         let supports = match self {
             Self::GoalCount | Self::Landmarks => ALL.split_at(3).0,
+            Self::LmCut => ALL.split_at(4).0,
             _ => ALL,
         };
         Properties { admissible, consistent, safe: true, supports }

@@ -110,7 +110,7 @@ pub fn improve(
     };
     report.statistics += polished;
     let quality = match more.outcome {
-        Outcome::Unsolvable(_) if !task.numeric.has_overflowed() => Quality::Optimal,
+        Outcome::Unsolvable(_) if query.state.is_exact() => Quality::Optimal,
         Outcome::Unsolvable(_) | Outcome::Unsupported(_) => Quality::Unproven(Limit::Incomplete),
         Outcome::LimitReached(limit) => Quality::Unproven(limit),
         Outcome::Solved(_) => Quality::Unproven(Limit::Incomplete),

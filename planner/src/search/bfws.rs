@@ -159,6 +159,7 @@ impl<'a> Bfws<'a> {
             }
             self.next.copy_from_slice(&self.here);
             if !task.apply(operator, &self.here, &mut self.next) {
+                self.dropped = true;
                 continue;
             }
             self.statistics.generated += 1;

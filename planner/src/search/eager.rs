@@ -125,6 +125,7 @@ impl<'a> Eager<'a> {
             self.statistics.generated += 1;
             self.next.copy_from_slice(&self.here);
             if !task.apply(operator, &self.here, &mut self.next) {
+                self.pruned = true;
                 continue;
             }
             let (child, new) = self.registry.insert(&self.next, Some((id, operator)));

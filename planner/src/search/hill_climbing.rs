@@ -34,6 +34,8 @@ pub(crate) struct HillClimbing<'a> {
     registry: StateRegistry<'a>,
     queue: VecDeque<(StateId, Vec<OperatorId>)>,
     begun: bool,
+    /// Whether a successor was left out whose numbers do not fit.
+    pruned: bool,
     statistics: Statistics,
     next: Vec<u64>,
 }
@@ -49,6 +51,7 @@ impl<'a> HillClimbing<'a> {
             registry: StateRegistry::new(job.task, job.state.words()),
             queue: VecDeque::new(),
             begun: false,
+            pruned: false,
             statistics: Statistics::default(),
             next: job.state.words().to_vec(),
             job,
@@ -81,7 +84,7 @@ impl<'a> HillClimbing<'a> {
     fn step(&mut self) -> Option<Outcome> {
         let Some((id, helpful)) = self.queue.pop_front() else {
             if self.followed == Followed::All {
-                return Some(match self.steps.is_empty() {
+                return Some(match self.steps.is_empty() && !self.pruned {
                     // Everything was visited, from the very first state.
                     true => Outcome::Unsolvable(UnsolvableReason::SpaceExhausted),
                     false => Outcome::LimitReached(Limit::Incomplete),
@@ -105,6 +108,7 @@ impl<'a> HillClimbing<'a> {
             }
             self.next.copy_from_slice(&here);
             if !task.apply(operator, &here, &mut self.next) {
+                self.pruned = true;
                 continue;
             }
             self.statistics.generated += 1;

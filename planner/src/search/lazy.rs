@@ -119,6 +119,7 @@ impl<'a> Lazy<'a> {
         self.registry.read(from, &mut self.here);
         self.next.copy_from_slice(&self.here);
         if !task.apply(operator, &self.here, &mut self.next) {
+            self.pruned = true;
             return None;
         }
         self.statistics.generated += 1;

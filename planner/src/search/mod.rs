@@ -58,12 +58,14 @@ pub fn solve(
     if let Some(reason) = &query.goal.impossible {
         return Report::unsolvable(UnsolvableReason::Impossible(reason.clone()));
     }
-    if let Some(reason) = relaxed_unreachable(task, query, budget) {
+    if query.state.is_exact()
+        && let Some(reason) = relaxed_unreachable(task, query, budget)
+    {
         return Report::unsolvable(reason);
     }
     let SearchConfiguration { members, threads, .. } = *configuration;
     let mut report = portfolio::run(task, query, members, threads, &Bound::none(), budget, Sink::First);
-    if task.numeric.has_overflowed() && matches!(report.outcome, Outcome::Unsolvable(_)) {
+    if !query.state.is_exact() && matches!(report.outcome, Outcome::Unsolvable(_)) {
         report.outcome = Outcome::LimitReached(Limit::Incomplete);
     }
     if let Outcome::Solved(plan) = &mut report.outcome

@@ -3,6 +3,7 @@
 //! Problem: many operators differ only in things that do not matter to an effect (who else rides
 //! along), and every estimate walks them all. Idea: where one node achieves a proposition from a subset
 //! of another's needs at no more cost, the other loses that effect; a node without effects goes.
+//! What is achieved step by step keeps all its achievers: how many steps depends on the state.
 //! Invariant: hmax and hadd of every proposition stay what they were, and so does what can be reached.
 //! (A relaxed plan may cost more where one operator served two ends, so h+ and landmark cuts need
 //! the whole graph.) Cost: for each effect, a look at the kept achievers whose rarest need is one of
@@ -38,7 +39,12 @@ pub(crate) fn undominated(graph: &Relaxation) -> Relaxation {
         free: Vec::new(),
         mark: vec![u32::MAX; graph.propositions()],
     };
+    let stepwise = graph.ways.stepwise(&graph.effects, graph.propositions());
     for proposition in 0..id32(graph.propositions()) {
+        if stepwise[proposition as usize] {
+            achievers.row(proposition).iter().for_each(|&node| kept[node as usize].push(proposition));
+            continue;
+        }
         let mut candidates = achievers.row(proposition).to_vec();
         candidates.sort_by_key(|&n| (graph.preconditions.row(n).len(), graph.price(n), n));
         let mut looks = LOOKS * candidates.len();

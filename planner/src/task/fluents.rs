@@ -30,7 +30,7 @@ impl Task {
     }
 
     /// The state with other values of numeric fluents; those that are not in [`numbers`](Self::numbers)
-    /// are ignored. Comparisons and derived facts follow.
+    /// are ignored, and one that does not fit is missing. Comparisons and derived facts follow.
     pub fn with_numbers<'v>(
         &self,
         state: &State,
@@ -40,10 +40,12 @@ impl Task {
         for (application, value) in values {
             let stored = &self.numeric.fluents[..self.numeric.stored];
             if let Some(i) = stored.iter().position(|f| f.application == *application) {
-                self.numeric.set(next.words_mut(), FluentId::from_index(i), value);
+                let fit = self.numeric.set(next.words_mut(), FluentId::from_index(i), value);
+                next.note_fit(fit);
             }
         }
-        self.numeric.compare_all(next.words_mut());
+        let fit = self.numeric.compare_all(next.words_mut());
+        next.note_fit(fit);
         self.axioms.close(next.words_mut());
         next
     }

@@ -16,6 +16,7 @@ mod numeric;
 mod operator;
 mod packing;
 mod relaxation;
+mod repetition;
 mod state;
 mod successors;
 
@@ -30,6 +31,7 @@ pub(crate) use numeric::{Fluent, Numeric, NumericEffects, Update, changed};
 pub use operator::{ConditionalEffect, Goal, Impossible, Literals, Operator};
 pub(crate) use packing::Packing;
 pub(crate) use relaxation::{AXIOM, Relaxation, Rows};
+pub(crate) use repetition::{Way, Ways};
 pub use state::State;
 pub(crate) use state::{contains, for_each_set, set, unset};
 pub(crate) use successors::SuccessorTree;
@@ -174,7 +176,8 @@ impl Task {
     /// (those listed are ignored). Numbers are what they are initially.
     pub fn state(&self, facts: impl IntoIterator<Item = FactId>) -> State {
         let mut state = State::empty(self.facts.len(), self.numeric.words());
-        self.numeric.initialise(state.words_mut());
+        let fit = self.numeric.initialise(state.words_mut());
+        state.note_fit(fit);
         for fact in facts {
             if !self.facts[fact].derived {
                 state.insert(fact);

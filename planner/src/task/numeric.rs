@@ -5,16 +5,14 @@
 //! again whenever an operator changes a number that it reads. Everything else sees bits only.
 //! Invariant: in every state that a task makes, a comparison's bit says whether it holds, and a number
 //! is exact: where the values of all effects stay multiples of one fraction, a number is a multiple in
-//! one word, else a ratio in two. A step whose result fits into neither leads nowhere, and from then on
-//! the task owns up that its proofs of unsolvability are none ([`Numeric::has_overflowed`]). Cost: the
-//! changed numbers and the comparisons that read them, per operator.
+//! one word, else a ratio in two. A step whose result fits into neither is reported to whoever takes it,
+//! and a search that had to leave it out proves nothing. Cost: the changed numbers and the comparisons
+//! that read them, per operator.
 
 use super::{Literals, set, unset};
 use crate::ids::{FactId, FluentId};
 use crate::number::{Change, Expression, Influence, NoValue, Number, Relation};
 use pddl::model::{GroundApplication, Idx};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A numeric fluent that changes.
 #[derive(Clone, Debug)]
@@ -29,6 +27,8 @@ pub(crate) struct Comparison {
     pub(crate) fact: FactId,
     pub(crate) relation: Relation,
     pub(crate) expression: Expression<FluentId>,
+    /// Whether operators do nothing to its fluents but add constants.
+    pub(super) steady: bool,
     fast: Option<Fast>,
 }
 
@@ -96,7 +96,6 @@ pub(crate) struct Numeric {
     pub(crate) fluents: Box<[Fluent]>,
     pub(crate) stored: usize,
     pub(crate) comparisons: Box<[Comparison]>,
-    overflowed: Arc<AtomicBool>,
 }
 
 impl Default for Numeric {
@@ -107,7 +106,6 @@ impl Default for Numeric {
             fluents: Box::default(),
             stored: 0,
             comparisons: Box::default(),
-            overflowed: Arc::default(),
         }
     }
 }
@@ -131,7 +129,8 @@ impl Numeric {
         let mut numeric = Self { start, layout, fluents: fluents.into(), stored, ..Self::default() };
         let comparison = |(fact, relation, expression): (FactId, Relation, Expression<FluentId>)| {
             let fast = numeric.fast(&expression);
-            Comparison { fact, relation, expression, fast }
+            let steady = matches!(expression, Expression::Linear(_));
+            Comparison { fact, relation, expression, steady, fast }
         };
         numeric.comparisons = comparisons.into_iter().map(comparison).collect();
         let mut readers: Vec<Vec<u32>> = vec![Vec::new(); stored];
@@ -141,6 +140,12 @@ impl Numeric {
         for effect in &mut effects {
             for update in &mut effect.updates {
                 update.fast = update.value.as_ref().and_then(|value| numeric.fast(value));
+                let constant = update.value.as_ref().is_some_and(|value| value.as_constant().is_some());
+                if update.change != Change::Shift || !constant {
+                    for &reader in &readers[update.fluent.index()] {
+                        numeric.comparisons[reader as usize].steady = false;
+                    }
+                }
             }
             let read = effect.updates.iter().flat_map(|u| readers[u.fluent.index()].iter().copied());
             let mut rechecked: Vec<u32> = read.collect();
@@ -157,11 +162,6 @@ impl Numeric {
             Layout::Multiple(_) => self.stored,
             Layout::Ratio => 2 * self.stored,
         }
-    }
-
-    /// Whether some number was too long. A search that visited everything has then not proven anything.
-    pub(crate) fn has_overflowed(&self) -> bool {
-        self.overflowed.load(Ordering::Relaxed)
     }
 
     #[expect(clippy::cast_possible_wrap, reason = "words hold the bits of signed numbers")]
@@ -190,7 +190,7 @@ impl Numeric {
     pub(crate) fn set(&self, words: &mut [u64], fluent: FluentId, value: Option<Number>) -> bool {
         let i = fluent.index();
         let short = |n: i128| i64::try_from(n).ok().filter(|&n| n != NOTHING);
-        let fits = match self.layout {
+        match self.layout {
             Layout::Multiple(scale) => {
                 let multiple = |number: Number| {
                     let all = number.numerator().checked_mul(i128::from(scale))?;
@@ -208,25 +208,29 @@ impl Numeric {
                 words[self.start + 2 * i + 1] = denominator as u64;
                 both.is_some()
             }
-        };
-        fits || self.overflows()
-    }
-
-    /// Writes the initial values and the comparisons that hold then.
-    pub(crate) fn initialise(&self, words: &mut [u64]) {
-        for (i, fluent) in self.fluents[..self.stored].iter().enumerate() {
-            self.set(words, FluentId::from_index(i), fluent.initial);
         }
-        self.compare_all(words);
     }
 
-    /// Sets the bit of every comparison.
-    pub(crate) fn compare_all(&self, words: &mut [u64]) {
+    /// Writes the initial values and the comparisons that hold then; answers whether all numbers fit.
+    pub(crate) fn initialise(&self, words: &mut [u64]) -> bool {
+        let mut fit = true;
+        for (i, fluent) in self.fluents[..self.stored].iter().enumerate() {
+            fit &= self.set(words, FluentId::from_index(i), fluent.initial);
+        }
+        self.compare_all(words) && fit
+    }
+
+    /// Sets the bit of every comparison; answers whether all sides fit. One that does not counts as
+    /// false.
+    pub(crate) fn compare_all(&self, words: &mut [u64]) -> bool {
+        let mut fit = true;
         for comparison in &self.comparisons {
             if !self.compare(comparison, words) {
                 unset(words, comparison.fact);
+                fit = false;
             }
         }
+        fit
     }
 
     /// Makes an operator's changes to `next`, a copy of `state`; answers whether all numbers fit.
@@ -255,55 +259,17 @@ impl Numeric {
         let value = match update.value.as_ref().map(|v| v.evaluate(&|&f| self.value(state, f))) {
             None | Some(Err(NoValue::Undefined)) => None,
             Some(Ok(value)) => Some(value),
-            Some(Err(NoValue::Overflow)) => return self.overflows(),
+            Some(Err(NoValue::Overflow)) => return false,
         };
         let before = self.value(next, update.fluent);
         let after = changed(update.change, before, value);
         if after.is_none() && value.is_some() && before.is_some() {
-            return self.overflows();
+            return false;
         }
         self.set(next, update.fluent, after)
     }
 
-    fn overflows(&self) -> bool {
-        self.overflowed.store(true, Ordering::Relaxed);
-        false
-    }
-
-    /// What an operator may make of the comparisons: under which condition, which may come to hold and
-    /// which may fail.
-    pub(crate) fn influences<'e>(
-        &self,
-        effects: &'e NumericEffects,
-    ) -> Vec<(&'e Literals, Vec<FactId>, Vec<FactId>)> {
-        let mut found: Vec<(&Literals, Vec<FactId>, Vec<FactId>)> = Vec::new();
-        for update in &effects.updates {
-            let known = found.iter().position(|(condition, ..)| **condition == update.condition);
-            let place = known.unwrap_or_else(|| {
-                found.push((&update.condition, Vec::new(), Vec::new()));
-                found.len() - 1
-            });
-            for &position in &effects.rechecked {
-                let comparison = &self.comparisons[position as usize];
-                let mut reads = false;
-                comparison.expression.each_fluent(&mut |&f| reads |= f == update.fluent);
-                if !reads {
-                    continue;
-                }
-                let influence = self.influence(update, comparison);
-                let (_, holds, fails) = &mut found[place];
-                if influence.may_hold && !holds.contains(&comparison.fact) {
-                    holds.push(comparison.fact);
-                }
-                if influence.may_fail && !fails.contains(&comparison.fact) {
-                    fails.push(comparison.fact);
-                }
-            }
-        }
-        found
-    }
-
-    fn influence(&self, update: &Update, comparison: &Comparison) -> Influence {
+    pub(super) fn influence(&self, update: &Update, comparison: &Comparison) -> Influence {
         let compared = (comparison.relation, &comparison.expression);
         Influence::of(compared, &update.fluent, update.change, update.value.as_ref())
     }
@@ -313,7 +279,7 @@ impl Numeric {
         match self.holds(comparison, words) {
             Some(true) => set(words, comparison.fact),
             Some(false) => unset(words, comparison.fact),
-            None => return self.overflows(),
+            None => return false,
         }
         true
     }
@@ -329,6 +295,27 @@ impl Numeric {
             Ok(value) => Some(comparison.relation.holds(value.sign())),
             Err(NoValue::Undefined) => Some(false),
             Err(NoValue::Overflow) => None,
+        }
+    }
+
+    /// What one is in the units in which [`measure`](Self::measure) tells a comparison's expression.
+    pub(super) fn unit(&self, comparison: &Comparison) -> Number {
+        match (self.layout, &comparison.fast) {
+            (Layout::Multiple(scale), Some(fast)) => {
+                let unit =
+                    i128::from(scale).checked_mul(fast.divisor).and_then(|unit| Number::ratio(unit, 1));
+                unit.expect("a scale and a divisor are small")
+            }
+            _ => Number::ONE,
+        }
+    }
+
+    /// The value of a comparison's expression, in its units: to 15 digits.
+    #[expect(clippy::cast_precision_loss, reason = "estimates take the first digits")]
+    pub(super) fn measure(&self, comparison: &Comparison, words: &[u64]) -> Option<f64> {
+        match &comparison.fast {
+            Some(fast) => self.sum(fast, words).map(|sum| sum as f64),
+            None => comparison.expression.evaluate(&|&f| self.value(words, f)).ok().map(Number::to_f64),
         }
     }
 

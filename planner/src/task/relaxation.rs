@@ -4,11 +4,13 @@
 //! times. Idea: a proposition for each fact and for the negation of each fact that some condition
 //! negates; a node for each operator, each of its conditional effects and each axiom rule; adjacency
 //! in compressed rows. Deleting a fact achieves its negation. The negation of a derived fact counts
-//! as true (optimistic, hence safe). Invariant: a plan of the task is a plan of the relaxation.
+//! as true (optimistic, hence safe). A comparison of numbers is a fact like others; how often an
+//! operator must be done for it is told by [`Ways`]. Invariant: a plan of the task is a plan of the
+//! relaxation.
 //!
 //! Source: Hoffmann & Nebel, "The FF planning system", JAIR 2001, §3; negations as in Helmert 2006.
 
-use super::{AxiomProgram, Fact, Goal, Literals, Numeric, Operator, contains, for_each_set};
+use super::{AxiomProgram, Fact, Goal, Literals, Numeric, Operator, Way, Ways, contains, for_each_set};
 use crate::ids::{FactId, OperatorId, id32};
 use pddl::model::{Idx, IndexVec};
 
@@ -29,7 +31,16 @@ impl Rows {
     }
 
     pub(crate) fn row(&self, i: u32) -> &[u32] {
-        &self.items[self.starts[i as usize] as usize..self.starts[i as usize + 1] as usize]
+        &self.items[self.range(i)]
+    }
+
+    /// The positions of a row among all items.
+    pub(crate) fn range(&self, i: u32) -> std::ops::Range<usize> {
+        self.starts[i as usize] as usize..self.starts[i as usize + 1] as usize
+    }
+
+    pub(crate) fn item(&self, position: usize) -> u32 {
+        self.items[position]
     }
 
     fn len(&self) -> usize {
@@ -78,6 +89,8 @@ pub(crate) struct Relaxation {
     pub(crate) preconditions: Rows,
     /// What each node achieves.
     pub(crate) effects: Rows,
+    /// How it achieves them.
+    pub(crate) ways: Ways,
     /// The nodes that need a proposition.
     pub(crate) needed_by: Rows,
     /// The nodes that need nothing.
@@ -112,8 +125,19 @@ impl Relaxation {
         }
         for (id, op) in operators.enumerate() {
             graph.node(id.0, op.cost, &[&op.precondition], &op.adds, &op.deletes);
-            for (condition, holds, fails) in op.numeric.iter().flat_map(|e| numeric.influences(e)) {
-                graph.node(id.0, op.cost, &[&op.precondition, condition], &holds, &fails);
+            for influenced in op.numeric.iter().flat_map(|e| numeric.influences(e)) {
+                let (facts, ways): (Vec<FactId>, Vec<Way>) = influenced.holds.into_iter().unzip();
+                let before = graph.effects.items.len();
+                graph.node(
+                    id.0,
+                    op.cost,
+                    &[&op.precondition, influenced.condition],
+                    &facts,
+                    &influenced.fails,
+                );
+                for (i, way) in ways.into_iter().enumerate() {
+                    graph.ways.set(before + i, way);
+                }
             }
             for e in &op.conditional {
                 graph.node(id.0, op.cost, &[&op.precondition, &e.condition], &e.adds, &e.deletes);
@@ -167,6 +191,15 @@ impl Relaxation {
             graph.operator.push(self.operator[node]);
             graph.cost.push(self.cost[node]);
             graph.preconditions.push(needs.iter().copied());
+            if !self.ways.is_empty() {
+                let before = graph.effects.items.len();
+                for (i, effect) in effects.iter().enumerate() {
+                    let mut known = self.effects.range(id32(node));
+                    if let Some(position) = known.find(|&position| self.effects.item(position) == *effect) {
+                        graph.ways.set(before + i, self.ways.get(position).clone());
+                    }
+                }
+            }
             graph.effects.push(effects.iter().copied());
         }
         graph.needed_by = graph.preconditions.transposed(graph.propositions());

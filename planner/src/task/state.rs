@@ -14,13 +14,15 @@ pub struct State {
     words: Box<[u64]>,
     /// How many of the words are facts.
     facts: usize,
+    /// Whether a number that it was given fits into no word, and is missing.
+    lost: bool,
 }
 
 impl State {
     /// Of so many facts, and so many words of numbers.
     pub(crate) fn empty(facts: usize, numbers: usize) -> Self {
         let facts = facts.div_ceil(64);
-        Self { words: vec![0; facts + numbers].into_boxed_slice(), facts }
+        Self { words: vec![0; facts + numbers].into_boxed_slice(), facts, lost: false }
     }
 
     /// Whether the fact holds.
@@ -33,6 +35,17 @@ impl State {
         let mut facts = Vec::new();
         for_each_set(&self.words[..self.facts], |f| facts.push(FactId(f)));
         facts
+    }
+
+    /// Whether all numbers that it was given are in it. From a state that lacks one, nothing is proven
+    /// to be impossible.
+    pub(crate) fn is_exact(&self) -> bool {
+        !self.lost
+    }
+
+    /// Notes whether the numbers that were written last fit.
+    pub(crate) fn note_fit(&mut self, fit: bool) {
+        self.lost |= !fit;
     }
 
     pub(crate) fn insert(&mut self, fact: FactId) {

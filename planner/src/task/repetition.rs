@@ -1,0 +1,282 @@
+//! How operators move comparisons in the relaxation: at once, or step by step.
+//!
+//! Problem: to a relaxation that knows bits, one litre fills the tank. Idea: where an operator adds
+//! always the same to a weighted sum of fluents, what the sum lacks in a state says how often the
+//! operator must be done; where it adds what other fluents say (a rate), their values in the state say
+//! so. Whatever else an operator does to a comparison (assignments, scaling, products) may satisfy it at
+//! once. An operator's effects on one sum are taken together; those under conditions may come on top.
+//! Invariant: if a comparison ever comes to hold on the way from a state, then some operator of that way
+//! has a node that achieves it in finitely many repetitions from there: relaxations stay safe.
+//!
+//! Source: Scala, Haslum, Thiébaux & Ramirez, "Subgoaling techniques for satisficing and optimal numeric
+//! planning", JAIR 2020, §4; Hoffmann, "The Metric-FF planning system", JAIR 2003. Rates are ours.
+
+use super::numeric::{Comparison, Numeric, NumericEffects, Update};
+use super::{Literals, Rows};
+use crate::ids::{FactId, FluentId};
+use crate::number::{Change, Expression, Number, Relation};
+
+/// How a node achieves a proposition.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Way {
+    /// It holds afterwards, as far as the relaxation knows.
+    Once,
+    /// It moves this comparison by so many of its units each time.
+    Steps { comparison: u32, step: f64 },
+    /// It moves this comparison by the value of an expression, which other operators may change.
+    Rate { comparison: u32, step: Box<Expression<FluentId>> },
+}
+
+/// The ways of all effects of a graph, by their position among all effects.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Ways {
+    /// Positions in `known`, plus 1; 0 is [`Way::Once`]. Shorter than the effects where the rest is.
+    of: Vec<u32>,
+    known: Vec<Way>,
+}
+
+impl Ways {
+    pub(crate) fn is_empty(&self) -> bool {
+        self.known.is_empty()
+    }
+
+    pub(crate) fn get(&self, effect: usize) -> &Way {
+        match self.of.get(effect) {
+            None | Some(0) => &Way::Once,
+            Some(&position) => &self.known[position as usize - 1],
+        }
+    }
+
+    pub(crate) fn set(&mut self, effect: usize, way: Way) {
+        if way == Way::Once {
+            return;
+        }
+        if self.of.len() <= effect {
+            self.of.resize(effect + 1, 0);
+        }
+        self.known.push(way);
+        self.of[effect] = crate::ids::id32(self.known.len());
+    }
+
+    /// By proposition: whether some node achieves it step by step.
+    pub(crate) fn stepwise(&self, effects: &Rows, propositions: usize) -> Vec<bool> {
+        let mut found = vec![false; propositions];
+        for (effect, _) in self.of.iter().enumerate().filter(|(_, position)| **position != 0) {
+            found[effects.item(effect) as usize] = true;
+        }
+        found
+    }
+}
+
+/// What effects under one condition may do to comparisons.
+pub(crate) struct Influenced<'e> {
+    pub(crate) condition: &'e Literals,
+    /// What may come to hold, and how.
+    pub(crate) holds: Vec<(FactId, Way)>,
+    /// What may fail.
+    pub(crate) fails: Vec<FactId>,
+}
+
+/// What the effects under one condition do to one comparison.
+enum Move {
+    /// They add this to its expression.
+    By(Expression<FluentId>),
+    /// Something else.
+    Any { may_hold: bool, may_fail: bool },
+}
+
+impl Move {
+    fn constant(&self) -> Option<Number> {
+        match self {
+            Self::By(expression) => expression.as_constant(),
+            Self::Any { .. } => None,
+        }
+    }
+}
+
+impl Numeric {
+    /// What an operator may make of the comparisons, by the condition under which it does.
+    pub(crate) fn influences<'e>(&self, effects: &'e NumericEffects) -> Vec<Influenced<'e>> {
+        let mut groups: Vec<(Influenced<'e>, Vec<&Update>)> = Vec::new();
+        for update in &effects.updates {
+            match groups.iter_mut().find(|(group, _)| *group.condition == update.condition) {
+                Some((_, updates)) => updates.push(update),
+                None => {
+                    let condition = &update.condition;
+                    groups
+                        .push((Influenced { condition, holds: Vec::new(), fails: Vec::new() }, vec![update]));
+                }
+            }
+        }
+        for &position in &effects.rechecked {
+            let comparison = &self.comparisons[position as usize];
+            let moves: Vec<Option<Move>> =
+                groups.iter().map(|(_, updates)| self.moved(comparison, updates)).collect();
+            for (i, (group, _)) in groups.iter_mut().enumerate() {
+                let Some(own) = &moves[i] else { continue };
+                let others =
+                    || moves.iter().enumerate().filter(|(j, _)| *j != i).filter_map(|(_, m)| m.as_ref());
+                let (way, fails) = self.way(position, own, others);
+                group.holds.extend(way.map(|way| (comparison.fact, way)));
+                if fails {
+                    group.fails.push(comparison.fact);
+                }
+            }
+        }
+        groups.into_iter().map(|(group, _)| group).collect()
+    }
+
+    /// `None` where none of the updates touches the comparison.
+    fn moved(&self, comparison: &Comparison, updates: &[&Update]) -> Option<Move> {
+        let mut all: Option<Move> = None;
+        for update in updates {
+            let mut reads = false;
+            comparison.expression.each_fluent(&mut |&f| reads |= f == update.fluent);
+            if !reads {
+                continue;
+            }
+            let influence = self.influence(update, comparison);
+            let any = || Move::Any { may_hold: influence.may_hold, may_fail: influence.may_fail };
+            let own = match (influence.step, shift(comparison, update)) {
+                (Some(step), _) => Move::By(Expression::constant(step)),
+                (None, Some(rate)) => Move::By(rate),
+                (None, None) => any(),
+            };
+            all = Some(match (all, own) {
+                (None, own) => own,
+                (Some(Move::By(a)), Move::By(b)) => {
+                    a.plus(b).map_or(Move::Any { may_hold: true, may_fail: true }, Move::By)
+                }
+                (Some(a), b) => {
+                    let (a, b) = (a.may(comparison.relation), b.may(comparison.relation));
+                    Move::Any { may_hold: a.0 || b.0, may_fail: a.1 || b.1 }
+                }
+            });
+        }
+        all
+    }
+
+    /// How a move achieves the comparison, and whether it may make it fail.
+    fn way<'m, I: Iterator<Item = &'m Move>>(
+        &self,
+        position: u32,
+        own: &Move,
+        others: impl Fn() -> I,
+    ) -> (Option<Way>, bool) {
+        let comparison = &self.comparisons[position as usize];
+        let (may_hold, may_fail) = own.may(comparison.relation);
+        let Move::By(expression) = own else { return (may_hold.then_some(Way::Once), may_fail) };
+        let way = match (own.constant(), comparison.relation) {
+            _ if !may_hold => None,
+            (_, Relation::NonZero | Relation::Defined) => Some(Way::Once),
+            // What comes on top may be what makes it exact.
+            (Some(_), Relation::Zero) if others().next().is_some() => Some(Way::Once),
+            (Some(step), _) => {
+                let mut more = others().filter_map(Move::constant).filter(|n| n.sign() > 0);
+                let whole = more.try_fold(step, Number::plus);
+                let units = whole.and_then(|step| step.times(self.unit(comparison)));
+                Some(units.map_or(Way::Once, |n| Way::Steps { comparison: position, step: n.to_f64() }))
+            }
+            (None, _) => Some(Way::Rate { comparison: position, step: Box::new(expression.clone()) }),
+        };
+        (way, may_fail)
+    }
+
+    /// How many repetitions of a way make its comparison hold, were nothing else done; `None` where no
+    /// number of them does, whatever other operators do meanwhile.
+    pub(crate) fn repetitions(&self, way: &Way, words: &[u64]) -> Option<f64> {
+        let (comparison, step) = match way {
+            Way::Once => return Some(1.0),
+            Way::Steps { comparison, step } => (&self.comparisons[*comparison as usize], *step),
+            Way::Rate { comparison, step } => {
+                let comparison = &self.comparisons[*comparison as usize];
+                let Ok(rate) = step.evaluate(&|&f| self.value(words, f)) else { return Some(1.0) };
+                let rate = rate.to_f64() * self.unit(comparison).to_f64();
+                // The rate may change, and then one more step may be enough.
+                return Some(
+                    times(comparison.relation, self.measure(comparison, words), rate).unwrap_or(1.0),
+                );
+            }
+        };
+        let value = self.measure(comparison, words);
+        match times(comparison.relation, value, step) {
+            None if comparison.steady => None,
+            // An assignment may turn things round, or give a value in the first place.
+            None => (comparison.relation == Relation::Zero || value.is_none()).then_some(1.0),
+            times => times,
+        }
+    }
+
+    /// How far from holding a comparison is, in its units and with the sign of what it lacks; `None`
+    /// where it has no value, or other effects than constant additions touch it.
+    pub(crate) fn lack(&self, comparison: u32, words: &[u64]) -> Option<f64> {
+        let comparison = &self.comparisons[comparison as usize];
+        let value = self.measure(comparison, words).filter(|_| comparison.steady)?;
+        match comparison.relation {
+            Relation::Positive | Relation::NonNegative => Some((-value).max(0.0)),
+            Relation::Zero => Some(-value),
+            Relation::NonZero | Relation::Defined => None,
+        }
+    }
+}
+
+impl Move {
+    /// Whether a comparison of this relation may come to hold by it, and whether it may fail.
+    fn may(&self, relation: Relation) -> (bool, bool) {
+        match self {
+            Self::Any { may_hold, may_fail } => (*may_hold, *may_fail),
+            Self::By(_) => match (self.constant(), relation) {
+                (Some(step), _) if step.is_zero() => (false, false),
+                (Some(step), Relation::Positive | Relation::NonNegative) => {
+                    (step.sign() > 0, step.sign() < 0)
+                }
+                _ => (true, true),
+            },
+        }
+    }
+}
+
+/// What an update adds to the expression of a comparison, if that is linear in other fluents.
+fn shift(comparison: &Comparison, update: &Update) -> Option<Expression<FluentId>> {
+    let (Expression::Linear(compared), Some(value @ Expression::Linear(_))) =
+        (&comparison.expression, &update.value)
+    else {
+        return None;
+    };
+    if update.change != Change::Shift || comparison.relation == Relation::Defined {
+        return None;
+    }
+    let coefficient = compared.terms.iter().find(|(f, _)| *f == update.fluent).map(|(_, c)| *c)?;
+    value.clone().times(Expression::constant(coefficient)).ok()
+}
+
+/// How many steps take a value to where the relation holds.
+fn times(relation: Relation, value: Option<f64>, step: f64) -> Option<f64> {
+    let value = value?;
+    match relation {
+        Relation::Positive if value > 0.0 => Some(1.0),
+        Relation::Positive => (step > 0.0).then(|| (-value / step).floor() + 1.0),
+        Relation::NonNegative if value >= 0.0 => Some(1.0),
+        Relation::NonNegative => (step > 0.0).then(|| (-value / step).ceil()),
+        Relation::Zero if value == 0.0 => Some(1.0),
+        Relation::Zero => (step * value < 0.0).then(|| (-value / step).ceil()),
+        Relation::NonZero | Relation::Defined => Some(1.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Relation, times};
+
+    #[test]
+    fn repetitions_are_counted_up_to_the_bound() {
+        assert_eq!(times(Relation::NonNegative, Some(-10.0), 3.0), Some(4.0));
+        assert_eq!(times(Relation::NonNegative, Some(-9.0), 3.0), Some(3.0));
+        assert_eq!(times(Relation::Positive, Some(-9.0), 3.0), Some(4.0));
+        assert_eq!(times(Relation::Positive, Some(0.0), 3.0), Some(1.0));
+        assert_eq!(times(Relation::Positive, Some(0.0), -3.0), None);
+        assert_eq!(times(Relation::Zero, Some(7.0), -2.0), Some(4.0));
+        assert_eq!(times(Relation::Zero, Some(7.0), 2.0), None);
+        assert_eq!(times(Relation::Zero, None, 2.0), None);
+    }
+}

@@ -1,0 +1,95 @@
+//! Tasks with numbers that a random one would hardly be.
+
+#![allow(clippy::unwrap_used, reason = "a test")]
+
+use planner::{
+    Budget, GroundOptions, Limit, Outcome, Query, SearchConfiguration, Task, UnsolvableReason, ground, solve,
+};
+
+fn task(domain: &str, problem: &str) -> Task {
+    let domain = pddl::parse_domain(&pddl::Source::new("domain", domain), &[]).model.unwrap();
+    let problem = pddl::parse_problem(&pddl::Source::new("problem", problem), &domain).model.unwrap();
+    ground(&domain, &problem, &GroundOptions::default()).unwrap()
+}
+
+/// What one question could not hold is no concern of the next one.
+#[test]
+fn numbers_that_outgrow_a_word_leave_only_that_answer_open() {
+    let task = task(
+        "(define (domain growth) (:requirements :numeric-fluents)
+           (:predicates (on)) (:functions (x))
+           (:action double :parameters () :effect (scale-up (x) 2))
+           (:action switch :parameters () :effect (on)))",
+        "(define (problem three) (:domain growth) (:init (= (x) 1)) (:goal (= (x) 3)))",
+    );
+    let double: Vec<_> =
+        task.operators().enumerate().filter(|(_, o)| o.changes_numbers()).map(|(id, _)| id).collect();
+    for configuration in SearchConfiguration::ALL.iter().filter(|c| c.complete) {
+        let ask = |query: &Query<'_>| solve(&task, query, configuration, &Budget::default()).outcome;
+        let open = Outcome::LimitReached(Limit::Incomplete);
+        assert_eq!(ask(&Query::of(&task)), open, "{}", configuration.name);
+        let without = Query { excluded: &double, ..Query::of(&task) };
+        assert!(matches!(ask(&without), Outcome::Unsolvable(_)), "{}", configuration.name);
+        assert_eq!(ask(&Query::of(&task)), open, "{}", configuration.name);
+    }
+}
+
+/// A state that was told more than it can hold proves nothing; the next one does.
+#[test]
+fn a_number_that_does_not_fit_a_state_leaves_its_answer_open() {
+    let task = task(
+        "(define (domain tank) (:requirements :numeric-fluents) (:predicates (done)) (:functions (level))
+           (:action fill :parameters () :precondition (< (level) 3) :effect (increase (level) 1))
+           (:action stop :parameters () :precondition (>= (level) 5) :effect (done)))",
+        "(define (problem stop) (:domain tank) (:init (= (level) 0)) (:goal (done)))",
+    );
+    let level = task.numbers(task.initial_state()).next().unwrap().0.clone();
+    let state = |value: f64| {
+        let value = planner::Number::from_f64(value);
+        task.with_numbers(task.initial_state(), [(&level, value)])
+    };
+    let ask = |state| {
+        let query = Query { state, ..Query::of(&task) };
+        solve(&task, &query, &SearchConfiguration::default(), &Budget::default()).outcome
+    };
+    let (third, full, empty) = (state(1.0 / 3.0), state(7.0), state(0.0));
+    assert_eq!(ask(&third), Outcome::LimitReached(Limit::Incomplete));
+    assert!(matches!(ask(&full), Outcome::Solved(_)));
+    assert_eq!(ask(&empty), Outcome::Unsolvable(UnsolvableReason::SpaceExhausted));
+}
+
+/// A relaxed plan that fills a tank litre by litre leads a search straight there.
+#[test]
+fn relaxed_plans_count_repetitions() {
+    let task = task(
+        "(define (domain tank) (:requirements :numeric-fluents :negative-preconditions)
+           (:predicates (open) (done)) (:functions (level) (waste))
+           (:action turn :parameters () :precondition (not (open)) :effect (open))
+           (:action fill :parameters () :precondition (open) :effect (increase (level) 0.5))
+           (:action spill :parameters () :effect (increase (waste) 1))
+           (:action drain :parameters () :precondition (>= (level) 0.5) :effect (decrease (level) 0.5))
+           (:action stop :parameters () :precondition (and (>= (level) 60) (< (waste) 1)) :effect (done)))",
+        "(define (problem stop) (:domain tank) (:init (= (level) 0) (= (waste) 0)) (:goal (done)))",
+    );
+    for name in ["lama", "lazy-ff", "greedy-ff", "greedy-add", "hill", "astar-max"] {
+        let configuration = SearchConfiguration::named(name).unwrap();
+        let report = solve(&task, &Query::of(&task), &configuration, &Budget::default());
+        let Outcome::Solved(plan) = report.outcome else { panic!("{name}: {:?}", report.outcome) };
+        assert_eq!(plan.operators.len(), 122, "{name}");
+        assert!(report.statistics.expanded < 400, "{name}: {}", report.statistics.expanded);
+    }
+}
+
+/// What moves away from the goal alone never gets there.
+#[test]
+fn a_sum_that_only_grows_never_falls() {
+    let task = task(
+        "(define (domain sum) (:requirements :numeric-fluents) (:functions (x) (y))
+           (:action both :parameters () :effect (and (increase (x) 1) (increase (y) 2)))
+           (:action trade :parameters () :effect (and (increase (x) 2) (decrease (y) 2))))",
+        "(define (problem less) (:domain sum) (:init (= (x) 4) (= (y) 1)) (:goal (< (+ (x) (y)) 5)))",
+    );
+    let outcome =
+        solve(&task, &Query::of(&task), &SearchConfiguration::default(), &Budget::default()).outcome;
+    assert!(matches!(outcome, Outcome::Unsolvable(UnsolvableReason::Impossible(_))), "{outcome:?}");
+}
