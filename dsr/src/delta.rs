@@ -39,7 +39,7 @@ pub enum Change {
         child: NodeId,
         new: Isometry3<f64>,
         /// When it was there; `None` for a pose that stands until it is changed.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[serde(default)]
         time: Option<Time>,
     },
     /// A child moved relative to its parent.

@@ -11,10 +11,12 @@
 
 mod builder;
 mod permission;
+mod plain;
 
 use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
+use serde::{Deserialize, Serialize};
 
 pub use self::builder::{DictionaryBuilder, DictionaryError};
 pub use self::permission::{End, Permission, Token};
@@ -22,7 +24,8 @@ use crate::id::{AgentId, AttributeId, LabelId, NodeId, ResourceId, TypeId};
 use crate::value::Kind;
 
 /// Whether nodes of a type may take part in the geometric quiver.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Nature {
     /// Symbolic only, unless an ancestor is geometric.
     Symbolic,
@@ -31,7 +34,7 @@ pub enum Nature {
 }
 
 /// The types of the two ends that a label may connect.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Signature {
     /// Type of the start, or a supertype of it.
     pub from: TypeId,
@@ -40,7 +43,8 @@ pub struct Signature {
 }
 
 /// What carries an attribute, by type.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum HolderType {
     /// Nodes of this type and its subtypes.
     Node(TypeId),

@@ -120,26 +120,41 @@ pub struct ExportedSample {
 impl Snapshot {
     /// The state as plain data.
     pub fn export(&self) -> Export {
-        let name = |id| self.state().name(id);
-        let attributes = |views: Vec<AttributeView<'_>>| {
-            views.into_iter().map(|view| self.export_attribute(view)).collect::<Vec<_>>()
-        };
-        let dictionary = self.dictionary();
-        let nodes = self.nodes().map(|node| ExportedNode {
+        Export {
+            version: self.version(),
+            time: self.time(),
+            next: self.state().next,
+            nodes: self.exported_nodes().collect(),
+            edges: self.exported_edges().collect(),
+            transforms: self.exported_transforms().collect(),
+        }
+    }
+
+    /// The nodes of the export, one by one.
+    pub(crate) fn exported_nodes(&self) -> impl Iterator<Item = ExportedNode> + '_ {
+        self.nodes().map(|node| ExportedNode {
             id: node.id,
             name: node.name().into(),
-            node_type: dictionary.type_name(node.node_type()).cloned().unwrap_or_default(),
+            node_type: self.dictionary().type_name(node.node_type()).cloned().unwrap_or_default(),
             since: node.since(),
-            attributes: attributes(node.attributes().collect()),
-        });
-        let edges = self.edges().map(|edge| ExportedEdge {
-            from: name(edge.key.from),
-            label: dictionary.label_name(edge.key.label).cloned().unwrap_or_default(),
-            to: name(edge.key.to),
+            attributes: node.attributes().map(|view| self.export_attribute(view)).collect(),
+        })
+    }
+
+    /// The edges of the export, one by one.
+    pub(crate) fn exported_edges(&self) -> impl Iterator<Item = ExportedEdge> + '_ {
+        self.edges().map(|edge| ExportedEdge {
+            from: self.state().name(edge.key.from),
+            label: self.dictionary().label_name(edge.key.label).cloned().unwrap_or_default(),
+            to: self.state().name(edge.key.to),
             since: edge.since(),
-            attributes: attributes(edge.attributes().collect()),
-        });
-        let transforms = self.nodes().filter_map(|node| {
+            attributes: edge.attributes().map(|view| self.export_attribute(view)).collect(),
+        })
+    }
+
+    /// The transforms of the export, one by one.
+    pub(crate) fn exported_transforms(&self) -> impl Iterator<Item = ExportedTransform> + '_ {
+        self.nodes().filter_map(|node| {
             let (parent, pose, since) = node.parent()?;
             let (translation, rotation) = numbers_of(pose);
             let samples = node.poses().map(|(time, pose)| {
@@ -147,22 +162,14 @@ impl Snapshot {
                 ExportedSample { time, translation, rotation }
             });
             Some(ExportedTransform {
-                parent: name(parent),
+                parent: self.state().name(parent),
                 child: node.name().into(),
                 translation,
                 rotation,
                 since,
                 samples: samples.collect(),
             })
-        });
-        Export {
-            version: self.version(),
-            time: self.time(),
-            next: self.state().next,
-            nodes: nodes.collect(),
-            edges: edges.collect(),
-            transforms: transforms.collect(),
-        }
+        })
     }
 
     fn export_attribute(&self, view: AttributeView<'_>) -> ExportedAttribute {
@@ -187,7 +194,7 @@ fn numbers_of(pose: &Isometry3<f64>) -> ([f64; 3], [f64; 4]) {
 /// The pose of these numbers, if they are one. Not normalised again: the bits must come back as they were.
 fn pose_of([x, y, z]: [f64; 3], [i, j, k, w]: [f64; 4]) -> Option<Isometry3<f64>> {
     let rotation = Quaternion::new(w, i, j, k);
-    let rigid = [x, y, z].iter().all(|c| c.is_finite()) && (rotation.norm() - 1.0).abs() < 1e-6;
+    let rigid = [x, y, z].iter().all(|c| c.is_finite()) && (rotation.norm() - 1.0).abs() < 1e-3;
     rigid.then(|| Isometry3::from_parts(Translation3::new(x, y, z), Unit::new_unchecked(rotation)))
 }
 

@@ -10,12 +10,13 @@
 //! version and wakes nobody. No code of others runs under the lock.
 
 use std::num::NonZeroUsize;
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 
 use crate::delta::Delta;
 use crate::dictionary::Dictionary;
 use crate::export::{self, Export, RestoreError};
 use crate::id::{AgentId, NodeId, ReflexId, Time, Version};
+use crate::journal::feed::Feed;
 use crate::kernel::{Kernel, Twin};
 use crate::pattern::Pattern;
 use crate::reflex::Registry;
@@ -55,6 +56,8 @@ struct Shared {
 struct Writers {
     version: Version,
     queues: Routes,
+    /// The journals that take each delta.
+    feeds: Vec<Arc<Feed>>,
 }
 
 /// What one commit made of a state.
@@ -82,9 +85,27 @@ const LARGE: NodeId = NodeId(1 << 17);
 impl Drop for Shared {
     fn drop(&mut self) {
         let mut writing = self.kernel.write();
-        let wakes: Vec<_> = writing.own().queues.queues().filter_map(|queue| queue.close()).collect();
+        let present = writing.present();
+        let writers = writing.own();
+        writers.feeds.iter().for_each(|feed| feed.close(&present));
+        let wakes: Vec<_> = writers.queues.queues().filter_map(|queue| queue.close()).collect();
         drop(writing);
         wakes.into_iter().for_each(Wake::call);
+    }
+}
+
+/// A graph as a journal sees it: without keeping it alive.
+#[derive(Clone)]
+pub(crate) struct Observed(Weak<Shared>);
+
+impl Observed {
+    /// What waits in the feed and the state right after it, so that nothing falls between the two.
+    pub(crate) fn restart(&self, feed: &Feed) -> Option<(Vec<Arc<Delta>>, Snapshot)> {
+        let shared = self.0.upgrade()?;
+        let writing = shared.kernel.write();
+        let found = (feed.restart(), Snapshot::new(writing.present()));
+        drop(writing);
+        Some(found)
     }
 }
 
@@ -114,7 +135,8 @@ impl Graph {
 
     fn with(state: State) -> Self {
         let dictionary = Arc::clone(&state.dictionary);
-        let writers = Writers { version: state.version, queues: Routes::default() };
+        let (version, queues, feeds) = (state.version, Routes::default(), Vec::new());
+        let writers = Writers { version, queues, feeds };
         Self { shared: Arc::new(Shared { dictionary, kernel: Kernel::new(state, writers) }) }
     }
 
@@ -150,6 +172,7 @@ impl Graph {
         if changed {
             let writers = writing.own();
             writers.version = delta.version;
+            writers.feeds.retain(|feed| feed.push(&delta));
             if !writers.queues.is_empty() {
                 let committed = Committed { delta: Arc::clone(&delta), snapshot: snapshot.clone() };
                 let tell = |queue: &Arc<Queue>| wakes.extend(queue.push(&committed));
@@ -234,6 +257,24 @@ impl Graph {
         let present = writing.present();
         writing.own().queues.add(queue, pattern, &present);
         Snapshot::new(present)
+    }
+
+    /// Hands every commit from now on to a feed, which begins with the state of now.
+    pub(crate) fn attach(&self, feed: &Arc<Feed>) -> Snapshot {
+        let mut writing = self.shared.kernel.write();
+        writing.own().feeds.push(Arc::clone(feed));
+        Snapshot::new(writing.present())
+    }
+
+    pub(crate) fn observed(&self) -> Observed {
+        Observed(Arc::downgrade(&self.shared))
+    }
+
+    /// A graph of its own that goes on from a snapshot. Reflexes stay where they were registered.
+    pub fn from_snapshot(snapshot: &Snapshot) -> Self {
+        let mut state = snapshot.state().clone();
+        state.reflexes = Registry::default();
+        Self::with(state)
     }
 }
 

@@ -6,8 +6,8 @@
 //! subscribers which matches of their [`Pattern`]s appeared and disappeared, leases exclusive resources, and
 //! lets the [`Reflex`]es of broken activities write in the very commit that broke them.
 //!
-//! It reads no clock, no file and no socket: times are arguments, and the same transactions in the same order
-//! give the same bytes.
+//! It reads no clock and no socket: times are arguments, and the same transactions in the same order give the same
+//! bytes. A [`Journal`] writes them to a [`Store`] on a thread of its own, and a [`Recording`] gives every version back.
 //!
 //! ```
 //! use dsr::{AgentId, DictionaryBuilder, Graph, Nature, PatternBuilder, Time};
@@ -43,7 +43,7 @@
 //! Map, from the ground up: `id`, `value` → `dictionary` → `pages`, `block`, `names`, `members`, `state` (what a snapshot
 //! is), `track`, `undo` → `transaction` (edits, leases, the tree of transforms), `delta`, `replay`, `export` → `chain`, `pattern`,
 //! `reflex` → `snapshot`, `sentence`, `quiver` → `subscription`,
-//! `routes`, `kernel` (how readers and writers keep out of each other's way), `graph`.
+//! `routes`, `kernel` (how readers and writers keep out of each other's way), `graph` → `journal`.
 
 mod block;
 mod chain;
@@ -52,6 +52,7 @@ mod dictionary;
 mod export;
 mod graph;
 mod id;
+mod journal;
 mod kernel;
 mod members;
 mod mentions;
@@ -84,6 +85,10 @@ pub use export::{
 pub use graph::{Commit, Graph};
 pub use id::{
     AgentId, AttributeId, EdgeKey, Holder, LabelId, NodeId, ReflexId, ResourceId, Time, TypeId, Version,
+};
+pub use journal::{
+    Damage, Durability, Folder, Journal, JournalError, Memory, Played, Progress, Recording, RecordingError,
+    Replay, Settings, Store,
 };
 pub use mentions::Mentions;
 pub use nalgebra::Isometry3;

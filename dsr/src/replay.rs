@@ -3,10 +3,12 @@
 //! Invariant: replaying what a graph published gives its export, byte for byte. A delta that cannot have come
 //! after the state it is applied to is an error that names the version, never a panic.
 
+use nalgebra::Isometry3;
+
 use crate::delta::{Change, Delta};
 use crate::id::{EdgeKey, Holder, NodeId, Version};
 use crate::state::{State, same_transform};
-use crate::value::Value;
+use crate::value::{Kind, Value};
 
 /// Why deltas do not continue a state.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -75,11 +77,13 @@ fn redo(state: &mut State, change: &Change, since: Version) -> Option<()> {
             state.insert_node(*node, name.clone(), *node_type, since);
         }
         Change::TransformSampled { parent, child, time, new, .. } => {
+            fits(is_finite(new))?;
             let joint = state.joint(*child)?;
             fits(joint.parent == *parent && joint.track.is_some())?;
             state.insert_sample(*parent, *child, *time, *new, since);
         }
         Change::TransformAdded { parent, child, new, time } => {
+            fits(is_finite(new))?;
             fits(
                 state.node(*parent).is_some()
                     && state.node(*child).is_some()
@@ -93,7 +97,7 @@ fn redo(state: &mut State, change: &Change, since: Version) -> Option<()> {
         }
         Change::TransformChanged { parent, child, old, new } => {
             let joint = state.joint(*child)?;
-            fits(joint.parent == *parent && same_transform(&joint.transform, old))?;
+            fits(joint.parent == *parent && same_transform(&joint.transform, old) && is_finite(new))?;
             state.insert_transform(*parent, *child, *new, since);
         }
         Change::EdgeAdded { edge } => {
@@ -114,6 +118,11 @@ fn redo(state: &mut State, change: &Change, since: Version) -> Option<()> {
     Some(())
 }
 
+/// Whether a pose may stand in the graph: read from a file, it need not be one.
+fn is_finite(pose: &Isometry3<f64>) -> bool {
+    pose.translation.vector.iter().chain(pose.rotation.coords.iter()).all(|c| c.is_finite())
+}
+
 fn write(
     state: &mut State,
     holder: Holder,
@@ -121,7 +130,12 @@ fn write(
     value: &Value,
     since: Version,
 ) -> Option<()> {
-    state.dictionary.kind(attribute)?;
+    let kind = state.dictionary.kind(attribute)?;
+    match (kind, value) {
+        (Kind::Number, Value::Number(number)) => number.is_finite().then_some(())?,
+        (Kind::Text, Value::Text(_)) | (Kind::Bool, Value::Bool(_)) | (Kind::Node(_), Value::Node(_)) => {}
+        _ => return None,
+    }
     match holder {
         Holder::Node(node) => state.node(node).map(|_| ())?,
         Holder::Edge(key) => state.edge(key).map(|_| ())?,

@@ -254,7 +254,11 @@ impl DictionaryBuilder {
     }
 
     /// Closes the dictionary.
-    pub fn build(mut self) -> Arc<Dictionary> {
+    pub fn build(self) -> Arc<Dictionary> {
+        Arc::new(self.close())
+    }
+
+    pub(super) fn close(mut self) -> Dictionary {
         self.number_types();
         let mut permissions: FxHashMap<_, Vec<_>> = FxHashMap::default();
         for (agent, Permission { token, from, to }) in &self.permissions {
@@ -269,10 +273,13 @@ impl DictionaryBuilder {
                 other => vec![other],
             };
             for token in tokens {
-                permissions.entry((*agent, token)).or_default().push((from.clone(), to.clone()));
+                let ends = permissions.entry((*agent, token)).or_default();
+                if !ends.iter().any(|(a, b)| a == from && b == to) {
+                    ends.push((from.clone(), to.clone()));
+                }
             }
         }
-        Arc::new(Dictionary { permissions, ..self.made })
+        Dictionary { permissions, ..self.made }
     }
 
     fn add_type(&mut self, name: Arc<str>, parent: Option<TypeId>, nature: Nature) -> TypeId {

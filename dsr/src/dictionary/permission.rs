@@ -5,11 +5,14 @@
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 use super::{Dictionary, NameOf};
 use crate::id::{AttributeId, LabelId, TypeId};
 
 /// What can be written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Token {
     /// Edges with this label. Who may remove an edge may thereby remove its attributes.
     Label(LabelId),
@@ -23,7 +26,8 @@ pub enum Token {
 }
 
 /// Which nodes may stand at one end of what is written.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum End {
     /// Any that the signature allows.
     Any,
@@ -49,7 +53,7 @@ impl End {
 }
 
 /// One thing that an agent may write.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Permission {
     /// The token.
     pub token: Token,

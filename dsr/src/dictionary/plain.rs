@@ -1,0 +1,120 @@
+//! A dictionary as plain data: what a journal begins with, so that it can be read without the program that wrote it.
+//!
+//! Lists in the order of the ids, without what is built into every dictionary. Invariant: reading declares everything
+//! again through the builder, so what was read has been checked, and has the ids that it had.
+
+use std::sync::Arc;
+
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::{Dictionary, DictionaryBuilder, DictionaryError, HolderType, Nature, Permission, Signature};
+use crate::id::{AgentId, AttributeId, LabelId, TypeId};
+use crate::value::Kind;
+
+#[derive(Serialize, Deserialize)]
+struct Plain {
+    types: Vec<PlainType>,
+    labels: Vec<PlainLabel>,
+    attributes: Vec<PlainAttribute>,
+    agents: Vec<Arc<str>>,
+    resources: Vec<Arc<str>>,
+    permissions: Vec<(AgentId, Permission)>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct PlainType {
+    name: Arc<str>,
+    parent: TypeId,
+    nature: Nature,
+}
+
+#[derive(Serialize, Deserialize)]
+struct PlainLabel {
+    name: Arc<str>,
+    signatures: Vec<Signature>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct PlainAttribute {
+    name: Arc<str>,
+    holder: HolderType,
+    kind: Kind,
+}
+
+impl Plain {
+    fn of(dictionary: &Dictionary) -> Self {
+        let mut permissions: Vec<_> = dictionary.permissions.iter().collect();
+        permissions.sort_by_key(|(key, _)| **key);
+        let permissions = permissions.into_iter().flat_map(|(&(agent, token), ends)| {
+            ends.iter().map(move |(from, to)| (agent, Permission::between(token, from.clone(), to.clone())))
+        });
+        let types = dictionary.types.iter().skip(TypeId::RESOURCE.index() + 1);
+        let labels = dictionary.labels.iter().skip(LabelId::HOLDS.index() + 1);
+        let attributes = dictionary.attributes.iter().skip(AttributeId::CLAIM.index() + 1);
+        Self {
+            types: types
+                .map(|entry| PlainType {
+                    name: entry.name.clone(),
+                    parent: entry.parent.unwrap_or(TypeId::OBJECT),
+                    nature: entry.nature,
+                })
+                .collect(),
+            labels: labels
+                .map(|entry| PlainLabel { name: entry.name.clone(), signatures: entry.signatures.clone() })
+                .collect(),
+            attributes: attributes
+                .map(|entry| PlainAttribute {
+                    name: entry.name.clone(),
+                    holder: entry.holder,
+                    kind: entry.kind,
+                })
+                .collect(),
+            agents: dictionary.agents.iter().skip(AgentId::DSR.index() + 1).cloned().collect(),
+            resources: dictionary.resources.clone(),
+            permissions: permissions.collect(),
+        }
+    }
+
+    fn build(&self) -> Result<Dictionary, DictionaryError> {
+        let mut builder = DictionaryBuilder::new();
+        for PlainType { name, parent, nature } in &self.types {
+            builder.node_type(name, Some(*parent), *nature)?;
+        }
+        for PlainLabel { name, signatures } in &self.labels {
+            for Signature { from, to } in signatures {
+                builder.label(name, *from, *to)?;
+            }
+        }
+        for PlainAttribute { name, holder, kind } in &self.attributes {
+            match *holder {
+                HolderType::Node(on) => builder.attribute_on_node(name, on, *kind)?,
+                HolderType::Edge { label, signature: Signature { from, to } } => {
+                    builder.attribute_on_edge(name, label, (from, to), *kind)?
+                }
+            };
+        }
+        for name in &self.agents {
+            builder.agent(name)?;
+        }
+        for name in &self.resources {
+            builder.resource(name)?;
+        }
+        for (agent, permission) in &self.permissions {
+            builder.permit(*agent, permission.clone())?;
+        }
+        Ok(builder.close())
+    }
+}
+
+impl Serialize for Dictionary {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        Plain::of(self).serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Dictionary {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Plain::deserialize(deserializer)?.build().map_err(D::Error::custom)
+    }
+}

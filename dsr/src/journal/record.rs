@@ -1,0 +1,157 @@
+//! What frames hold, as bytes: postcard, one record after the other.
+//!
+//! A state is written as its export, part by part, so that a large one is never a second time in memory; reading
+//! goes through the checks of an export, so that bytes which are no state of the dictionary are refused by name.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::delta::Delta;
+use crate::dictionary::Dictionary;
+use crate::export::{
+    Export, ExportedAttribute, ExportedEdge, ExportedNode, ExportedSample, ExportedTransform,
+};
+use crate::id::{NodeId, Time, Version};
+use crate::snapshot::Snapshot;
+
+/// The number of the format. Another one is refused.
+const FORMAT: u32 = 1;
+
+/// A part of a state. The types of the export leave empty lists out, which only formats with names can do.
+#[derive(Serialize, Deserialize)]
+enum Part {
+    Head(Version, Time, NodeId),
+    Node(NodeId, Arc<str>, Arc<str>, Version, Vec<ExportedAttribute>),
+    Edge(Arc<str>, Arc<str>, Arc<str>, Version, Vec<ExportedAttribute>),
+    Transform(Arc<str>, Arc<str>, [f64; 3], [f64; 4], Version, Vec<ExportedSample>),
+    End,
+}
+
+/// Why bytes with the right checksum are not what they should be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Malformed {
+    Format(u32),
+    Bytes,
+}
+
+fn put(record: &impl Serialize, bytes: &mut Vec<u8>) {
+    // Writing to memory cannot fail, and these types are all of a known length.
+    let _ = postcard::to_io(record, bytes);
+}
+
+pub(super) fn put_start(dictionary: &Dictionary, bytes: &mut Vec<u8>) {
+    put(&(FORMAT, dictionary), bytes);
+}
+
+pub(super) fn put_delta(delta: &Delta, bytes: &mut Vec<u8>) {
+    put(delta, bytes);
+}
+
+pub(super) fn start(payload: &[u8]) -> Result<Dictionary, Malformed> {
+    let (format, rest) = postcard::take_from_bytes::<u32>(payload).map_err(|_| Malformed::Bytes)?;
+    if format != FORMAT {
+        return Err(Malformed::Format(format));
+    }
+    postcard::from_bytes(rest).map_err(|_| Malformed::Bytes)
+}
+
+/// Hands the state over part by part; `full` is asked after each and may take the bytes away.
+pub(super) fn put_state<E>(
+    snapshot: &Snapshot,
+    bytes: &mut Vec<u8>,
+    mut full: impl FnMut(&mut Vec<u8>) -> Result<(), E>,
+) -> Result<(), E> {
+    put(&Part::Head(snapshot.version(), snapshot.time(), snapshot.state().next), bytes);
+    for ExportedNode { id, name, node_type, since, attributes } in snapshot.exported_nodes() {
+        put(&Part::Node(id, name, node_type, since, attributes), bytes);
+        full(bytes)?;
+    }
+    for ExportedEdge { from, label, to, since, attributes } in snapshot.exported_edges() {
+        put(&Part::Edge(from, label, to, since, attributes), bytes);
+        full(bytes)?;
+    }
+    for t in snapshot.exported_transforms() {
+        put(&Part::Transform(t.parent, t.child, t.translation, t.rotation, t.since, t.samples), bytes);
+        full(bytes)?;
+    }
+    put(&Part::End, bytes);
+    Ok(())
+}
+
+/// Gathers a state from its frames.
+#[derive(Debug, Default)]
+pub(super) struct Gathered {
+    export: Option<Export>,
+    ended: bool,
+}
+
+impl Gathered {
+    /// Takes the parts of one frame.
+    pub(super) fn take(&mut self, mut payload: &[u8]) -> Result<(), Malformed> {
+        while !payload.is_empty() {
+            let (part, rest) = postcard::take_from_bytes(payload).map_err(|_| Malformed::Bytes)?;
+            payload = rest;
+            self.add(part).ok_or(Malformed::Bytes)?;
+        }
+        Ok(())
+    }
+
+    fn add(&mut self, part: Part) -> Option<()> {
+        if self.ended {
+            return None;
+        }
+        match (part, &mut self.export) {
+            (Part::Head(version, time, next), empty @ None) => {
+                let (nodes, edges, transforms) = (Vec::new(), Vec::new(), Vec::new());
+                *empty = Some(Export { version, time, next, nodes, edges, transforms });
+            }
+            (Part::Node(id, name, node_type, since, attributes), Some(export)) => {
+                export.nodes.push(ExportedNode { id, name, node_type, since, attributes });
+            }
+            (Part::Edge(from, label, to, since, attributes), Some(export)) => {
+                export.edges.push(ExportedEdge { from, label, to, since, attributes });
+            }
+            (Part::Transform(parent, child, translation, rotation, since, samples), Some(export)) => {
+                export.transforms.push(ExportedTransform {
+                    parent,
+                    child,
+                    translation,
+                    rotation,
+                    since,
+                    samples,
+                });
+            }
+            (Part::End, Some(_)) => self.ended = true,
+            _ => return None,
+        }
+        Some(())
+    }
+
+    /// The state, if it came as a whole.
+    pub(super) fn whole(self) -> Option<Export> {
+        self.export.filter(|_| self.ended)
+    }
+}
+
+/// Version and time of the state whose first frame this is.
+pub(super) fn head(payload: &[u8]) -> Result<(Version, Time), Malformed> {
+    match postcard::take_from_bytes(payload) {
+        Ok((Part::Head(version, time, _), _)) => Ok((version, time)),
+        _ => Err(Malformed::Bytes),
+    }
+}
+
+/// Whether the last frame of a state is its end.
+pub(super) fn ends(mut payload: &[u8]) -> bool {
+    let mut ended = false;
+    while let Ok((part, rest)) = postcard::take_from_bytes::<Part>(payload) {
+        (ended, payload) = (matches!(part, Part::End), rest);
+    }
+    ended && payload.is_empty()
+}
+
+/// The first delta of the bytes, and what is behind it.
+pub(super) fn delta(bytes: &[u8]) -> Result<(Delta, &[u8]), Malformed> {
+    postcard::take_from_bytes(bytes).map_err(|_| Malformed::Bytes)
+}
