@@ -55,9 +55,9 @@ pub use ids::{FactId, FluentId, OperatorId};
 pub use number::Number;
 pub use obstacle::{Obstacle, Pattern, obstacles};
 pub use search::{
-    BfwsSettings, Budget, Candidate, Count, EagerSettings, Engine, Improved, LazySettings, Limit, Order,
-    Outcome, Plan, Preference, Quality, Query, Repaired, Report, SearchConfiguration, Statistics, Threads,
-    UnsolvableReason, Width, improve, repair, solve,
+    BfwsSettings, Budget, Candidate, Count, EagerSettings, Engine, Exploration, Improved, LazySettings,
+    Limit, Order, Outcome, Plan, Preference, Quality, Query, Repaired, Report, SearchConfiguration,
+    Statistics, Threads, UnsolvableReason, Width, improve, repair, solve,
 };
 pub use task::{
     AtomStatus, AxiomRule, ConditionalEffect, Fact, Goal, GroundAtom, Impossible, Literals, Mutexes,

@@ -81,7 +81,7 @@ fn budget_for(case: &Case, configuration: &SearchConfiguration) -> Budget<'stati
 }
 
 /// Searches that solve the large tasks of `test_data`, too.
-const ROBUST: [&str; 2] = ["lama", "dual"];
+const ROBUST: [&str; 5] = ["lama", "lama-novelty", "lama-types", "dual-bfws", "dual"];
 
 fn check(case: &Case, task: &Task, configuration: &SearchConfiguration, outcome: &Outcome) {
     let place = format!("{:?} by {}", case.path, configuration.name);

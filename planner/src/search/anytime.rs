@@ -184,7 +184,11 @@ impl<'a> Improving<'a> {
     fn stage(job: Job<'a>, stage: usize) -> Lazy<'a> {
         const BOTH: &[HeuristicKind] = &[HeuristicKind::Ff, HeuristicKind::Landmarks];
         let order = ORDERS[stage];
-        Lazy::new(job, &LazySettings { heuristics: BOTH, preferred: BOTH, costs: Costs::PlusOne, order })
+        let explorations = &[];
+        Lazy::new(
+            job,
+            &LazySettings { heuristics: BOTH, preferred: BOTH, costs: Costs::PlusOne, order, explorations },
+        )
     }
 
     /// Whether there is another search to go to.

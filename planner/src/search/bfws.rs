@@ -10,14 +10,13 @@
 //! Source: Lipovetzky & Geffner, "Best-first width search: exploration and exploitation in classical
 //! planning", AAAI 2017; the same, "A polynomial planning algorithm that beats LAMA and FF", ICAPS 2017.
 
-use super::meter::price_of_state;
 use super::novelty::{Novelty, NoveltyTable};
 use super::open_list::OpenList;
-use super::registry::StateRegistry;
 use super::searcher::Stepwise;
-use super::{Job, Limit, Outcome, Plan, Statistics, UnsolvableReason};
+use super::space::Space;
+use super::{Job, Outcome, Statistics};
 use crate::heuristics::{Costs, Estimate, Ff, Heuristic, HeuristicKind, View};
-use crate::ids::{FactId, OperatorId, StateId, id32};
+use crate::ids::{FactId, StateId, id32};
 use crate::task::contains;
 
 /// Bytes for pairs of facts, at most.
@@ -72,10 +71,9 @@ struct Node {
 
 /// The search.
 pub(crate) struct Bfws<'a> {
-    job: Job<'a>,
+    space: Space<'a>,
     ff: Ff<'a>,
     count: Box<dyn Heuristic + Send + 'a>,
-    registry: StateRegistry<'a>,
     nodes: Vec<Node>,
     counters: Vec<Counter>,
     counted: usize,
@@ -85,10 +83,6 @@ pub(crate) struct Bfws<'a> {
     width: Width,
     begun: bool,
     dropped: bool,
-    statistics: Statistics,
-    successors: Vec<OperatorId>,
-    here: Vec<u64>,
-    next: Vec<u64>,
 }
 
 impl<'a> Bfws<'a> {
@@ -101,7 +95,6 @@ impl<'a> Bfws<'a> {
                 Count::Landmarks => HeuristicKind::Landmarks,
             }
             .build(&job, Costs::Unit),
-            registry: StateRegistry::new(job.task, job.state.words()),
             nodes: Vec::new(),
             counters: Vec::new(),
             counted: 0,
@@ -116,70 +109,44 @@ impl<'a> Bfws<'a> {
             width,
             begun: false,
             dropped: false,
-            statistics: Statistics::default(),
-            successors: Vec::new(),
-            here: job.state.words().to_vec(),
-            next: job.state.words().to_vec(),
-            job,
+            space: Space::new(job),
         }
     }
 
     fn begin(&mut self) -> Option<Outcome> {
-        let (start, _) = self.registry.insert(&self.next, None);
-        if self.job.goal.holds_in(&self.next) {
-            return Some(Outcome::Solved(Plan::of(self.job.task, Vec::new())));
+        let start = self.space.root();
+        self.count.start(start, &self.space.next);
+        let solved = self.space.solved(start);
+        if solved.is_none() {
+            self.add(start, None, 0);
         }
-        self.count.start(start, &self.next);
-        self.add(start, None, 0);
-        None
+        solved
     }
 
     fn step(&mut self) -> Option<Outcome> {
         let Some(id) = self.open.pop() else {
-            return Some(match self.dropped {
-                true => Outcome::LimitReached(Limit::Incomplete),
-                false => Outcome::Unsolvable(UnsolvableReason::SpaceExhausted),
-            });
+            return Some(self.space.exhausted(self.dropped || self.space.is_bounded));
         };
-        let (task, meter) = (self.job.task, self.job.meter);
-        self.statistics.expanded += 1;
-        self.registry.read(id, &mut self.here);
-        self.successors.clear();
-        task.successors.applicable(&self.here, &mut self.successors);
-        self.job.barred.filter(&mut self.successors);
-        for i in 0..self.successors.len() {
-            if meter.spend(price_of_state(self.next.len())) {
-                return None;
-            }
-            let operator = self.successors[i];
-            let cost = self.nodes[id.0 as usize].cost + u64::from(task.operators[operator].cost);
-            if cost >= self.job.bound.get() {
-                self.dropped = true;
+        self.space.read(id);
+        self.space.expand(id, self.nodes[id.0 as usize].cost);
+        while let Some(child) = self.space.child() {
+            if !child.is_new {
                 continue;
             }
-            self.next.copy_from_slice(&self.here);
-            if !task.apply(operator, &self.here, &mut self.next) {
-                self.dropped = true;
-                continue;
+            let solved = self.space.solved(child.id);
+            if solved.is_some() {
+                return solved;
             }
-            self.statistics.generated += 1;
-            let (child, new) = self.registry.insert(&self.next, Some((id, operator)));
-            if !new {
-                continue;
-            }
-            if self.job.goal.holds_in(&self.next) {
-                return Some(Outcome::Solved(Plan::of(task, self.registry.path(child))));
-            }
-            self.count.step(id, operator, child, &self.next);
-            self.add(child, Some(id), cost);
+            self.count.step(id, child.operator, child.id, &self.space.next);
+            self.add(child.id, Some(id), child.cost);
         }
         None
     }
 
     /// Counts, judges and queues the new state in `next`.
     fn add(&mut self, id: StateId, from: Option<StateId>, cost: u64) {
-        self.statistics.evaluated += 1;
-        let estimate = self.count.estimate(&View { id, words: &self.next, applicable: &[] }, None);
+        self.space.statistics.evaluated += 1;
+        let estimate = self.count.estimate(&View { id, words: &self.space.next, applicable: &[] }, None);
         let goals = estimate.0;
         if estimate == Estimate::DEAD_END {
             self.nodes.push(Node { goals, counter: 0, marks: 0, achieved: 0, cost });
@@ -198,8 +165,10 @@ impl<'a> Bfws<'a> {
             },
         };
         self.nodes.push(node);
-        self.job.meter.spend(self.novelty.price());
-        let novelty = self.novelty.judge((node.goals, node.achieved), &self.next);
+        let class = |node: &Node| (node.goals, node.achieved);
+        let known = parent.filter(|p| class(p) == class(&node)).map(|_| self.space.here.as_slice());
+        self.space.job.meter.spend(self.novelty.price(known));
+        let novelty = self.novelty.judge(class(&node), &self.space.next, known);
         let rank = match (self.width, novelty) {
             (_, Novelty::One) => 0,
             (Width::Two | Width::AnyTwo, Novelty::Two) => 1,
@@ -213,10 +182,10 @@ impl<'a> Bfws<'a> {
     }
 
     fn fresh_counter(&mut self, goals: u32, cost: u64) -> Option<Node> {
-        if self.ff.relaxed_plan(&self.next, None) == Estimate::DEAD_END {
+        if self.ff.relaxed_plan(&self.space.next, None) == Estimate::DEAD_END {
             return None;
         }
-        let facts = self.job.task.facts().len();
+        let facts = self.space.job.task.facts().len();
         let mut achieved: Vec<u32> =
             self.ff.achieved().iter().copied().filter(|&p| (p as usize) < facts).collect();
         achieved.sort_unstable();
@@ -233,7 +202,8 @@ impl<'a> Bfws<'a> {
         let mut own = false;
         for (i, &fact) in counter.facts.iter().enumerate() {
             let (word, bit) = (i / 64, 1 << (i % 64));
-            if self.marks[node.marks as usize + word] & bit != 0 || !contains(&self.next, FactId(fact)) {
+            if self.marks[node.marks as usize + word] & bit != 0 || !contains(&self.space.next, FactId(fact))
+            {
                 continue;
             }
             if !own {
@@ -252,11 +222,11 @@ impl<'a> Bfws<'a> {
 
 impl Stepwise for Bfws<'_> {
     fn job(&self) -> &Job<'_> {
-        &self.job
+        &self.space.job
     }
 
     fn memory(&self) -> usize {
-        self.registry.memory()
+        self.space.registry.memory()
             + self.nodes.capacity() * size_of::<Node>()
             + self.counters.capacity() * size_of::<Counter>()
             + self.counted * 4
@@ -267,7 +237,7 @@ impl Stepwise for Bfws<'_> {
     }
 
     fn statistics(&self) -> Statistics {
-        self.statistics
+        self.space.statistics
     }
 
     fn next(&mut self) -> Option<Outcome> {

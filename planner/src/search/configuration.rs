@@ -5,9 +5,10 @@
 
 use super::anytime::Improving;
 use super::bfws::{Bfws, BfwsSettings, Count, Width};
+use super::dual_bfws::DualBfws;
 use super::eager::{Eager, EagerSettings};
 use super::hill_climbing::HillClimbing;
-use super::lazy::{Lazy, LazySettings};
+use super::lazy::{Exploration, Lazy, LazySettings};
 use super::portfolio::Threads;
 use super::{Job, Searcher};
 use crate::heuristics::{Costs, Estimate, HeuristicKind};
@@ -42,6 +43,8 @@ pub enum Engine {
     HillClimbing,
     /// Best-first width search.
     Bfws(BfwsSettings),
+    /// Width search without what is not novel, then one that keeps everything and knows more.
+    DualBfws,
     /// Searches for better and better plans below a bound.
     Improving,
 }
@@ -53,6 +56,7 @@ impl Engine {
             Self::Eager(settings) => Box::new(Eager::new(job, &settings)),
             Self::HillClimbing => Box::new(HillClimbing::new(job)),
             Self::Bfws(settings) => Box::new(Bfws::new(job, settings)),
+            Self::DualBfws => Box::new(DualBfws::new(job)),
             Self::Improving => Box::new(Improving::new(job)),
         }
     }
@@ -77,7 +81,16 @@ pub struct SearchConfiguration {
 }
 
 const fn lazy(heuristics: &'static [HeuristicKind], preferred: &'static [HeuristicKind]) -> Engine {
-    Engine::Lazy(LazySettings { heuristics, preferred, costs: Costs::Unit, order: Order::Greedy })
+    exploring(heuristics, preferred, &[])
+}
+
+const fn exploring(
+    heuristics: &'static [HeuristicKind],
+    preferred: &'static [HeuristicKind],
+    explorations: &'static [Exploration],
+) -> Engine {
+    let (costs, order) = (Costs::Unit, Order::Greedy);
+    Engine::Lazy(LazySettings { heuristics, preferred, costs, order, explorations })
 }
 
 const fn eager(heuristic: HeuristicKind, costs: Costs, order: Order) -> Engine {
@@ -97,6 +110,8 @@ const fn bfws(width: Width, count: Count) -> Engine {
 }
 
 pub(super) const LAMA: Engine = lazy(&[Ff, Landmarks], &[Ff, Landmarks]);
+const LAMA_NOVELTY: Engine = exploring(&[Ff, Landmarks], &[Ff, Landmarks], &[Exploration::Novelty]);
+const LAMA_TYPES: Engine = exploring(&[Ff, Landmarks], &[Ff, Landmarks], &[Exploration::Types]);
 const LANDMARKS: Engine = lazy(&[Landmarks], &[]);
 const BFWS_LANDMARKS: Engine = bfws(Width::AnyOne, Count::Landmarks);
 const BFWS: Engine = bfws(Width::AnyOne, Count::Goals);
@@ -114,10 +129,21 @@ impl SearchConfiguration {
             threads: Threads::Two,
             ..Self::row(
                 "dual",
-                "lama, bfws and others in turns, on two threads where it pays",
-                &[(LAMA, 3), (BFWS_LANDMARKS, 3), (BFWS, 2), (LANDMARKS, 1)],
+                "lama-novelty, bfws and others in turns, on two threads where it pays",
+                &[(LAMA_NOVELTY, 3), (BFWS_LANDMARKS, 3), (BFWS, 2), (LANDMARKS, 1)],
             )
         },
+        Self::row(
+            "lama-novelty",
+            "lama that also visits states that show something new",
+            &[(LAMA_NOVELTY, 1)],
+        ),
+        Self::row("lama-types", "lama that also visits random states of rare types", &[(LAMA_TYPES, 1)]),
+        Self::row(
+            "dual-bfws",
+            "width search without what is not novel, then a complete one on landmarks and relaxed plans",
+            &[(Engine::DualBfws, 1)],
+        ),
         Self::row(
             "lazy-ff",
             "greedy search on relaxed plans with preferred operators",

@@ -7,12 +7,11 @@
 //! Source: Hart, Nilsson & Raphael, "A formal basis for the heuristic determination of minimum cost
 //! paths", 1968; Pohl, "Heuristic search viewed as path finding in a graph", AIJ 1970.
 
-use super::meter::price_of_state;
-use super::registry::StateRegistry;
 use super::searcher::Stepwise;
-use super::{Job, Limit, Order, Outcome, Plan, Statistics, UnsolvableReason};
+use super::space::{Child, Space};
+use super::{Job, Order, Outcome, Statistics};
 use crate::heuristics::{Costs, Estimate, Heuristic, HeuristicKind, View};
-use crate::ids::{OperatorId, StateId};
+use crate::ids::StateId;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -38,19 +37,13 @@ type Entry = (u64, u32, u64, u64, u32);
 
 /// The search.
 pub(crate) struct Eager<'a> {
-    job: Job<'a>,
+    space: Space<'a>,
     order: Order,
     heuristic: Box<dyn Heuristic + Send + 'a>,
-    registry: StateRegistry<'a>,
     nodes: Vec<Node>,
     open: BinaryHeap<Reverse<Entry>>,
     inserted: u64,
     begun: bool,
-    pruned: bool,
-    statistics: Statistics,
-    successors: Vec<OperatorId>,
-    here: Vec<u64>,
-    next: Vec<u64>,
 }
 
 impl<'a> Eager<'a> {
@@ -58,31 +51,25 @@ impl<'a> Eager<'a> {
         Self {
             heuristic: settings.heuristic.build(&job, settings.costs),
             order: settings.order,
-            registry: StateRegistry::new(job.task, job.state.words()),
             nodes: Vec::new(),
             open: BinaryHeap::new(),
             inserted: 0,
             begun: false,
-            pruned: false,
-            statistics: Statistics::default(),
-            successors: Vec::new(),
-            here: job.state.words().to_vec(),
-            next: job.state.words().to_vec(),
-            job,
+            space: Space::new(job),
         }
     }
 
     fn begin(&mut self) {
-        let (start, _) = self.registry.insert(&self.next, None);
-        self.heuristic.start(start, &self.next);
+        let start = self.space.root();
+        self.heuristic.start(start, &self.space.next);
         let h = self.estimate(start);
         self.nodes.push(Node { g: 0, h });
         self.queue(start, 0, h);
     }
 
     fn estimate(&mut self, id: StateId) -> Estimate {
-        self.statistics.evaluated += 1;
-        self.heuristic.estimate(&View { id, words: &self.next, applicable: &[] }, None)
+        self.space.statistics.evaluated += 1;
+        self.heuristic.estimate(&View { id, words: &self.space.next, applicable: &[] }, None)
     }
 
     fn queue(&mut self, id: StateId, g: u64, h: Estimate) {
@@ -94,43 +81,21 @@ impl<'a> Eager<'a> {
 
     fn step(&mut self) -> Option<Outcome> {
         let Some(Reverse((_, _, _, g, id))) = self.open.pop() else {
-            return Some(match self.pruned {
-                true => Outcome::LimitReached(Limit::Incomplete),
-                false => Outcome::Unsolvable(UnsolvableReason::SpaceExhausted),
-            });
+            // What keeps the cheapest ways has lost nothing below the bound.
+            return Some(self.space.exhausted(self.space.is_bounded && self.order == Order::Greedy));
         };
         let id = StateId(id);
         if self.nodes[id.0 as usize].g < g {
             return None;
         }
-        let (task, meter) = (self.job.task, self.job.meter);
-        self.registry.read(id, &mut self.here);
-        if self.job.goal.holds_in(&self.here) {
-            return Some(Outcome::Solved(Plan::of(task, self.registry.path(id))));
+        self.space.read(id);
+        if self.space.job.goal.holds_in(&self.space.here) {
+            return Some(Outcome::Solved(self.space.plan(id)));
         }
-        self.statistics.expanded += 1;
-        self.successors.clear();
-        task.successors.applicable(&self.here, &mut self.successors);
-        self.job.barred.filter(&mut self.successors);
-        for i in 0..self.successors.len() {
-            if meter.spend(price_of_state(self.next.len())) {
-                return None;
-            }
-            let operator = self.successors[i];
-            let cost = g + u64::from(task.operators[operator].cost);
-            if cost >= self.job.bound.get() {
-                self.pruned |= self.order == Order::Greedy;
-                continue;
-            }
-            self.statistics.generated += 1;
-            self.next.copy_from_slice(&self.here);
-            if !task.apply(operator, &self.here, &mut self.next) {
-                self.pruned = true;
-                continue;
-            }
-            let (child, new) = self.registry.insert(&self.next, Some((id, operator)));
-            self.heuristic.step(id, operator, child, &self.next);
-            let h = if new {
+        self.space.expand(id, g);
+        while let Some(Child { id: child, is_new, operator, cost }) = self.space.child() {
+            self.heuristic.step(id, operator, child, &self.space.next);
+            let h = if is_new {
                 let h = self.estimate(child);
                 self.nodes.push(Node { g: cost, h });
                 h
@@ -140,7 +105,7 @@ impl<'a> Eager<'a> {
                     continue;
                 }
                 node.g = cost;
-                self.registry.reparent(child, id, operator);
+                self.space.registry.reparent(child, id, operator);
                 node.h
             };
             self.queue(child, cost, h);
@@ -151,18 +116,18 @@ impl<'a> Eager<'a> {
 
 impl Stepwise for Eager<'_> {
     fn job(&self) -> &Job<'_> {
-        &self.job
+        &self.space.job
     }
 
     fn memory(&self) -> usize {
-        self.registry.memory()
+        self.space.registry.memory()
             + self.nodes.capacity() * size_of::<Node>()
             + self.open.capacity() * size_of::<Entry>()
             + self.heuristic.memory()
     }
 
     fn statistics(&self) -> Statistics {
-        self.statistics
+        self.space.statistics
     }
 
     fn next(&mut self) -> Option<Outcome> {

@@ -7,10 +7,9 @@
 //!
 //! Source: Hoffmann & Nebel, "The FF planning system", JAIR 2001, §5.1.
 
-use super::meter::price_of_state;
-use super::registry::StateRegistry;
 use super::searcher::Stepwise;
-use super::{Job, Limit, Outcome, Plan, Statistics, UnsolvableReason};
+use super::space::Space;
+use super::{Job, Outcome, Plan, Statistics};
 use crate::heuristics::{Costs, Estimate, Ff};
 use crate::ids::{OperatorId, StateId};
 use std::collections::VecDeque;
@@ -24,20 +23,18 @@ enum Followed {
 
 /// The search.
 pub(crate) struct HillClimbing<'a> {
-    job: Job<'a>,
+    /// What the current breadth-first search has met.
+    space: Space<'a>,
     ff: Ff<'a>,
-    /// The steps to the state from which the current breadth-first search starts.
+    /// The steps to the state from which it starts, and what they cost.
     steps: Vec<OperatorId>,
+    cost: u64,
     base: Vec<u64>,
     height: Estimate,
     followed: Followed,
-    registry: StateRegistry<'a>,
-    queue: VecDeque<(StateId, Vec<OperatorId>)>,
+    /// States, what their ways cost, and the operators to follow from them.
+    queue: VecDeque<(StateId, u64, Vec<OperatorId>)>,
     begun: bool,
-    /// Whether a successor was left out whose numbers do not fit.
-    pruned: bool,
-    statistics: Statistics,
-    next: Vec<u64>,
 }
 
 impl<'a> HillClimbing<'a> {
@@ -45,96 +42,83 @@ impl<'a> HillClimbing<'a> {
         Self {
             ff: Ff::new(&job, Costs::Unit),
             steps: Vec::new(),
+            cost: 0,
             base: job.state.words().to_vec(),
             height: Estimate::DEAD_END,
             followed: Followed::Helpful,
-            registry: StateRegistry::new(job.task, job.state.words()),
             queue: VecDeque::new(),
             begun: false,
-            pruned: false,
-            statistics: Statistics::default(),
-            next: job.state.words().to_vec(),
-            job,
+            space: Space::new(job),
         }
     }
 
     /// Starts a breadth-first search at `base`.
     fn plateau(&mut self, followed: Followed, helpful: Vec<OperatorId>) {
         self.followed = followed;
-        self.registry = StateRegistry::new(self.job.task, &self.base);
+        self.space.next.copy_from_slice(&self.base);
+        self.space.clear();
         self.queue.clear();
-        let (id, _) = self.registry.insert(&self.base, None);
-        self.queue.push_back((id, helpful));
+        self.queue.push_back((self.space.root(), self.cost, helpful));
     }
 
     fn begin(&mut self) -> Option<Outcome> {
-        if self.job.goal.holds_in(&self.base) {
-            return Some(Outcome::Solved(Plan::of(self.job.task, Vec::new())));
+        let start = self.space.root();
+        let solved = self.space.solved(start);
+        if solved.is_some() {
+            return solved;
         }
-        self.statistics.evaluated += 1;
         let mut helpful = Vec::new();
-        self.height = self.ff.relaxed_plan(&self.base, Some(&mut helpful));
+        self.height = self.estimate(&mut helpful);
         if self.height == Estimate::DEAD_END {
-            return Some(Outcome::Unsolvable(UnsolvableReason::SpaceExhausted));
+            return Some(self.space.exhausted(false));
         }
-        self.plateau(Followed::Helpful, helpful);
+        self.queue.push_back((start, 0, helpful));
         None
     }
 
+    /// Estimates the state in `next`.
+    fn estimate(&mut self, helpful: &mut Vec<OperatorId>) -> Estimate {
+        self.space.statistics.evaluated += 1;
+        self.ff.relaxed_plan(&self.space.next, Some(helpful))
+    }
+
     fn step(&mut self) -> Option<Outcome> {
-        let Some((id, helpful)) = self.queue.pop_front() else {
+        let Some((id, cost, helpful)) = self.queue.pop_front() else {
             if self.followed == Followed::All {
-                return Some(match self.steps.is_empty() && !self.pruned {
-                    // Everything was visited, from the very first state.
-                    true => Outcome::Unsolvable(UnsolvableReason::SpaceExhausted),
-                    false => Outcome::LimitReached(Limit::Incomplete),
-                });
+                // From the very first state, everything was visited.
+                return Some(self.space.exhausted(!self.steps.is_empty() || self.space.is_bounded));
             }
             self.plateau(Followed::All, Vec::new());
             return None;
         };
-        let (task, meter) = (self.job.task, self.job.meter);
-        let mut here = self.next.clone();
-        self.registry.read(id, &mut here);
-        let mut operators = helpful;
-        if self.followed == Followed::All {
-            task.successors.applicable(&here, &mut operators);
+        self.space.read(id);
+        match self.followed {
+            Followed::Helpful => self.space.expand_by(helpful, id, cost),
+            Followed::All => self.space.expand(id, cost),
         }
-        self.job.barred.filter(&mut operators);
-        self.statistics.expanded += 1;
-        for operator in operators {
-            if meter.spend(price_of_state(here.len())) {
-                return None;
-            }
-            self.next.copy_from_slice(&here);
-            if !task.apply(operator, &here, &mut self.next) {
-                self.pruned = true;
+        while let Some(child) = self.space.child() {
+            if !child.is_new {
                 continue;
             }
-            self.statistics.generated += 1;
-            let (child, new) = self.registry.insert(&self.next, Some((id, operator)));
-            if !new {
-                continue;
+            if let Some(Outcome::Solved(rest)) = self.space.solved(child.id) {
+                self.steps.extend(rest.operators);
+                return Some(Outcome::Solved(Plan::of(self.space.job.task, std::mem::take(&mut self.steps))));
             }
-            if self.job.goal.holds_in(&self.next) {
-                self.steps.extend(self.registry.path(child));
-                return Some(Outcome::Solved(Plan::of(task, std::mem::take(&mut self.steps))));
-            }
-            self.statistics.evaluated += 1;
             let mut helpful = Vec::new();
-            let height = self.ff.relaxed_plan(&self.next, Some(&mut helpful));
-            if meter.is_stopped() {
+            let height = self.estimate(&mut helpful);
+            if self.space.job.meter.is_stopped() {
                 return None;
             }
             if height < self.height {
-                self.steps.extend(self.registry.path(child));
-                self.base.copy_from_slice(&self.next);
+                self.steps.extend(self.space.registry.path(child.id));
+                self.cost = child.cost;
+                self.base.copy_from_slice(&self.space.next);
                 self.height = height;
                 self.plateau(Followed::Helpful, helpful);
                 return None;
             }
             if height != Estimate::DEAD_END {
-                self.queue.push_back((child, helpful));
+                self.queue.push_back((child.id, child.cost, helpful));
             }
         }
         None
@@ -143,21 +127,22 @@ impl<'a> HillClimbing<'a> {
 
 impl Stepwise for HillClimbing<'_> {
     fn job(&self) -> &Job<'_> {
-        &self.job
+        &self.space.job
     }
 
     fn memory(&self) -> usize {
         // The lists of helpful operators hold a few each.
-        self.registry.memory() + self.queue.capacity() * (size_of::<(StateId, Vec<OperatorId>)>() + 64)
+        let entry = size_of::<(StateId, u64, Vec<OperatorId>)>() + 64;
+        self.space.registry.memory() + self.queue.capacity() * entry
     }
 
     fn statistics(&self) -> Statistics {
-        self.statistics
+        self.space.statistics
     }
 
     fn next(&mut self) -> Option<Outcome> {
         let answer = if std::mem::replace(&mut self.begun, true) { self.step() } else { self.begin() };
         // What a stopped step did not find is no answer: the meter says why.
-        answer.filter(|answer| !self.job.meter.is_stopped() || matches!(answer, Outcome::Solved(_)))
+        answer.filter(|answer| !self.space.job.meter.is_stopped() || matches!(answer, Outcome::Solved(_)))
     }
 }

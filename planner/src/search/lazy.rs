@@ -3,21 +3,35 @@
 //! Idea: a state is estimated when it is taken from an open list, and its successors are queued
 //! under its own estimate, so that only states worth visiting are ever built. Each heuristic has a
 //! list of all successors and one of the preferred ones; lists take turns, and the preferred ones get
-//! a boost whenever some heuristic finds a new best. Greedy, or weighted A* with states reopened when
-//! a cheaper way is found. Complete; not optimal.
+//! a boost whenever some heuristic finds a new best. Where no best has been found for a while, lists for
+//! exploration get their turns too. Greedy, or weighted A* with states reopened when a cheaper way is
+//! found. Complete; not optimal.
 //!
-//! Source: Richter & Westphal, "The LAMA planner", JAIR 2010, §3 and §5; Helmert 2006, §5.3.
+//! Source: Richter & Westphal, "The LAMA planner", JAIR 2010, §3 and §5; Helmert 2006, §5.3; novelty
+//! with respect to estimates: Katz, Lipovetzky, Moshkovich & Tuisov, "Adapting novelty to classical
+//! planning as heuristic search", ICAPS 2017 (they sort by it, here it has a list of its own).
 
 use super::meter;
+use super::novelty::{Novelty, NoveltyTable};
 use super::open_list::OpenList;
 use super::registry::StateRegistry;
 use super::searcher::Stepwise;
+use super::type_list::TypeList;
 use super::{Job, Limit, Order, Outcome, Plan, Statistics, UnsolvableReason};
 use crate::heuristics::{Costs, Estimate, Heuristic, HeuristicKind, View};
 use crate::ids::{OperatorId, StateId};
 
 /// How much a new best estimate moves the preferred lists ahead.
 const BOOST: i64 = 1000;
+
+/// What else the lists take turns with: ways out of plateaus on which all estimates mislead.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Exploration {
+    /// A random edge of a random type: depth and two estimates of the state.
+    Types,
+    /// Edges of states first that show a fact which no state with the same estimates has shown.
+    Novelty,
+}
 
 /// The parameters.
 #[derive(Clone, Copy, Debug)]
@@ -30,6 +44,8 @@ pub struct LazySettings {
     pub costs: Costs,
     /// What the queues are sorted by.
     pub order: Order,
+    /// One more list each.
+    pub explorations: &'static [Exploration],
 }
 
 /// A successor that is not built yet.
@@ -47,11 +63,63 @@ struct Lists<'a> {
     estimate: Estimate,
 }
 
+/// An open list that is not sorted by one estimate.
+enum Queue {
+    Types(TypeList<Edge>),
+    Novelty(NoveltyTable, OpenList<Edge>),
+}
+
+impl Queue {
+    fn new(exploration: Exploration, words: usize) -> Self {
+        match exploration {
+            Exploration::Types => Self::Types(TypeList::new()),
+            Exploration::Novelty => Self::Novelty(NoveltyTable::of_facts(words), OpenList::new()),
+        }
+    }
+
+    fn len(&self) -> usize {
+        match self {
+            Self::Types(list) => list.len(),
+            Self::Novelty(_, list) => list.len(),
+        }
+    }
+
+    fn pop(&mut self) -> Option<Edge> {
+        match self {
+            Self::Types(list) => list.pop(),
+            Self::Novelty(_, list) => list.pop(),
+        }
+    }
+
+    fn memory(&self) -> usize {
+        match self {
+            Self::Types(list) => list.memory(),
+            Self::Novelty(table, list) => table.memory() + list.memory(),
+        }
+    }
+}
+
+struct Exploring {
+    queue: Queue,
+    priority: i64,
+}
+
+/// Whose turn it is.
+#[derive(Clone, Copy)]
+enum List {
+    Open(usize),
+    Preferred(usize),
+    Exploring(usize),
+}
+
 /// The search.
 pub(crate) struct Lazy<'a> {
     job: Job<'a>,
     order: Order,
     lists: Vec<Lists<'a>>,
+    explorations: Vec<Exploring>,
+    /// The number of steps by which each state was reached, where types need it.
+    depths: Vec<u32>,
     registry: StateRegistry<'a>,
     /// The cost of the way by which each state was reached.
     reached_at: Vec<u64>,
@@ -79,6 +147,12 @@ impl<'a> Lazy<'a> {
         };
         Self {
             lists: settings.heuristics.iter().map(list).collect(),
+            explorations: settings
+                .explorations
+                .iter()
+                .map(|&e| Exploring { queue: Queue::new(e, job.task.words_per_state()), priority: 0 })
+                .collect(),
+            depths: Vec::new(),
             order: settings.order,
             registry: StateRegistry::new(job.task, job.state.words()),
             reached_at: Vec::new(),
@@ -96,6 +170,7 @@ impl<'a> Lazy<'a> {
     fn begin(&mut self) -> Option<Outcome> {
         let (start, _) = self.registry.insert(&self.next, None);
         self.reached_at.push(0);
+        self.depths.push(0);
         for list in &mut self.lists {
             list.heuristic.start(start, &self.next);
         }
@@ -130,6 +205,7 @@ impl<'a> Lazy<'a> {
         }
         if new {
             self.reached_at.push(cost);
+            self.depths.push(self.depths[from.0 as usize] + 1);
         } else {
             let known = &mut self.reached_at[id.0 as usize];
             if self.order == Order::Greedy || *known <= cost {
@@ -183,29 +259,50 @@ impl<'a> Lazy<'a> {
                 list.preferred.push(key, (id, operator));
             }
         }
+        self.explore(id);
         None
     }
 
-    fn pop(&mut self) -> Option<Edge> {
-        let mut best: Option<(i64, usize, bool)> = None;
-        for (i, list) in self.lists.iter().enumerate() {
-            for (len, priority, preferred) in [
-                (list.open.len(), list.open_priority, false),
-                (list.preferred.len(), list.preferred_priority, true),
-            ] {
-                if len > 0 && best.is_none_or(|(p, ..)| priority < p) {
-                    best = Some((priority, i, preferred));
+    /// Queues all successors where sorting by an estimate would not put them.
+    fn explore(&mut self, id: StateId) {
+        let estimate = |i: usize| self.lists.get(i).map_or(0, |l| l.estimate.0);
+        let (first, second) = (estimate(0), estimate(1));
+        let edges = self.successors.iter().map(|&operator| (id, operator));
+        for exploring in &mut self.explorations {
+            match &mut exploring.queue {
+                Queue::Types(list) => list.push([first, second, self.depths[id.0 as usize]], edges.clone()),
+                Queue::Novelty(table, list) => {
+                    self.job.meter.spend(table.price(None));
+                    let rank = u64::from(table.judge((first, second), &self.next, None) != Novelty::One);
+                    edges.clone().for_each(|edge| list.push(rank << 32 | u64::from(first), edge));
                 }
             }
         }
-        let (_, i, preferred) = best?;
-        let list = &mut self.lists[i];
-        if preferred {
-            list.preferred_priority += 1;
-            list.preferred.pop()
-        } else {
-            list.open_priority += 1;
-            list.open.pop()
+    }
+
+    fn pop(&mut self) -> Option<Edge> {
+        let sorted = self.lists.iter().enumerate().flat_map(|(i, list)| {
+            [
+                (list.open.len(), list.open_priority, List::Open(i)),
+                (list.preferred.len(), list.preferred_priority, List::Preferred(i)),
+            ]
+        });
+        let exploring = self.explorations.iter().enumerate();
+        let exploring = exploring.map(|(i, e)| (e.queue.len(), e.priority, List::Exploring(i)));
+        let filled = sorted.chain(exploring).filter(|&(len, ..)| len > 0);
+        match filled.min_by_key(|&(_, priority, _)| priority)?.2 {
+            List::Open(i) => {
+                self.lists[i].open_priority += 1;
+                self.lists[i].open.pop()
+            }
+            List::Preferred(i) => {
+                self.lists[i].preferred_priority += 1;
+                self.lists[i].preferred.pop()
+            }
+            List::Exploring(i) => {
+                self.explorations[i].priority += 1;
+                self.explorations[i].queue.pop()
+            }
         }
     }
 }
@@ -218,7 +315,12 @@ impl Stepwise for Lazy<'_> {
     fn memory(&self) -> usize {
         let lists: usize =
             self.lists.iter().map(|l| l.open.memory() + l.preferred.memory() + l.heuristic.memory()).sum();
-        self.registry.memory() + self.reached_at.capacity() * 8 + lists
+        let exploring: usize = self.explorations.iter().map(|e| e.queue.memory()).sum();
+        self.registry.memory()
+            + self.reached_at.capacity() * 8
+            + self.depths.capacity() * 4
+            + lists
+            + exploring
     }
 
     fn statistics(&self) -> Statistics {

@@ -84,8 +84,10 @@ impl Windows<'_> {
         let job = Job { task, state: &state, goal: &goal, barred, meter, bound: &bound };
         const FF: &[HeuristicKind] = &[HeuristicKind::Ff];
         let order = Order::Weighted(1);
-        let mut search =
-            Lazy::new(job, &LazySettings { heuristics: FF, preferred: FF, costs: Costs::Real, order });
+        let mut search = Lazy::new(
+            job,
+            &LazySettings { heuristics: FF, preferred: FF, costs: Costs::Real, order, explorations: &[] },
+        );
         let until = (meter.work() + work).min(self.most);
         let outcome = search.advance(&Turn { until, ..meter.whole() });
         *statistics += search.statistics();
