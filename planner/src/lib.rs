@@ -56,7 +56,7 @@ pub use number::Number;
 pub use obstacle::{Obstacle, Pattern, obstacles};
 pub use search::{
     BfwsSettings, Budget, Candidate, Count, EagerSettings, Engine, Exploration, Improved, LazySettings,
-    Limit, Order, Outcome, Plan, Preference, Quality, Query, Repaired, Report, SearchConfiguration,
+    Limit, Order, Outcome, Plan, Preference, Pruning, Quality, Query, Repaired, Report, SearchConfiguration,
     Statistics, Threads, UnsolvableReason, Width, improve, repair, solve,
 };
 pub use task::{

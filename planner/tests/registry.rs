@@ -5,6 +5,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test")]
 
+use pddl::model::Objective;
 use planner::{
     Budget, Feature, GroundError, GroundOptions, Impossible, Limit, Outcome, Plan, Quality, Query,
     SearchConfiguration, Task, UnsolvableReason, ground, improve, solve,
@@ -105,16 +106,7 @@ fn check(case: &Case, task: &Task, configuration: &SearchConfiguration, outcome:
         }
         Outcome::Unsolvable(UnsolvableReason::Impossible(other)) => format!("impossible {other:?}"),
         Outcome::Solved(plan) => {
-            let steps = plan.operators.iter().map(|&o| {
-                let o = &task.operators()[o];
-                pddl::PlanStep {
-                    action: o.action,
-                    arguments: o.arguments.to_vec(),
-                    span: pddl::Span::default(),
-                }
-            });
-            let steps = pddl::SequentialPlan::new(steps.collect());
-            let verdict = validator::validate(&case.domain, &case.problem, &steps);
+            let verdict = validator::validate(&case.domain, &case.problem, &steps(task, plan));
             assert!(verdict.is_valid(), "{place}: {verdict:?}");
             let replayed = plan
                 .operators
@@ -178,6 +170,51 @@ fn plans_get_cheaper_until_the_best_is_known() {
             check(&case, &task, &SearchConfiguration::best_optimal(), &improved.report.outcome);
         }
     }
+}
+
+/// By the validator's own count, sums of costs and metrics alike.
+#[test]
+fn every_better_plan_is_valid_and_better() {
+    let mut several = [0; 2];
+    for case in cases() {
+        let Ok(task) = grounded(&case) else { continue };
+        if case.expected == "solvable" && task.has_additive_costs() {
+            continue;
+        }
+        let mut plans = Vec::new();
+        let mut note = |plan: &Plan| plans.push(plan.clone());
+        let budget = Budget { expansions: Some(2_000), ..Budget::default() };
+        let improved = improve(&task, &Query::of(&task), &SearchConfiguration::default(), &budget, &mut note);
+        let measured = plans.iter().map(|plan| validated(&case, &task, plan)).collect::<Vec<_>>();
+        let objective = case.problem.metric.as_ref().map(|m| m.objective);
+        let better = |old: &validator::Number, new: &validator::Number| match objective {
+            Some(Objective::Maximize) => new > old,
+            _ => new < old,
+        };
+        assert!(measured.is_sorted_by(better), "{:?}: {measured:?}", case.path);
+        match improved.report.outcome {
+            Outcome::Solved(best) => assert_eq!(plans.last(), Some(&best), "{:?}", case.path),
+            _ => assert!(plans.is_empty(), "{:?}", case.path),
+        }
+        several[usize::from(!task.has_additive_costs())] += usize::from(measured.len() > 1);
+    }
+    assert!(several.iter().all(|&n| n > 0), "costs, and metrics that are no sum of costs: {several:?}");
+}
+
+/// What the validator says that the plan is worth.
+fn validated(case: &Case, task: &Task, plan: &Plan) -> validator::Number {
+    match validator::validate(&case.domain, &case.problem, &steps(task, plan)) {
+        validator::Verdict::Valid(valid) => valid.cost(),
+        other => panic!("{:?}: {other:?}", case.path),
+    }
+}
+
+fn steps(task: &Task, plan: &Plan) -> pddl::SequentialPlan {
+    let steps = plan.operators.iter().map(|&o| {
+        let o = &task.operators()[o];
+        pddl::PlanStep { action: o.action, arguments: o.arguments.to_vec(), span: pddl::Span::default() }
+    });
+    pddl::SequentialPlan::new(steps.collect())
 }
 
 #[test]

@@ -27,6 +27,8 @@ pub(crate) struct Ff<'a> {
     stack: Vec<u32>,
     /// What the last relaxed plan achieves.
     achieved: Vec<u32>,
+    /// What it costs.
+    real: u64,
 }
 
 impl<'a> Ff<'a> {
@@ -41,6 +43,7 @@ impl<'a> Ff<'a> {
             generation: 0,
             stack: Vec::new(),
             achieved: Vec::new(),
+            real: 0,
             task,
             costs,
             explorer,
@@ -54,6 +57,7 @@ impl<'a> Ff<'a> {
         mut preferred: Option<&mut Vec<OperatorId>>,
     ) -> Estimate {
         self.achieved.clear();
+        self.real = 0;
         if !self.explorer.explore(words) {
             return Estimate::DEAD_END;
         }
@@ -81,8 +85,9 @@ impl<'a> Ff<'a> {
             let before = if again { *count } else { 0 };
             *count = before.max(times);
             let operator = &self.task.operators.as_slice()[number as usize];
-            let more = (*count - before).saturating_mul(self.costs.of(operator.cost));
-            total = total.saturating_add(more);
+            let more = *count - before;
+            total = total.saturating_add(more.saturating_mul(self.costs.of(operator.cost)));
+            self.real += u64::from(more) * u64::from(operator.cost);
             if again {
                 continue;
             }
@@ -103,5 +108,9 @@ impl<'a> Ff<'a> {
 impl Heuristic for Ff<'_> {
     fn estimate(&mut self, view: &View<'_>, preferred: Option<&mut Vec<OperatorId>>) -> Estimate {
         self.relaxed_plan(view.words, preferred)
+    }
+
+    fn rest(&self) -> u64 {
+        self.real
     }
 }

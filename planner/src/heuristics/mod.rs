@@ -131,7 +131,7 @@ impl HeuristicKind {
             Self::Max => Box::new(Max::new(job, costs)),
             Self::Add => Box::new(Add::new(job, costs)),
             Self::Ff => Box::new(Ff::new(job, costs)),
-            Self::Landmarks => Box::new(LandmarkCount::new(job)),
+            Self::Landmarks => Box::new(LandmarkCount::new(job, costs)),
             Self::LmCut => Box::new(LmCut::new(job, costs)),
         }
     }
@@ -165,6 +165,11 @@ pub(crate) trait Heuristic {
 
     /// Told of each step of the search to a new or known state, before its estimate.
     fn step(&mut self, _from: StateId, _operator: OperatorId, _to: StateId, _words: &[u64]) {}
+
+    /// What the way to the goal behind the last estimate costs in real costs; 0 where there is none.
+    fn rest(&self) -> u64 {
+        0
+    }
 
     /// Bytes held, where they grow with the search.
     fn memory(&self) -> usize {

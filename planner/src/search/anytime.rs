@@ -11,7 +11,7 @@
 
 use super::configuration::LAMA;
 use super::elimination::without_needless;
-use super::lazy::{Lazy, LazySettings};
+use super::lazy::{Lazy, LazySettings, Pruning};
 use super::portfolio::{self, Alarm, Sink, Threads};
 use super::windows::Windows;
 use super::{
@@ -103,8 +103,10 @@ pub fn improve(
             let other = scope.spawn(|| polish(u64::MAX));
             let _alarm = Alarm(&over);
             let more = search();
-            // What is proven to be the best cannot be polished; what was interrupted may not be.
-            over.store(true, Relaxed);
+            // What is proven to be the best cannot be polished; what was interrupted may not be. Where
+            // the searches are merely at their end, windows go on.
+            let ended = [Limit::Memory, Limit::Incomplete].map(Outcome::LimitReached);
+            over.store(!ended.contains(&more.outcome), Relaxed);
             (other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), more)
         })
     };
@@ -164,6 +166,14 @@ struct Best<'p> {
     on_plan: &'p mut (dyn FnMut(&Plan) + Send),
 }
 
+/// What estimates count where costs are to fall: where all operators cost the same nothing is added, so
+/// that estimates and costs have one scale.
+pub(crate) fn counted(task: &Task) -> Costs {
+    let mut costs = task.operators().iter().map(|o| o.cost);
+    let first = costs.next().unwrap_or(1);
+    if first > 0 && costs.all(|cost| cost == first) { Costs::Real } else { Costs::PlusOne }
+}
+
 /// The weights of the estimates, one search each; the first search is greedy.
 const ORDERS: [Order; 5] =
     [Order::Greedy, Order::Weighted(5), Order::Weighted(3), Order::Weighted(2), Order::Weighted(1)];
@@ -171,6 +181,7 @@ const ORDERS: [Order; 5] =
 /// Searches below the bound, one after the other.
 pub(crate) struct Improving<'a> {
     job: Job<'a>,
+    costs: Costs,
     stage: usize,
     search: Lazy<'a>,
     before: Statistics,
@@ -178,16 +189,16 @@ pub(crate) struct Improving<'a> {
 
 impl<'a> Improving<'a> {
     pub(crate) fn new(job: Job<'a>) -> Self {
-        Self { job, stage: 0, search: Self::stage(job, 0), before: Statistics::default() }
+        let costs = counted(job.task);
+        Self { job, costs, stage: 0, search: Self::stage(job, costs, 0), before: Statistics::default() }
     }
 
-    fn stage(job: Job<'a>, stage: usize) -> Lazy<'a> {
+    fn stage(job: Job<'a>, costs: Costs, stage: usize) -> Lazy<'a> {
         const BOTH: &[HeuristicKind] = &[HeuristicKind::Ff, HeuristicKind::Landmarks];
-        let order = ORDERS[stage];
-        let explorations = &[];
+        let (order, pruning) = (ORDERS[stage], Pruning::Spent);
         Lazy::new(
             job,
-            &LazySettings { heuristics: BOTH, preferred: BOTH, costs: Costs::PlusOne, order, explorations },
+            &LazySettings { heuristics: BOTH, preferred: BOTH, costs, order, explorations: &[], pruning },
         )
     }
 
@@ -198,7 +209,7 @@ impl<'a> Improving<'a> {
         }
         self.before += self.search.statistics();
         self.stage += 1;
-        self.search = Self::stage(self.job, self.stage);
+        self.search = Self::stage(self.job, self.costs, self.stage);
         true
     }
 }
@@ -212,9 +223,10 @@ impl Searcher for Improving<'_> {
                     self.next();
                     return Some(Outcome::Solved(plan));
                 }
-                Outcome::LimitReached(Limit::Incomplete) => {
+                // The next one starts with empty hands, and goes other ways.
+                Outcome::LimitReached(limit @ (Limit::Incomplete | Limit::Memory)) => {
                     if !self.next() {
-                        return Some(Outcome::LimitReached(Limit::Incomplete));
+                        return Some(Outcome::LimitReached(limit));
                     }
                 }
                 other => return Some(other),

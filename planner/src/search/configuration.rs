@@ -8,7 +8,7 @@ use super::bfws::{Bfws, BfwsSettings, Count, Width};
 use super::dual_bfws::DualBfws;
 use super::eager::{Eager, EagerSettings};
 use super::hill_climbing::HillClimbing;
-use super::lazy::{Exploration, Lazy, LazySettings};
+use super::lazy::{Exploration, Lazy, LazySettings, Pruning};
 use super::portfolio::Threads;
 use super::{Job, Searcher};
 use crate::heuristics::{Costs, Estimate, HeuristicKind};
@@ -89,8 +89,8 @@ const fn exploring(
     preferred: &'static [HeuristicKind],
     explorations: &'static [Exploration],
 ) -> Engine {
-    let (costs, order) = (Costs::Unit, Order::Greedy);
-    Engine::Lazy(LazySettings { heuristics, preferred, costs, order, explorations })
+    let (costs, order, pruning) = (Costs::Unit, Order::Greedy, Pruning::Spent);
+    Engine::Lazy(LazySettings { heuristics, preferred, costs, order, explorations, pruning })
 }
 
 const fn eager(heuristic: HeuristicKind, costs: Costs, order: Order) -> Engine {

@@ -46,6 +46,18 @@ pub struct LazySettings {
     pub order: Order,
     /// One more list each.
     pub explorations: &'static [Exploration],
+    /// Which states are left out where there is a bound.
+    pub pruning: Pruning,
+}
+
+/// Which states are left out where plans must cost less than a bound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pruning {
+    /// Those whose way alone costs as much: no plan below the bound is lost.
+    Spent,
+    /// Those whose way and relaxed plan together cost as much: there may be plans below the bound, but
+    /// few states are left, and the search ends soon.
+    Estimated,
 }
 
 /// A successor that is not built yet.
@@ -116,6 +128,7 @@ enum List {
 pub(crate) struct Lazy<'a> {
     job: Job<'a>,
     order: Order,
+    pruning: Pruning,
     lists: Vec<Lists<'a>>,
     explorations: Vec<Exploring>,
     /// The number of steps by which each state was reached, where types need it.
@@ -154,6 +167,7 @@ impl<'a> Lazy<'a> {
                 .collect(),
             depths: Vec::new(),
             order: settings.order,
+            pruning: settings.pruning,
             registry: StateRegistry::new(job.task, job.state.words()),
             reached_at: Vec::new(),
             begun: false,
@@ -237,6 +251,14 @@ impl<'a> Lazy<'a> {
                 return None;
             }
         }
+        let cost = self.reached_at[id.0 as usize];
+        if self.pruning == Pruning::Estimated {
+            let rest = self.lists.iter().map(|l| l.heuristic.rest()).max().unwrap_or(0);
+            if cost.saturating_add(rest) >= self.job.bound.get() {
+                self.pruned = true;
+                return None;
+            }
+        }
         let mut progress = false;
         for list in &mut self.lists {
             progress |= list.estimate < list.best;
@@ -249,7 +271,6 @@ impl<'a> Lazy<'a> {
         self.job.barred.filter(&mut self.preferred);
         self.preferred.sort_unstable();
         self.preferred.dedup();
-        let cost = self.reached_at[id.0 as usize];
         for list in &mut self.lists {
             let key = self.order.key(cost, list.estimate);
             for &operator in &self.successors {

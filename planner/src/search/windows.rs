@@ -2,23 +2,29 @@
 //!
 //! Idea: cut a window out of the plan; what the rest of the plan needs, followed back to the window's
 //! end, is a small goal, and a cheaper way to it from the window's start makes the whole plan cheaper.
-//! Windows start everywhere and grow, and when all have been tried each may take longer. Invariant: a
-//! plan is handed out only if it was replayed to the goal and costs less. What conditional effects and
+//! Windows start everywhere and grow, and the plan is arranged anew, so that other steps lie together
+//! (`reordering`). First, states go whose relaxed plan is too dear, and most windows end soon; when all
+//! have been tried each may take longer, and in every other round those states stay. Invariant: a plan
+//! is handed out only if it was replayed to the goal and costs less. What conditional effects and
 //! axioms need is not followed back; the replay finds out.
 //!
 //! Source: Siddiqui & Haslum, "Continuing plan quality optimisation", JAIR 2015, §4.
 
-use super::lazy::{Lazy, LazySettings};
+use super::anytime::counted;
+use super::lazy::{Lazy, LazySettings, Pruning};
+use super::reordering::{Arrangement, arranged};
 use super::{Barred, Bound, Job, Meter, Order, Outcome, Plan, Query, Searcher, Statistics, Turn};
 use crate::heuristics::{Costs, HeuristicKind};
 use crate::ids::{FactId, OperatorId};
 use crate::task::{Goal, Literals, State, Task};
+use rustc_hash::{FxHashSet, FxHasher};
 use std::collections::BTreeSet;
+use std::hash::{Hash, Hasher};
 
 /// Work for a window in the first round; it doubles with each.
 const WORK: u64 = 1 << 22;
 /// Rounds, at most.
-const ROUNDS: u32 = 8;
+const ROUNDS: u32 = 12;
 /// Steps in the smallest windows; they double up to the whole plan.
 const SMALLEST: usize = 6;
 
@@ -32,65 +38,112 @@ pub(crate) struct Windows<'a> {
     pub(crate) most: u64,
 }
 
+/// How windows are searched now, and which have been.
+struct Tried {
+    costs: Costs,
+    pruning: Pruning,
+    /// Work for each.
+    work: u64,
+    /// From where, to what, below which cost and how: as hashes.
+    windows: FxHashSet<u64>,
+    statistics: Statistics,
+}
+
+impl Tried {
+    fn is_new(&mut self, state: &State, goal: &Literals, cost: u64) -> bool {
+        let mut hasher = FxHasher::default();
+        let estimated = self.pruning == Pruning::Estimated;
+        (state.words(), &goal.positive, &goal.negative, cost, self.work, estimated).hash(&mut hasher);
+        self.windows.insert(hasher.finish())
+    }
+}
+
 impl Windows<'_> {
     /// Makes the plan cheaper. `exchange` is told of each cheaper plan and answers with the cheapest that
     /// anybody knows.
     pub(crate) fn run(&self, mut plan: Plan, exchange: &mut dyn FnMut(Plan) -> Plan) -> Statistics {
-        let mut statistics = Statistics::default();
+        let mut tried = Tried {
+            costs: counted(self.task),
+            pruning: Pruning::Estimated,
+            work: WORK,
+            windows: FxHashSet::default(),
+            statistics: Statistics::default(),
+        };
         for round in 0..ROUNDS {
-            let mut size = SMALLEST;
-            loop {
-                let mut start = 0;
-                while start < plan.operators.len() {
-                    if self.is_over() {
-                        return statistics;
+            tried.work = WORK << round;
+            tried.pruning = if round % 2 == 0 { Pruning::Estimated } else { Pruning::Spent };
+            for arrangement in [
+                Arrangement::Found,
+                Arrangement::Forward,
+                Arrangement::Backward,
+                Arrangement::Jumping(u64::from(round)),
+            ] {
+                plan = self.arrange(plan, arrangement);
+                let mut size = SMALLEST;
+                loop {
+                    let mut start = 0;
+                    while start < plan.operators.len() {
+                        if self.is_over() {
+                            return tried.statistics;
+                        }
+                        let end = (start + size).min(plan.operators.len());
+                        match self.shorten(&plan, start, end, &mut tried) {
+                            Some(better) => plan = exchange(better),
+                            None => start += (size / 2).max(1),
+                        }
                     }
-                    let end = (start + size).min(plan.operators.len());
-                    match self.shorten(&plan, start, end, WORK << round, &mut statistics) {
-                        Some(better) => plan = exchange(better),
-                        None => start += (size / 2).max(1),
+                    if size >= plan.operators.len() {
+                        break;
                     }
+                    size *= 2;
                 }
-                if size >= plan.operators.len() {
-                    break;
-                }
-                size *= 2;
+                plan = exchange(plan);
             }
-            plan = exchange(plan);
         }
-        statistics
+        tried.statistics
     }
 
     fn is_over(&self) -> bool {
         self.meter.spend(1) || self.meter.work() >= self.most
     }
 
-    fn shorten(
-        &self,
-        plan: &Plan,
-        start: usize,
-        end: usize,
-        work: u64,
-        statistics: &mut Statistics,
-    ) -> Option<Plan> {
+    /// The plan in another order, where that is a plan.
+    fn arrange(&self, plan: Plan, arrangement: Arrangement) -> Plan {
+        let operators = arranged(self.task, &plan.operators, arrangement);
+        match self.replay(self.query.state, &operators) {
+            Some(end) if self.query.goal.holds_in(end.words()) => Plan { operators, ..plan },
+            _ => plan,
+        }
+    }
+
+    fn shorten(&self, plan: &Plan, start: usize, end: usize, tried: &mut Tried) -> Option<Plan> {
         let task = self.task;
         let (before, rest) = plan.operators.split_at(start);
         let (window, after) = rest.split_at(end - start);
         let state = self.replay(self.query.state, before)?;
-        let goal = Goal::new(self.needed(after));
+        let goal = self.needed(after);
+        let cost = Plan::of(task, window.to_vec()).cost;
+        if cost == 0 || !tried.is_new(&state, &goal, cost) {
+            return None;
+        }
+        let goal = Goal::new(goal);
         let bound = Bound::none();
-        bound.lower(Plan::of(task, window.to_vec()).cost);
+        bound.lower(cost);
         let (barred, meter) = (self.barred, self.meter);
         let job = Job { task, state: &state, goal: &goal, barred, meter, bound: &bound };
         const FF: &[HeuristicKind] = &[HeuristicKind::Ff];
-        let order = Order::Weighted(1);
-        let mut search = Lazy::new(
-            job,
-            &LazySettings { heuristics: FF, preferred: FF, costs: Costs::Real, order, explorations: &[] },
-        );
-        let until = (meter.work() + work).min(self.most);
+        let settings = LazySettings {
+            heuristics: FF,
+            preferred: FF,
+            costs: tried.costs,
+            order: Order::Weighted(1),
+            explorations: &[],
+            pruning: tried.pruning,
+        };
+        let until = (meter.work() + tried.work).min(self.most);
+        let mut search = Lazy::new(job, &settings);
         let outcome = search.advance(&Turn { until, ..meter.whole() });
-        *statistics += search.statistics();
+        tried.statistics += search.statistics();
         let Some(Outcome::Solved(found)) = outcome else { return None };
         let operators = [before, &found.operators, after].concat();
         let end = self.replay(self.query.state, &operators)?;

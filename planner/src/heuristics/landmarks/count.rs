@@ -1,15 +1,15 @@
-//! How many landmarks are still to be achieved, with operators that achieve one next as preferred.
+//! What the landmarks cost that are still to be achieved, with operators that achieve one next as preferred.
 //!
 //! Idea: a landmark is accepted on a path once it holds and all that is ordered before it was
 //! accepted; it is needed again if it does not hold and is a goal, or right before something that is
-//! not accepted. Path-dependent: each state keeps the accepted set of the path that found it. Neither
+//! not accepted. Each counts what its cheapest achiever costs: 1 where all operators count 1. Path-dependent: each state keeps the accepted set of the path that found it. Neither
 //! admissible nor consistent; safe: infinite only where a goal was lost that nothing achieves.
 //!
 //! Source: Richter & Westphal, "The LAMA planner", JAIR 2010, §4.
 
 use super::graph::LandmarkGraph;
 use super::labels::Labels;
-use crate::heuristics::{Estimate, Heuristic, View};
+use crate::heuristics::{Costs, Estimate, Heuristic, View};
 use crate::ids::{OperatorId, StateId, id32};
 use crate::search::{Job, Meter};
 use crate::task::{Relaxation, Task, contains};
@@ -19,13 +19,15 @@ pub(crate) struct LandmarkCount<'a> {
     graph: &'a Relaxation,
     meter: &'a Meter<'a>,
     landmarks: LandmarkGraph,
+    /// What each landmark counts.
+    prices: Vec<u32>,
     width: usize,
     /// Accepted landmarks, `width` words a state.
     accepted: Vec<u64>,
 }
 
 impl<'a> LandmarkCount<'a> {
-    pub(crate) fn new(job: &Job<'a>) -> Self {
+    pub(crate) fn new(job: &Job<'a>, costs: Costs) -> Self {
         let (task, graph) = (job.task, job.relaxation());
         let mut initial = vec![false; graph.propositions()];
         graph.for_each_true(job.state.words(), |p| initial[p as usize] = true);
@@ -33,7 +35,8 @@ impl<'a> LandmarkCount<'a> {
         let landmarks =
             LandmarkGraph::new(task, graph, labels.as_ref(), &graph.literals(&job.goal.literals), job.meter);
         let width = landmarks.landmarks.len().div_ceil(64);
-        Self { task, graph, meter: job.meter, landmarks, width, accepted: Vec::new() }
+        let prices = prices(graph, &landmarks, costs);
+        Self { task, graph, meter: job.meter, landmarks, prices, width, accepted: Vec::new() }
     }
 
     fn holds(&self, landmark: usize, words: &[u64]) -> bool {
@@ -80,6 +83,24 @@ impl<'a> LandmarkCount<'a> {
     }
 }
 
+/// By landmark: what its cheapest achiever counts.
+fn prices(graph: &Relaxation, landmarks: &LandmarkGraph, costs: Costs) -> Vec<u32> {
+    if costs == Costs::Unit {
+        return vec![1; landmarks.landmarks.len()];
+    }
+    let mut cheapest = vec![u32::MAX; graph.propositions()];
+    for node in 0..id32(graph.nodes()) {
+        let (operator, cost) = graph.price(node);
+        let cost = if operator { costs.of(cost) } else { 0 };
+        for &p in graph.effects.row(node) {
+            cheapest[p as usize] = cheapest[p as usize].min(cost);
+        }
+    }
+    let price = |p: &u32| Some(cheapest[*p as usize]).filter(|&c| c != u32::MAX);
+    // What nothing achieves holds at the start, or never; then the estimate is no matter.
+    landmarks.landmarks.iter().map(|l| l.propositions.iter().filter_map(price).min().unwrap_or(1)).collect()
+}
+
 fn bit(words: &[u64], i: usize) -> bool {
     words[i / 64] >> (i % 64) & 1 == 1
 }
@@ -110,7 +131,7 @@ impl Heuristic for LandmarkCount<'_> {
 
     fn estimate(&mut self, view: &View<'_>, preferred: Option<&mut Vec<OperatorId>>) -> Estimate {
         let accepted = self.accepted(view.id);
-        let mut open = 0;
+        let mut open = 0_u32;
         for (l, landmark) in self.landmarks.landmarks.iter().enumerate() {
             let needed = if bit(accepted, l) {
                 (landmark.is_goal || landmark.needed_for.iter().any(|&n| !bit(accepted, n as usize)))
@@ -121,13 +142,15 @@ impl Heuristic for LandmarkCount<'_> {
             if needed && landmark.is_goal && landmark.is_final && !self.holds(l, view.words) {
                 return Estimate::DEAD_END;
             }
-            open += usize::from(needed);
+            if needed {
+                open = open.saturating_add(self.prices[l]);
+            }
         }
         self.meter.spend(self.landmarks.landmarks.len() * 4);
         if let Some(preferred) = preferred {
             self.promising(accepted, view.applicable, preferred);
         }
-        Estimate(id32(open))
+        Estimate(open.min(u32::MAX - 1))
     }
 
     fn memory(&self) -> usize {
