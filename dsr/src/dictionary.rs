@@ -6,8 +6,9 @@
 //! own, exclusive resources. Invariant: a built dictionary never changes, and every id in it is valid.
 //! Cost: `is_a` is two comparisons (an interval per type, numbered depth first); a permission is one hash look-up.
 //!
-//! Built into every dictionary: types `object`, `agent`, `resource`; label `holds` from agent to resource with
-//! its attributes `priority`, `yields` and `claim`; the agent `dsr`.
+//! Built into every dictionary: types `object`, `agent`, `resource`; labels from agent to resource, `holds` with
+//! its attributes `priority`, `yields` and `claim`, and `awaits` with `awaits_priority`, `awaits_yields` and `asked`; the
+//! agent `dsr`.
 
 mod builder;
 mod permission;
@@ -203,6 +204,11 @@ impl Dictionary {
     /// Whether the label may go from a node of type `from` to a node of type `to`.
     pub fn allows(&self, label: LabelId, from: TypeId, to: TypeId) -> bool {
         self.signatures(label).iter().any(|s| self.is_a(from, s.from) && self.is_a(to, s.to))
+    }
+
+    /// Whether only the graph itself writes the label.
+    pub(crate) fn is_reserved(label: LabelId) -> bool {
+        label == LabelId::HOLDS || label == LabelId::AWAITS
     }
 
     /// What carries the attribute.

@@ -61,6 +61,8 @@ impl TypeId {
 impl LabelId {
     /// `holds`: an agent holds a resource. Written by claims and releases only.
     pub const HOLDS: Self = Self(0);
+    /// `awaits`: an agent waits for a resource. Written by the graph itself.
+    pub const AWAITS: Self = Self(1);
 }
 
 impl AttributeId {
@@ -70,6 +72,12 @@ impl AttributeId {
     pub const YIELDS: Self = Self(1);
     /// `claim`: the version in which the lease was granted, on the edge `holds`.
     pub const CLAIM: Self = Self(2);
+    /// `awaits_priority` of a wait, on the edge `awaits`.
+    pub const AWAITS_PRIORITY: Self = Self(3);
+    /// `awaits_yields`: whether the lease to be yields, on the edge `awaits`.
+    pub const AWAITS_YIELDS: Self = Self(4);
+    /// `asked`: the version in which the lease was asked for, on the edge `awaits`.
+    pub const ASKED: Self = Self(5);
 }
 
 impl AgentId {

@@ -43,8 +43,9 @@
 //! Map, from the ground up: `id`, `value` → `dictionary` → `pages`, `block`, `names`, `members`, `state` (what a snapshot
 //! is), `track`, `undo` → `transaction` (edits, leases, the tree of transforms), `delta`, `replay`, `export` → `chain`, `pattern`,
 //! `reflex` → `snapshot`, `sentence`, `quiver` → `subscription`,
-//! `routes`, `kernel` (how readers and writers keep out of each other's way), `graph` → `journal`.
+//! `routes`, `kernel` (how readers and writers keep out of each other's way), `graph`, `attendance` → `journal`.
 
+mod attendance;
 mod block;
 mod chain;
 mod delta;
@@ -73,6 +74,7 @@ mod transaction;
 mod undo;
 mod value;
 
+pub use attendance::Attendance;
 pub use chain::ChainError;
 pub use delta::{Change, Delta};
 pub use dictionary::{
@@ -100,5 +102,5 @@ pub use replay::ReplayError;
 pub use snapshot::{AttributeView, EdgeView, NodeView, Snapshot};
 pub use subscription::{Committed, Delivery, Deltas, Event, Mailbox, MatchChange, Matches};
 pub use track::HORIZON;
-pub use transaction::{Edit, HolderRef, Lease, Preemption, Priority, Transaction, TransactionError};
+pub use transaction::{Edit, HolderRef, Lease, Preemption, Priority, Transaction, TransactionError, Waiting};
 pub use value::{Kind, NewValue, NodeRef, Value};

@@ -104,6 +104,10 @@ impl Mentions {
         self.transforms |= other.transforms;
     }
 
+    pub(crate) fn has_label(&self, label: LabelId) -> bool {
+        self.labels.contains(label.index())
+    }
+
     pub(crate) fn clear(&mut self) {
         *self = Self::default();
     }

@@ -146,7 +146,12 @@ impl State {
     }
 
     /// Ends a reflex and gives back its leases.
-    pub(crate) fn dismiss(&mut self, writer: AgentId, id: ReflexId) -> Result<(), TransactionError> {
+    pub(crate) fn dismiss(
+        &mut self,
+        writer: AgentId,
+        id: ReflexId,
+        version: Version,
+    ) -> Result<(), TransactionError> {
         let registered =
             self.reflexes.live.get(&id).cloned().ok_or(TransactionError::ReflexGone { reflex: id })?;
         if registered.reflex.owner != writer {
@@ -154,7 +159,7 @@ impl State {
             return Err(TransactionError::NotOwner { writer: self.agent_name(writer), owner });
         }
         Arc::make_mut(&mut self.reflexes.live).remove(&id);
-        self.give_back(&registered);
+        self.give_back(&registered, version);
         Ok(())
     }
 
@@ -164,9 +169,10 @@ impl State {
         while let Some((id, registered)) = self.first_broken() {
             Arc::make_mut(&mut self.reflexes.live).remove(&id);
             fired.push(id);
-            self.give_back(&registered);
+            self.give_back(&registered, version);
             // What it can no longer write is left out; that it fired is told all the same.
             let _ = self.react(&registered.reflex, version);
+            self.settle_leases(version);
         }
         self.reflexes.condemned.clear();
         fired
@@ -208,10 +214,10 @@ impl State {
         self.lease(resource).is_some_and(|lease| lease.holder == owner && lease.claimed == claimed)
     }
 
-    fn give_back(&mut self, registered: &Registered) {
+    fn give_back(&mut self, registered: &Registered, version: Version) {
         for &lease in &registered.leases {
             if self.still_held(registered.reflex.owner, lease) {
-                self.revoke(registered.reflex.owner, lease.0);
+                self.give_up(registered.reflex.owner, lease.0, version);
             }
         }
     }

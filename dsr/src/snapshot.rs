@@ -9,9 +9,9 @@ use nalgebra::Isometry3;
 use crate::block::{Cell, EdgeCell, Node};
 use crate::chain::ChainError;
 use crate::dictionary::Dictionary;
-use crate::id::{AttributeId, EdgeKey, Holder, LabelId, NodeId, ResourceId, Time, TypeId, Version};
+use crate::id::{AgentId, AttributeId, EdgeKey, Holder, LabelId, NodeId, ResourceId, Time, TypeId, Version};
 use crate::state::State;
-use crate::transaction::Lease;
+use crate::transaction::{Lease, Waiting};
 use crate::value::Value;
 
 /// An immutable state of the graph.
@@ -242,5 +242,15 @@ impl Snapshot {
     /// Who holds a resource.
     pub fn lease(&self, resource: ResourceId) -> Option<Lease> {
         self.state.lease(resource)
+    }
+
+    /// Who waits for a resource, the next first.
+    pub fn waiting(&self, resource: ResourceId) -> Vec<Waiting> {
+        self.state.waiting(resource)
+    }
+
+    /// What an agent waits for.
+    pub fn awaited(&self, agent: AgentId) -> Option<ResourceId> {
+        self.state.wait_of(agent)
     }
 }

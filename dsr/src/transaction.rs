@@ -15,7 +15,7 @@ use nalgebra::Isometry3;
 use serde::{Deserialize, Serialize};
 
 pub use self::error::TransactionError;
-pub use self::lease::{Lease, Preemption, Priority};
+pub use self::lease::{Lease, Preemption, Priority, Waiting};
 use crate::id::{AgentId, AttributeId, LabelId, ReflexId, ResourceId, Time, TypeId, Version};
 use crate::reflex::Reflex;
 use crate::value::{NewValue, NodeRef};
@@ -84,9 +84,12 @@ pub enum Edit {
     RemoveTransform { parent: NodeRef, child: NodeRef },
     /// Takes a lease for the writer, from a holder of lower priority if that one yields.
     Claim { resource: ResourceId, priority: Priority, preemption: Preemption },
-    /// Gives the writer's lease back; no change if the writer does not hold it.
+    /// Takes a lease for the writer as a claim does, or has the writer wait until it is its turn: the lease comes with
+    /// the commit that frees the resource. Refused where the holder waits for the writer. An agent waits for one at most.
+    Await { resource: ResourceId, priority: Priority, preemption: Preemption },
+    /// Gives the writer's lease back, or its place among those who wait; no change if it has neither.
     Release { resource: ResourceId },
-    /// Drops all leases of an agent and breaks all its reflexes. For the agent itself and for [`AgentId::DSR`].
+    /// Drops all leases and waits of an agent and breaks all its reflexes. For the agent itself and for [`AgentId::DSR`].
     Expire { agent: AgentId },
 }
 
@@ -218,7 +221,17 @@ impl Transaction {
         self.push(Edit::Claim { resource, priority, preemption })
     }
 
-    /// Gives a lease back.
+    /// Takes a lease, or waits for it.
+    pub fn await_lease(
+        &mut self,
+        resource: ResourceId,
+        priority: Priority,
+        preemption: Preemption,
+    ) -> &mut Self {
+        self.push(Edit::Await { resource, priority, preemption })
+    }
+
+    /// Gives a lease back, or stops waiting for it.
     pub fn release(&mut self, resource: ResourceId) -> &mut Self {
         self.push(Edit::Release { resource })
     }

@@ -59,7 +59,7 @@ pub enum DictionaryError {
         /// The id.
         id: AgentId,
     },
-    /// The label `holds` and its attributes are written by claims only.
+    /// The labels `holds` and `awaits` and their attributes are written by claims only.
     #[error("'{name}' is reserved for leases")]
     Reserved {
         /// The token.
@@ -117,12 +117,17 @@ impl DictionaryBuilder {
         {
             new.add_type(name.into(), parent, Nature::Symbolic);
         }
-        let holds = Signature { from: TypeId::AGENT, to: TypeId::RESOURCE };
-        new.made.labels.push(Label { name: "holds".into(), signatures: vec![holds] });
-        new.made.label_names.insert("holds".into(), LabelId::HOLDS);
-        let holder = HolderType::Edge { label: LabelId::HOLDS, signature: holds };
-        for (name, kind) in [("priority", Kind::Number), ("yields", Kind::Bool), ("claim", Kind::Number)] {
-            new.add_attribute(name.into(), holder, kind);
+        let signature = Signature { from: TypeId::AGENT, to: TypeId::RESOURCE };
+        for (name, label, attributes) in [
+            ("holds", LabelId::HOLDS, ["priority", "yields", "claim"]),
+            ("awaits", LabelId::AWAITS, ["awaits_priority", "awaits_yields", "asked"]),
+        ] {
+            new.made.labels.push(Label { name: name.into(), signatures: vec![signature] });
+            new.made.label_names.insert(name.into(), label);
+            let holder = HolderType::Edge { label, signature };
+            for (attribute, kind) in attributes.into_iter().zip([Kind::Number, Kind::Bool, Kind::Number]) {
+                new.add_attribute(attribute.into(), holder, kind);
+            }
         }
         new.made.agents.push("dsr".into());
         new.made.agent_names.insert("dsr".into(), AgentId::DSR);
@@ -156,7 +161,7 @@ impl DictionaryBuilder {
         self.known_type(from)?;
         self.known_type(to)?;
         let id = match self.made.label_names.get(&name) {
-            Some(&LabelId::HOLDS) => return Err(DictionaryError::Reserved { name }),
+            Some(&id) if Dictionary::is_reserved(id) => return Err(DictionaryError::Reserved { name }),
             Some(&id) => id,
             None => {
                 let id = LabelId::at(self.made.labels.len());
@@ -196,7 +201,7 @@ impl DictionaryBuilder {
         self.known_type(from)?;
         self.known_type(to)?;
         let entry = self.made.labels.get(label.index()).ok_or(DictionaryError::UnknownLabel { id: label })?;
-        if label == LabelId::HOLDS {
+        if Dictionary::is_reserved(label) {
             return Err(DictionaryError::Reserved { name });
         }
         let fits = |s: &Signature| self.descends(from, s.from) && self.descends(to, s.to);
@@ -235,13 +240,15 @@ impl DictionaryBuilder {
             return Err(DictionaryError::UnknownAgent { id: agent });
         }
         match permission.token {
-            Token::Label(LabelId::HOLDS) => return Err(DictionaryError::Reserved { name: "holds".into() }),
+            Token::Label(id) if Dictionary::is_reserved(id) => {
+                return Err(DictionaryError::Reserved { name: self.made.labels[id.index()].name.clone() });
+            }
             Token::Label(id) if id.index() >= self.made.labels.len() => {
                 return Err(DictionaryError::UnknownLabel { id });
             }
             Token::Attribute(id) => match self.made.attributes.get(id.index()) {
                 None => return Err(DictionaryError::UnknownAttribute { id }),
-                Some(entry) if id.index() <= AttributeId::CLAIM.index() => {
+                Some(entry) if id.index() <= AttributeId::ASKED.index() => {
                     return Err(DictionaryError::Reserved { name: entry.name.clone() });
                 }
                 Some(_) => {}

@@ -10,10 +10,10 @@ use std::sync::Arc;
 use nalgebra::Isometry3;
 
 use super::error::TransactionError;
-use super::{Edit, HolderRef, Preemption, Transaction, tree};
+use super::{Edit, HolderRef, Transaction, tree};
 use crate::block::Node;
 use crate::delta::{self, Change, Delta};
-use crate::dictionary::{HolderType, Nature, Token};
+use crate::dictionary::{Dictionary, HolderType, Nature, Token};
 use crate::id::{AgentId, AttributeId, EdgeKey, Holder, LabelId, NodeId, ReflexId, Time, TypeId, Version};
 use crate::state::{Side, State};
 use crate::undo::Mark;
@@ -65,12 +65,13 @@ fn run(
     let (writer, version) = (transaction.writer, Version(state.version.0 + 1));
     warm(state, &transaction.edits);
     for &reflex in &transaction.dismissed {
-        state.dismiss(writer, reflex)?;
+        state.dismiss(writer, reflex, version)?;
     }
     for edit in &transaction.edits {
         apply(state, writer, edit, version)?;
     }
     judge(state, start)?;
+    state.settle_leases(version);
     let mut guards = Vec::with_capacity(transaction.guards.len());
     for reflex in &transaction.guards {
         guards.push(state.register(writer, reflex, version)?);
@@ -174,28 +175,14 @@ pub(crate) fn apply(
             Ok(())
         }
         Edit::Claim { resource, priority, preemption } => {
-            known_resource(state, *resource)?;
-            if let Some(lease) = state.lease(*resource) {
-                let taken = *priority > lease.priority
-                    && lease.preemption == Preemption::Yields
-                    // Two claims of one transaction would be one grant: neither could be told from the other.
-                    && lease.claimed != since;
-                if !taken {
-                    return Err(TransactionError::ResourceHeld {
-                        resource: resource_name(state, *resource),
-                        holder: state.agent_name(lease.holder),
-                        priority: lease.priority,
-                        preemption: lease.preemption,
-                    });
-                }
-                state.revoke(lease.holder, *resource);
-            }
-            state.grant(writer, *resource, *priority, *preemption, since);
-            Ok(())
+            state.claim(writer, *resource, (*priority, *preemption), since)
+        }
+        Edit::Await { resource, priority, preemption } => {
+            state.claim_or_wait(writer, *resource, (*priority, *preemption), since)
         }
         Edit::Release { resource } => {
             known_resource(state, *resource)?;
-            state.revoke(writer, *resource);
+            state.give_up(writer, *resource, since);
             Ok(())
         }
         Edit::Expire { agent } => {
@@ -204,9 +191,7 @@ pub(crate) fn apply(
                 let (writer, owner) = (state.agent_name(writer), state.agent_name(*agent));
                 return Err(TransactionError::NotOwner { writer, owner });
             }
-            for resource in state.leases_of(*agent) {
-                state.revoke(*agent, resource);
-            }
+            state.give_up_all(*agent, since);
             state.reflexes.condemn(*agent);
             Ok(())
         }
@@ -259,7 +244,7 @@ fn edge_to_write(
     let dictionary = &state.dictionary;
     let name = dictionary.label_name(label).ok_or(TransactionError::UnknownLabel { id: label })?;
     let ((from, start), (to, end)) = (typed(state, from)?, typed(state, to)?);
-    if label == LabelId::HOLDS {
+    if Dictionary::is_reserved(label) {
         return Err(TransactionError::Reserved { name: name.clone() });
     }
     if from == to {
@@ -307,7 +292,7 @@ fn attribute_to_write(
             let label_name =
                 dictionary.label_name(*label).ok_or(TransactionError::UnknownLabel { id: *label })?;
             let ((from, start), (to, end)) = (typed(state, from)?, typed(state, to)?);
-            if *label == LabelId::HOLDS {
+            if Dictionary::is_reserved(*label) {
                 return Err(TransactionError::Reserved { name: label_name.clone() });
             }
             let fits = matches!(declared, HolderType::Edge { label: on, signature }
@@ -462,7 +447,7 @@ fn resolve<'a>(state: &'a State, node: &NodeRef) -> Result<(NodeId, Node<'a>), T
         .ok_or_else(|| TransactionError::UnknownNode { node: node.clone() })
 }
 
-fn known_resource(state: &State, id: crate::id::ResourceId) -> Result<(), TransactionError> {
+pub(super) fn known_resource(state: &State, id: crate::id::ResourceId) -> Result<(), TransactionError> {
     state.dictionary.resource_name(id).map(|_| ()).ok_or(TransactionError::UnknownResource { id })
 }
 
@@ -474,6 +459,6 @@ fn label_name(state: &State, id: LabelId) -> Arc<str> {
     state.dictionary.label_name(id).cloned().unwrap_or_else(|| id.to_string().into())
 }
 
-fn resource_name(state: &State, id: crate::id::ResourceId) -> Arc<str> {
+pub(super) fn resource_name(state: &State, id: crate::id::ResourceId) -> Arc<str> {
     state.dictionary.resource_name(id).cloned().unwrap_or_else(|| id.to_string().into())
 }

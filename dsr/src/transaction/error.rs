@@ -84,6 +84,12 @@ pub enum TransactionError {
     /// The resource is held, by a priority that is not lower or by a holder that finishes first.
     #[error("'{holder}' holds '{resource}' with priority {}", priority.0)]
     ResourceHeld { resource: Name, holder: Name, priority: Priority, preemption: Preemption },
+    /// The writer waits for a resource; nobody waits for two.
+    #[error("'{writer}' waits for '{resource}' already")]
+    WaitsAlready { writer: Name, resource: Name },
+    /// The writer would wait for somebody who waits for the writer: each resource of the circle with who holds it.
+    #[error("'{writer}' would wait for itself: {}", told(circle))]
+    Deadlock { writer: Name, circle: Vec<(Name, Name)> },
     /// The graph has moved on.
     #[error("expected version {}, the graph is at {}", expected.0, current.0)]
     Stale { expected: Version, current: Version },
@@ -102,4 +108,9 @@ pub enum TransactionError {
     /// What a new reflex would do could not be done.
     #[error("a reflex of '{owner}' could not fire: {error}")]
     ReflexRefused { owner: Name, error: Box<TransactionError> },
+}
+
+fn told(circle: &[(Name, Name)]) -> String {
+    let step = |(resource, holder): &(Name, Name)| format!("'{resource}' is held by '{holder}'");
+    circle.iter().map(step).collect::<Vec<_>>().join(", who waits: ")
 }
