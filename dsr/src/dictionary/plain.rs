@@ -50,8 +50,8 @@ impl Plain {
             ends.iter().map(move |(from, to)| (agent, Permission::between(token, from.clone(), to.clone())))
         });
         let types = dictionary.types.iter().skip(TypeId::RESOURCE.index() + 1);
-        let labels = dictionary.labels.iter().skip(LabelId::HOLDS.index() + 1);
-        let attributes = dictionary.attributes.iter().skip(AttributeId::CLAIM.index() + 1);
+        let labels = dictionary.labels.iter().skip(LabelId::AWAITS.index() + 1);
+        let attributes = dictionary.attributes.iter().skip(AttributeId::ASKED.index() + 1);
         Self {
             types: types
                 .map(|entry| PlainType {
