@@ -2,7 +2,7 @@
 
 use crate::heuristics::{Costs, Estimate, HeuristicKind, View};
 use crate::ids::{OperatorId, StateId};
-use crate::search::{Bound, Budget, Job, Meter, Query};
+use crate::search::{Bound, Budget, Job, Meter, Query, Shared};
 use crate::{GroundOptions, State, Task, ground};
 
 /// A task with what it was made of.
@@ -41,8 +41,10 @@ impl Grounded {
     pub(crate) fn estimate(&self, kind: HeuristicKind, state: &State) -> (Estimate, Vec<OperatorId>) {
         let task = &self.task;
         let query = Query { state, ..Query::of(task) };
-        let (barred, meter, bound) = (query.barred(task), Meter::new(Budget::default()), Bound::none());
-        let job = Job { task, state, goal: query.goal, barred: &barred, meter: &meter, bound: &bound };
+        let (barred, meter) = (query.barred(task), Meter::new(Budget::default()));
+        let (bound, shared) = (Bound::none(), Shared::default());
+        let goal = query.goal;
+        let job = Job { task, state, goal, barred: &barred, meter: &meter, bound: &bound, shared: &shared };
         let mut heuristic = kind.build(&job, Costs::Real);
         heuristic.start(StateId(0), state.words());
         let applicable = task.applicable(state);

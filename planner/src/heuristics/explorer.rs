@@ -4,7 +4,8 @@
 //! propositions in order of cost; a node whose last precondition is settled offers its effects at the
 //! sum (or maximum) of its preconditions' costs plus its own. Invariant: when a proposition is
 //! popped at its cost, that cost is final. Comparisons of numbers count repetitions where that is asked
-//! for (`repetitions`). Cost: linear in the relaxation, plus the queue; arrays are
+//! for (`repetitions`). Moves need no counter: they fire when their one precondition is settled, and of
+//! a clique only the first. Cost: linear in the relaxation, plus the queue; arrays are
 //! reset by copying templates, nothing is allocated.
 //!
 //! Source: Bonet & Geffner, "Planning as heuristic search", AIJ 2001; Liu, Koenig & Furcy, "Speeding
@@ -14,7 +15,7 @@ use crate::heuristics::Costs;
 use crate::heuristics::repetitions::Repetitions;
 use crate::ids::id32;
 use crate::search::{Job, Meter};
-use crate::task::{AXIOM, Relaxation};
+use crate::task::{ALONE, AXIOM, Relaxation};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -54,7 +55,11 @@ pub(crate) struct Explorer<'a> {
     combine: Combine,
     repetitions: Option<Repetitions<'a>>,
     template: Vec<Node>,
+    /// Without the moves.
     nodes: Vec<Node>,
+    /// The exploration in which the moves of each clique were made.
+    moved: Vec<u32>,
+    exploration: u32,
     cost: Vec<u32>,
     supporter: Vec<u32>,
     buckets: Vec<Vec<u32>>,
@@ -106,8 +111,10 @@ impl<'a> Explorer<'a> {
             meter: job.meter,
             combine,
             repetitions,
-            nodes: template.clone(),
+            nodes: template[..graph.first_move as usize].to_vec(),
             template,
+            moved: vec![0; graph.cliques],
+            exploration: 0,
             cost: vec![UNREACHED; graph.propositions()],
             supporter: vec![UNREACHED; graph.propositions()],
             buckets: Vec::new(),
@@ -148,12 +155,18 @@ impl<'a> Explorer<'a> {
 
     /// Whether everything that the node needs costs nothing.
     pub(crate) fn is_ready(&self, node: u32) -> bool {
-        self.nodes[node as usize].cost == self.template[node as usize].cost
+        match self.nodes.get(node as usize) {
+            Some(state) => state.cost == self.template[node as usize].cost,
+            None => self.cost[self.graph.preconditions.row(node)[0] as usize] == 0,
+        }
     }
 
     /// Whether everything that the node needs was reached.
     pub(crate) fn is_fired(&self, node: u32) -> bool {
-        self.nodes[node as usize].missing == 0
+        match self.nodes.get(node as usize) {
+            Some(state) => state.missing == 0,
+            None => self.cost[self.graph.preconditions.row(node)[0] as usize] != UNREACHED,
+        }
     }
 
     /// Changes the cost of a node for the explorations to come.
@@ -170,7 +183,7 @@ impl<'a> Explorer<'a> {
         graph.for_each_true(words, |p| self.offer(p, 0, UNREACHED));
         for &node in &graph.free {
             if self.nodes[node as usize].missing == 0 {
-                self.fire(node, words);
+                self.fire(node, self.nodes[node as usize].cost, words);
             }
         }
         let mut open = self.goal.len();
@@ -185,7 +198,7 @@ impl<'a> Explorer<'a> {
                     return true;
                 }
             }
-            let waiting = graph.needed_by.row(proposition);
+            let (waiting, moves) = graph.waiting_and_moves(proposition);
             if self.meter.spend(waiting.len() + 1) {
                 return false;
             }
@@ -200,15 +213,37 @@ impl<'a> Explorer<'a> {
                 }
                 node.missing -= 1;
                 if node.missing == 0 {
-                    self.fire(n, words);
+                    let cost = node.cost;
+                    self.fire(n, cost, words);
                 }
+            }
+            if moves.is_empty() || !self.is_first(graph.clique[proposition as usize]) {
+                continue;
+            }
+            if self.meter.spend(moves.len()) {
+                return false;
+            }
+            for &n in moves {
+                let base = self.template[n as usize].cost;
+                self.fire(n, (base + cost).min(HIGHEST), words);
             }
         }
         everything
     }
 
+    /// Whether no member of the clique has been settled before.
+    fn is_first(&mut self, clique: u32) -> bool {
+        clique == ALONE
+            || std::mem::replace(&mut self.moved[clique as usize], self.exploration) != self.exploration
+    }
+
     fn reset(&mut self) {
-        self.nodes.copy_from_slice(&self.template);
+        let waiting = self.nodes.len();
+        self.nodes.copy_from_slice(&self.template[..waiting]);
+        self.exploration = self.exploration.checked_add(1).unwrap_or_else(|| {
+            self.moved.fill(0);
+            1
+        });
         self.cost.fill(UNREACHED);
         if self.queued > 0 {
             self.buckets.iter_mut().for_each(Vec::clear);
@@ -218,8 +253,8 @@ impl<'a> Explorer<'a> {
         self.lowest = 0;
     }
 
-    fn fire(&mut self, node: u32, words: &[u64]) {
-        let cost = self.nodes[node as usize].cost;
+    /// Offers the effects of a node that costs so much with all that it needs.
+    fn fire(&mut self, node: u32, cost: u32, words: &[u64]) {
         let effects = &self.graph.effects;
         if self.repetitions.is_none() {
             for &p in effects.row(node) {
@@ -230,7 +265,7 @@ impl<'a> Explorer<'a> {
         for effect in effects.range(node) {
             let p = effects.item(effect);
             if cost < self.cost[p as usize]
-                && let Some(cost) = self.repeated(node, effect, words)
+                && let Some(cost) = self.repeated(node, cost, effect, words)
             {
                 self.offer(p, cost, node);
             }
@@ -238,8 +273,7 @@ impl<'a> Explorer<'a> {
     }
 
     /// What an effect of a node costs with its repetitions; `None` where it never comes about.
-    fn repeated(&self, node: u32, effect: usize, words: &[u64]) -> Option<u32> {
-        let cost = self.nodes[node as usize].cost;
+    fn repeated(&self, node: u32, cost: u32, effect: usize, words: &[u64]) -> Option<u32> {
         let Some(repetitions) = &self.repetitions else { return Some(cost) };
         let times = repetitions.count(effect, words)?;
         Some(match self.combine {

@@ -8,8 +8,8 @@
 //! Source: Helmert & Domshlak, "Landmarks, critical paths and abstractions: what's the difference
 //! anyway?", ICAPS 2009.
 
-use super::explorer::{Counting, UNREACHED};
-use super::{Combine, Costs, Estimate, Explorer, Heuristic, View};
+use super::explorer::UNREACHED;
+use super::{Combine, Costs, Counting, Estimate, Explorer, Heuristic, View};
 use crate::ids::{OperatorId, id32};
 use crate::search::{Job, Meter};
 use crate::task::{AXIOM, Relaxation, Rows};

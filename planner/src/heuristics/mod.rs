@@ -13,9 +13,10 @@ mod lm_cut;
 mod max;
 mod repetitions;
 
-pub(crate) use explorer::{Combine, Explorer};
+pub(crate) use explorer::{Combine, Counting, Explorer};
 pub(crate) use ff::Ff;
 use landmarks::LandmarkCount;
+pub(crate) use landmarks::LandmarkGraph;
 
 use crate::ids::{OperatorId, StateId};
 use crate::search::Job;

@@ -5,7 +5,7 @@
 
 use super::anytime::Improving;
 use super::bfws::{Bfws, BfwsSettings, Count, Width};
-use super::dual_bfws::DualBfws;
+use super::dual_bfws::{BackEnd, DualBfws};
 use super::eager::{Eager, EagerSettings};
 use super::hill_climbing::HillClimbing;
 use super::lazy::{Exploration, Lazy, LazySettings, Pruning};
@@ -45,6 +45,8 @@ pub enum Engine {
     Bfws(BfwsSettings),
     /// Width search without what is not novel, then one that keeps everything and knows more.
     DualBfws,
+    /// The second of these alone.
+    BackEnd,
     /// Searches for better and better plans below a bound.
     Improving,
 }
@@ -57,6 +59,7 @@ impl Engine {
             Self::HillClimbing => Box::new(HillClimbing::new(job)),
             Self::Bfws(settings) => Box::new(Bfws::new(job, settings)),
             Self::DualBfws => Box::new(DualBfws::new(job)),
+            Self::BackEnd => Box::new(BackEnd::new(job)),
             Self::Improving => Box::new(Improving::new(job)),
         }
     }
@@ -129,8 +132,8 @@ impl SearchConfiguration {
             threads: Threads::Two,
             ..Self::row(
                 "dual",
-                "lama-novelty, bfws and others in turns, on two threads where it pays",
-                &[(LAMA_NOVELTY, 3), (BFWS_LANDMARKS, 3), (BFWS, 2), (LANDMARKS, 1)],
+                "lama-novelty, width searches and others in turns, on two threads where it pays",
+                &[(LAMA_NOVELTY, 4), (BFWS_LANDMARKS, 2), (BFWS, 2), (Engine::BackEnd, 4), (LANDMARKS, 1)],
             )
         },
         Self::row(
@@ -144,6 +147,7 @@ impl SearchConfiguration {
             "width search without what is not novel, then a complete one on landmarks and relaxed plans",
             &[(Engine::DualBfws, 1)],
         ),
+        Self::row("dual-bfws-back", "the second part of dual-bfws alone", &[(Engine::BackEnd, 1)]),
         Self::row(
             "lazy-ff",
             "greedy search on relaxed plans with preferred operators",

@@ -74,7 +74,7 @@ struct Node {
 }
 
 /// The complete part.
-struct BackEnd<'a> {
+pub(crate) struct BackEnd<'a> {
     space: Space<'a>,
     ff: Ff<'a>,
     landmarks: Box<dyn Heuristic + Send + 'a>,
@@ -89,7 +89,7 @@ struct BackEnd<'a> {
 }
 
 impl<'a> BackEnd<'a> {
-    fn new(job: Job<'a>) -> Self {
+    pub(crate) fn new(job: Job<'a>) -> Self {
         let words = job.task.words_per_state();
         let pairs = PAIRS.min(job.meter.whole().bytes / 8);
         Self {

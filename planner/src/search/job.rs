@@ -1,7 +1,9 @@
 //! One search's share of a question: what it needs to know, and the bound that searches share.
 
 use super::{Barred, Meter};
+use crate::heuristics::LandmarkGraph;
 use crate::task::{Goal, Relaxation, State, Task};
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// What a search works on.
@@ -13,9 +15,21 @@ pub(crate) struct Job<'a> {
     pub(crate) barred: &'a Barred,
     pub(crate) meter: &'a Meter<'a>,
     pub(crate) bound: &'a Bound,
+    pub(crate) shared: &'a Shared,
+}
+
+/// What the first search that needs it finds out for all searches on one question.
+#[derive(Default)]
+pub(crate) struct Shared {
+    landmarks: OnceLock<LandmarkGraph>,
 }
 
 impl<'a> Job<'a> {
+    /// The landmarks of the question. Incomplete where the meter is stopped, and then nobody goes on.
+    pub(crate) fn landmarks(&self) -> &'a LandmarkGraph {
+        self.shared.landmarks.get_or_init(|| LandmarkGraph::of(self))
+    }
+
     /// The relaxation for estimates that never count an operator twice for two ends.
     pub(crate) fn relaxation(&self) -> &'a Relaxation {
         // What dominates may be barred.

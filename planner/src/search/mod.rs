@@ -33,7 +33,7 @@ pub use bfws::{BfwsSettings, Count, Width};
 pub use budget::{Budget, Limit};
 pub use configuration::{Engine, Order, SearchConfiguration};
 pub use eager::EagerSettings;
-pub(crate) use job::{Bound, Job};
+pub(crate) use job::{Bound, Job, Shared};
 pub use lazy::{Exploration, LazySettings, Pruning};
 pub(crate) use meter::{Meter, Turn};
 pub use outcome::{Outcome, Plan, Report, Statistics, UnsolvableReason};
@@ -82,9 +82,10 @@ pub fn solve(
 
 /// The literals of the goal that even the delete relaxation cannot reach.
 fn relaxed_unreachable(task: &Task, query: &Query<'_>, budget: &Budget<'_>) -> Option<UnsolvableReason> {
-    let (barred, meter, bound) = (query.barred(task), Meter::new(*budget), Bound::none());
-    let job =
-        Job { task, state: query.state, goal: query.goal, barred: &barred, meter: &meter, bound: &bound };
+    let (barred, meter) = (query.barred(task), Meter::new(*budget));
+    let (bound, shared) = (Bound::none(), Shared::default());
+    let (state, goal) = (query.state, query.goal);
+    let job = Job { task, state, goal, barred: &barred, meter: &meter, bound: &bound, shared: &shared };
     let goal = task.relaxation.literals(&query.goal.literals);
     let mut explorer = Explorer::new(&job, Vec::new(), Costs::Unit, Combine::Max);
     explorer.explore(query.state.words());

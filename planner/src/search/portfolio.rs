@@ -12,7 +12,7 @@
 
 use super::meter::UNLIMITED;
 use super::{Barred, Bound, Budget, Engine, Job, Limit, Meter, Outcome, Plan, Query, Report, Searcher};
-use super::{Statistics, Turn};
+use super::{Shared, Statistics, Turn};
 use crate::task::Task;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -68,6 +68,7 @@ struct Portfolio<'a, 's> {
     query: Query<'a>,
     barred: &'a Barred,
     bound: &'a Bound,
+    shared: &'a Shared,
     budget: Budget<'a>,
     meters: &'a [Meter<'a>],
     over: &'a AtomicBool,
@@ -85,7 +86,7 @@ pub(crate) fn run(
     sink: Sink<'_>,
 ) -> Report {
     let barred = query.barred(task);
-    let over = AtomicBool::new(false);
+    let (over, shared) = (AtomicBool::new(false), Shared::default());
     let interrupted = || over.load(Relaxed) || (budget.interrupted)();
     let inner = Budget { interrupted: &interrupted, ..*budget };
     let meters: Vec<Meter<'_>> = members.iter().map(|_| Meter::new(inner)).collect();
@@ -101,6 +102,7 @@ pub(crate) fn run(
         query: *query,
         barred: &barred,
         bound,
+        shared: &shared,
         budget: inner,
         meters: &meters,
         over: &over,
@@ -153,7 +155,8 @@ impl<'a, 's> Portfolio<'a, 's> {
             let meter = member.meter;
             let searcher = member.searcher.get_or_insert_with(|| {
                 let (state, goal) = (self.query.state, self.query.goal);
-                let job = Job { task: self.task, state, goal, barred: self.barred, meter, bound: self.bound };
+                let Self { task, barred, bound, shared, .. } = *self;
+                let job = Job { task, state, goal, barred, meter, bound, shared };
                 member.engine.start(job)
             });
             let outcome = searcher.advance(&turn);

@@ -13,7 +13,7 @@
 use super::anytime::counted;
 use super::lazy::{Lazy, LazySettings, Pruning};
 use super::reordering::{Arrangement, arranged};
-use super::{Barred, Bound, Job, Meter, Order, Outcome, Plan, Query, Searcher, Statistics, Turn};
+use super::{Barred, Bound, Job, Meter, Order, Outcome, Plan, Query, Searcher, Shared, Statistics, Turn};
 use crate::heuristics::{Costs, HeuristicKind};
 use crate::ids::{FactId, OperatorId};
 use crate::task::{Goal, Literals, State, Task};
@@ -129,8 +129,8 @@ impl Windows<'_> {
         let goal = Goal::new(goal);
         let bound = Bound::none();
         bound.lower(cost);
-        let (barred, meter) = (self.barred, self.meter);
-        let job = Job { task, state: &state, goal: &goal, barred, meter, bound: &bound };
+        let (barred, meter, shared) = (self.barred, self.meter, Shared::default());
+        let job = Job { task, state: &state, goal: &goal, barred, meter, bound: &bound, shared: &shared };
         const FF: &[HeuristicKind] = &[HeuristicKind::Ff];
         let settings = LazySettings {
             heuristics: FF,

@@ -7,6 +7,7 @@
 //! under its axioms.
 
 mod axioms;
+mod cliques;
 mod domination;
 mod fluents;
 mod metric;
@@ -22,6 +23,7 @@ mod successors;
 
 pub(crate) use axioms::AxiomProgram;
 pub use axioms::AxiomRule;
+pub(crate) use cliques::ALONE;
 pub(crate) use domination::undominated;
 pub(crate) use metric::Metric;
 pub(crate) use mutexes::variables;

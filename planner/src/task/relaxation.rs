@@ -10,6 +10,7 @@
 //!
 //! Source: Hoffmann & Nebel, "The FF planning system", JAIR 2001, §3; negations as in Helmert 2006.
 
+use super::cliques::cliques;
 use super::{AxiomProgram, Fact, Goal, Literals, Numeric, Operator, Way, Ways, contains, for_each_set};
 use crate::ids::{FactId, OperatorId, id32};
 use pddl::model::{Idx, IndexVec};
@@ -93,6 +94,13 @@ pub(crate) struct Relaxation {
     pub(crate) ways: Ways,
     /// The nodes that need a proposition.
     pub(crate) needed_by: Rows,
+    /// Nodes from this one on are moves: they need one proposition and nothing else.
+    pub(crate) first_move: u32,
+    /// By proposition, where in its row of `needed_by` the moves begin.
+    moves_at: Vec<u32>,
+    /// By proposition, its clique.
+    pub(crate) clique: Vec<u32>,
+    pub(crate) cliques: usize,
     /// The nodes that need nothing.
     pub(crate) free: Vec<u32>,
 }
@@ -146,8 +154,25 @@ impl Relaxation {
         for rule in axioms.rules() {
             graph.node(AXIOM, 0, &[&rule.body], &[rule.head], &[]);
         }
-        graph.needed_by = graph.preconditions.transposed(graph.propositions());
+        graph.first_move = id32(graph.nodes());
+        graph.index();
         graph
+    }
+
+    /// Finds who needs what.
+    fn index(&mut self) {
+        self.needed_by = self.preconditions.transposed(self.propositions());
+        let starts = (0..id32(self.propositions())).map(|p| {
+            let row = self.needed_by.row(p);
+            id32(row.partition_point(|&node| node < self.first_move))
+        });
+        self.moves_at = starts.collect();
+        (self.clique, self.cliques) = cliques(self);
+    }
+
+    /// The nodes that need a proposition: those that may need others as well, and the moves.
+    pub(crate) fn waiting_and_moves(&self, proposition: u32) -> (&[u32], &[u32]) {
+        self.needed_by.row(proposition).split_at(self.moves_at[proposition as usize] as usize)
     }
 
     fn node(&mut self, op: u32, cost: u32, needs: &[&Literals], adds: &[FactId], deletes: &[FactId]) {
@@ -174,7 +199,8 @@ impl Relaxation {
         (self.operator[node as usize] != AXIOM, self.cost[node as usize])
     }
 
-    /// The same graph with these effects for each node; nodes without effects go.
+    /// The same graph with these effects for each node; nodes without effects go, and moves come last,
+    /// by what they need.
     pub(crate) fn with_effects(&self, effects: &[Vec<u32>]) -> Self {
         let mut graph = Self {
             facts: self.facts,
@@ -183,7 +209,13 @@ impl Relaxation {
             optimistic: self.optimistic.clone(),
             ..Self::default()
         };
-        for (node, effects) in effects.iter().enumerate().filter(|(_, e)| !e.is_empty()) {
+        let kept = (0..id32(self.nodes())).filter(|&n| !effects[n as usize].is_empty());
+        let is_move = |n: &u32| self.preconditions.row(*n).len() == 1;
+        let (mut moves, others): (Vec<u32>, Vec<u32>) = kept.partition(is_move);
+        moves.sort_by_key(|&n| self.preconditions.row(n)[0]);
+        graph.first_move = id32(others.len());
+        for node in others.into_iter().chain(moves).map(|n| n as usize) {
+            let effects = &effects[node];
             let needs = self.preconditions.row(id32(node));
             if needs.is_empty() {
                 graph.free.push(id32(graph.operator.len()));
@@ -202,7 +234,7 @@ impl Relaxation {
             }
             graph.effects.push(effects.iter().copied());
         }
-        graph.needed_by = graph.preconditions.transposed(graph.propositions());
+        graph.index();
         graph
     }
 

@@ -8,7 +8,6 @@
 //! Source: Richter & Westphal, "The LAMA planner", JAIR 2010, §4.
 
 use super::graph::LandmarkGraph;
-use super::labels::Labels;
 use crate::heuristics::{Costs, Estimate, Heuristic, View};
 use crate::ids::{OperatorId, StateId, id32};
 use crate::search::{Job, Meter};
@@ -18,7 +17,7 @@ pub(crate) struct LandmarkCount<'a> {
     task: &'a Task,
     graph: &'a Relaxation,
     meter: &'a Meter<'a>,
-    landmarks: LandmarkGraph,
+    landmarks: &'a LandmarkGraph,
     /// What each landmark counts.
     prices: Vec<u32>,
     width: usize,
@@ -28,14 +27,9 @@ pub(crate) struct LandmarkCount<'a> {
 
 impl<'a> LandmarkCount<'a> {
     pub(crate) fn new(job: &Job<'a>, costs: Costs) -> Self {
-        let (task, graph) = (job.task, job.relaxation());
-        let mut initial = vec![false; graph.propositions()];
-        graph.for_each_true(job.state.words(), |p| initial[p as usize] = true);
-        let labels = Labels::new(graph, initial, job.barred, job.meter);
-        let landmarks =
-            LandmarkGraph::new(task, graph, labels.as_ref(), &graph.literals(&job.goal.literals), job.meter);
+        let (task, graph, landmarks) = (job.task, job.relaxation(), job.landmarks());
         let width = landmarks.landmarks.len().div_ceil(64);
-        let prices = prices(graph, &landmarks, costs);
+        let prices = prices(graph, landmarks, costs);
         Self { task, graph, meter: job.meter, landmarks, prices, width, accepted: Vec::new() }
     }
 

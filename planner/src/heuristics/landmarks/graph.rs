@@ -10,7 +10,7 @@
 
 use super::labels::Labels;
 use crate::ids::{FactId, id32};
-use crate::search::Meter;
+use crate::search::{Job, Meter};
 use crate::task::{Relaxation, Rows, Task};
 use pddl::model::PredicateId;
 use rustc_hash::FxHashMap;
@@ -52,9 +52,18 @@ struct Builder<'a> {
 }
 
 impl LandmarkGraph {
+    /// The graph for a question.
+    pub(crate) fn of(job: &Job<'_>) -> Self {
+        let (task, graph) = (job.task, job.relaxation());
+        let mut initial = vec![false; graph.propositions()];
+        graph.for_each_true(job.state.words(), |p| initial[p as usize] = true);
+        let labels = Labels::new(graph, initial, job.barred, job.meter);
+        Self::new(task, graph, labels.as_ref(), &graph.literals(&job.goal.literals), job.meter)
+    }
+
     /// The graph for a goal; goals alone where labels are missing. Incomplete where the meter is
     /// stopped.
-    pub(crate) fn new(
+    fn new(
         task: &Task,
         graph: &Relaxation,
         labels: Option<&Labels>,

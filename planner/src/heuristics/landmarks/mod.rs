@@ -8,3 +8,4 @@ mod graph;
 mod labels;
 
 pub(crate) use count::LandmarkCount;
+pub(crate) use graph::LandmarkGraph;
