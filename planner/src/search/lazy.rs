@@ -11,6 +11,7 @@
 //! with respect to estimates: Katz, Lipovetzky, Moshkovich & Tuisov, "Adapting novelty to classical
 //! planning as heuristic search", ICAPS 2017 (they sort by it, here it has a list of its own).
 
+use super::edges::{Arena, Edge, Run};
 use super::meter;
 use super::novelty::{Novelty, NoveltyTable};
 use super::open_list::OpenList;
@@ -60,14 +61,11 @@ pub enum Pruning {
     Estimated,
 }
 
-/// A successor that is not built yet.
-type Edge = (StateId, OperatorId);
-
 struct Lists<'a> {
     heuristic: Box<dyn Heuristic + Send + 'a>,
     prefers: bool,
-    open: OpenList<Edge>,
-    preferred: OpenList<Edge>,
+    open: OpenList<Run>,
+    preferred: OpenList<Run>,
     open_priority: i64,
     preferred_priority: i64,
     best: Estimate,
@@ -78,7 +76,7 @@ struct Lists<'a> {
 /// An open list that is not sorted by one estimate.
 enum Queue {
     Types(TypeList<Edge>),
-    Novelty(NoveltyTable, OpenList<Edge>),
+    Novelty(NoveltyTable, OpenList<Run>),
 }
 
 impl Queue {
@@ -96,10 +94,10 @@ impl Queue {
         }
     }
 
-    fn pop(&mut self) -> Option<Edge> {
+    fn pop(&mut self, arena: &Arena) -> Option<Edge> {
         match self {
             Self::Types(list) => list.pop(),
-            Self::Novelty(_, list) => list.pop(),
+            Self::Novelty(_, list) => arena.pop(list),
         }
     }
 
@@ -131,6 +129,7 @@ pub(crate) struct Lazy<'a> {
     pruning: Pruning,
     lists: Vec<Lists<'a>>,
     explorations: Vec<Exploring>,
+    arena: Arena,
     /// The number of steps by which each state was reached, where types need it.
     depths: Vec<u32>,
     registry: StateRegistry<'a>,
@@ -165,6 +164,7 @@ impl<'a> Lazy<'a> {
                 .iter()
                 .map(|&e| Exploring { queue: Queue::new(e, job.task.words_per_state()), priority: 0 })
                 .collect(),
+            arena: Arena::default(),
             depths: Vec::new(),
             order: settings.order,
             pruning: settings.pruning,
@@ -271,34 +271,43 @@ impl<'a> Lazy<'a> {
         self.job.barred.filter(&mut self.preferred);
         self.preferred.sort_unstable();
         self.preferred.dedup();
-        for list in &mut self.lists {
-            let key = self.order.key(cost, list.estimate);
-            for &operator in &self.successors {
-                list.open.push(key, (id, operator));
-            }
-            for &operator in &self.preferred {
-                list.preferred.push(key, (id, operator));
-            }
-        }
-        self.explore(id);
+        self.queue(id, cost);
         None
     }
 
-    /// Queues all successors where sorting by an estimate would not put them.
-    fn explore(&mut self, id: StateId) {
+    /// Queues all successors of the state in `next` in all lists.
+    fn queue(&mut self, id: StateId, cost: u64) {
         let estimate = |i: usize| self.lists.get(i).map_or(0, |l| l.estimate.0);
         let (first, second) = (estimate(0), estimate(1));
-        let edges = self.successors.iter().map(|&operator| (id, operator));
+        let mut rank = 0;
         for exploring in &mut self.explorations {
             match &mut exploring.queue {
-                Queue::Types(list) => list.push([first, second, self.depths[id.0 as usize]], edges.clone()),
-                Queue::Novelty(table, list) => {
+                Queue::Types(list) => {
+                    let edges = self.successors.iter().map(|&operator| (id, operator));
+                    list.push([first, second, self.depths[id.0 as usize]], edges);
+                }
+                Queue::Novelty(table, _) => {
                     self.job.meter.spend(table.price(None));
-                    let rank = u64::from(table.judge((first, second), &self.next, None) != Novelty::One);
-                    edges.clone().for_each(|edge| list.push(rank << 32 | u64::from(first), edge));
+                    rank = u64::from(table.judge((first, second), &self.next, None) != Novelty::One);
                 }
             }
         }
+        let Self { arena, lists, explorations, order, successors, preferred, .. } = self;
+        arena.keep(id, successors, |run| {
+            for list in lists.iter_mut() {
+                list.open.push(order.key(cost, list.estimate), run);
+            }
+            for exploring in explorations.iter_mut() {
+                if let Queue::Novelty(_, list) = &mut exploring.queue {
+                    list.push(rank << 32 | u64::from(first), run);
+                }
+            }
+        });
+        arena.keep(id, preferred, |run| {
+            for list in lists.iter_mut() {
+                list.preferred.push(order.key(cost, list.estimate), run);
+            }
+        });
     }
 
     fn pop(&mut self) -> Option<Edge> {
@@ -314,15 +323,15 @@ impl<'a> Lazy<'a> {
         match filled.min_by_key(|&(_, priority, _)| priority)?.2 {
             List::Open(i) => {
                 self.lists[i].open_priority += 1;
-                self.lists[i].open.pop()
+                self.arena.pop(&mut self.lists[i].open)
             }
             List::Preferred(i) => {
                 self.lists[i].preferred_priority += 1;
-                self.lists[i].preferred.pop()
+                self.arena.pop(&mut self.lists[i].preferred)
             }
             List::Exploring(i) => {
                 self.explorations[i].priority += 1;
-                self.explorations[i].queue.pop()
+                self.explorations[i].queue.pop(&self.arena)
             }
         }
     }
@@ -342,6 +351,7 @@ impl Stepwise for Lazy<'_> {
             + self.depths.capacity() * 4
             + lists
             + exploring
+            + self.arena.memory()
     }
 
     fn statistics(&self) -> Statistics {

@@ -10,6 +10,7 @@ mod budget;
 mod configuration;
 mod dual_bfws;
 mod eager;
+mod edges;
 mod elimination;
 mod hill_climbing;
 mod job;

@@ -36,14 +36,28 @@ impl<T> OpenList<T> {
         }
     }
 
-    pub(crate) fn pop(&mut self) -> Option<T> {
-        while self.lowest < self.dense.len() {
-            if let Some(item) = self.dense[self.lowest].pop_front() {
-                self.len -= 1;
-                return Some(item);
-            }
+    /// Finds the first slot that is not empty, if one is.
+    fn settle(&mut self) -> Option<&mut VecDeque<T>> {
+        while self.dense.get(self.lowest).is_some_and(VecDeque::is_empty) {
             self.dense[self.lowest] = VecDeque::new();
             self.lowest += 1;
+        }
+        self.dense.get_mut(self.lowest)
+    }
+
+    /// What [`pop`](Self::pop) would give.
+    pub(crate) fn first_mut(&mut self) -> Option<&mut T> {
+        if self.settle().is_none() {
+            return self.sparse.values_mut().next()?.front_mut();
+        }
+        self.dense[self.lowest].front_mut()
+    }
+
+    pub(crate) fn pop(&mut self) -> Option<T> {
+        if let Some(slot) = self.settle() {
+            let item = slot.pop_front();
+            self.len -= 1;
+            return item;
         }
         let mut first = self.sparse.first_entry()?;
         let item = first.get_mut().pop_front();
