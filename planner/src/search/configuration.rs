@@ -9,6 +9,7 @@ use super::dual_bfws::{BackEnd, DualBfws};
 use super::eager::{Eager, EagerSettings};
 use super::hill_climbing::HillClimbing;
 use super::lazy::{Exploration, Lazy, LazySettings, Pruning};
+use super::measured::Measured;
 use super::portfolio::Threads;
 use super::{Job, Searcher};
 use crate::heuristics::{Costs, Estimate, HeuristicKind};
@@ -49,6 +50,8 @@ pub enum Engine {
     BackEnd,
     /// Searches for better and better plans below a bound.
     Improving,
+    /// Searches for ways that measure better, where the metric is no sum of costs.
+    Measured,
 }
 
 impl Engine {
@@ -61,6 +64,7 @@ impl Engine {
             Self::DualBfws => Box::new(DualBfws::new(job)),
             Self::BackEnd => Box::new(BackEnd::new(job)),
             Self::Improving => Box::new(Improving::new(job)),
+            Self::Measured => Box::new(Measured::new(job)),
         }
     }
 }

@@ -15,6 +15,7 @@ mod elimination;
 mod hill_climbing;
 mod job;
 mod lazy;
+mod measured;
 mod meter;
 mod novelty;
 mod open_list;

@@ -15,6 +15,9 @@ pub(crate) struct Metric {
     pub(crate) steps: Option<FluentId>,
 }
 
+/// Fluents that only the metric reads, after some steps.
+pub(crate) type Tally = Box<[Option<Number>]>;
+
 impl Task {
     /// Whether a plan's quality is the sum of its operators' costs (the length, without costs), so that
     /// optimal searches can tell what is optimal.
@@ -26,23 +29,37 @@ impl Task {
     /// better, so a metric to maximise comes with the opposite sign. `None` without such a metric, or
     /// where it has no value. What only the metric reads starts at its initial value.
     pub fn quality(&self, state: &State, plan: &[OperatorId]) -> Option<Number> {
-        let metric = self.metric.as_ref()?;
-        let numeric = &self.numeric;
-        let mut unseen: Vec<Option<Number>> =
-            numeric.fluents[numeric.stored..].iter().map(|f| f.initial).collect();
+        self.metric.as_ref()?;
+        let mut tally = self.tally();
         let mut here = state.clone();
         for &operator in plan {
             let next = self.successor(&here, operator)?;
-            if let Some(effects) = &self.operators[operator].numeric {
-                self.add_up(effects, &here, &mut unseen);
-            }
-            if let Some(steps) = metric.steps {
-                let count = &mut unseen[steps.index() - numeric.stored];
-                *count = count.and_then(|n| n.plus(Number::ONE));
-            }
+            self.count(&here, operator, &mut tally);
             here = next;
         }
-        let value = metric.expression.evaluate(&|f| self.number(&here, &unseen, *f)).ok()?;
+        self.measure(&here, &tally)
+    }
+
+    /// What only the metric reads, before the first step.
+    pub(crate) fn tally(&self) -> Tally {
+        self.numeric.fluents[self.numeric.stored..].iter().map(|f| f.initial).collect()
+    }
+
+    /// Counts a step from `state`.
+    pub(crate) fn count(&self, state: &State, operator: OperatorId, tally: &mut Tally) {
+        if let Some(effects) = &self.operators[operator].numeric {
+            self.add_up(effects, state, tally);
+        }
+        if let Some(steps) = self.metric.as_ref().and_then(|m| m.steps) {
+            let count = &mut tally[steps.index() - self.numeric.stored];
+            *count = count.and_then(|n| n.plus(Number::ONE));
+        }
+    }
+
+    /// The metric's value in `state`, as [`Task::quality`] has it.
+    pub(crate) fn measure(&self, state: &State, tally: &Tally) -> Option<Number> {
+        let metric = self.metric.as_ref()?;
+        let value = metric.expression.evaluate(&|f| self.number(state, tally, *f)).ok()?;
         if metric.objective == Objective::Minimize { Some(value) } else { value.negated() }
     }
 

@@ -25,7 +25,7 @@ pub(crate) use axioms::AxiomProgram;
 pub use axioms::AxiomRule;
 pub(crate) use cliques::ALONE;
 pub(crate) use domination::undominated;
-pub(crate) use metric::Metric;
+pub(crate) use metric::{Metric, Tally};
 pub(crate) use mutexes::variables;
 pub use mutexes::{Mutexes, Variable};
 pub(crate) use names::Names;
