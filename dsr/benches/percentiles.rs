@@ -1,5 +1,5 @@
 //! Single commits, one by one: what the median and the slow ones cost, of transactions of three edits at random
-//! places. `cargo bench -p pelea-dsr --bench percentiles`. Each figure includes two readings of the clock.
+//! places. `cargo bench -p pelea-dsr --bench percentiles [-- NODES…]`. Each figure includes two readings of the clock.
 #![allow(missing_docs, reason = "a bench has no readers of its documentation")]
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a bench that fails says where, and prints")]
 
@@ -12,7 +12,8 @@ use dsr::Time;
 const ROUNDS: u64 = 300_000;
 
 fn main() {
-    for count in [1_000, 10_000, 100_000, 1_000_000] {
+    let asked: Vec<usize> = std::env::args().filter_map(|word| word.parse().ok()).collect();
+    for count in if asked.is_empty() { vec![1_000, 10_000, 100_000, 1_000_000] } else { asked } {
         let ward = ward::ward(count);
         for held in [false, true] {
             let mut last = None;

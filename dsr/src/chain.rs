@@ -160,6 +160,11 @@ impl State {
         Ok(self.transform(from, to)?.translation.vector.norm())
     }
 
+    pub(crate) fn bearing(&self, from: NodeId, to: NodeId) -> Result<f64, ChainError> {
+        let at = self.transform(from, to)?.translation.vector;
+        Ok(at.y.atan2(at.x))
+    }
+
     fn known_frame(&self, id: NodeId) -> Result<(), ChainError> {
         let node = self.node(id).ok_or(ChainError::UnknownNode { node: id })?;
         if self.dictionary.nature(node.node_type()) == Some(Nature::Geometric) {

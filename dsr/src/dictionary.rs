@@ -22,6 +22,7 @@ use serde::{Deserialize, Serialize};
 pub use self::builder::{DictionaryBuilder, DictionaryError};
 pub use self::permission::{End, Permission, Token};
 use crate::id::{AgentId, AttributeId, LabelId, NodeId, ResourceId, TypeId};
+use crate::unit::Unit;
 use crate::value::Kind;
 
 /// Whether nodes of a type may take part in the geometric quiver.
@@ -79,6 +80,7 @@ struct Attribute {
     name: Arc<str>,
     holder: HolderType,
     kind: Kind,
+    unit: Option<Unit>,
 }
 
 /// Every token of the graph. Made by a [`DictionaryBuilder`], shared behind an `Arc`, never changed.
@@ -219,6 +221,11 @@ impl Dictionary {
     /// What the attribute may hold.
     pub fn kind(&self, id: AttributeId) -> Option<Kind> {
         self.attributes.get(id.index()).map(|entry| entry.kind)
+    }
+
+    /// What the attribute is measured in, if it is declared.
+    pub fn unit(&self, id: AttributeId) -> Option<Unit> {
+        self.attributes.get(id.index())?.unit
     }
 
     /// The node that stands for an agent in every graph of this dictionary.

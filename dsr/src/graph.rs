@@ -1,9 +1,9 @@
 //! The graph: one handle for everybody, one lock for writers, none for readers.
 //!
 //! Idea: `kernel` keeps two states that writers edit in turn; this module says how one follows the other (by the delta
-//! that the commit publishes anyway) and when it is not worth it: in a graph of so many nodes that a second copy of
-//! what is written would show, and after a transaction so long that it would cost more than a copy. Then the next
-//! writer copies what it touches. Either way a snapshot is one load, whatever writers do.
+//! that the commit publishes anyway) and when it is not worth it: after a transaction so long that it would cost more
+//! than a copy. Then the next writer copies what it touches. Either way a snapshot is one load, whatever writers do.
+//! Cost: what has been written since the last such transaction is there twice.
 //!
 //! Invariants: what is published is the present version; versions are handed out without gaps; subscribers get commits
 //! in order, and a subscriber that hears of a commit finds it in the graph; a transaction that changes nothing makes no
@@ -15,7 +15,7 @@ use std::sync::{Arc, Weak};
 use crate::delta::Delta;
 use crate::dictionary::Dictionary;
 use crate::export::{self, Export, RestoreError};
-use crate::id::{AgentId, NodeId, ReflexId, Time, Version};
+use crate::id::{AgentId, ReflexId, Time, Version};
 use crate::journal::feed::Feed;
 use crate::kernel::{Kernel, Twin};
 use crate::pattern::Pattern;
@@ -78,9 +78,6 @@ impl Twin for State {
 
 /// A transaction of more changes than this costs more to follow than to copy.
 const LONG: usize = 64;
-
-/// From so many nodes on there is one state only: what writers touch there is seldom touched again.
-const LARGE: NodeId = NodeId(1 << 17);
 
 impl Drop for Shared {
     fn drop(&mut self) {
@@ -165,7 +162,7 @@ impl Graph {
         };
         let delta = Arc::new(outcome.delta);
         let changed = !(delta.changes.is_empty() && delta.reflexes.is_empty());
-        let short = delta.changes.len() <= LONG && state.next < LARGE;
+        let short = delta.changes.len() <= LONG;
         let step = short.then(|| Step { delta: Arc::clone(&delta), reflexes: state.reflexes.clone() });
         let (state, before) = writing.publish(step);
         let snapshot = Snapshot::new(state);

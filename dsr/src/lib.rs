@@ -40,7 +40,7 @@
 //! # }
 //! ```
 //!
-//! Map, from the ground up: `id`, `value` → `dictionary` → `pages`, `block`, `names`, `members`, `state` (what a snapshot
+//! Map, from the ground up: `id`, `unit`, `value` → `dictionary` → `pages`, `block`, `names`, `members`, `state` (what a snapshot
 //! is), `track`, `undo` → `transaction` (edits, leases, the tree of transforms), `delta`, `replay`, `export` → `chain`, `pattern`,
 //! `reflex` → `snapshot`, `sentence`, `quiver` → `subscription`,
 //! `routes`, `kernel` (how readers and writers keep out of each other's way), `graph`, `attendance` → `journal`.
@@ -72,6 +72,7 @@ mod sync;
 mod track;
 mod transaction;
 mod undo;
+mod unit;
 mod value;
 
 pub use attendance::Attendance;
@@ -95,7 +96,8 @@ pub use journal::{
 pub use mentions::Mentions;
 pub use nalgebra::Isometry3;
 pub use pattern::{
-    Binding, Comparison, HolderTerm, Operand, Pattern, PatternBuilder, PatternError, Term, Variable,
+    Binding, Comparison, HolderTerm, Metric, Operand, Pattern, PatternBuilder, PatternError, Term, Threshold,
+    Variable,
 };
 pub use reflex::{Bound, Keep, Reflex};
 pub use replay::ReplayError;
@@ -103,4 +105,5 @@ pub use snapshot::{AttributeView, EdgeView, NodeView, Snapshot};
 pub use subscription::{Committed, Delivery, Deltas, Event, Mailbox, MatchChange, Matches};
 pub use track::HORIZON;
 pub use transaction::{Edit, HolderRef, Lease, Preemption, Priority, Transaction, TransactionError, Waiting};
+pub use unit::Unit;
 pub use value::{Kind, NewValue, NodeRef, Value};

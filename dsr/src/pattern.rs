@@ -162,6 +162,46 @@ impl From<Term> for Operand {
     }
 }
 
+/// What is measured between two frames, when it is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Metric {
+    /// Between the origins, in metres.
+    Distance,
+    /// How far the origin of the second is off the x axis of the first, in its plane and to either side, in radians.
+    Bearing,
+}
+
+/// A number that a metric is held against. With hysteresis, a match that is held stays until the metric has passed a
+/// second number, so that somebody who stands at the limit does not come and go with each measurement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Threshold {
+    /// A match appears when the comparison holds with this.
+    pub appears: f64,
+    /// It disappears when the comparison no longer holds with this, which is no stricter.
+    pub disappears: f64,
+}
+
+impl From<f64> for Threshold {
+    fn from(number: f64) -> Self {
+        Self { appears: number, disappears: number }
+    }
+}
+
+/// What a metric is held against.
+#[derive(Debug, Clone, Copy)]
+enum Limit {
+    Threshold(Threshold),
+    /// An attribute of the first node.
+    Attribute(AttributeId),
+}
+
+/// Which of the two numbers of a threshold counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Strictness {
+    Appears,
+    Stays,
+}
+
 /// A part of a conjunction. Terms are slots once compiled.
 #[derive(Debug, Clone)]
 enum Atom<T> {
@@ -169,7 +209,7 @@ enum Atom<T> {
     Present { holder: Carrier<T>, attribute: AttributeId },
     Guard { holder: Carrier<T>, attribute: AttributeId, comparison: Comparison, operand: Right<T> },
     Distinct(T, T),
-    Distance { from: T, to: T, comparison: Comparison, metres: f64 },
+    Metric { metric: Metric, from: T, to: T, comparison: Comparison, limit: Limit },
     Without(Conjunction<T>),
 }
 
@@ -221,6 +261,8 @@ pub struct Pattern {
     /// The join order when no variable is fixed.
     plan: Vec<Step>,
     mentions: Mentions,
+    /// Whether some threshold has hysteresis.
+    remembers: bool,
 }
 
 impl Pattern {

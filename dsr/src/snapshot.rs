@@ -234,6 +234,19 @@ impl Snapshot {
         self.state.distance(from, to)
     }
 
+    /// In which direction the origin of frame `to` lies in the plane of frame `from`: radians from its x axis, positive
+    /// towards y, in (-π, π].
+    pub fn bearing(&self, from: NodeId, to: NodeId) -> Result<f64, ChainError> {
+        self.state.bearing(from, to)
+    }
+
+    /// Whether the origin of frame `to` lies no further from that of `from` than the attribute `reach` of `from` says, in
+    /// metres; false without it.
+    pub fn reachable(&self, from: NodeId, to: NodeId, reach: AttributeId) -> Result<bool, ChainError> {
+        let reach = self.attribute(from, reach).and_then(Value::as_number);
+        Ok(Some(self.distance(from, to)?) <= reach)
+    }
+
     /// The root of the geometric quiver, if any transform is there.
     pub fn root(&self) -> Option<NodeId> {
         self.state.root

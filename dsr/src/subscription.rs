@@ -405,7 +405,8 @@ impl Matches {
         appeared: &mut Vec<Binding>,
         disappeared: &mut Vec<Binding>,
     ) {
-        let now: BTreeSet<_> = self.pattern.matches(snapshot).into_iter().collect();
+        let mut now: BTreeSet<_> = self.pattern.matches(snapshot).into_iter().collect();
+        now.extend(self.held.iter().filter(|held| self.pattern.keeps(snapshot.state(), held)).cloned());
         appeared.extend(now.difference(&self.held).cloned());
         disappeared.extend(self.held.difference(&now).cloned());
         disappeared.iter().for_each(|binding| self.lose(binding));
@@ -429,7 +430,7 @@ impl Matches {
             .into_iter()
             .flatten()
             .filter(agrees)
-            .filter(|held| now.binary_search(held).is_err())
+            .filter(|held| now.binary_search(held).is_err() && !self.pattern.keeps(snapshot.state(), held))
             .cloned()
             .collect();
         gone.iter().for_each(|binding| self.lose(binding));

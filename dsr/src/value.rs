@@ -9,6 +9,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::id::{NodeId, TypeId};
+use crate::unit::Unit;
 
 /// What an attribute may hold, as the dictionary declares it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -131,14 +132,22 @@ impl From<Arc<str>> for NodeRef {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NewValue {
-    /// A number.
+    /// A number, in the attribute's unit if it has one.
     Number(f64),
+    /// A number in a unit, kept in the attribute's.
+    Quantity(f64, Unit),
     /// Text.
     Text(Arc<str>),
     /// A truth value.
     Bool(bool),
     /// A node.
     Node(NodeRef),
+}
+
+impl From<(f64, Unit)> for NewValue {
+    fn from((number, unit): (f64, Unit)) -> Self {
+        Self::Quantity(number, unit)
+    }
 }
 
 impl From<Value> for NewValue {

@@ -174,6 +174,7 @@ pub fn describe_edit(snapshot: &Snapshot, edit: &Edit) -> Option<Sentence> {
         Edit::SetAttribute { holder, attribute: id, value } => {
             let value = match value {
                 NewValue::Number(number) => number.to_string(),
+                NewValue::Quantity(number, unit) => format!("{number} {unit}"),
                 NewValue::Text(text) => format!("“{text}”"),
                 NewValue::Bool(truth) => truth.to_string(),
                 NewValue::Node(target) => node(target),

@@ -9,6 +9,7 @@ use rustc_hash::FxHashMap;
 
 use super::{Attribute, Dictionary, HolderType, Label, Nature, NodeType, Permission, Signature, Token};
 use crate::id::{AgentId, AttributeId, LabelId, ResourceId, TypeId};
+use crate::unit::Unit;
 use crate::value::Kind;
 
 /// Why a declaration is refused.
@@ -63,6 +64,12 @@ pub enum DictionaryError {
     #[error("'{name}' is reserved for leases")]
     Reserved {
         /// The token.
+        name: Arc<str>,
+    },
+    /// A unit for an attribute that is no number.
+    #[error("attribute '{name}' is no number and has no unit")]
+    NotMeasured {
+        /// The attribute.
         name: Arc<str>,
     },
     /// An attribute sits on edges that the label cannot have.
@@ -216,6 +223,21 @@ impl DictionaryBuilder {
         self.attribute(&name, HolderType::Edge { label, signature: Signature { from, to } }, kind)
     }
 
+    /// Says what a numeric attribute is measured in.
+    pub fn measured_in(&mut self, attribute: AttributeId, unit: Unit) -> Result<(), DictionaryError> {
+        let id = attribute;
+        let entry =
+            self.made.attributes.get_mut(id.index()).ok_or(DictionaryError::UnknownAttribute { id })?;
+        if entry.kind != Kind::Number {
+            return Err(DictionaryError::NotMeasured { name: entry.name.clone() });
+        }
+        if id.index() <= AttributeId::ASKED.index() {
+            return Err(DictionaryError::Reserved { name: entry.name.clone() });
+        }
+        entry.unit = Some(unit);
+        Ok(())
+    }
+
     /// Declares a writer. It becomes a node of type `agent` in every graph.
     pub fn agent(&mut self, name: &str) -> Result<AgentId, DictionaryError> {
         let name = self.free_node(name)?;
@@ -315,7 +337,7 @@ impl DictionaryBuilder {
     fn add_attribute(&mut self, name: Arc<str>, holder: HolderType, kind: Kind) -> AttributeId {
         let id = AttributeId::at(self.made.attributes.len());
         self.made.attribute_names.insert(name.clone(), id);
-        self.made.attributes.push(Attribute { name, holder, kind });
+        self.made.attributes.push(Attribute { name, holder, kind, unit: None });
         id
     }
 

@@ -10,6 +10,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::{Dictionary, DictionaryBuilder, DictionaryError, HolderType, Nature, Permission, Signature};
 use crate::id::{AgentId, AttributeId, LabelId, TypeId};
+use crate::unit::Unit;
 use crate::value::Kind;
 
 #[derive(Serialize, Deserialize)]
@@ -40,6 +41,7 @@ struct PlainAttribute {
     name: Arc<str>,
     holder: HolderType,
     kind: Kind,
+    unit: Option<Unit>,
 }
 
 impl Plain {
@@ -68,6 +70,7 @@ impl Plain {
                     name: entry.name.clone(),
                     holder: entry.holder,
                     kind: entry.kind,
+                    unit: entry.unit,
                 })
                 .collect(),
             agents: dictionary.agents.iter().skip(AgentId::DSR.index() + 1).cloned().collect(),
@@ -86,13 +89,16 @@ impl Plain {
                 builder.label(name, *from, *to)?;
             }
         }
-        for PlainAttribute { name, holder, kind } in &self.attributes {
-            match *holder {
+        for PlainAttribute { name, holder, kind, unit } in &self.attributes {
+            let id = match *holder {
                 HolderType::Node(on) => builder.attribute_on_node(name, on, *kind)?,
                 HolderType::Edge { label, signature: Signature { from, to } } => {
                     builder.attribute_on_edge(name, label, (from, to), *kind)?
                 }
             };
+            if let Some(unit) = unit {
+                builder.measured_in(id, *unit)?;
+            }
         }
         for name in &self.agents {
             builder.agent(name)?;

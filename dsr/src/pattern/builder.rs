@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::{
-    Atom, Carrier, Comparison, Conjunction, HolderTerm, Operand, Pattern, PatternError, Right, Scope, Term,
-    Variable, check,
+    Atom, Carrier, Comparison, Conjunction, HolderTerm, Limit, Metric, Operand, Pattern, PatternError, Right,
+    Scope, Term, Threshold, Variable, check,
 };
 use crate::dictionary::Dictionary;
 use crate::id::{AttributeId, LabelId, TypeId};
@@ -84,9 +84,31 @@ impl<'d> PatternBuilder<'d> {
         from: impl Into<Term>,
         to: impl Into<Term>,
         comparison: Comparison,
-        metres: f64,
+        metres: impl Into<Threshold>,
     ) -> &mut Self {
-        self.add(Atom::Distance { from: from.into(), to: to.into(), comparison, metres })
+        self.metric(Metric::Distance, from, to, comparison, metres)
+    }
+
+    /// The metric between the two frames must compare so. With hysteresis, subscriptions remember which matches they
+    /// have; whoever asks once has no history, and gets those that would appear. Not in a negated part, which has no
+    /// matches to remember.
+    pub fn metric(
+        &mut self,
+        metric: Metric,
+        from: impl Into<Term>,
+        to: impl Into<Term>,
+        comparison: Comparison,
+        threshold: impl Into<Threshold>,
+    ) -> &mut Self {
+        let limit = Limit::Threshold(threshold.into());
+        self.add(Atom::Metric { metric, from: from.into(), to: to.into(), comparison, limit })
+    }
+
+    /// The distance must be no more than the attribute of `from` says, in metres.
+    pub fn reachable(&mut self, from: impl Into<Term>, to: impl Into<Term>, reach: AttributeId) -> &mut Self {
+        let (metric, comparison) = (Metric::Distance, Comparison::LessOrEqual);
+        let limit = Limit::Attribute(reach);
+        self.add(Atom::Metric { metric, from: from.into(), to: to.into(), comparison, limit })
     }
 
     /// What `write` writes, as a conjunction with its own local variables, must have no match. Nests.

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use super::plan::{Mask, plan};
 use super::{
-    Atom, Carrier, Comparison, Conjunction, Constant, Pattern, Right, SLOTS, Scope, Slot, Term, Variable,
-    seed,
+    Atom, Carrier, Comparison, Conjunction, Constant, Limit, Pattern, Right, SLOTS, Scope, Slot, Term,
+    Threshold, Variable, seed,
 };
 use crate::dictionary::{Dictionary, HolderType, Nature};
 use crate::id::{AttributeId, LabelId, NodeId, TypeId};
@@ -43,6 +43,9 @@ pub enum PatternError {
     /// The two sides can never be compared so.
     #[error("attribute '{attribute}' is a {kind}, it cannot be compared so")]
     WrongKind { attribute: Name, kind: Kind },
+    /// A number that is none, one that matches leave before they come, or hysteresis in a negated part.
+    #[error("no threshold: appears at {}, disappears at {}", threshold.appears, threshold.disappears)]
+    WrongThreshold { threshold: Threshold },
     /// A distance to something without a place.
     #[error("a '{node_type}' is never geometric")]
     NotGeometric { node_type: Name },
@@ -71,9 +74,11 @@ pub(super) fn compile(
         constants: Vec::new(),
         visible: Mask::default(),
         mentions,
+        negations: 0,
+        remembers: false,
     };
     let body = checker.conjunction(body)?;
-    let Checker { types, constants, mut mentions, .. } = checker;
+    let Checker { types, constants, mut mentions, remembers, .. } = checker;
     let count = types.len() + constants.len();
     if count > SLOTS {
         return Err(PatternError::TooLarge { count });
@@ -87,7 +92,7 @@ pub(super) fn compile(
     let plan = plan(&body, bound);
     let mut seeds = Vec::new();
     seed::seeds(&[&body], &mut seeds);
-    Ok(Pattern { variables, locals, constants, body, seeds, plan, mentions })
+    Ok(Pattern { variables, locals, constants, body, seeds, plan, mentions, remembers })
 }
 
 fn slot_at(index: usize) -> Slot {
@@ -103,6 +108,9 @@ struct Checker<'d> {
     /// The variables that may be used here.
     visible: Mask,
     mentions: Mentions,
+    /// How many negated parts are open.
+    negations: u32,
+    remembers: bool,
 }
 
 impl Checker<'_> {
@@ -136,7 +144,8 @@ impl Checker<'_> {
                 Atom::Guard { holder, attribute: *attribute, comparison: *comparison, operand }
             }
             Atom::Distinct(a, b) => Atom::Distinct(self.term(a)?, self.term(b)?),
-            Atom::Distance { from, to, comparison, metres } => {
+            Atom::Metric { metric, from, to, comparison, limit } => {
+                self.limit(from, *comparison, *limit)?;
                 let (from, to) = (self.term(from)?, self.term(to)?);
                 for slot in [from, to] {
                     if let Some(id) = self.type_of(slot)
@@ -146,10 +155,45 @@ impl Checker<'_> {
                     }
                 }
                 self.mentions.add_transforms();
-                Atom::Distance { from, to, comparison: *comparison, metres: *metres }
+                Atom::Metric { metric: *metric, from, to, comparison: *comparison, limit: *limit }
             }
-            Atom::Without(part) => Atom::Without(self.conjunction(part)?),
+            Atom::Without(part) => {
+                self.negations += 1;
+                let part = self.conjunction(part)?;
+                self.negations -= 1;
+                Atom::Without(part)
+            }
         })
+    }
+
+    /// Whether a metric can be held against this.
+    fn limit(&mut self, from: &Term, comparison: Comparison, limit: Limit) -> Result<(), PatternError> {
+        match limit {
+            Limit::Threshold(threshold) => {
+                let Threshold { appears, disappears } = threshold;
+                let ordered = match comparison {
+                    Comparison::Less | Comparison::LessOrEqual => appears <= disappears,
+                    Comparison::Greater | Comparison::GreaterOrEqual => appears >= disappears,
+                    Comparison::Equal | Comparison::NotEqual => appears == disappears,
+                };
+                // Of the same numbers nothing is to be remembered.
+                let remembers = appears != disappears;
+                self.remembers |= remembers;
+                if !ordered || (remembers && self.negations > 0) {
+                    return Err(PatternError::WrongThreshold { threshold });
+                }
+                Ok(())
+            }
+            Limit::Attribute(attribute) => {
+                self.carrier(&Carrier::Node(from.clone()), attribute)?;
+                match (self.dictionary.kind(attribute), self.dictionary.attribute_name(attribute)) {
+                    (Some(kind), Some(name)) if kind != Kind::Number => {
+                        Err(PatternError::WrongKind { attribute: name.clone(), kind })
+                    }
+                    _ => Ok(()),
+                }
+            }
+        }
     }
 
     fn edge(&mut self, from: &Term, label: LabelId, to: &Term) -> Result<(Slot, Slot), PatternError> {

@@ -5,7 +5,10 @@
 use std::ops::ControlFlow;
 
 use super::plan::{Mask, Step, plan};
-use super::{Atom, Binding, Carrier, Comparison, Fixed, Pattern, Plans, Right, SLOTS, Slot, Variable};
+use super::{
+    Atom, Binding, Carrier, Comparison, Fixed, Limit, Metric, Pattern, Plans, Right, SLOTS, Slot, Strictness,
+    Variable,
+};
 use crate::id::{AttributeId, EdgeKey, Holder, NodeId, TypeId};
 use crate::snapshot::Snapshot;
 use crate::state::State;
@@ -33,7 +36,7 @@ impl Pattern {
     pub(crate) fn matches_of(&self, state: &State, fixed: &Fixed, plans: &mut Plans) -> Vec<Binding> {
         let mut slots = [NodeId::NOWHERE; SLOTS];
         let mut bound = self.bind_constants(state, &mut slots);
-        let run = Run { pattern: self, state };
+        let run = Run { pattern: self, state, strictness: Strictness::Appears };
         for &(at, node) in fixed {
             if (bound.contains(slot(at)) && slots[at] != node) || !run.admits(slot(at), node) {
                 return Vec::new();
@@ -53,6 +56,24 @@ impl Pattern {
         });
         found.sort_unstable();
         found
+    }
+
+    /// Whether a match that is held stays one, which a threshold with hysteresis may allow where it would not appear.
+    pub(crate) fn keeps(&self, state: &State, held: &Binding) -> bool {
+        if !self.remembers {
+            return false;
+        }
+        let mut slots = [NodeId::NOWHERE; SLOTS];
+        let mut bound = self.bind_constants(state, &mut slots);
+        let run = Run { pattern: self, state, strictness: Strictness::Stays };
+        for (at, &node) in held.iter().enumerate() {
+            if !run.admits(slot(at), node) {
+                return false;
+            }
+            slots[at] = node;
+            bound.insert(slot(at));
+        }
+        run.steps(&plan(&self.body, bound), &mut slots, &mut |_| ControlFlow::Break(())).is_break()
     }
 
     fn bind_constants(&self, state: &State, slots: &mut Slots) -> Mask {
@@ -82,7 +103,7 @@ impl Pattern {
     fn run_all(&self, state: &State, fixed: &[(Variable, NodeId)], emit: Emit<'_>) -> ControlFlow<()> {
         let mut slots = [NodeId::NOWHERE; SLOTS];
         let mut bound = self.bind_constants(state, &mut slots);
-        let run = Run { pattern: self, state };
+        let run = Run { pattern: self, state, strictness: Strictness::Appears };
         let mut any = false;
         for &(variable, node) in fixed {
             let Some(at) = variable.position().filter(|&at| at < self.variables.len()) else { continue };
@@ -121,6 +142,7 @@ type Emit<'a> = &'a mut dyn FnMut(&Slots) -> ControlFlow<()>;
 struct Run<'a> {
     pattern: &'a Pattern,
     state: &'a State,
+    strictness: Strictness,
 }
 
 impl Run<'_> {
@@ -216,10 +238,25 @@ impl Run<'_> {
                 let there = |slot| self.state.node(get(slots, slot)).is_some();
                 get(slots, *a) != get(slots, *b) && there(*a) && there(*b)
             }
-            Atom::Distance { from, to, comparison, metres } => self
-                .state
-                .distance(get(slots, *from), get(slots, *to))
-                .is_ok_and(|found| compare(*comparison, &Value::Number(found), &Value::Number(*metres))),
+            Atom::Metric { metric, from, to, comparison, limit } => {
+                let (from, to) = (get(slots, *from), get(slots, *to));
+                let number = match limit {
+                    Limit::Threshold(threshold) if self.strictness == Strictness::Stays => {
+                        Some(threshold.disappears)
+                    }
+                    Limit::Threshold(threshold) => Some(threshold.appears),
+                    Limit::Attribute(attribute) => self
+                        .state
+                        .cell(Holder::Node(from), *attribute)
+                        .and_then(|cell| cell.value.as_number()),
+                };
+                let Some(number) = number else { return false };
+                let found = match metric {
+                    Metric::Distance => self.state.distance(from, to),
+                    Metric::Bearing => self.state.bearing(from, to).map(f64::abs),
+                };
+                found.is_ok_and(|found| compare(*comparison, &Value::Number(found), &Value::Number(number)))
+            }
             Atom::Without(_) => {
                 debug_assert!(false, "the planner turns negated parts into steps of their own");
                 false

@@ -111,7 +111,7 @@ fn free(atom: &Atom<Slot>) -> Mask {
         mask
     };
     match atom {
-        Atom::Edge { from, to, .. } | Atom::Distinct(from, to) | Atom::Distance { from, to, .. } => {
+        Atom::Edge { from, to, .. } | Atom::Distinct(from, to) | Atom::Metric { from, to, .. } => {
             pair(*from, *to)
         }
         Atom::Present { holder, .. } => carried(holder),

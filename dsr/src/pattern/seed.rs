@@ -17,7 +17,7 @@ use smallvec::SmallVec;
 
 use super::clue::{self, Clue, Ordered, ValueKey};
 use super::plan::Mask;
-use super::{Atom, Carrier, Comparison, Conjunction, Constant, Pattern, Right, Slot};
+use super::{Atom, Carrier, Comparison, Conjunction, Constant, Limit, Pattern, Right, Slot};
 use crate::delta::{Change, Delta};
 use crate::id::{AttributeId, Holder, LabelId, NodeId, TypeId};
 use crate::state::State;
@@ -71,7 +71,12 @@ pub(super) fn seeds(around: &[&Conjunction<Slot>], into: &mut Vec<(Seed, Clue)>)
                     Right::Term(_) | Right::Value(_) => {}
                 }
             }
-            Atom::Distance { .. } => into.push((Seed::Transforms, Clue::Any)),
+            Atom::Metric { from, limit, .. } => {
+                into.push((Seed::Transforms, Clue::Any));
+                if let Limit::Attribute(attribute) = limit {
+                    into.push((Seed::NodeAttribute { attribute: *attribute, node: *from }, Clue::Any));
+                }
+            }
             Atom::Without(inner) => seeds(&[around, &[inner]].concat(), into),
             Atom::Distinct(..) => {}
         }

@@ -318,6 +318,15 @@ fn fitting(state: &State, attribute: AttributeId, value: &NewValue) -> Result<Va
     };
     match (kind, value) {
         (Kind::Number, NewValue::Number(number)) if number.is_finite() => Ok(Value::Number(*number)),
+        (Kind::Number, NewValue::Quantity(number, unit)) => {
+            let expected = dictionary.unit(attribute);
+            let converted = expected.and_then(|wanted| unit.convert(*number, wanted));
+            match converted {
+                Some(number) if number.is_finite() => Ok(Value::Number(number)),
+                Some(_) => Err(TransactionError::NotFinite { token: name.clone() }),
+                None => Err(TransactionError::WrongUnit { attribute: name.clone(), expected, found: *unit }),
+            }
+        }
         (Kind::Number, NewValue::Number(_)) => Err(TransactionError::NotFinite { token: name.clone() }),
         (Kind::Text, NewValue::Text(text)) => Ok(Value::Text(text.clone())),
         (Kind::Bool, NewValue::Bool(truth)) => Ok(Value::Bool(*truth)),
@@ -335,7 +344,7 @@ fn fitting(state: &State, attribute: AttributeId, value: &NewValue) -> Result<Va
         }
         (expected, found) => {
             let found = match found {
-                NewValue::Number(_) => "number",
+                NewValue::Number(_) | NewValue::Quantity(..) => "number",
                 NewValue::Text(_) => "text",
                 NewValue::Bool(_) => "bool",
                 NewValue::Node(_) => "node",

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::lease::{Preemption, Priority};
 use crate::id::{AgentId, AttributeId, LabelId, ReflexId, ResourceId, TypeId, Version};
+use crate::unit::Unit;
 use crate::value::{Kind, NodeRef};
 
 type Name = Arc<str>;
@@ -57,6 +58,9 @@ pub enum TransactionError {
     /// The value is not of the declared kind.
     #[error("attribute '{attribute}' is a {expected}, not a {found}")]
     WrongKind { attribute: Name, expected: Kind, found: &'static str },
+    /// A quantity of an attribute that is measured in something else, or in nothing.
+    #[error("attribute '{attribute}' is measured in {}, not in {found}", expected.map_or_else(|| "no unit".to_owned(), |unit| unit.to_string()))]
+    WrongUnit { attribute: Name, expected: Option<Unit>, found: Unit },
     /// The value names a node of the wrong type.
     #[error("attribute '{attribute}' refers to a '{expected}', and '{node}' is a '{node_type}'")]
     WrongTarget { attribute: Name, expected: Name, node: Name, node_type: Name },
