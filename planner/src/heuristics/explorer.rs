@@ -254,14 +254,19 @@ impl<'a> Explorer<'a> {
     }
 
     /// Offers the effects of a node that costs so much with all that it needs.
+    #[inline]
     fn fire(&mut self, node: u32, cost: u32, words: &[u64]) {
-        let effects = &self.graph.effects;
-        if self.repetitions.is_none() {
-            for &p in effects.row(node) {
-                self.offer(p, cost, node);
-            }
-            return;
+        if self.repetitions.is_some() {
+            return self.fire_repeatedly(node, cost, words);
         }
+        for &p in self.graph.effects.row(node) {
+            self.offer(p, cost, node);
+        }
+    }
+
+    /// The same where comparisons of numbers count repetitions.
+    fn fire_repeatedly(&mut self, node: u32, cost: u32, words: &[u64]) {
+        let effects = &self.graph.effects;
         for effect in effects.range(node) {
             let p = effects.item(effect);
             if cost < self.cost[p as usize]
@@ -285,6 +290,7 @@ impl<'a> Explorer<'a> {
         })
     }
 
+    #[inline]
     fn offer(&mut self, proposition: u32, cost: u32, by: u32) {
         let known = &mut self.cost[proposition as usize];
         if cost < *known {
@@ -294,18 +300,27 @@ impl<'a> Explorer<'a> {
         }
     }
 
+    #[inline]
     fn push(&mut self, cost: u32, proposition: u32) {
+        let bucket = cost as usize;
+        if bucket >= self.buckets.len() {
+            return self.push_far(cost, proposition);
+        }
+        self.buckets[bucket].push(proposition);
+        self.queued += 1;
+        self.lowest = self.lowest.min(bucket);
+    }
+
+    /// Where there is no bucket yet, or never will be.
+    #[cold]
+    fn push_far(&mut self, cost: u32, proposition: u32) {
         let bucket = cost as usize;
         if bucket >= BUCKETS {
             self.overflow.push(Reverse((cost, proposition)));
             return;
         }
-        if bucket >= self.buckets.len() {
-            self.buckets.resize_with(bucket + 1, Vec::new);
-        }
-        self.buckets[bucket].push(proposition);
-        self.queued += 1;
-        self.lowest = self.lowest.min(bucket);
+        self.buckets.resize_with(bucket + 1, Vec::new);
+        self.push(cost, proposition);
     }
 
     fn pop(&mut self) -> Option<(u32, u32)> {
