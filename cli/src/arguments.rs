@@ -2,7 +2,7 @@
 
 use crate::console::{Console, Form};
 use crate::exit::Exit;
-use crate::{check, explain, fmt, lsp, plan, run as mission, test, validate};
+use crate::{check, dsr as graphs, explain, fmt, lsp, plan, run as mission, test, validate};
 use clap::{Parser, Subcommand};
 use std::ffi::OsString;
 
@@ -36,6 +36,9 @@ enum Command {
     Test(test::Arguments),
     /// Lay files out, changing white space only.
     Fmt(fmt::Arguments),
+    /// Look at the graph of a run, at any version: states, differences, history, questions; worlds of others.
+    #[command(subcommand)]
+    Dsr(graphs::Command),
     /// Serve an editor: the language server for PDDL, HDDL and plans, on standard input and output.
     Lsp(lsp::Arguments),
     /// Say what a diagnostic's code means, with examples.
@@ -71,6 +74,7 @@ where
         Command::Check(arguments) => check::run(&arguments, console),
         Command::Test(arguments) => test::run(&arguments, console),
         Command::Fmt(arguments) => fmt::run(&arguments, console),
+        Command::Dsr(command) => graphs::run(&command, console),
         Command::Lsp(arguments) => lsp::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments, console),
     }

@@ -15,7 +15,7 @@
 //! assert!(String::from_utf8(err).unwrap().contains("no/such/file.pddl"));
 //! ```
 //!
-//! Members: `arguments` (the tree of commands), `run`, `plan`, `validate`, `check`, `test`, `fmt`, `lsp`, `explain` (one each),
+//! Members: `arguments` (the tree of commands), `run`, `plan`, `validate`, `check`, `test`, `fmt`, `dsr`, `lsp`, `explain` (one each),
 //! `task` (a domain with its problem, read from files), `assemble` (a mission, from its folder to what runs it),
 //! `scenario`, `pool` (work on all cores), `files`, `disk` (mission folders), `memory`, `clock`, `render`
 //! (diagnostics as text with excerpts, or as JSON), `console` and `exit`.
@@ -26,6 +26,7 @@ mod check;
 mod clock;
 mod console;
 mod disk;
+mod dsr;
 mod exit;
 mod explain;
 mod files;

@@ -63,7 +63,7 @@ pub enum Change {
 impl Change {
     /// Changes are listed by rank: what goes first, what it hung on after it; then what comes, after what it
     /// hangs on. Within a rank by node, its own attributes before those of its edges.
-    fn order(&self) -> (u8, NodeId, Option<(LabelId, NodeId)>, u64, Option<AttributeId>) {
+    pub(crate) fn order(&self) -> (u8, NodeId, Option<(LabelId, NodeId)>, u64, Option<AttributeId>) {
         let of = |rank, holder: &Holder, added: bool, attribute: &AttributeId| match holder {
             Holder::Node(node) => (rank, *node, None, added.into(), Some(*attribute)),
             Holder::Edge(key) => (rank, key.from, Some((key.label, key.to)), added.into(), Some(*attribute)),

@@ -18,6 +18,7 @@ use crate::export::{self, Export, RestoreError};
 use crate::id::{AgentId, ReflexId, Time, Version};
 use crate::journal::feed::Feed;
 use crate::kernel::{Kernel, Twin};
+use crate::past::Past;
 use crate::pattern::Pattern;
 use crate::reflex::Registry;
 use crate::replay::{self, ReplayError};
@@ -49,6 +50,7 @@ pub struct Graph {
 
 struct Shared {
     dictionary: Arc<Dictionary>,
+    past: Past,
     kernel: Kernel<State, Writers>,
 }
 
@@ -134,7 +136,13 @@ impl Graph {
         let dictionary = Arc::clone(&state.dictionary);
         let (version, queues, feeds) = (state.version, Routes::default(), Vec::new());
         let writers = Writers { version, queues, feeds };
-        Self { shared: Arc::new(Shared { dictionary, kernel: Kernel::new(state, writers) }) }
+        Self {
+            shared: Arc::new(Shared {
+                dictionary,
+                past: Past::default(),
+                kernel: Kernel::new(state, writers),
+            }),
+        }
     }
 
     /// The dictionary.
@@ -147,9 +155,25 @@ impl Graph {
         Snapshot::new(self.shared.kernel.read())
     }
 
+    /// Keeps the last `count` versions before the present one for [`Graph::at`], from now on; none at first. Each costs
+    /// what was written after it, and commits then copy what they touch.
+    pub fn remember(&self, count: usize) {
+        let writing = self.shared.kernel.write();
+        let forgotten = self.shared.past.keep(count, &Snapshot::new(writing.present()));
+        drop(writing);
+        drop(forgotten);
+    }
+
+    /// The state at a version that is still remembered, the present one among them. Older ones are in a journal: see
+    /// [`Recording::at`](crate::Recording::at).
+    pub fn at(&self, version: Version) -> Option<Snapshot> {
+        let present = self.snapshot();
+        if present.version() == version { Some(present) } else { self.shared.past.at(version) }
+    }
+
     /// Applies a transaction, as a whole or not at all.
     pub fn commit(&self, transaction: &Transaction, time: Time) -> Result<Commit, TransactionError> {
-        let mut wakes = Vec::new();
+        let (mut wakes, mut forgotten) = (Vec::new(), None);
         let mut writing = self.shared.kernel.write();
         transaction.stale_at(writing.own().version)?;
         let state = writing.next();
@@ -170,6 +194,7 @@ impl Graph {
             let writers = writing.own();
             writers.version = delta.version;
             writers.feeds.retain(|feed| feed.push(&delta));
+            forgotten = self.shared.past.push(&snapshot);
             if !writers.queues.is_empty() {
                 let committed = Committed { delta: Arc::clone(&delta), snapshot: snapshot.clone() };
                 let tell = |queue: &Arc<Queue>| wakes.extend(queue.push(&committed));
@@ -179,7 +204,7 @@ impl Graph {
         drop(writing);
         wakes.into_iter().for_each(Wake::call);
         // Freeing may take a while, so it is done neither under the lock nor before others can go on.
-        drop(before);
+        drop((before, forgotten));
         Ok(Commit { version: delta.version, delta, snapshot, guards: outcome.guards })
     }
 

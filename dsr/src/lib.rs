@@ -42,14 +42,17 @@
 //!
 //! Map, from the ground up: `id`, `unit`, `value` → `dictionary` → `pages`, `block`, `names`, `members`, `state` (what a snapshot
 //! is), `track`, `undo` → `transaction` (edits, leases, the tree of transforms), `delta`, `replay`, `export` → `chain`, `pattern`,
-//! `reflex` → `snapshot`, `sentence`, `quiver` → `subscription`,
-//! `routes`, `kernel` (how readers and writers keep out of each other's way), `graph`, `attendance` → `journal`.
+//! `reflex` → `snapshot`, `diff`, `past`, `sentence`, `view`, `quiver` → `subscription`,
+//! `routes`, `kernel` (how readers and writers keep out of each other's way), `graph`, `attendance` → `journal`,
+//! `cortex` (worlds of others).
 
 mod attendance;
 mod block;
 mod chain;
+mod cortex;
 mod delta;
 mod dictionary;
+mod diff;
 mod export;
 mod graph;
 mod id;
@@ -59,6 +62,7 @@ mod members;
 mod mentions;
 mod names;
 mod pages;
+mod past;
 mod pattern;
 mod quiver;
 mod reflex;
@@ -74,9 +78,11 @@ mod transaction;
 mod undo;
 mod unit;
 mod value;
+mod view;
 
 pub use attendance::Attendance;
 pub use chain::ChainError;
+pub use cortex::{CortexError, CortexUnit, CortexWorld, Imported};
 pub use delta::{Change, Delta};
 pub use dictionary::{
     Dictionary, DictionaryBuilder, DictionaryError, End, HolderType, Nature, Permission, Signature, Token,
@@ -96,7 +102,9 @@ pub use journal::{
 pub use mentions::Mentions;
 pub use nalgebra::Isometry3;
 pub use pattern::{
-    Binding, Comparison, HolderTerm, Metric, Operand, Pattern, PatternBuilder, PatternError, Term, Threshold,
+//! `reflex` → `snapshot`, `diff`, `past`, `sentence`, `view`, `quiver` → `subscription`,
+//! `routes`, `kernel` (how readers and writers keep out of each other's way), `graph`, `attendance` → `journal`,
+//! `cortex` (worlds of others).
     Variable,
 };
 pub use reflex::{Bound, Keep, Reflex};
@@ -107,3 +115,4 @@ pub use track::HORIZON;
 pub use transaction::{Edit, HolderRef, Lease, Preemption, Priority, Transaction, TransactionError, Waiting};
 pub use unit::Unit;
 pub use value::{Kind, NewValue, NodeRef, Value};
+pub use view::View;

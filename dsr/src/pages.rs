@@ -32,6 +32,29 @@ impl<B> Default for Pages<B> {
     }
 }
 
+/// A table, or an empty one.
+fn table<T>(table: Option<&[Option<Arc<T>>; FANOUT]>) -> &[Option<Arc<T>>] {
+    table.map_or(&[], |table| table.as_slice())
+}
+
+/// Where two tables do not hold the same.
+fn differing<T>(
+    one: &[Option<Arc<T>>],
+    two: &[Option<Arc<T>>],
+    mut look: impl FnMut(usize, Option<&T>, Option<&T>),
+) {
+    for at in 0..one.len().max(two.len()) {
+        let (one, two) = (one.get(at).and_then(Option::as_ref), two.get(at).and_then(Option::as_ref));
+        let same = match (one, two) {
+            (Some(one), Some(two)) => Arc::ptr_eq(one, two),
+            (one, two) => one.is_none() && two.is_none(),
+        };
+        if !same {
+            look(at, one.map(|one| &**one), two.map(|two| &**two));
+        }
+    }
+}
+
 const fn split(index: usize) -> (usize, usize, usize) {
     (index >> (2 * BITS), (index >> BITS) % FANOUT, index % FANOUT)
 }
@@ -71,6 +94,19 @@ impl<B: Clone + Default> Pages<B> {
 }
 
 impl<B> Pages<B> {
+    /// The indexes at which the two do not share a block.
+    pub(crate) fn differing(&self, other: &Self) -> Vec<usize> {
+        let mut found = Vec::new();
+        differing(&self.root, &other.root, |top, one, two| {
+            differing(table(one), table(two), |middle, one, two| {
+                differing(table(one), table(two), |low, _, _| {
+                    found.push(((top << BITS) + middle) * FANOUT + low);
+                });
+            });
+        });
+        found
+    }
+
     /// All present blocks with their index, in order.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (usize, &B)> {
         let uppers = self.root.iter().enumerate();

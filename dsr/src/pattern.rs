@@ -16,6 +16,7 @@ mod clue;
 mod matcher;
 mod plan;
 mod seed;
+mod text;
 
 use std::ops::Deref;
 use std::sync::Arc;
@@ -28,6 +29,7 @@ pub(crate) use self::clue::{Clue, Ordered, Tip, ValueKey, Way};
 use self::plan::{Mask, Step};
 use self::seed::Seed;
 pub(crate) use self::seed::{Fixed, Route, Slices};
+pub use self::text::PatternTextError;
 use crate::id::{AttributeId, LabelId, NodeId, TypeId};
 use crate::mentions::Mentions;
 use crate::value::Value;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::delta::{Change, Delta};
 use crate::dictionary::Dictionary;
 use crate::id::{EdgeKey, Holder, NodeId};
-use crate::snapshot::Snapshot;
+use crate::snapshot::{AttributeView, Snapshot};
 use crate::value::Value;
 
 impl Snapshot {
@@ -14,6 +14,26 @@ impl Snapshot {
     pub fn sentence(&self, edge: EdgeKey) -> Option<String> {
         self.edge(edge.from, edge.label, edge.to)?;
         Some(Teller { snapshot: self, gone: &[] }.edge(edge))
+    }
+
+    /// The attributes of a node or an edge as sentences: "barthel: score 3".
+    pub fn attribute_sentences(&self, holder: Holder) -> Vec<String> {
+        let teller = Teller { snapshot: self, gone: &[] };
+        let say = |view: AttributeView<'_>| {
+            format!("{} {}", teller.attribute(holder, view.attribute), teller.value(view.value))
+        };
+        match holder {
+            Holder::Node(id) => self.get(id).map_or(Vec::new(), |node| node.attributes().map(say).collect()),
+            Holder::Edge(EdgeKey { from, label, to }) => {
+                self.edge(from, label, to).map_or(Vec::new(), |edge| edge.attributes().map(say).collect())
+            }
+        }
+    }
+
+    /// Where a node is below its parent, as a sentence.
+    pub fn place_sentence(&self, child: NodeId) -> Option<String> {
+        let (parent, pose, _) = self.get(child)?.parent()?;
+        Some(Teller { snapshot: self, gone: &[] }.place(parent, child, pose))
     }
 
     /// All edges as sentences, in the order of [`Snapshot::edges`].
@@ -87,19 +107,13 @@ impl Teller<'_> {
         }
     }
 
+    fn place(&self, parent: NodeId, child: NodeId, pose: &nalgebra::Isometry3<f64>) -> String {
+        let at = pose.translation.vector;
+        format!("{} at ({:.3}, {:.3}, {:.3}) in {}", self.node(child), at.x, at.y, at.z, self.node(parent))
+    }
+
     fn change(&self, change: &Change) -> String {
         let mut line = String::new();
-        let place = |parent: NodeId, child: NodeId, pose: &nalgebra::Isometry3<f64>| {
-            let at = pose.translation.vector;
-            format!(
-                "{} at ({:.3}, {:.3}, {:.3}) in {}",
-                self.node(child),
-                at.x,
-                at.y,
-                at.z,
-                self.node(parent)
-            )
-        };
         // Writing to a string cannot fail.
         let _ = match change {
             Change::NodeAdded { name, .. } => write!(line, "there is {}", spaced(name)),
@@ -116,7 +130,7 @@ impl Teller<'_> {
             Change::TransformAdded { parent, child, new, .. }
             | Change::TransformSampled { parent, child, new, .. }
             | Change::TransformChanged { parent, child, new, .. } => {
-                write!(line, "{}", place(*parent, *child, new))
+                write!(line, "{}", self.place(*parent, *child, new))
             }
             Change::TransformRemoved { parent, child, .. } => {
                 write!(line, "no longer: {} in {}", self.node(*child), self.node(*parent))

@@ -84,6 +84,15 @@ impl State {
         })
     }
 
+    /// The blocks that are not the same in both states, by index.
+    pub(crate) fn differing(&self, other: &Self) -> Vec<usize> {
+        let mut blocks = self.blocks.differing(&other.blocks);
+        blocks.extend(self.frames.differing(&other.frames));
+        blocks.sort_unstable();
+        blocks.dedup();
+        blocks
+    }
+
     /// Reads what writing at a node will need, for nothing but to have it in the cache: see `transaction::apply`.
     pub(crate) fn warm(&self, id: NodeId, side: Side) -> usize {
         let (block, slot) = place(id);

@@ -20,13 +20,13 @@ use crate::render::Message;
 use crate::scenario::{self, Staged};
 use clap::{Args, ValueEnum};
 use content::Content;
-use dsr::{AgentId, Graph};
+use dsr::{AgentId, Folder, Graph, Journal, Settings};
 use executive::{Ending, Narration, Shell, Step, Wheel};
 use hal::sim::{ClinicianScript, PatientScript, SimRoom};
 use judge::Record;
 use mission::scenario::Scenario;
 use serde::Serialize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 use story::{Entry, Story, What, seconds};
@@ -55,6 +55,9 @@ pub(crate) struct Arguments {
     /// Write the report here as well.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
+    /// Write every version of the graph to a journal in this folder, for `pelea dsr`.
+    #[arg(long, value_name = "FOLDER")]
+    journal: Option<PathBuf>,
     /// Tell how each step is carried out, too.
     #[arg(long)]
     verbose: bool,
@@ -117,6 +120,14 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         console.complain("error: the system gives no threads or timers\n");
         return Exit::Limit;
     };
+    let journal = match arguments.journal.as_deref().map(|folder| begin_journal(folder, &assembly.graph)) {
+        Some(Err(exit)) => {
+            exit.1.show(console);
+            return exit.0;
+        }
+        Some(Ok(journal)) => Some(journal),
+        None => None,
+    };
     let play = Play {
         content: Content { mission: Arc::new(mission), language },
         staged,
@@ -126,7 +137,34 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     let exit = runtime.block_on(play.play(assembly, arguments.report.as_deref(), console));
     // The planner's thread may still be at work on a plan that nobody wants any more.
     runtime.shutdown_background();
-    exit
+    match journal.map(Journal::close) {
+        Some(Err(error)) => {
+            Message::error(error.to_string()).show(console);
+            exit.and(Exit::Unwritable)
+        }
+        Some(Ok(progress)) if progress.gaps > 0 => {
+            console
+                .note(&format!("the journal lacks versions: its disk was too slow {} times", progress.gaps));
+            exit
+        }
+        _ => exit,
+    }
+}
+
+/// A journal in a folder that has none.
+fn begin_journal(folder: &Path, graph: &Graph) -> Result<Journal, (Exit, Message<'static>)> {
+    let unwritable = |error| {
+        (
+            Exit::Unwritable,
+            Message::error(format!("cannot write a journal to `{}`: {error}", folder.display())),
+        )
+    };
+    let store = Folder::new(folder).map_err(unwritable)?;
+    if !store.is_fresh() {
+        let message = format!("`{}` holds the journal of another run", folder.display());
+        return Err((Exit::Unreadable, Message::error(message)));
+    }
+    graph.journal(store, Settings::default()).map_err(unwritable)
 }
 
 /// A mission about to be played.

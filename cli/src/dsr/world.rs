@@ -1,0 +1,66 @@
+//! `pelea dsr import`: a world of RoboComp's cortex as a journal with one state.
+
+use super::Failed;
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::files;
+use clap::{Args, ValueEnum};
+use dsr::{CortexUnit, CortexWorld, Folder, Settings};
+use serde::Serialize;
+use std::path::PathBuf;
+
+/// Arguments of `pelea dsr import`.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// A JSON file with `DSRModel`.
+    world: PathBuf,
+    /// The folder for the journal, which `pelea dsr show` reads; it must hold none.
+    #[arg(short, long, value_name = "FOLDER")]
+    output: PathBuf,
+    /// The unit of the file's translations.
+    #[arg(long, value_enum, default_value_t = Unit::Mm)]
+    unit: Unit,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Unit {
+    /// Millimetres.
+    Mm,
+    /// Metres.
+    M,
+}
+
+#[derive(Serialize)]
+struct Record<'a> {
+    kind: &'static str,
+    nodes: usize,
+    edges: usize,
+    notes: &'a [String],
+}
+
+pub(super) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Result<Exit, Failed> {
+    let name = arguments.world.display();
+    let bytes = files::read_bytes(&arguments.world).map_err(|e| Failed(Exit::Unreadable, e.to_string()))?;
+    let world: CortexWorld = serde_json::from_slice(&bytes)
+        .map_err(|error| Failed(Exit::Unreadable, format!("`{name}` is no world of cortex: {error}")))?;
+    let unit = if arguments.unit == Unit::Mm { CortexUnit::Millimetres } else { CortexUnit::Metres };
+    let imported = world
+        .import(unit)
+        .map_err(|error| Failed(Exit::Unreadable, format!("`{name}` cannot be taken over: {error}")))?;
+    let unwritable = |error: &dyn std::fmt::Display| {
+        let folder = arguments.output.display();
+        Failed(Exit::Unwritable, format!("cannot write a journal to `{folder}`: {error}"))
+    };
+    let store = Folder::new(&arguments.output).map_err(|error| unwritable(&error))?;
+    if !store.is_fresh() {
+        return Err(unwritable(&"it holds one"));
+    }
+    let journal = imported.graph.journal(store, Settings::default()).map_err(|error| unwritable(&error))?;
+    journal.close().map_err(|error| unwritable(&error))?;
+    let snapshot = imported.graph.snapshot();
+    imported.notes.iter().for_each(|note| console.note(&format!("note: {note}")));
+    let (nodes, edges) = (snapshot.nodes().count(), snapshot.edges().count());
+    console.result(&format!("{nodes} nodes and {edges} edges in `{}`", arguments.output.display()));
+    console.record(&Record { kind: "import", nodes, edges, notes: &imported.notes });
+    Ok(Exit::Yes)
+}

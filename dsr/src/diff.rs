@@ -1,0 +1,140 @@
+//! What differs between two states of a graph, whatever lies between them.
+//!
+//! Idea: two snapshots share the blocks that nobody wrote to in between, so only blocks that are not the same are looked
+//! at. The answer is a list of changes, as a commit that made the one into the other would have published it; what was
+//! changed and changed back is not in it. Invariant: applying it to the earlier state gives the later one, but for the
+//! versions in which things were written. Cost: a comparison of references per page, and what was written; between
+//! states read from files, which share nothing, everything is compared.
+
+use crate::block::{Joint, NODES, Node};
+use crate::delta::Change;
+use crate::id::{EdgeKey, Holder, NodeId};
+use crate::snapshot::Snapshot;
+use crate::state::{State, same_transform};
+
+impl Snapshot {
+    /// The changes that lead from this state to a later or earlier one of the same graph.
+    pub fn diff(&self, other: &Snapshot) -> Vec<Change> {
+        let (before, after) = (self.state(), other.state());
+        let mut changes = Vec::new();
+        for block in before.differing(after) {
+            for id in (block * NODES..(block + 1) * NODES).map(NodeId::at) {
+                nodes(before, after, id, &mut changes);
+                joints(before.joint(id), after.joint(id), id, &mut changes);
+            }
+        }
+        changes.sort_by_key(Change::order);
+        changes
+    }
+}
+
+fn nodes(before: &State, after: &State, id: NodeId, changes: &mut Vec<Change>) {
+    let (old, new) = (before.node(id), after.node(id));
+    // Ids are never given out twice: a node that is on both sides is the same one.
+    match (old, new) {
+        (Some(old), None) => {
+            let (name, node_type) = (before.name(id), old.node_type());
+            changes.push(Change::NodeRemoved { node: id, name, node_type });
+        }
+        (None, Some(new)) => {
+            let (name, node_type) = (after.name(id), new.node_type());
+            changes.push(Change::NodeAdded { node: id, name, node_type });
+        }
+        _ => {}
+    }
+    for holder in holders(id, old) {
+        if let Holder::Edge(edge) = holder
+            && after.edge(edge).is_none()
+        {
+            changes.push(Change::EdgeRemoved { edge });
+        }
+        for cell in cells(before, holder) {
+            let attribute = cell.attribute;
+            let old = cell.value.clone();
+            match after.cell(holder, attribute) {
+                None => changes.push(Change::AttributeRemoved { holder, attribute, old }),
+                Some(new) if !new.value.same(&old) => {
+                    let new = new.value.clone();
+                    changes.push(Change::AttributeChanged { holder, attribute, old, new });
+                }
+                Some(_) => {}
+            }
+        }
+    }
+    for holder in holders(id, new) {
+        if let Holder::Edge(edge) = holder
+            && before.edge(edge).is_none()
+        {
+            changes.push(Change::EdgeAdded { edge });
+        }
+        for cell in cells(after, holder) {
+            let attribute = cell.attribute;
+            if before.cell(holder, attribute).is_none() {
+                changes.push(Change::AttributeAdded { holder, attribute, new: cell.value.clone() });
+            }
+        }
+    }
+}
+
+/// A node and the edges that leave it.
+fn holders(id: NodeId, node: Option<Node<'_>>) -> impl Iterator<Item = Holder> {
+    let edges = node.into_iter().flat_map(Node::outgoing);
+    let edges = edges.map(move |edge| Holder::Edge(EdgeKey { from: id, label: edge.label, to: edge.to }));
+    node.map(|_| Holder::Node(id)).into_iter().chain(edges)
+}
+
+fn cells(state: &State, holder: Holder) -> Vec<&crate::block::Cell> {
+    match holder {
+        Holder::Node(id) => state.node(id).map_or(Vec::new(), |node| node.cells().iter().collect()),
+        Holder::Edge(EdgeKey { from, label, to }) => state
+            .node(from)
+            .map_or(Vec::new(), |node| node.edge_cells(label, to).iter().map(|edge| &edge.cell).collect()),
+    }
+}
+
+fn joints(old: Option<&Joint>, new: Option<&Joint>, child: NodeId, changes: &mut Vec<Change>) {
+    match (old, new) {
+        (Some(old), Some(new)) if old.parent == new.parent => match (&old.track, &new.track) {
+            (None, None) if same_transform(&old.transform, &new.transform) => return,
+            (None, None) => {
+                let (parent, old, new) = (new.parent, old.transform, new.transform);
+                changes.push(Change::TransformChanged { parent, child, old, new });
+                return;
+            }
+            (Some(before), Some(after)) => {
+                // One that was taken back while the buffer reached so far: only a new buffer can have done that.
+                let lost = |time| time >= after.horizon() && after.sample(time).is_none();
+                if !before.samples().any(|sample| lost(sample.time)) {
+                    for sample in after.samples() {
+                        let (parent, time, new) = (new.parent, sample.time, sample.pose);
+                        let old = before.sample(time).copied();
+                        if old.is_none_or(|old| !same_transform(&old, &new)) {
+                            changes.push(Change::TransformSampled { parent, child, time, old, new });
+                        }
+                    }
+                    return;
+                }
+            }
+            _ => {}
+        },
+        _ => {}
+    }
+    if let Some(old) = old {
+        let (parent, old) = (old.parent, old.transform);
+        changes.push(Change::TransformRemoved { parent, child, old });
+    }
+    let Some(new) = new else { return };
+    let parent = new.parent;
+    let Some(track) = &new.track else {
+        changes.push(Change::TransformAdded { parent, child, new: new.transform, time: None });
+        return;
+    };
+    for (at, sample) in track.samples().enumerate() {
+        let (time, new) = (sample.time, sample.pose);
+        changes.push(if at == 0 {
+            Change::TransformAdded { parent, child, new, time: Some(time) }
+        } else {
+            Change::TransformSampled { parent, child, time, old: None, new }
+        });
+    }
+}

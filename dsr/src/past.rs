@@ -1,0 +1,56 @@
+//! The last versions, for whoever wants to look back.
+//!
+//! Problem: "what was it a second ago" should not need a disk. Idea: a ring of snapshots, none unless asked for, since
+//! each that is held makes commits copy. Invariant: what is remembered follows without gaps up to the present.
+
+use std::collections::VecDeque;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use crate::id::Version;
+use crate::snapshot::Snapshot;
+
+#[derive(Debug, Default)]
+pub(crate) struct Past(Mutex<Ring>);
+
+#[derive(Debug, Default)]
+struct Ring {
+    /// How many versions before the present one are kept.
+    count: usize,
+    /// Oldest first, the present one last; empty if nothing is kept.
+    versions: VecDeque<Snapshot>,
+}
+
+impl Past {
+    fn lock(&self) -> MutexGuard<'_, Ring> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Keeps so many from now on. Called under the commit lock; gives what nobody needs any more.
+    pub(crate) fn keep(&self, count: usize, present: &Snapshot) -> Vec<Snapshot> {
+        let mut ring = self.lock();
+        ring.count = count;
+        if ring.versions.is_empty() {
+            ring.versions.push_back(present.clone());
+        }
+        let kept = if count == 0 { 0 } else { count.saturating_add(1) };
+        let surplus = ring.versions.len().saturating_sub(kept);
+        ring.versions.drain(..surplus).collect()
+    }
+
+    /// Takes a new version. Called under the commit lock; gives the one that is forgotten.
+    pub(crate) fn push(&self, snapshot: &Snapshot) -> Option<Snapshot> {
+        let mut ring = self.lock();
+        if ring.count == 0 {
+            return None;
+        }
+        ring.versions.push_back(snapshot.clone());
+        if ring.versions.len() > ring.count + 1 { ring.versions.pop_front() } else { None }
+    }
+
+    pub(crate) fn at(&self, version: Version) -> Option<Snapshot> {
+        let ring = self.lock();
+        let first = ring.versions.front()?.version();
+        let at = usize::try_from(version.0.checked_sub(first.0)?).ok()?;
+        ring.versions.get(at).filter(|found| found.version() == version).cloned()
+    }
+}

@@ -1,0 +1,322 @@
+//! Patterns as text, for people who ask: `(and (is_with ?who clarc) (not (is clarc speaking)) (> (score ?test) 3))`.
+//!
+//! A word with `?` is a variable, any other names a node. `(LABEL a b)` is an edge, `(TYPE ?x)` gives a variable its type
+//! (otherwise it may be anything), `(ATTRIBUTE a)` or `(ATTRIBUTE a b)` says that an attribute of a node or of an edge
+//! has a value, `(= (ATTRIBUTE a) VALUE)` and `!=`, `<`, `<=`, `>`, `>=` compare it with a number, `true`, `false`, a
+//! `"text"`, a node or another attribute; `(< (distance a b) 1.5)` compares metres, `(distinct a b)` two nodes. `(and …)`
+//! and `(not …)` nest; a variable that stands only inside a `not` is local to it.
+
+use std::collections::BTreeMap;
+
+use super::{Comparison, HolderTerm, Operand, Pattern, PatternBuilder, PatternError, Term, Variable};
+use crate::dictionary::{Dictionary, HolderType};
+use crate::id::{AttributeId, TypeId};
+use crate::value::{Kind, Value};
+
+/// Why a text is no pattern, with the byte where it goes wrong.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the fields are what the variant is about")]
+pub enum PatternTextError {
+    /// Parentheses or quotes that do not match, or something behind the end.
+    #[error("byte {at}: {wanted} is missing")]
+    Missing { at: usize, wanted: &'static str },
+    /// Deeper than anybody would write.
+    #[error("byte {at}: nested too deeply")]
+    TooDeep { at: usize },
+    /// What begins a part is no token of the dictionary and no word of the language.
+    #[error(
+        "byte {at}: `{word}` is no label, attribute or type, and not one of `and`, `not`, `distinct`, `=`, `<` …"
+    )]
+    Unknown { at: usize, word: String },
+    /// A part with too many or too few words.
+    #[error("byte {at}: `{word}` takes {wanted}")]
+    Arity { at: usize, word: String, wanted: &'static str },
+    /// Something else belongs there.
+    #[error("byte {at}: {wanted} belongs here")]
+    Expected { at: usize, wanted: &'static str },
+    /// It says what the dictionary never allows.
+    #[error(transparent)]
+    Wrong(#[from] PatternError),
+}
+
+/// How deeply parts may nest.
+const DEEPEST: usize = 32;
+
+#[derive(Debug)]
+enum Form<'t> {
+    Word(usize, &'t str),
+    Text(usize, &'t str),
+    List(usize, Vec<Form<'t>>),
+}
+
+impl Form<'_> {
+    fn at(&self) -> usize {
+        match self {
+            Self::Word(at, _) | Self::Text(at, _) | Self::List(at, _) => *at,
+        }
+    }
+}
+
+impl Pattern {
+    /// Reads a pattern, in the language of `pelea dsr query`: see the README. Variables are those that stand outside of
+    /// any `not`, in their order.
+    pub fn parse(dictionary: &Dictionary, text: &str) -> Result<Self, PatternTextError> {
+        let mut reader = Reader { text, at: 0 };
+        let form = reader.form(0)?;
+        reader.space();
+        if reader.at < text.len() {
+            return Err(PatternTextError::Missing { at: reader.at, wanted: "the end" });
+        }
+        let mut builder = PatternBuilder::new(dictionary);
+        let mut writer = Writer { dictionary, known: BTreeMap::new() };
+        writer.conjunction(&mut builder, std::slice::from_ref(&form))?;
+        Ok(builder.build()?)
+    }
+}
+
+struct Reader<'t> {
+    text: &'t str,
+    at: usize,
+}
+
+impl<'t> Reader<'t> {
+    fn rest(&self) -> &'t str {
+        self.text.get(self.at..).unwrap_or("")
+    }
+
+    fn space(&mut self) {
+        let rest = self.rest();
+        self.at += rest.len() - rest.trim_start().len();
+    }
+
+    fn form(&mut self, depth: usize) -> Result<Form<'t>, PatternTextError> {
+        self.space();
+        let (at, rest) = (self.at, self.rest());
+        if depth > DEEPEST {
+            return Err(PatternTextError::TooDeep { at });
+        }
+        if rest.starts_with('(') {
+            self.at += 1;
+            let mut forms = Vec::new();
+            loop {
+                self.space();
+                match self.rest().chars().next() {
+                    Some(')') => {
+                        self.at += 1;
+                        return Ok(Form::List(at, forms));
+                    }
+                    Some(_) => forms.push(self.form(depth + 1)?),
+                    None => return Err(PatternTextError::Missing { at: self.at, wanted: "`)`" }),
+                }
+            }
+        }
+        if let Some(quoted) = rest.strip_prefix('"') {
+            let end =
+                quoted.find('"').ok_or(PatternTextError::Missing { at: self.text.len(), wanted: "`\"`" })?;
+            self.at += end + 2;
+            return Ok(Form::Text(at, &quoted[..end]));
+        }
+        let end = rest.find(|c: char| c.is_whitespace() || "()\"".contains(c)).unwrap_or(rest.len());
+        if end == 0 {
+            return Err(PatternTextError::Missing { at, wanted: "`(`" });
+        }
+        self.at += end;
+        Ok(Form::Word(at, &rest[..end]))
+    }
+}
+
+struct Writer<'d, 't> {
+    dictionary: &'d Dictionary,
+    known: BTreeMap<&'t str, Variable>,
+}
+
+/// The word that begins a list, and what is behind it.
+fn split<'f, 't>(form: &'f Form<'t>) -> Result<(usize, &'t str, &'f [Form<'t>]), PatternTextError> {
+    let wanted = "a part such as `(LABEL a b)`";
+    match form {
+        Form::List(at, forms) => match forms.split_first() {
+            Some((Form::Word(_, head), rest)) => Ok((*at, head, rest)),
+            _ => Err(PatternTextError::Expected { at: *at, wanted }),
+        },
+        Form::Word(at, _) | Form::Text(at, _) => Err(PatternTextError::Expected { at: *at, wanted }),
+    }
+}
+
+/// The variables that stand in forms outside of any `not`, and the types that they are given there.
+fn variables<'t>(forms: &[Form<'t>], dictionary: &Dictionary, found: &mut Vec<(&'t str, Option<TypeId>)>) {
+    for form in forms {
+        match form {
+            Form::Word(_, word) if word.starts_with('?') && !found.iter().any(|(known, _)| known == word) => {
+                found.push((word, None));
+            }
+            Form::List(_, forms) => match &forms[..] {
+                [Form::Word(_, "not"), ..] => {}
+                [Form::Word(_, head), Form::Word(_, variable)]
+                    if variable.starts_with('?') && dictionary.node_type(head).is_some() =>
+                {
+                    let node_type = dictionary.node_type(head);
+                    match found.iter_mut().find(|(known, _)| known == variable) {
+                        Some((_, known)) => *known = node_type,
+                        None => found.push((variable, node_type)),
+                    }
+                }
+                forms => variables(forms, dictionary, found),
+            },
+            _ => {}
+        }
+    }
+}
+
+impl<'d, 't> Writer<'d, 't> {
+    fn conjunction(
+        &mut self,
+        builder: &mut PatternBuilder<'d>,
+        forms: &[Form<'t>],
+    ) -> Result<(), PatternTextError> {
+        let mut here = Vec::new();
+        variables(forms, self.dictionary, &mut here);
+        here.retain(|(word, _)| !self.known.contains_key(word));
+        for (word, node_type) in &here {
+            let name = word.trim_start_matches('?');
+            let variable = builder.variable(name, node_type.unwrap_or(TypeId::OBJECT));
+            self.known.insert(word, variable);
+        }
+        forms.iter().try_for_each(|form| self.part(builder, form))?;
+        for (word, _) in here {
+            self.known.remove(word);
+        }
+        Ok(())
+    }
+
+    fn part(&mut self, builder: &mut PatternBuilder<'d>, form: &Form<'t>) -> Result<(), PatternTextError> {
+        let (at, head, rest) = split(form)?;
+        let arity = |wanted| PatternTextError::Arity { at, word: head.to_owned(), wanted };
+        match (head, rest) {
+            ("and", parts) => return parts.iter().try_for_each(|part| self.part(builder, part)),
+            ("not", [part]) => {
+                return builder.without(|builder| self.conjunction(builder, std::slice::from_ref(part)));
+            }
+            ("not", _) => return Err(arity("one part")),
+            ("distinct", [a, b]) => {
+                let (a, b) = (self.term(a)?, self.term(b)?);
+                builder.distinct(a, b);
+                return Ok(());
+            }
+            ("distinct", _) => return Err(arity("two nodes")),
+            _ => {}
+        }
+        if let Some(comparison) = comparison(head) {
+            let [left, right] = rest else { return Err(arity("two sides")) };
+            return self.comparison(builder, comparison, left, right);
+        }
+        if let (Some(label), [from, to]) = (self.dictionary.label(head), rest) {
+            let (from, to) = (self.term(from)?, self.term(to)?);
+            builder.edge(from, label, to);
+            return Ok(());
+        }
+        if self.dictionary.attribute(head).is_some() {
+            let (holder, attribute) = self.attribute(form)?;
+            builder.present(holder, attribute);
+            return Ok(());
+        }
+        match (self.dictionary.label(head), self.dictionary.node_type(head), rest) {
+            (Some(_), _, _) => Err(arity("two nodes")),
+            // The variable has been declared with it.
+            (None, Some(_), [Form::Word(_, word)]) if word.starts_with('?') => Ok(()),
+            (None, Some(_), _) => Err(arity("a variable")),
+            _ => Err(PatternTextError::Unknown { at, word: head.to_owned() }),
+        }
+    }
+
+    fn comparison(
+        &self,
+        builder: &mut PatternBuilder<'d>,
+        comparison: Comparison,
+        left: &Form<'t>,
+        right: &Form<'t>,
+    ) -> Result<(), PatternTextError> {
+        let (at, head, rest) = split(left)?;
+        if head == "distance" {
+            let [a, b] = rest else {
+                return Err(PatternTextError::Arity { at, word: head.to_owned(), wanted: "two nodes" });
+            };
+            let (a, b) = (self.term(a)?, self.term(b)?);
+            let metres = match right {
+                Form::Word(_, word) => word.parse().ok().filter(|metres: &f64| metres.is_finite()),
+                _ => None,
+            };
+            let metres =
+                metres.ok_or(PatternTextError::Expected { at: right.at(), wanted: "a number of metres" })?;
+            builder.distance(a, b, comparison, metres);
+            return Ok(());
+        }
+        let (holder, attribute) = self.attribute(left)?;
+        let operand = self.operand(right, self.dictionary.kind(attribute))?;
+        builder.guard(holder, attribute, comparison, operand);
+        Ok(())
+    }
+
+    fn operand(&self, form: &Form<'t>, kind: Option<Kind>) -> Result<Operand, PatternTextError> {
+        Ok(match form {
+            Form::List(..) => {
+                let (holder, attribute) = self.attribute(form)?;
+                Operand::Attribute(holder, attribute)
+            }
+            Form::Text(_, text) => Operand::Value(Value::text(*text)),
+            Form::Word(at, word) => match kind {
+                Some(Kind::Number) => {
+                    let number = word.parse().ok().filter(|number: &f64| number.is_finite());
+                    number.ok_or(PatternTextError::Expected { at: *at, wanted: "a number" })?.into()
+                }
+                Some(Kind::Bool) => match *word {
+                    "true" => true.into(),
+                    "false" => false.into(),
+                    _ => return Err(PatternTextError::Expected { at: *at, wanted: "`true` or `false`" }),
+                },
+                Some(Kind::Text) => Operand::Value(Value::text(*word)),
+                _ => Operand::Term(self.term(form)?),
+            },
+        })
+    }
+
+    /// `(ATTRIBUTE a)` or `(ATTRIBUTE a b)`.
+    fn attribute(&self, form: &Form<'t>) -> Result<(HolderTerm, AttributeId), PatternTextError> {
+        let (at, head, rest) = split(form)?;
+        let unknown = || PatternTextError::Unknown { at, word: head.to_owned() };
+        let attribute = self.dictionary.attribute(head).ok_or_else(unknown)?;
+        let arity = |wanted| PatternTextError::Arity { at, word: head.to_owned(), wanted };
+        match (self.dictionary.holder(attribute).ok_or_else(unknown)?, rest) {
+            (HolderType::Node(_), [node]) => Ok((HolderTerm::Node(self.term(node)?), attribute)),
+            (HolderType::Edge { label, .. }, [from, to]) => {
+                let (from, to) = (self.term(from)?, self.term(to)?);
+                Ok((HolderTerm::Edge { from, label, to }, attribute))
+            }
+            (HolderType::Node(_), _) => Err(arity("one node")),
+            (HolderType::Edge { .. }, _) => Err(arity("the two nodes of an edge")),
+        }
+    }
+
+    fn term(&self, form: &Form<'t>) -> Result<Term, PatternTextError> {
+        match form {
+            Form::Word(at, word) if word.starts_with('?') => self
+                .known
+                .get(word)
+                .map(|variable| Term::Variable(*variable))
+                .ok_or(PatternTextError::Expected { at: *at, wanted: "a variable that is declared" }),
+            Form::Word(_, word) | Form::Text(_, word) => Ok(Term::from(*word)),
+            Form::List(at, _) => Err(PatternTextError::Expected { at: *at, wanted: "a node or a variable" }),
+        }
+    }
+}
+
+fn comparison(word: &str) -> Option<Comparison> {
+    Some(match word {
+        "=" => Comparison::Equal,
+        "!=" => Comparison::NotEqual,
+        "<" => Comparison::Less,
+        "<=" => Comparison::LessOrEqual,
+        ">" => Comparison::Greater,
+        ">=" => Comparison::GreaterOrEqual,
+        _ => return None,
+    })
+}
