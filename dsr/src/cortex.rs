@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::dictionary::{DictionaryBuilder, DictionaryError, Nature};
+use crate::dictionary::{Dictionary, DictionaryBuilder, DictionaryError, Nature};
 use crate::graph::Graph;
 use crate::id::{AgentId, AttributeId, LabelId, Time, TypeId};
 use crate::transaction::{HolderRef, Transaction, TransactionError};
@@ -145,6 +145,8 @@ pub enum CortexError {
     Transaction(#[from] TransactionError),
 }
 
+/// Who writes in a world that was taken over.
+const AGENT: &str = "cortex";
 /// Lists longer than this are data, such as images, and not attributes.
 const LONGEST: usize = 16;
 /// Largest whole number that a double holds exactly.
@@ -182,9 +184,10 @@ fn kind(value: &NewValue) -> (Kind, &'static str) {
     }
 }
 
-/// A token by another name if ours has that already.
-fn free(name: &str, taken: &[&str]) -> String {
-    if name.is_empty() || taken.contains(&name) { format!("cortex_{name}") } else { name.to_owned() }
+/// A token by another name if every dictionary has that already.
+fn free(name: &str, is_taken: impl FnOnce(&Dictionary, &str) -> bool) -> String {
+    let taken = name.is_empty() || is_taken(&DictionaryBuilder::new().build(), name);
+    if taken { format!("cortex_{name}") } else { name.to_owned() }
 }
 
 struct Node {
@@ -233,7 +236,7 @@ impl CortexWorld {
             labels.insert(&edge.label, builder.label(&edge.label, from, to)?);
         }
         let attributes = attributes(&mut builder, &nodes, &edges, &kinds, &types, &labels)?;
-        builder.agent("cortex")?;
+        builder.agent(AGENT)?;
 
         let graph = Graph::new(builder.build());
         let mut tx = Transaction::new(AgentId::DSR);
@@ -269,10 +272,10 @@ impl CortexWorld {
         let (mut nodes, mut ids) = (Vec::new(), BTreeMap::new());
         for symbol in self.model.symbols.values() {
             let id = symbol.id.text();
-            let kind = free(&symbol.kind, &["object", "agent", "resource"]);
+            let kind = free(&symbol.kind, |ours, name| ours.node_type(name).is_some());
             let name = if symbol.name.is_empty() { format!("{kind}_{id}") } else { symbol.name.clone() };
             // Our agents are nodes, too.
-            let name = free(&name, &["dsr", "cortex"]);
+            let name = free(&name, |ours, name| name == AGENT || ours.agent(name).is_some());
             let values = gather(&name, &symbol.attribute, notes);
             if ids.insert(id.clone(), nodes.len()).is_some() {
                 return Err(CortexError::SameId { id });
@@ -313,7 +316,7 @@ impl CortexWorld {
                     link.label
                 ));
             } else {
-                let label = free(&link.label, &["holds"]);
+                let label = free(&link.label, |ours, name| ours.label(name).is_some());
                 let values = gather(&format!("{from} {label} {to}"), &link.attribute, notes);
                 edges.push(Edge { from, label, to, values });
             }
@@ -401,7 +404,7 @@ fn attributes(
     for ((name, word), (kind, uses)) in uses {
         // One name with several kinds of values, or the name of what every dictionary has.
         let several = words.iter().filter(|other| **other == name).count() > 1;
-        let plain = free(&name, &["priority", "yields", "claim"]);
+        let plain = free(&name, |ours, name| ours.attribute(name).is_some());
         let unique = if several { format!("{plain}.{word}") } else { plain };
         let id = if let Some((label, ..)) = uses.edges.first() {
             let label_id = labels[label.as_str()];
