@@ -178,7 +178,7 @@ fn values(name: &str, content: &Content) -> Result<Vec<(String, NewValue)>, &'st
 
 fn kind(value: &NewValue) -> (Kind, &'static str) {
     match value {
-        NewValue::Number(_) => (Kind::Number, "number"),
+        NewValue::Number(_) | NewValue::Quantity(..) => (Kind::Number, "number"),
         NewValue::Bool(_) => (Kind::Bool, "bool"),
         NewValue::Text(_) | NewValue::Node(_) => (Kind::Text, "text"),
     }

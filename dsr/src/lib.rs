@@ -102,10 +102,8 @@ pub use journal::{
 pub use mentions::Mentions;
 pub use nalgebra::Isometry3;
 pub use pattern::{
-//! `reflex` → `snapshot`, `diff`, `past`, `sentence`, `view`, `quiver` → `subscription`,
-//! `routes`, `kernel` (how readers and writers keep out of each other's way), `graph`, `attendance` → `journal`,
-//! `cortex` (worlds of others).
-    Variable,
+    Binding, Comparison, HolderTerm, Metric, Operand, Pattern, PatternBuilder, PatternError,
+    PatternTextError, Term, Threshold, Variable,
 };
 pub use reflex::{Bound, Keep, Reflex};
 pub use replay::ReplayError;
