@@ -15,7 +15,10 @@ use super::atoms::{AtomTable, Packing};
 use super::budget;
 use super::cost::resolve;
 use super::error::{GroundError, GroundOptions};
+use super::fluents::Fluents;
 use super::formula::Formula;
+use super::instantiate::Ground;
+use super::numbers::Comparison;
 use super::plan::{Filter, JoinPlan, Step, plan};
 use super::rule::Rule;
 use super::schema::Schema;
@@ -91,7 +94,7 @@ pub(crate) fn reach(
     rules: &[Rule],
     table: AtomTable,
     statics: u32,
-    is_static: &[bool],
+    (is_static, fluents): (&[bool], &Fluents),
     objects: usize,
     options: &GroundOptions<'_>,
 ) -> Result<Reached, GroundError> {
@@ -116,8 +119,17 @@ pub(crate) fn reach(
         .collect();
     let bytes = (0..crate::ids::id32(table.len())).map(|a| budget::atom(table.row(a).len())).sum();
     let instance_bytes = schemas.iter().map(Schema::instance_bytes).collect();
-    let mut out =
-        Out { schemas, table, bindings, instance_bytes, bytes, allowed: options.bytes(), steps: 0, options };
+    let mut out = Out {
+        schemas,
+        table,
+        bindings,
+        instance_bytes,
+        bytes,
+        allowed: options.bytes(),
+        steps: 0,
+        options,
+        fluents,
+    };
     for atom in 0..statics {
         indices.insert(&out.table, atom);
     }
@@ -149,6 +161,7 @@ struct Out<'a> {
     allowed: usize,
     steps: u32,
     options: &'a GroundOptions<'a>,
+    fluents: &'a Fluents,
 }
 
 impl Out<'_> {
@@ -220,6 +233,10 @@ impl Join<'_, '_> {
                         .table
                         .find(*predicate, arguments.iter().map(|&t| resolve(t, binding)))
                         .is_none(),
+                    Filter::Compare { relation, left, right } => {
+                        let known = Comparison::fold(*relation, left, right, self.out.fluents, binding);
+                        matches!(known, Ground::True)
+                    }
                 };
                 if holds { self.step(at + 1, binding) } else { Ok(()) }
             }

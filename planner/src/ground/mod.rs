@@ -105,8 +105,16 @@ fn build(
         add_all_instances(domain, predicate, &mut universe, &mut table, options)?;
     }
 
-    let rules = rule::rules(&schemas, &is_static);
-    let reached = join::reach(&schemas, &rules, table, statics, &is_static, problem.objects.len(), options)?;
+    let rules = rule::rules(&schemas, &is_static, &fluents);
+    let reached = join::reach(
+        &schemas,
+        &rules,
+        table,
+        statics,
+        (&is_static, &fluents),
+        problem.objects.len(),
+        options,
+    )?;
     let goal = Formula::of(&problem.goal, true, Origin::Problem, &mut universe)?;
     let slots = universe.slots(&problem.goal_variables);
     let exclusions =

@@ -8,7 +8,8 @@ use super::atoms::AtomTable;
 use super::join::Indices;
 use super::rule::{BodyAtom, Rule};
 use super::universe::Range;
-use pddl::model::{PredicateId, Term};
+use crate::number::Relation;
+use pddl::model::{Expression, ExpressionKind, PredicateId, Term};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::Arc;
 
@@ -31,6 +32,12 @@ pub(crate) enum Filter {
         predicate: PredicateId,
         arguments: Box<[Term]>,
     },
+    /// How `left - right` relates to 0, where no action changes either.
+    Compare {
+        relation: Relation,
+        left: Arc<Expression>,
+        right: Arc<Expression>,
+    },
 }
 
 impl Filter {
@@ -39,6 +46,17 @@ impl Filter {
             Self::Same { left, right, .. } => is_bound(*left, bound) && is_bound(*right, bound),
             Self::OneOf { term, .. } => is_bound(*term, bound),
             Self::Absent { arguments, .. } => arguments.iter().all(|&t| is_bound(t, bound)),
+            Self::Compare { left, right, .. } => {
+                let mut all = true;
+                for side in [left, right] {
+                    side.each(&mut |part| {
+                        if let ExpressionKind::Fluent(application) = &part.kind {
+                            all &= application.arguments.iter().all(|&t| is_bound(t, bound));
+                        }
+                    });
+                }
+                all
+            }
         }
     }
 }

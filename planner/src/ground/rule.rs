@@ -1,5 +1,6 @@
 //! Rules of reachability: what must be joined, and what follows.
 
+use super::fluents::Fluents;
 use super::formula::{Formula, Literal};
 use super::join::is_refuted;
 use super::plan::Filter;
@@ -30,7 +31,7 @@ pub(crate) struct Rule {
 }
 
 impl Rule {
-    fn new(schema: usize, of: &Schema, is_static: &[bool]) -> Self {
+    fn new(schema: usize, of: &Schema, is_static: &[bool], fluents: &Fluents) -> Self {
         let mut variables: Vec<VariableId> = (0..of.parameters).map(VariableId::from_index).collect();
         variables.extend(&of.hoisted);
         let mut rule = Self {
@@ -42,12 +43,12 @@ impl Rule {
             heads: Vec::new(),
             collected: false,
         };
-        rule.require(&of.condition, is_static);
+        rule.require(&of.condition, is_static, fluents);
         rule
     }
 
     /// Adds the conjuncts that a join can use; the rest is an over-approximation's to ignore.
-    fn require(&mut self, formula: &Formula, is_static: &[bool]) {
+    fn require(&mut self, formula: &Formula, is_static: &[bool], fluents: &Fluents) {
         for conjunct in formula.conjuncts() {
             match conjunct {
                 Formula::Literal(Literal { positive: true, predicate, arguments }) => {
@@ -65,6 +66,12 @@ impl Rule {
                     let (positive, term, range) = (*positive, *term, range.clone());
                     self.filters.push(Filter::OneOf { positive, term, range });
                 }
+                Formula::Compare { relation, left, right }
+                    if fluents.is_static(left) && fluents.is_static(right) =>
+                {
+                    let (relation, left, right) = (*relation, left.clone(), right.clone());
+                    self.filters.push(Filter::Compare { relation, left, right });
+                }
                 _ => {}
             }
         }
@@ -72,10 +79,10 @@ impl Rule {
 }
 
 /// The rules of all schemas.
-pub(crate) fn rules(schemas: &[Schema], is_static: &[bool]) -> Vec<Rule> {
+pub(crate) fn rules(schemas: &[Schema], is_static: &[bool], fluents: &Fluents) -> Vec<Rule> {
     let mut found = Vec::new();
     for (i, schema) in schemas.iter().enumerate().filter(|(_, s)| !is_refuted(&s.condition)) {
-        let mut main = Rule::new(i, schema, is_static);
+        let mut main = Rule::new(i, schema, is_static, fluents);
         main.collected = true;
         match &schema.product {
             Product::Axiom { predicate, arguments } => main.heads.push((*predicate, arguments.clone())),
@@ -85,8 +92,8 @@ pub(crate) fn rules(schemas: &[Schema], is_static: &[bool]) -> Vec<Rule> {
                     if effect.is_simple() {
                         main.heads.push(head);
                     } else if !is_refuted(&effect.condition) {
-                        let mut rule = Rule::new(i, schema, is_static);
-                        rule.require(&effect.condition, is_static);
+                        let mut rule = Rule::new(i, schema, is_static, fluents);
+                        rule.require(&effect.condition, is_static, fluents);
                         rule.variables.extend(&effect.quantified);
                         rule.heads.push(head);
                         found.push(rule);

@@ -15,7 +15,7 @@ use crate::heuristics::Costs;
 use crate::heuristics::repetitions::Repetitions;
 use crate::ids::id32;
 use crate::search::{Job, Meter};
-use crate::task::{ALONE, AXIOM, Relaxation};
+use crate::task::{ALONE, AXIOM, Relaxation, Way};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -54,6 +54,8 @@ pub(crate) struct Explorer<'a> {
     meter: &'a Meter<'a>,
     combine: Combine,
     repetitions: Option<Repetitions<'a>>,
+    /// The first node that raises a comparison that holds already; empty where nobody counts.
+    supplier: Vec<u32>,
     template: Vec<Node>,
     /// Without the moves.
     nodes: Vec<Node>,
@@ -110,6 +112,10 @@ impl<'a> Explorer<'a> {
             graph,
             meter: job.meter,
             combine,
+            supplier: match (&repetitions, combine) {
+                (Some(_), Combine::Sum) => vec![UNREACHED; graph.propositions()],
+                _ => Vec::new(),
+            },
             repetitions,
             nodes: template[..graph.first_move as usize].to_vec(),
             template,
@@ -144,13 +150,18 @@ impl<'a> Explorer<'a> {
         self.supporter[proposition as usize]
     }
 
-    /// How often the supporter of a proposition must be done for it in this state.
-    pub(crate) fn times(&self, proposition: u32, words: &[u64]) -> u32 {
+    /// The first node that raises a comparison that holds already; [`UNREACHED`] where there is none.
+    pub(crate) fn supplier(&self, proposition: u32) -> u32 {
+        self.supplier.get(proposition as usize).copied().unwrap_or(UNREACHED)
+    }
+
+    /// How often a node must be done in this state for a proposition that it achieves, where its
+    /// comparison needs `more` units than it says.
+    pub(crate) fn times(&self, node: u32, proposition: u32, more: f64, words: &[u64]) -> u32 {
         let Some(repetitions) = &self.repetitions else { return 1 };
         let effects = &self.graph.effects;
-        let mut achieved = effects.range(self.supporter(proposition));
-        let effect = achieved.find(|&effect| effects.item(effect) == proposition);
-        effect.and_then(|effect| repetitions.count(effect, words)).unwrap_or(1)
+        let effect = effects.range(node).find(|&effect| effects.item(effect) == proposition);
+        effect.and_then(|effect| repetitions.count(effect, more, words)).unwrap_or(1)
     }
 
     /// Whether everything that the node needs costs nothing.
@@ -245,6 +256,7 @@ impl<'a> Explorer<'a> {
             1
         });
         self.cost.fill(UNREACHED);
+        self.supplier.fill(UNREACHED);
         if self.queued > 0 {
             self.buckets.iter_mut().for_each(Vec::clear);
             self.queued = 0;
@@ -269,6 +281,12 @@ impl<'a> Explorer<'a> {
         let effects = &self.graph.effects;
         for effect in effects.range(node) {
             let p = effects.item(effect);
+            if self.cost[p as usize] == 0
+                && let Some(supplier @ &mut UNREACHED) = self.supplier.get_mut(p as usize)
+                && *self.graph.ways.get(effect) != Way::Once
+            {
+                *supplier = node;
+            }
             if cost < self.cost[p as usize]
                 && let Some(cost) = self.repeated(node, cost, effect, words)
             {
@@ -280,10 +298,10 @@ impl<'a> Explorer<'a> {
     /// What an effect of a node costs with its repetitions; `None` where it never comes about.
     fn repeated(&self, node: u32, cost: u32, effect: usize, words: &[u64]) -> Option<u32> {
         let Some(repetitions) = &self.repetitions else { return Some(cost) };
-        let times = repetitions.count(effect, words)?;
+        let times = repetitions.count(effect, 0.0, words)?;
         Some(match self.combine {
             Combine::Sum => {
-                let more = (times - 1).saturating_mul(self.template[node as usize].cost);
+                let more = times.saturating_sub(1).saturating_mul(self.template[node as usize].cost);
                 cost.saturating_add(more).min(HIGHEST)
             }
             Combine::Max => cost.max(repetitions.bound(effect, words)).min(HIGHEST),

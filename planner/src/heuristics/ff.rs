@@ -2,12 +2,13 @@
 //!
 //! Idea: supporters chosen by hadd; walking them back from the goal gives a plan of the relaxation,
 //! whose applicable operators are the ones worth trying first. Neither admissible nor consistent;
-//! safe. An operator is in the plan as often as the comparison of numbers asks that takes it most often.
+//! safe. Where numbers ask for repetitions, the plan is a counted one (`counted_plan`).
 //! Cost: one exploration plus the plan.
 //!
 //! Source: Hoffmann & Nebel, "The FF planning system", JAIR 2001, §4; supporters by hadd: Keyder &
 //! Geffner, "Heuristics for planning with action costs revisited", ECAI 2008.
 
+use super::counted_plan::{CountedPlan, Walk};
 use super::explorer::UNREACHED;
 use super::{Combine, Costs, Estimate, Explorer, Heuristic, View};
 use crate::ids::OperatorId;
@@ -18,11 +19,11 @@ pub(crate) struct Ff<'a> {
     task: &'a Task,
     costs: Costs,
     explorer: Explorer<'a>,
+    /// Where operators may have to be repeated.
+    counted: Option<CountedPlan>,
     /// Generation in which a proposition or operator was last marked.
     marked: Vec<u32>,
     used: Vec<u32>,
-    /// How often the relaxed plan has an operator that was used.
-    count: Vec<u32>,
     generation: u32,
     stack: Vec<u32>,
     /// What the last relaxed plan achieves.
@@ -38,8 +39,8 @@ impl<'a> Ff<'a> {
         let explorer = Explorer::new(job, goal, costs, Combine::Sum);
         Self {
             marked: vec![0; task.relaxation.propositions()],
+            counted: CountedPlan::new(task),
             used: vec![0; task.operators.len()],
-            count: vec![0; task.operators.len()],
             generation: 0,
             stack: Vec::new(),
             achieved: Vec::new(),
@@ -61,6 +62,12 @@ impl<'a> Ff<'a> {
         if !self.explorer.explore(words) {
             return Estimate::DEAD_END;
         }
+        if let Some(counted) = &mut self.counted {
+            let walk = Walk { task: self.task, explorer: &self.explorer, costs: self.costs, words };
+            let estimate = counted.walk(&walk, &mut self.achieved, preferred);
+            self.real = counted.real();
+            return estimate;
+        }
         self.generation += 1;
         let (generation, graph) = (self.generation, self.explorer.graph());
         let mut total = 0_u32;
@@ -76,21 +83,13 @@ impl<'a> Ff<'a> {
             self.achieved.push(p);
             self.stack.extend_from_slice(graph.preconditions.row(node));
             let number = graph.operator[node as usize];
-            if number == AXIOM {
+            if number == AXIOM || std::mem::replace(&mut self.used[number as usize], generation) == generation
+            {
                 continue;
             }
-            let times = self.explorer.times(p, words);
-            let again = std::mem::replace(&mut self.used[number as usize], generation) == generation;
-            let count = &mut self.count[number as usize];
-            let before = if again { *count } else { 0 };
-            *count = before.max(times);
             let operator = &self.task.operators.as_slice()[number as usize];
-            let more = *count - before;
-            total = total.saturating_add(more.saturating_mul(self.costs.of(operator.cost)));
-            self.real += u64::from(more) * u64::from(operator.cost);
-            if again {
-                continue;
-            }
+            total = total.saturating_add(self.costs.of(operator.cost));
+            self.real += u64::from(operator.cost);
             let Some(preferred) = preferred.as_deref_mut() else { continue };
             if self.explorer.is_ready(node) && operator.precondition.hold_in(words) {
                 preferred.push(OperatorId(number));

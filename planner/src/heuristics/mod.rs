@@ -5,6 +5,7 @@
 
 mod add;
 mod blind;
+mod counted_plan;
 mod explorer;
 mod ff;
 mod goal_count;

@@ -54,9 +54,10 @@ impl<'a> Repetitions<'a> {
         self
     }
 
-    /// How often a node must be done for this effect of its; `None`: it never achieves it.
-    pub(crate) fn count(&self, effect: usize, words: &[u64]) -> Option<u32> {
-        let times = self.numeric.repetitions(self.graph.ways.get(effect), words)?;
+    /// How often a node must be done for this effect of its, were the comparison to need `more` units;
+    /// `None`: it never achieves it.
+    pub(crate) fn count(&self, effect: usize, more: f64, words: &[u64]) -> Option<u32> {
+        let times = self.numeric.repetitions(self.graph.ways.get(effect), more, words)?;
         Some(whole(times))
     }
 

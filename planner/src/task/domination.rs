@@ -39,9 +39,8 @@ pub(crate) fn undominated(graph: &Relaxation) -> Relaxation {
         free: Vec::new(),
         mark: vec![u32::MAX; graph.propositions()],
     };
-    let stepwise = graph.ways.stepwise(&graph.effects, graph.propositions());
     for proposition in 0..id32(graph.propositions()) {
-        if stepwise[proposition as usize] {
+        if graph.ways.comparison(proposition).is_some() {
             achievers.row(proposition).iter().for_each(|&node| kept[node as usize].push(proposition));
             continue;
         }

@@ -10,9 +10,10 @@
 //! that read them, per operator.
 
 use super::{Literals, set, unset};
-use crate::ids::{FactId, FluentId};
+use crate::ids::{FactId, FluentId, id32};
 use crate::number::{Change, Expression, Influence, NoValue, Number, Relation};
 use pddl::model::{GroundApplication, Idx};
+use rustc_hash::FxHashMap;
 
 /// A numeric fluent that changes.
 #[derive(Clone, Debug)]
@@ -29,6 +30,8 @@ pub(crate) struct Comparison {
     pub(crate) expression: Expression<FluentId>,
     /// Whether operators do nothing to its fluents but add constants.
     pub(super) steady: bool,
+    /// The sum that it bounds from below: equal for those that differ in the bound alone.
+    pub(super) sum: Option<u32>,
     fast: Option<Fast>,
 }
 
@@ -127,10 +130,18 @@ impl Numeric {
             None => Layout::Ratio,
         };
         let mut numeric = Self { start, layout, fluents: fluents.into(), stored, ..Self::default() };
+        let mut sums: FxHashMap<Vec<(FluentId, Number)>, u32> = FxHashMap::default();
         let comparison = |(fact, relation, expression): (FactId, Relation, Expression<FluentId>)| {
             let fast = numeric.fast(&expression);
             let steady = matches!(expression, Expression::Linear(_));
-            Comparison { fact, relation, expression, steady, fast }
+            let sum = match (&expression, relation) {
+                (Expression::Linear(linear), Relation::Positive | Relation::NonNegative) => {
+                    let new = id32(sums.len());
+                    Some(*sums.entry(linear.terms.clone()).or_insert(new))
+                }
+                _ => None,
+            };
+            Comparison { fact, relation, expression, steady, sum, fast }
         };
         numeric.comparisons = comparisons.into_iter().map(comparison).collect();
         let mut readers: Vec<Vec<u32>> = vec![Vec::new(); stored];

@@ -14,6 +14,7 @@ use super::cliques::cliques;
 use super::{AxiomProgram, Fact, Goal, Literals, Numeric, Operator, Way, Ways, contains, for_each_set};
 use crate::ids::{FactId, OperatorId, id32};
 use pddl::model::{Idx, IndexVec};
+use rustc_hash::FxHashMap;
 
 /// Rows of `u32` behind each other.
 #[derive(Clone, Debug, Default)]
@@ -131,7 +132,11 @@ impl Relaxation {
                 }
             }
         }
+        let comparisons = numeric.comparisons.iter().zip(0..);
+        let comparisons: FxHashMap<FactId, u32> =
+            comparisons.map(|(c, position)| (c.fact, position)).collect();
         for (id, op) in operators.enumerate() {
+            graph.ways.set_takings(id.0, numeric.takings(op, &comparisons));
             graph.node(id.0, op.cost, &[&op.precondition], &op.adds, &op.deletes);
             for influenced in op.numeric.iter().flat_map(|e| numeric.influences(e)) {
                 let (facts, ways): (Vec<FactId>, Vec<Way>) = influenced.holds.into_iter().unzip();
@@ -143,8 +148,8 @@ impl Relaxation {
                     &facts,
                     &influenced.fails,
                 );
-                for (i, way) in ways.into_iter().enumerate() {
-                    graph.ways.set(before + i, way);
+                for (i, (way, fact)) in ways.into_iter().zip(facts).enumerate() {
+                    graph.ways.set(before + i, fact.0, way);
                 }
             }
             for e in &op.conditional {
@@ -207,6 +212,7 @@ impl Relaxation {
             negated: self.negated.clone(),
             negation: self.negation.clone(),
             optimistic: self.optimistic.clone(),
+            ways: self.ways.without_effects(),
             ..Self::default()
         };
         let kept = (0..id32(self.nodes())).filter(|&n| !effects[n as usize].is_empty());
@@ -228,7 +234,7 @@ impl Relaxation {
                 for (i, effect) in effects.iter().enumerate() {
                     let mut known = self.effects.range(id32(node));
                     if let Some(position) = known.find(|&position| self.effects.item(position) == *effect) {
-                        graph.ways.set(before + i, self.ways.get(position).clone());
+                        graph.ways.set(before + i, *effect, self.ways.get(position).clone());
                     }
                 }
             }

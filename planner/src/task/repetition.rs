@@ -12,9 +12,10 @@
 //! planning", JAIR 2020, §4; Hoffmann, "The Metric-FF planning system", JAIR 2003. Rates are ours.
 
 use super::numeric::{Comparison, Numeric, NumericEffects, Update};
-use super::{Literals, Rows};
+use super::{Literals, Operator};
 use crate::ids::{FactId, FluentId};
 use crate::number::{Change, Expression, Number, Relation};
+use rustc_hash::FxHashMap;
 
 /// How a node achieves a proposition.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +34,10 @@ pub(crate) struct Ways {
     /// Positions in `known`, plus 1; 0 is [`Way::Once`]. Shorter than the effects where the rest is.
     of: Vec<u32>,
     known: Vec<Way>,
+    /// By proposition: the comparison that it is, where some node achieves that step by step.
+    comparisons: FxHashMap<u32, u32>,
+    /// By operator: how much it takes from which sums that its precondition needs.
+    takings: FxHashMap<u32, Box<[(u32, f64)]>>,
 }
 
 impl Ways {
@@ -47,8 +52,10 @@ impl Ways {
         }
     }
 
-    pub(crate) fn set(&mut self, effect: usize, way: Way) {
-        if way == Way::Once {
+    pub(crate) fn set(&mut self, effect: usize, proposition: u32, way: Way) {
+        if let Way::Steps { comparison, .. } | Way::Rate { comparison, .. } = way {
+            self.comparisons.insert(proposition, comparison);
+        } else {
             return;
         }
         if self.of.len() <= effect {
@@ -58,13 +65,25 @@ impl Ways {
         self.of[effect] = crate::ids::id32(self.known.len());
     }
 
-    /// By proposition: whether some node achieves it step by step.
-    pub(crate) fn stepwise(&self, effects: &Rows, propositions: usize) -> Vec<bool> {
-        let mut found = vec![false; propositions];
-        for (effect, _) in self.of.iter().enumerate().filter(|(_, position)| **position != 0) {
-            found[effects.item(effect) as usize] = true;
+    /// The comparison of a proposition that some node achieves step by step.
+    pub(crate) fn comparison(&self, proposition: u32) -> Option<u32> {
+        self.comparisons.get(&proposition).copied()
+    }
+
+    /// How much an operator takes from which sums that its precondition needs.
+    pub(crate) fn takings(&self, operator: u32) -> &[(u32, f64)] {
+        self.takings.get(&operator).map_or(&[], |takings| takings)
+    }
+
+    pub(crate) fn set_takings(&mut self, operator: u32, takings: Vec<(u32, f64)>) {
+        if !takings.is_empty() {
+            self.takings.insert(operator, takings.into());
         }
-        found
+    }
+
+    /// What holds of operators, and so of every graph of the same ones.
+    pub(crate) fn without_effects(&self) -> Self {
+        Self { takings: self.takings.clone(), ..Self::default() }
     }
 }
 
@@ -182,9 +201,10 @@ impl Numeric {
         (way, may_fail)
     }
 
-    /// How many repetitions of a way make its comparison hold, were nothing else done; `None` where no
-    /// number of them does, whatever other operators do meanwhile.
-    pub(crate) fn repetitions(&self, way: &Way, words: &[u64]) -> Option<f64> {
+    /// How many repetitions of a way make its comparison hold, and leave `more` units beyond what it asks,
+    /// were nothing else done; `None` where no number of them does, whatever other operators do
+    /// meanwhile.
+    pub(crate) fn repetitions(&self, way: &Way, more: f64, words: &[u64]) -> Option<f64> {
         let (comparison, step) = match way {
             Way::Once => return Some(1.0),
             Way::Steps { comparison, step } => (&self.comparisons[*comparison as usize], *step),
@@ -193,18 +213,43 @@ impl Numeric {
                 let Ok(rate) = step.evaluate(&|&f| self.value(words, f)) else { return Some(1.0) };
                 let rate = rate.to_f64() * self.unit(comparison).to_f64();
                 // The rate may change, and then one more step may be enough.
-                return Some(
-                    times(comparison.relation, self.measure(comparison, words), rate).unwrap_or(1.0),
-                );
+                let value = self.measure(comparison, words).map(|value| value - more);
+                return Some(times(comparison.relation, value, rate).unwrap_or(1.0));
             }
         };
-        let value = self.measure(comparison, words);
+        let value = self.measure(comparison, words).map(|value| value - more);
         match times(comparison.relation, value, step) {
             None if comparison.steady => None,
             // An assignment may turn things round, or give a value in the first place.
             None => (comparison.relation == Relation::Zero || value.is_none()).then_some(1.0),
             times => times,
         }
+    }
+
+    /// The sum that a comparison bounds from below, and how many of its units one is.
+    pub(crate) fn sum_of(&self, comparison: u32) -> Option<(u32, f64)> {
+        let comparison = &self.comparisons[comparison as usize];
+        Some((comparison.sum?, self.unit(comparison).to_f64()))
+    }
+
+    /// How much an operator takes from which sums that its precondition needs. `of` knows the
+    /// comparisons of facts.
+    pub(crate) fn takings(&self, operator: &Operator, of: &FxHashMap<FactId, u32>) -> Vec<(u32, f64)> {
+        let mut found: Vec<(u32, f64)> = Vec::new();
+        let Some(effects) = &operator.numeric else { return found };
+        let always: Vec<&Update> = effects.updates.iter().filter(|u| u.condition.is_empty()).collect();
+        for fact in &operator.precondition.positive {
+            let Some(&position) = of.get(fact) else { continue };
+            let comparison = &self.comparisons[position as usize];
+            let Some(sum) = comparison.sum.filter(|sum| found.iter().all(|(known, _)| known != sum)) else {
+                continue;
+            };
+            let step = self.moved(comparison, &always).and_then(|own| own.constant());
+            if let Some(step) = step.filter(|step| step.sign() < 0) {
+                found.push((sum, -step.to_f64()));
+            }
+        }
+        found
     }
 
     /// How far from holding a comparison is, in its units and with the sign of what it lacks; `None`
@@ -254,11 +299,11 @@ fn shift(comparison: &Comparison, update: &Update) -> Option<Expression<FluentId
 fn times(relation: Relation, value: Option<f64>, step: f64) -> Option<f64> {
     let value = value?;
     match relation {
-        Relation::Positive if value > 0.0 => Some(1.0),
+        Relation::Positive if value > 0.0 => Some(0.0),
         Relation::Positive => (step > 0.0).then(|| (-value / step).floor() + 1.0),
-        Relation::NonNegative if value >= 0.0 => Some(1.0),
+        Relation::NonNegative if value >= 0.0 => Some(0.0),
         Relation::NonNegative => (step > 0.0).then(|| (-value / step).ceil()),
-        Relation::Zero if value == 0.0 => Some(1.0),
+        Relation::Zero if value == 0.0 => Some(0.0),
         Relation::Zero => (step * value < 0.0).then(|| (-value / step).ceil()),
         Relation::NonZero | Relation::Defined => Some(1.0),
     }
@@ -274,6 +319,7 @@ mod tests {
         assert_eq!(times(Relation::NonNegative, Some(-9.0), 3.0), Some(3.0));
         assert_eq!(times(Relation::Positive, Some(-9.0), 3.0), Some(4.0));
         assert_eq!(times(Relation::Positive, Some(0.0), 3.0), Some(1.0));
+        assert_eq!(times(Relation::Positive, Some(0.5), 3.0), Some(0.0));
         assert_eq!(times(Relation::Positive, Some(0.0), -3.0), None);
         assert_eq!(times(Relation::Zero, Some(7.0), -2.0), Some(4.0));
         assert_eq!(times(Relation::Zero, Some(7.0), 2.0), None);

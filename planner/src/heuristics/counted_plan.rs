@@ -1,0 +1,144 @@
+//! Relaxed plans in which operators are repeated, and make up for what they use.
+//!
+//! Problem: a relaxation deletes nothing, so one log is enough for ten houses, and whoever builds the
+//! first finds the estimate risen by the logs for the second. Idea: the plan is walked back from the
+//! dearest propositions to the cheapest. An operator is in it as often as the comparison asks that takes
+//! it most often; each time it takes from the sums that its precondition needs (a tank, a purse, a room),
+//! and when such a sum's turn comes, it must suffice for all but the last taking. Where it holds already
+//! but does not suffice, the operator that was first able to raise it supplies the rest. Neither
+//! admissible nor consistent; finite wherever the exploration is, hence safe. Cost: the plan's
+//! propositions in a queue.
+//!
+//! Source: repetitions as in Scala, Haslum, Thiébaux & Ramirez, JAIR 2020; takings as an extension of
+//! relaxed plan extraction in Hoffmann, "The Metric-FF planning system", JAIR 2003, §4.3, ours.
+
+use super::explorer::UNREACHED;
+use super::{Costs, Estimate, Explorer};
+use crate::ids::OperatorId;
+use crate::task::{AXIOM, Task};
+use rustc_hash::FxHashMap;
+use std::collections::BinaryHeap;
+
+/// What the operators of a plan take from a sum.
+#[derive(Clone, Copy, Default)]
+struct Taken {
+    all: f64,
+    /// The most that one of them takes.
+    most: f64,
+}
+
+/// Scratch for relaxed plans of one task.
+pub(crate) struct CountedPlan {
+    /// Propositions to be achieved, the dearest first.
+    queue: BinaryHeap<(u32, u32)>,
+    /// Generation in which a proposition or operator was last met.
+    marked: Vec<u32>,
+    used: Vec<u32>,
+    count: Vec<u32>,
+    generation: u32,
+    /// What the last plan costs.
+    real: u64,
+    /// By sum.
+    taken: FxHashMap<u32, Taken>,
+}
+
+/// What a walk needs to know.
+pub(crate) struct Walk<'w, 'a> {
+    pub(crate) task: &'a Task,
+    pub(crate) explorer: &'w Explorer<'a>,
+    pub(crate) costs: Costs,
+    pub(crate) words: &'w [u64],
+}
+
+impl CountedPlan {
+    /// `None` for a task without repetitions.
+    pub(crate) fn new(task: &Task) -> Option<Self> {
+        (!task.relaxation.ways.is_empty()).then(|| Self {
+            queue: BinaryHeap::new(),
+            marked: vec![0; task.relaxation.propositions()],
+            used: vec![0; task.operators.len()],
+            count: vec![0; task.operators.len()],
+            generation: 0,
+            real: 0,
+            taken: FxHashMap::default(),
+        })
+    }
+
+    /// Walks back from the goal after an exploration. Appends what the plan achieves, and the operators
+    /// that begin it.
+    pub(crate) fn walk(
+        &mut self,
+        walk: &Walk<'_, '_>,
+        achieved: &mut Vec<u32>,
+        mut preferred: Option<&mut Vec<OperatorId>>,
+    ) -> Estimate {
+        let Walk { task, explorer, costs, words } = *walk;
+        let graph = explorer.graph();
+        self.generation += 1;
+        self.taken.clear();
+        self.real = 0;
+        let generation = self.generation;
+        let mut total = 0_u32;
+        self.queue.extend(explorer.goal().iter().map(|&p| (explorer.cost(p), p)));
+        while let Some((_, p)) = self.queue.pop() {
+            if std::mem::replace(&mut self.marked[p as usize], generation) == generation {
+                continue;
+            }
+            let mut node = explorer.supporter(p);
+            let more = self.more(walk, p);
+            if node == UNREACHED {
+                node = if more > 0.0 { explorer.supplier(p) } else { UNREACHED };
+            } else {
+                achieved.push(p);
+            }
+            if node == UNREACHED {
+                continue;
+            }
+            let times = explorer.times(node, p, more, words);
+            if times == 0 {
+                continue;
+            }
+            self.queue.extend(graph.preconditions.row(node).iter().map(|&q| (explorer.cost(q), q)));
+            let number = graph.operator[node as usize];
+            if number == AXIOM {
+                continue;
+            }
+            let again = std::mem::replace(&mut self.used[number as usize], generation) == generation;
+            let count = &mut self.count[number as usize];
+            let before = if again { *count } else { 0 };
+            *count = before.max(times);
+            let added = *count - before;
+            let operator = &task.operators.as_slice()[number as usize];
+            total = total.saturating_add(added.saturating_mul(costs.of(operator.cost)));
+            self.real += u64::from(added) * u64::from(operator.cost);
+            for &(sum, amount) in graph.ways.takings(number) {
+                let taken = self.taken.entry(sum).or_default();
+                taken.all += f64::from(added) * amount;
+                taken.most = taken.most.max(amount);
+            }
+            if again {
+                continue;
+            }
+            let Some(preferred) = preferred.as_deref_mut() else { continue };
+            if explorer.is_ready(node) && operator.precondition.hold_in(words) {
+                preferred.push(OperatorId(number));
+            }
+        }
+        Estimate(total.min(u32::MAX - 1))
+    }
+
+    /// What the last plan costs.
+    pub(crate) fn real(&self) -> u64 {
+        self.real
+    }
+
+    /// What a comparison's sum must have beyond what the comparison asks, in the comparison's units.
+    fn more(&self, walk: &Walk<'_, '_>, proposition: u32) -> f64 {
+        if self.taken.is_empty() {
+            return 0.0;
+        }
+        let Some(comparison) = walk.explorer.graph().ways.comparison(proposition) else { return 0.0 };
+        let Some((sum, unit)) = walk.task.numeric.sum_of(comparison) else { return 0.0 };
+        self.taken.get(&sum).map_or(0.0, |taken| (taken.all - taken.most) * unit)
+    }
+}
