@@ -93,3 +93,54 @@ fn a_sum_that_only_grows_never_falls() {
         solve(&task, &Query::of(&task), &SearchConfiguration::default(), &Budget::default()).outcome;
     assert!(matches!(outcome, Outcome::Unsolvable(UnsolvableReason::Impossible(_))), "{outcome:?}");
 }
+
+/// Each step raises one rung over the one below and brings the next one closer: only who counts what the
+/// goal loses on the way sees how far it is.
+#[test]
+fn what_is_taken_from_the_goal_is_made_up_for() {
+    let rungs: Vec<String> = (0..10).map(|i| format!("r{i}")).collect();
+    let heights: String = rungs.iter().map(|r| format!("(= (height {r}) 0)")).collect();
+    let above: String =
+        rungs.windows(2).map(|w| format!("(> (height {}) (height {}))", w[1], w[0])).collect();
+    let task = task(
+        "(define (domain ladder) (:requirements :typing :numeric-fluents) (:types rung) (:functions (height ?r - rung))
+           (:action up :parameters (?r - rung) :precondition (< (height ?r) 20) :effect (increase (height ?r) 1))
+           (:action down :parameters (?r - rung) :precondition (> (height ?r) 0) :effect (decrease (height ?r) 1)))",
+        &format!(
+            "(define (problem ten) (:domain ladder) (:objects {} - rung) (:init {heights}) (:goal (and {above})))",
+            rungs.join(" ")
+        ),
+    );
+    let configuration = SearchConfiguration::named("lazy-ff").unwrap();
+    let report = solve(&task, &Query::of(&task), &configuration, &Budget::default());
+    let Outcome::Solved(plan) = report.outcome else { panic!("{:?}", report.outcome) };
+    assert_eq!(plan.operators.len(), 45);
+    assert!(report.statistics.expanded < 1000, "{}", report.statistics.expanded);
+}
+
+/// A condition on numbers that never change leaves out of a join what it excludes.
+#[test]
+fn static_comparisons_filter_instances_as_they_are_joined() {
+    let items: Vec<String> = (0..60).map(|i| format!("i{i}")).collect();
+    let ranks: String = items.iter().enumerate().map(|(i, item)| format!("(= (rank {item}) {i})")).collect();
+    let domain = pddl::Source::new(
+        "domain",
+        "(define (domain rows) (:requirements :typing :numeric-fluents) (:types item)
+           (:predicates (row ?a - item)) (:functions (rank ?i - item))
+           (:action three :parameters (?a ?b ?c - item)
+            :precondition (and (= (rank ?b) (+ (rank ?a) 1)) (= (rank ?c) (+ (rank ?b) 1)))
+            :effect (row ?a)))",
+    );
+    let problem = pddl::Source::new(
+        "problem",
+        format!(
+            "(define (problem sixty) (:domain rows) (:objects {} - item) (:init {ranks}) (:goal (forall (?a - item) (or (row ?a) (> (rank ?a) 57)))))",
+            items.join(" ")
+        ),
+    );
+    let domain = pddl::parse_domain(&domain, &[]).model.unwrap();
+    let problem = pddl::parse_problem(&problem, &domain).model.unwrap();
+    // The product of all parameters would take a hundred times as much.
+    let options = GroundOptions { memory_bytes: Some(1 << 20), ..GroundOptions::default() };
+    assert_eq!(ground(&domain, &problem, &options).unwrap().operators().len(), 58);
+}

@@ -39,7 +39,7 @@ use fluents::Fluents;
 use formula::Formula;
 use pddl::Diagnostic;
 use pddl::model::Feature as Language;
-use pddl::model::{Domain, Effect, EffectKind, Idx, PredicateId, Problem};
+use pddl::model::{Domain, EffectKind, Idx, PredicateId, Problem};
 use raw::Failure;
 use universe::Universe;
 pub(crate) use values::ValuePredicates;

@@ -4,8 +4,10 @@
 //! first finds the estimate risen by the logs for the second. Idea: the plan is walked back from the
 //! dearest propositions to the cheapest. An operator is in it as often as the comparison asks that takes
 //! it most often; each time it takes from the sums that its precondition needs (a tank, a purse, a room),
-//! and when such a sum's turn comes, it must suffice for all but the last taking. Where it holds already
-//! but does not suffice, the operator that was first able to raise it supplies the rest. Neither
+//! and when such a sum's turn comes, it must suffice for all but the last taking; a sum that the goal
+//! bounds, for what any operator takes. Where it holds already but does not suffice, the operator that was
+//! first able to raise it supplies the rest. What is taken from a sum whose turn is over gives it another
+//! one, a bounded number of times, because two operators may live off each other. Neither
 //! admissible nor consistent; finite wherever the exploration is, hence safe. Cost: the plan's
 //! propositions in a queue.
 //!
@@ -23,9 +25,14 @@ use std::collections::BinaryHeap;
 #[derive(Clone, Copy, Default)]
 struct Taken {
     all: f64,
-    /// The most that one of them takes.
+    /// That of those whose preconditions bound the sum.
+    needed: f64,
+    /// The most that one of these takes at once.
     most: f64,
 }
+
+/// Turns of a comparison that is a goal, and of another one.
+const TURNS: [u32; 2] = [64, 8];
 
 /// Scratch for relaxed plans of one task.
 pub(crate) struct CountedPlan {
@@ -40,6 +47,10 @@ pub(crate) struct CountedPlan {
     real: u64,
     /// By sum.
     taken: FxHashMap<u32, Taken>,
+    /// By sum: the comparisons of it that had their turn.
+    met: FxHashMap<u32, Vec<u32>>,
+    /// By comparison: how many turns it had.
+    turns: FxHashMap<u32, u32>,
 }
 
 /// What a walk needs to know.
@@ -61,6 +72,8 @@ impl CountedPlan {
             generation: 0,
             real: 0,
             taken: FxHashMap::default(),
+            met: FxHashMap::default(),
+            turns: FxHashMap::default(),
         })
     }
 
@@ -76,6 +89,8 @@ impl CountedPlan {
         let graph = explorer.graph();
         self.generation += 1;
         self.taken.clear();
+        self.met.clear();
+        self.turns.clear();
         self.real = 0;
         let generation = self.generation;
         let mut total = 0_u32;
@@ -85,10 +100,10 @@ impl CountedPlan {
                 continue;
             }
             let mut node = explorer.supporter(p);
-            let more = self.more(walk, p);
+            let (more, first) = self.turn(walk, p);
             if node == UNREACHED {
                 node = if more > 0.0 { explorer.supplier(p) } else { UNREACHED };
-            } else {
+            } else if first {
                 achieved.push(p);
             }
             if node == UNREACHED {
@@ -111,10 +126,8 @@ impl CountedPlan {
             let operator = &task.operators.as_slice()[number as usize];
             total = total.saturating_add(added.saturating_mul(costs.of(operator.cost)));
             self.real += u64::from(added) * u64::from(operator.cost);
-            for &(sum, amount) in graph.ways.takings(number) {
-                let taken = self.taken.entry(sum).or_default();
-                taken.all += f64::from(added) * amount;
-                taken.most = taken.most.max(amount);
+            if added > 0 {
+                self.take(walk, number, added);
             }
             if again {
                 continue;
@@ -132,13 +145,43 @@ impl CountedPlan {
         self.real
     }
 
-    /// What a comparison's sum must have beyond what the comparison asks, in the comparison's units.
-    fn more(&self, walk: &Walk<'_, '_>, proposition: u32) -> f64 {
-        if self.taken.is_empty() {
-            return 0.0;
+    /// What a comparison's sum must have beyond what the comparison asks, in the comparison's units, and
+    /// whether this is the first that is heard of it.
+    fn turn(&mut self, walk: &Walk<'_, '_>, proposition: u32) -> (f64, bool) {
+        let Some(comparison) = walk.explorer.graph().ways.comparison(proposition) else { return (0.0, true) };
+        let Some((sum, unit)) = walk.task.numeric.sum_of(comparison) else { return (0.0, true) };
+        let turns = self.turns.entry(proposition).or_default();
+        *turns += 1;
+        let first = *turns == 1;
+        if first {
+            self.met.entry(sum).or_default().push(proposition);
         }
-        let Some(comparison) = walk.explorer.graph().ways.comparison(proposition) else { return 0.0 };
-        let Some((sum, unit)) = walk.task.numeric.sum_of(comparison) else { return 0.0 };
-        self.taken.get(&sum).map_or(0.0, |taken| (taken.all - taken.most) * unit)
+        let more = self.taken.get(&sum).map_or(0.0, |taken| match walk.explorer.is_goal(proposition) {
+            true => taken.all,
+            false => taken.needed - taken.most,
+        });
+        (more * unit, first)
+    }
+
+    /// Notes what an operator takes that is done so many times more.
+    fn take(&mut self, walk: &Walk<'_, '_>, operator: u32, times: u32) {
+        let explorer = walk.explorer;
+        for taking in explorer.graph().ways.takings(operator) {
+            let taken = self.taken.entry(taking.sum).or_default();
+            let amount = f64::from(times) * taking.amount;
+            taken.all += amount;
+            if taking.is_needed {
+                taken.needed += amount;
+                taken.most = taken.most.max(taking.amount);
+            }
+            for &p in self.met.get(&taking.sum).map_or(&[][..], Vec::as_slice) {
+                let is_goal = explorer.is_goal(p);
+                let turns = self.turns.get(&p).copied().unwrap_or(0);
+                if (is_goal || taking.is_needed) && turns < TURNS[usize::from(!is_goal)] {
+                    self.marked[p as usize] = 0;
+                    self.queue.push((explorer.cost(p), p));
+                }
+            }
+        }
     }
 }

@@ -136,6 +136,10 @@ impl<'a> Explorer<'a> {
         self.graph
     }
 
+    pub(crate) fn is_goal(&self, proposition: u32) -> bool {
+        self.is_goal[proposition as usize]
+    }
+
     pub(crate) fn goal(&self) -> &[u32] {
         &self.goal
     }

@@ -36,8 +36,8 @@ pub(crate) struct Ways {
     known: Vec<Way>,
     /// By proposition: the comparison that it is, where some node achieves that step by step.
     comparisons: FxHashMap<u32, u32>,
-    /// By operator: how much it takes from which sums that its precondition needs.
-    takings: FxHashMap<u32, Box<[(u32, f64)]>>,
+    /// By operator: how much it takes from which sums.
+    takings: FxHashMap<u32, Box<[Taking]>>,
 }
 
 impl Ways {
@@ -70,12 +70,12 @@ impl Ways {
         self.comparisons.get(&proposition).copied()
     }
 
-    /// How much an operator takes from which sums that its precondition needs.
-    pub(crate) fn takings(&self, operator: u32) -> &[(u32, f64)] {
+    /// How much an operator takes from which sums.
+    pub(crate) fn takings(&self, operator: u32) -> &[Taking] {
         self.takings.get(&operator).map_or(&[], |takings| takings)
     }
 
-    pub(crate) fn set_takings(&mut self, operator: u32, takings: Vec<(u32, f64)>) {
+    pub(crate) fn set_takings(&mut self, operator: u32, takings: Vec<Taking>) {
         if !takings.is_empty() {
             self.takings.insert(operator, takings.into());
         }
@@ -85,6 +85,15 @@ impl Ways {
     pub(crate) fn without_effects(&self) -> Self {
         Self { takings: self.takings.clone(), ..Self::default() }
     }
+}
+
+/// What an operator takes each time from a sum that some comparison bounds from below.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Taking {
+    pub(crate) sum: u32,
+    pub(crate) amount: f64,
+    /// Whether its own precondition bounds the sum.
+    pub(crate) is_needed: bool,
 }
 
 /// What effects under one condition may do to comparisons.
@@ -232,21 +241,22 @@ impl Numeric {
         Some((comparison.sum?, self.unit(comparison).to_f64()))
     }
 
-    /// How much an operator takes from which sums that its precondition needs. `of` knows the
-    /// comparisons of facts.
-    pub(crate) fn takings(&self, operator: &Operator, of: &FxHashMap<FactId, u32>) -> Vec<(u32, f64)> {
-        let mut found: Vec<(u32, f64)> = Vec::new();
-        let Some(effects) = &operator.numeric else { return found };
+    /// How much an operator takes from which sums. `of` knows the comparisons of facts.
+    pub(crate) fn takings(&self, operator: &Operator, of: &FxHashMap<FactId, u32>) -> Vec<Taking> {
+        let Some(effects) = &operator.numeric else { return Vec::new() };
+        let needed: Vec<u32> =
+            operator.precondition.positive.iter().filter_map(|f| of.get(f).copied()).collect();
+        let needed: Vec<u32> = needed.into_iter().filter_map(|c| self.comparisons[c as usize].sum).collect();
         let always: Vec<&Update> = effects.updates.iter().filter(|u| u.condition.is_empty()).collect();
-        for fact in &operator.precondition.positive {
-            let Some(&position) = of.get(fact) else { continue };
+        let (mut found, mut seen) = (Vec::new(), Vec::new());
+        for &position in &effects.rechecked {
             let comparison = &self.comparisons[position as usize];
-            let Some(sum) = comparison.sum.filter(|sum| found.iter().all(|(known, _)| known != sum)) else {
-                continue;
-            };
+            let Some(sum) = comparison.sum.filter(|sum| !seen.contains(sum)) else { continue };
+            seen.push(sum);
             let step = self.moved(comparison, &always).and_then(|own| own.constant());
             if let Some(step) = step.filter(|step| step.sign() < 0) {
-                found.push((sum, -step.to_f64()));
+                let is_needed = needed.contains(&sum);
+                found.push(Taking { sum, amount: -step.to_f64(), is_needed });
             }
         }
         found
