@@ -55,6 +55,15 @@ pub enum Engine {
 }
 
 impl Engine {
+    /// The work that others of a portfolio do before this one joins them: what estimates everything
+    /// is for tasks on which others have failed, and small tasks should not wait for it.
+    pub(crate) fn joins_after(self) -> u64 {
+        match self {
+            Self::BackEnd => 1 << 29,
+            _ => 0,
+        }
+    }
+
     pub(crate) fn start<'a>(self, job: Job<'a>) -> Box<dyn Searcher + Send + 'a> {
         match self {
             Self::Lazy(settings) => Box::new(Lazy::new(job, &settings)),
@@ -137,7 +146,7 @@ impl SearchConfiguration {
             ..Self::row(
                 "dual",
                 "lama-novelty, width searches and others in turns, on two threads where it pays",
-                &[(LAMA_NOVELTY, 4), (BFWS_LANDMARKS, 2), (BFWS, 2), (Engine::BackEnd, 4), (LANDMARKS, 1)],
+                &[(LAMA_NOVELTY, 3), (BFWS_LANDMARKS, 3), (BFWS, 2), (LANDMARKS, 1), (Engine::BackEnd, 4)],
             )
         },
         Self::row(

@@ -3,7 +3,8 @@
 //! Problem: no search is best everywhere, a restart throws work away, and a small task must not pay
 //! for a thread. Idea: searches pause and resume; whoever has had the least work for its weight goes
 //! next, for a turn that grows with what it has had. A second thread joins where the task is large or
-//! the answer takes longer than some milliseconds; both take from the same pool. Searches that give up
+//! the answer takes longer than some milliseconds; both take from the same pool. Searches for hard
+//! tasks join late, so that others find the easy answers as soon as without them. Searches that give up
 //! leave, and where memory runs short the largest leaves. Invariant: with one thread the order of turns
 //! depends on counted work alone, so the same call gives the same answer.
 //!
@@ -171,7 +172,12 @@ impl<'a, 's> Portfolio<'a, 's> {
         if self.over.load(Relaxed) {
             return None;
         }
-        let next = (0..pool.idle.len()).min_by_key(|&i| pool.idle[i].meter.work() / pool.idle[i].weight)?;
+        let done: u64 = self.meters.iter().map(Meter::work).sum();
+        // Where only late members are idle, they join at once.
+        let next = (0..pool.idle.len()).min_by_key(|&i| {
+            let member = &pool.idle[i];
+            (done < member.engine.joins_after(), member.meter.work() / member.weight)
+        })?;
         let member = pool.idle.remove(next);
         let work = member.meter.work();
         let others: usize = self.meters.iter().map(Meter::held).sum::<usize>() - member.meter.held();
