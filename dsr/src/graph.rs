@@ -26,7 +26,7 @@ use crate::routes::Routes;
 use crate::snapshot::Snapshot;
 use crate::state::State;
 use crate::subscription::{Committed, Deltas, Mailbox, Matches, Queue, Wake};
-use crate::transaction::apply::transact;
+use crate::transaction::apply::{transact, warm};
 use crate::transaction::{Edit, Transaction, TransactionError};
 
 /// What a successful commit made.
@@ -74,7 +74,7 @@ impl Twin for State {
     fn follow(&mut self, step: &Step) -> bool {
         self.reflexes.clone_from(&step.reflexes);
         // A commit that only registered a reflex made no version.
-        step.delta.version == self.version || replay::apply(self, &step.delta).is_ok()
+        step.delta.version == self.version || replay::follow(self, &step.delta)
     }
 }
 
@@ -176,6 +176,9 @@ impl Graph {
         let (mut wakes, mut forgotten) = (Vec::new(), None);
         let mut writing = self.shared.kernel.write();
         transaction.stale_at(writing.own().version)?;
+        if let Some(state) = writing.ahead() {
+            warm(state, &transaction.edits);
+        }
         let state = writing.next();
         let outcome = match transact(state, transaction, time) {
             Ok(outcome) => outcome,

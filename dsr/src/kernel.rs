@@ -81,6 +81,11 @@ impl<T: Twin, W> Writing<'_, T, W> {
         self.kernel.present.load()
     }
 
+    /// What will most likely be given by `next`, as it is now: for having it in the cache.
+    pub(crate) fn ahead(&self) -> Option<&T> {
+        self.side.twin.as_deref()
+    }
+
     /// A value like the present one, for the writer alone. What becomes of it is said by `publish` or `leave`.
     pub(crate) fn next(&mut self) -> &mut T {
         let Side { twin, behind, editing, .. } = &mut *self.side;

@@ -5,6 +5,7 @@
 
 use nalgebra::Isometry3;
 
+use crate::block::Cell;
 use crate::delta::{Change, Delta};
 use crate::id::{EdgeKey, Holder, NodeId, Version};
 use crate::state::{State, same_transform};
@@ -49,6 +50,43 @@ pub(crate) fn apply(state: &mut State, delta: &Delta) -> Result<(), ReplayError>
     (state.version, state.time) = (found, delta.time);
     state.log.clear();
     Ok(())
+}
+
+/// Applies a delta that another copy of the same state made, so that it is known to fit; false if it does not continue
+/// the state all the same. Edges and attributes, which is most of what is written, are put where they belong without
+/// being looked up first.
+pub(crate) fn follow(state: &mut State, delta: &Delta) -> bool {
+    let plain = |change: &Change| {
+        matches!(
+            change,
+            Change::EdgeAdded { .. }
+                | Change::EdgeRemoved { .. }
+                | Change::AttributeAdded { .. }
+                | Change::AttributeChanged { .. }
+                | Change::AttributeRemoved { .. }
+        )
+    };
+    if delta.version.0 != state.version.0 + 1 || !delta.changes.iter().all(plain) {
+        return apply(state, delta).is_ok();
+    }
+    let since = delta.version;
+    for change in &delta.changes {
+        match change {
+            Change::EdgeAdded { edge } => state.put_edge(*edge, since),
+            Change::EdgeRemoved { edge } => state.take_edge(*edge),
+            Change::AttributeAdded { holder, attribute, new }
+            | Change::AttributeChanged { holder, attribute, new, .. } => {
+                let cell = Cell { value: new.clone(), since, attribute: *attribute };
+                state.put_cell(*holder, *attribute, Some(cell));
+            }
+            Change::AttributeRemoved { holder, attribute, .. } => {
+                state.put_cell(*holder, *attribute, None);
+            }
+            _ => return false,
+        }
+    }
+    (state.version, state.time) = (delta.version, delta.time);
+    true
 }
 
 /// Applies one change, or `None` if the state is not the one before it.

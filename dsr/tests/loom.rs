@@ -6,6 +6,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that fails says where")]
 
 #[path = "../src/kernel.rs"]
+#[allow(dead_code, reason = "the cache is not modelled")]
 mod kernel;
 
 mod sync {

@@ -63,7 +63,6 @@ fn run(
     start: Mark,
 ) -> Result<(Vec<ReflexId>, Vec<ReflexId>), TransactionError> {
     let (writer, version) = (transaction.writer, Version(state.version.0 + 1));
-    warm(state, &transaction.edits);
     for &reflex in &transaction.dismissed {
         state.dismiss(writer, reflex, version)?;
     }
@@ -85,7 +84,7 @@ const LARGE: NodeId = NodeId(1 << 12);
 
 /// Brings what the edits will need into the cache. Checking and writing an edit is a chain of loads that wait for one
 /// another, and in a large graph each comes from main memory; asked for at once, they come at once.
-fn warm(state: &State, edits: &[Edit]) {
+pub(crate) fn warm(state: &State, edits: &[Edit]) {
     if state.next < LARGE {
         return;
     }
