@@ -10,12 +10,17 @@
 //!                 "expanded": 2, "evaluated": 2, "generated": 4}}
 //! ```
 //!
-//! With `--anytime` there is `optimal`, whether no plan is better, and a record for each plan before.
+//! With `--anytime` there is `optimal`, whether no plan is better, and a record for each plan before; with
+//! `--repair` there is `repair`, both plans with their figures.
 //!
-//! `outcome` is `solved`, `unsolvable` (with the reason in `message`), `limit` (with which) or
+//! `outcome` is `solved`, `unsolvable` (with the reason in `message` and, as data, in `unsolvable`), `limit` (with which) or
 //! `unsupported`; `statistics` is null where grounding did not end.
 
 mod anytime;
+mod repair;
+mod unsolvable;
+
+pub(crate) use unsolvable::Unsolvable;
 
 use crate::clock::{Deadline, Seconds, Stopwatch};
 use crate::console::Console;
@@ -26,11 +31,10 @@ use crate::render::Message;
 use crate::task::TaskFiles;
 use crate::validate::{Figure, finding_message};
 use clap::Args;
-use pddl::model::Domain;
 use pddl::{PlanStep, Severity, Source, Span};
 use planner::{
-    Budget, GroundError, GroundOptions, Impossible, Limit, Obstacle, Origin, Outcome, Quality, Query, Report,
-    SearchConfiguration, Task, UnsolvableReason, ground, obstacles, solve,
+    Budget, GroundError, GroundOptions, Limit, Origin, Outcome, Quality, Query, Report, SearchConfiguration,
+    Task, ground, solve,
 };
 use serde::Serialize;
 use std::fmt::Write;
@@ -64,6 +68,12 @@ pub(crate) struct Arguments {
     /// Go on to better plans until the timeout, or until there is none; each is written as PLAN.1, PLAN.2 …
     #[arg(long)]
     anytime: bool,
+    /// Repair this plan: what can be reused of it is set beside a new plan.
+    #[arg(long, value_name = "OLD_PLAN", conflicts_with = "anytime")]
+    repair: Option<PathBuf>,
+    /// Which of the two plans is taken [default: stability].
+    #[arg(long, value_enum, requires = "repair")]
+    prefer: Option<repair::Prefer>,
 }
 
 fn search(name: &str) -> Result<SearchConfiguration, String> {
@@ -95,6 +105,11 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         Ok(files) => files,
         Err(exit) => return exit,
     };
+    let old = arguments.repair.as_ref().map(|path| repair::OldPlan::read(path, &files, console)).transpose();
+    let old = match old {
+        Ok(old) => old,
+        Err(exit) => return exit,
+    };
     let read_ms = watch.milliseconds();
 
     let watch = Stopwatch::start();
@@ -114,7 +129,16 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         interrupted: &interrupted,
     };
     let output = arguments.output.as_deref();
-    let report = if arguments.anytime {
+    let report = if let Some(old) = &old {
+        let prefer = arguments.prefer.unwrap_or_default();
+        match repair::run((&files, &task), old, prefer, &configuration, &budget, console) {
+            Ok((record, report)) => {
+                answer.repair = Some(record);
+                report
+            }
+            Err(exit) => return exit,
+        }
+    } else if arguments.anytime {
         match anytime::run(&files, &task, &configuration, &budget, output, console) {
             Ok(improved) => {
                 answer.optimal = Some(improved.quality == Quality::Optimal);
@@ -132,11 +156,14 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     match &report.outcome {
         Outcome::Solved(plan) => solved(arguments, &files, &task, plan, &mut answer, console),
         Outcome::Unsolvable(reason) => {
-            let reason = why_unsolvable(&files.domain, &task, reason);
-            Message::error(format!("there is no plan: {reason}"))
+            let why = Unsolvable::of(&files.domain, &files.problem, &task, reason, &budget);
+            let sentence = why.sentence();
+            Message::error(format!("there is no plan: {sentence}"))
                 .at(&files.problem_source, files.problem.goal_span)
                 .show(console);
-            answer.end("unsolvable", &reason, console);
+            why.lines().iter().for_each(|line| console.note(line));
+            answer.unsolvable = Some(why.record(&files));
+            answer.end("unsolvable", &sentence, console);
             Exit::No
         }
         Outcome::Unsupported(feature) => {
@@ -274,45 +301,6 @@ fn cost_kind(files: &TaskFiles) -> &'static str {
     if files.problem.metric.is_some() { "general cost" } else { "unit cost" }
 }
 
-/// Why there is none.
-pub(crate) fn why_unsolvable(domain: &Domain, task: &Task, reason: &UnsolvableReason) -> String {
-    let named = |atoms: &[planner::GroundAtom]| {
-        atoms.iter().map(|atom| task.atom_name(atom)).collect::<Vec<_>>().join(", ")
-    };
-    match reason {
-        UnsolvableReason::SpaceExhausted => "no reachable state satisfies the goal".to_owned(),
-        UnsolvableReason::Impossible(Impossible::Atoms(atoms)) => {
-            let chain = atoms.first().map_or_else(Vec::new, |atom| obstacles(domain, task, atom));
-            let why: String = chain.iter().map(|obstacle| hindered(task, obstacle)).collect();
-            format!("the goal needs {}, which nothing can bring about{why}", named(atoms))
-        }
-        UnsolvableReason::Impossible(Impossible::NegatedAtoms(atoms)) => {
-            format!("the goal needs {} to become false, which nothing can bring about", named(atoms))
-        }
-        UnsolvableReason::Impossible(Impossible::Exclusive(atoms)) => {
-            format!("the goal needs {} together, which exclude each other", named(atoms))
-        }
-        UnsolvableReason::Impossible(_) => "nothing can bring the goal about".to_owned(),
-    }
-}
-
-/// What stands in the way, as the next part of a sentence.
-fn hindered(task: &Task, obstacle: &Obstacle) -> String {
-    let name = |pattern| task.pattern_name(pattern);
-    match obstacle {
-        Obstacle::NothingGives(wanted) => format!("; no action gives {}", name(wanted)),
-        Obstacle::Needs { wanted, by, needs } => {
-            format!("; for {} {by} needs {}, which is never true", name(wanted), name(needs))
-        }
-        Obstacle::Circle { wanted, by, needs } => {
-            format!("; and for {} {by} needs {}", name(wanted), name(needs))
-        }
-        Obstacle::NeverTogether { wanted, by } => {
-            format!("; for {} what {by} needs is never true together", name(wanted))
-        }
-    }
-}
-
 #[derive(Serialize)]
 struct Answer {
     kind: &'static str,
@@ -324,6 +312,12 @@ struct Answer {
     /// Whether no plan is better; where that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     optimal: Option<bool>,
+    /// How the old plan was repaired; where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    repair: Option<repair::RepairRecord>,
+    /// Why there is no plan; where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unsolvable: Option<unsolvable::UnsolvableRecord>,
     message: Option<String>,
     statistics: Option<StatisticsRecord>,
 }
@@ -338,6 +332,8 @@ impl Answer {
             cost_kind: None,
             search,
             optimal: None,
+            repair: None,
+            unsolvable: None,
             message: None,
             statistics: None,
         }

@@ -5,7 +5,7 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use dsr::{Edit, Graph, Time, Transaction};
-use executive::{Effect, Event, Model, Policy, Request, RequestId, Step, Wheel, decide};
+use executive::{Decision, Effect, Event, Model, Policy, Request, RequestId, Step, Wheel, decide};
 use high_to_low::Methods;
 use low_to_high::{LowToHigh, Perception};
 use pddl::model::{Domain, Name};
@@ -135,12 +135,29 @@ fn wheel(bench: &mut Criterion) {
 
 fn replan(bench: &mut Criterion) {
     let barthel = barthel();
+    let sight = LowToHigh::new(barthel.perception.clone(), &barthel.graph.snapshot());
+    let present = barthel.wheel.model().state(sight.facts());
     barthel.write("person-agent", "person", "is_with", "robot", false);
     let sight = LowToHigh::new(barthel.perception.clone(), &barthel.graph.snapshot());
     let state = barthel.wheel.model().state(sight.facts());
-    let request = Request { id: RequestId(0), state, barred: Vec::new(), expansions: 20_000 };
+    let model = barthel.wheel.model();
+    let mut request = Request {
+        id: RequestId(0),
+        state: present,
+        broken: Vec::new(),
+        running: None,
+        barred: Vec::new(),
+        expansions: 20_000,
+    };
+    let Decision::Plan { operators, .. } = decide(model, &request) else { panic!("there is a plan") };
+    request.state = state;
     bench.bench_function("replan: the person is lost, 35 steps to go, validated", |b| {
-        b.iter(|| black_box(decide(barthel.wheel.model(), &request)));
+        b.iter(|| black_box(decide(model, &request)));
+    });
+    request.running = operators.first().copied();
+    request.broken = operators;
+    bench.bench_function("the same, repaired and planned from scratch, validated", |b| {
+        b.iter(|| black_box(decide(model, &request)));
     });
 }
 

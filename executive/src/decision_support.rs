@@ -1,14 +1,22 @@
 //! Decision Support: a plan from the perceived state, checked before anybody acts on it.
 //!
 //! Idea: the wheel hands out a [`Request`] and goes on turning; whoever holds it calls [`decide`], in a
-//! thread of its own or not, and hands the [`Decision`] back as an event. A plan is first put through the
+//! thread of its own or not, and hands the [`Decision`] back as an event. What is left of a broken plan is
+//! repaired and set beside a plan from scratch: the one that is nearer to what everybody was told wins, and
+//! of two that are as near the repaired one. What is running is put first where the plan still reaches the
+//! goal that way, so that nobody is interrupted without need. A plan is first put through the
 //! validator, which shares no code with the planner: a plan that does not validate is a bug of ours, and
-//! must not reach a patient.
+//! must not reach a patient. Invariant: effort is counted in states, never in seconds, so the same request
+//! gives the same decision.
+//!
+//! Source: Fox, Gerevini, Long & Serina, "Plan stability: replanning versus plan repair", ICAPS 2006.
 
 use crate::{Model, Step};
 use planner::{
-    Budget, Impossible, OperatorId, Outcome, Query, SearchConfiguration, State, UnsolvableReason, solve,
+    Attempt, Budget, Impossible, OperatorId, Outcome, Preference, Query, Repaired, Report,
+    SearchConfiguration, State, UnsolvableReason, Way, repair, solve,
 };
+use serde::Serialize;
 
 /// A request for a plan.
 #[derive(Clone, Debug)]
@@ -17,6 +25,10 @@ pub struct Request {
     pub id: RequestId,
     /// From where.
     pub state: State,
+    /// What was left of the plan that no longer fits, from the step at hand on; empty where there was none.
+    pub broken: Vec<OperatorId>,
+    /// The step that is under way, which goes on if the new plan can start with it.
+    pub running: Option<OperatorId>,
     /// Steps that just failed in this very state.
     pub barred: Vec<Step>,
     /// How many states may be expanded.
@@ -36,6 +48,8 @@ pub enum Decision {
         operators: Vec<OperatorId>,
         /// States expanded.
         expanded: u64,
+        /// How it compares with what was left of the old plan; `None` where there was none.
+        repair: Option<Repair>,
     },
     /// There is none, and why.
     NoPlan(String),
@@ -43,6 +57,74 @@ pub enum Decision {
     LimitReached(u64),
     /// The planner's plan does not validate: a bug of ours, with the validator's words.
     Rejected(String),
+}
+
+/// A repaired plan beside a new one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Repair {
+    /// Which of them was chosen.
+    pub by: By,
+    /// What reuse of the old plan came to; `None` where it found nothing.
+    pub reused: Option<Figures>,
+    /// What planning from scratch came to; `None` where it found nothing.
+    pub scratch: Option<Figures>,
+}
+
+/// Where a plan came from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum By {
+    /// The old plan was reused.
+    Reuse,
+    /// It was planned from scratch.
+    Scratch,
+}
+
+/// A plan's effort and its distance from the old one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Figures {
+    /// Its steps.
+    pub steps: usize,
+    /// States that were expanded for it.
+    pub expanded: u64,
+    /// Steps of the old plan that it lacks.
+    pub removed: usize,
+    /// Steps that the old plan lacks.
+    pub added: usize,
+    /// Common steps in another place.
+    pub moved: usize,
+}
+
+impl Figures {
+    fn of(attempt: &Attempt) -> Option<Self> {
+        let (plan, distance) = attempt.plan()?;
+        Some(Self {
+            steps: plan.operators.len(),
+            expanded: attempt.report.statistics.expanded,
+            removed: distance.removed,
+            added: distance.added,
+            moved: distance.moved,
+        })
+    }
+}
+
+impl Repair {
+    fn of(repaired: &Repaired) -> Option<Self> {
+        let by = match repaired.way? {
+            Way::Reuse => By::Reuse,
+            Way::Scratch => By::Scratch,
+        };
+        let scratch = repaired.fresh.as_ref().and_then(Figures::of);
+        Some(Self { by, reused: Figures::of(&repaired.reused), scratch })
+    }
+
+    /// The figures of the plan that was chosen.
+    pub fn chosen(&self) -> Option<Figures> {
+        match self.by {
+            By::Reuse => self.reused,
+            By::Scratch => self.scratch,
+        }
+    }
 }
 
 /// Plans. Deterministic: the same request on the same model gives the same decision.
@@ -55,18 +137,45 @@ pub fn decide(model: &Model, request: &Request) -> Decision {
     };
     let query = Query { state: &request.state, goal: task.goal(), excluded: &excluded };
     let budget = Budget { expansions: Some(request.expansions), ..Budget::default() };
-    let report = solve(task, &query, &SearchConfiguration::default(), &budget);
-    match report.outcome {
-        Outcome::Solved(plan) => match objection(model, &request.state, &plan.operators) {
-            None => Decision::Plan { operators: plan.operators, expanded: report.statistics.expanded },
-            Some(why) => Decision::Rejected(why),
-        },
+    let configuration = SearchConfiguration::default();
+    let (Report { outcome, statistics }, repair) = if request.broken.is_empty() {
+        (solve(task, &query, &configuration, &budget), None)
+    } else {
+        let broken = &request.broken;
+        let repaired = repair(task, &query, broken, &configuration, Preference::Stability, &budget);
+        (repaired.report(), Repair::of(&repaired))
+    };
+    match outcome {
+        Outcome::Solved(plan) => {
+            let operators = going_on(model, &query, plan.operators, request.running);
+            match objection(model, &request.state, &operators) {
+                None => Decision::Plan { operators, expanded: statistics.expanded, repair },
+                Some(why) => Decision::Rejected(why),
+            }
+        }
         Outcome::Unsolvable(reason) => Decision::NoPlan(unsolvable(model, &reason, &request.barred)),
         Outcome::Unsupported(feature) => {
             Decision::Rejected(format!("the planner does not support {feature}"))
         }
         Outcome::LimitReached(_) => Decision::LimitReached(request.expansions),
     }
+}
+
+/// The plan with what is running first, if it is in the plan and the goal is reached that way, too.
+fn going_on(
+    model: &Model,
+    query: &Query<'_>,
+    plan: Vec<OperatorId>,
+    running: Option<OperatorId>,
+) -> Vec<OperatorId> {
+    let Some(at) = running.and_then(|running| plan.iter().position(|&o| o == running)) else { return plan };
+    let mut other = plan.clone();
+    other[..=at].rotate_right(1);
+    let mut state = Some(query.state.clone());
+    for &operator in &other {
+        state = state.and_then(|state| model.task().successor(&state, operator));
+    }
+    if state.is_some_and(|state| model.task().satisfies(&state, query.goal)) { other } else { plan }
 }
 
 /// What the validator, which shares nothing with the planner, says against the plan.

@@ -17,7 +17,9 @@
 //! let model = Model::new(domain, problem, &[Name::new("lit"), Name::new("dark")]).unwrap();
 //! let dark = low_to_high::Fact { predicate: Name::new("dark"), arguments: Vec::new() };
 //! let state = model.state([&dark]);
-//! let request = Request { id: RequestId(0), state, barred: Vec::new(), expansions: 100 };
+//! let request = Request {
+//!     id: RequestId(0), state, broken: Vec::new(), running: None, barred: Vec::new(), expansions: 100,
+//! };
 //! assert!(matches!(decide(&model, &request), Decision::Plan { operators, .. } if operators.len() == 1));
 //! ```
 //!
@@ -37,7 +39,7 @@ mod narration;
 mod shell;
 mod wheel;
 
-pub use decision_support::{Decision, Request, RequestId, decide};
+pub use decision_support::{By, Decision, Figures, Repair, Request, RequestId, decide};
 pub use model::{Model, ModelError, Step};
 pub use monitoring::{BrokenLiteral, Deviation, Monitor};
 pub use narration::Narration;

@@ -1,6 +1,7 @@
 //! What the executive tells: one linear stream that terminals, logs and tests only read.
 
 use crate::Step;
+use crate::decision_support::Repair;
 use crate::monitoring::Deviation;
 use crate::wheel::Ending;
 use serde::Serialize;
@@ -19,6 +20,8 @@ pub enum Narration {
         expanded: u64,
         /// Whether the step that was running is its first and runs on.
         survives: bool,
+        /// How it compares with what was left of the plan before; `None` where there was none.
+        repair: Option<Repair>,
         /// How many plans there have been, this one included.
         count: u32,
     },

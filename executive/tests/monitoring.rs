@@ -44,7 +44,14 @@ fn model(rooms: &str) -> Model {
 
 fn plan(model: &Model) -> Vec<OperatorId> {
     let state = model.task().initial_state().clone();
-    let request = Request { id: RequestId(0), state, barred: Vec::new(), expansions: 10_000 };
+    let request = Request {
+        id: RequestId(0),
+        state,
+        broken: Vec::new(),
+        running: None,
+        barred: Vec::new(),
+        expansions: 10_000,
+    };
     match decide(model, &request) {
         Decision::Plan { operators, .. } => operators,
         other => panic!("{other:?}"),

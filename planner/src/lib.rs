@@ -24,7 +24,7 @@
 //! |---|---|
 //! | `ground` | from schemas to facts and operators |
 //! | `number` | exact numbers, expressions over fluents |
-//! | `obstacle` | why an atom is never true |
+//! | `obstacle` | why there is no plan |
 //! | `task` | the grounded task, states, successors, axioms, the delete relaxation |
 //! | `heuristics` | estimators, one file each |
 //! | `search` | search algorithms, configurations, the entry point |
@@ -53,11 +53,14 @@ pub use ground::{Feature, GroundError, GroundOptions, Origin, ground};
 pub use heuristics::{Costs, HeuristicKind, Properties, Supported};
 pub use ids::{FactId, FluentId, OperatorId};
 pub use number::Number;
-pub use obstacle::{Obstacle, Pattern, obstacles};
+pub use obstacle::{
+    Exclusive, Explanation, Extent, Giver, Hindrance, Nearest, Need, Never, NeverCompares, Part, Pattern,
+    Reason, ReasonId, Space, Wanted, Why, explain,
+};
 pub use search::{
-    BfwsSettings, Budget, Candidate, Count, EagerSettings, Engine, Exploration, Improved, LazySettings,
-    Limit, Order, Outcome, Plan, Preference, Pruning, Quality, Query, Repaired, Report, SearchConfiguration,
-    Statistics, Threads, UnsolvableReason, Width, improve, repair, solve,
+    Attempt, BfwsSettings, Budget, Count, Distance, EagerSettings, Engine, Exploration, Improved,
+    LazySettings, Limit, Order, Outcome, Plan, Preference, Pruning, Quality, Query, Repair, Repaired, Report,
+    SearchConfiguration, Statistics, Threads, UnsolvableReason, Way, Width, improve, repair, solve,
 };
 pub use task::{
     AtomStatus, AxiomRule, ConditionalEffect, Fact, Goal, GroundAtom, Impossible, Literals, Mutexes,

@@ -12,9 +12,9 @@ use proptest::prelude::*;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-const OBJECTS: usize = 3;
+pub(crate) const OBJECTS: usize = 3;
 /// Name and arity.
-const PREDICATES: [(&str, usize); 4] = [("on", 2), ("free", 1), ("held", 1), ("idle", 0)];
+pub(crate) const PREDICATES: [(&str, usize); 4] = [("on", 2), ("free", 1), ("held", 1), ("idle", 0)];
 
 /// A predicate over parameters 0 and 1, and whether it must hold or is made true.
 type Literal = (usize, [usize; 2], bool);
@@ -31,17 +31,17 @@ struct LiftedAction {
 }
 
 #[derive(Clone, Debug)]
-struct LiftedTask {
+pub(crate) struct LiftedTask {
     actions: Vec<LiftedAction>,
     initial: u32,
-    goal: Vec<(u32, bool)>,
+    pub(crate) goal: Vec<(u32, bool)>,
 }
 
 fn literal() -> impl Strategy<Value = Literal> {
     (0..PREDICATES.len(), [0..2_usize, 0..2], prop::bool::weighted(0.7))
 }
 
-fn lifted_task() -> impl Strategy<Value = LiftedTask> {
+pub(crate) fn lifted_task() -> impl Strategy<Value = LiftedTask> {
     let action = (
         prop::collection::vec(literal(), 1..4),
         any::<bool>(),
@@ -72,13 +72,13 @@ fn atoms() -> usize {
     PREDICATES.iter().map(|(_, arity)| OBJECTS.pow(u32::try_from(*arity).unwrap())).sum()
 }
 
-fn bit(predicate: usize, arguments: &[usize]) -> u32 {
+pub(crate) fn bit(predicate: usize, arguments: &[usize]) -> u32 {
     let before: usize =
         PREDICATES[..predicate].iter().map(|(_, a)| OBJECTS.pow(u32::try_from(*a).unwrap())).sum();
     1 << (before + arguments[..PREDICATES[predicate].1].iter().fold(0, |n, &o| n * OBJECTS + o))
 }
 
-fn atom_name(bit: u32) -> String {
+pub(crate) fn atom_name(bit: u32) -> String {
     let mut rest = bit as usize;
     for (name, arity) in PREDICATES {
         let own = OBJECTS.pow(u32::try_from(arity).unwrap());
@@ -95,7 +95,7 @@ fn atom_name(bit: u32) -> String {
 }
 
 impl LiftedTask {
-    fn text(&self) -> (String, String) {
+    pub(crate) fn text(&self) -> (String, String) {
         let atom = |&(p, a, holds): &Literal, first: &str| {
             let names = [first, "?y"];
             let arguments = a[..PREDICATES[p].1].iter().fold(String::new(), |s, &i| s + " " + names[i]);
@@ -138,7 +138,7 @@ impl LiftedTask {
     }
 
     /// All states that can be reached.
-    fn reachable(&self) -> BTreeSet<u32> {
+    pub(crate) fn reachable(&self) -> BTreeSet<u32> {
         let mut found = BTreeSet::from([self.initial]);
         let mut queue = vec![self.initial];
         while let Some(state) = queue.pop() {

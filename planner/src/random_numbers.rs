@@ -48,7 +48,7 @@ struct RandomAction {
 }
 
 #[derive(Clone, Debug)]
-struct RandomTask {
+pub(crate) struct RandomTask {
     actions: Vec<RandomAction>,
     facts: [bool; FACTS],
     /// In halves.
@@ -91,7 +91,7 @@ fn change() -> impl Strategy<Value = Change> {
     ]
 }
 
-fn random_task() -> impl Strategy<Value = RandomTask> {
+pub(crate) fn random_task() -> impl Strategy<Value = RandomTask> {
     let action = (
         prop::collection::vec(test(), 0..3),
         prop::collection::vec(change(), 1..4),
@@ -188,7 +188,7 @@ impl Test {
 }
 
 impl RandomTask {
-    fn text(&self) -> (String, String) {
+    pub(crate) fn text(&self) -> (String, String) {
         let list = |tests: &[Test]| tests.iter().map(Test::text).collect::<Vec<_>>().join(" ");
         let change = |change: &Change| match change {
             Change::Fact(f, true) => format!("(p{f})"),
@@ -291,7 +291,7 @@ impl RandomTask {
     }
 
     /// The length of a shortest plan, if any was seen, and whether everything was seen.
-    fn shortest(&self) -> (Option<usize>, bool) {
+    pub(crate) fn shortest(&self) -> (Option<usize>, bool) {
         let start = (self.facts, self.numbers.map(|n| n.map(|halves| f64::from(halves) / 2.0)));
         let key = |s: &State| (s.0, s.1.map(|n| n.map(|v| (v + 0.0).to_bits())));
         let mut depth = HashMap::from([(key(&start), 0)]);

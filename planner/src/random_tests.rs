@@ -10,10 +10,10 @@ use crate::test_support::Grounded;
 use proptest::prelude::*;
 use std::fmt::Write;
 
-const FACTS: usize = 5;
+pub(crate) const FACTS: usize = 5;
 
 /// A fact (derived ones follow the basic ones) and whether it must hold.
-type Sign = (usize, bool);
+pub(crate) type Sign = (usize, bool);
 
 #[derive(Clone, Debug)]
 struct RandomAction {
@@ -25,18 +25,18 @@ struct RandomAction {
 }
 
 #[derive(Clone, Debug)]
-struct RandomTask {
+pub(crate) struct RandomTask {
     axioms: [Vec<Vec<Sign>>; 2],
     actions: Vec<RandomAction>,
     initial: u32,
-    goal: Vec<Sign>,
+    pub(crate) goal: Vec<Sign>,
 }
 
 fn sign(facts: usize) -> impl Strategy<Value = Sign> {
     (0..facts, any::<bool>())
 }
 
-fn random_task() -> impl Strategy<Value = RandomTask> {
+pub(crate) fn random_task() -> impl Strategy<Value = RandomTask> {
     let all = FACTS + 2;
     let action = (
         prop::collection::vec(sign(all), 0..3),
@@ -64,7 +64,7 @@ fn random_task() -> impl Strategy<Value = RandomTask> {
 }
 
 impl RandomTask {
-    fn text(&self) -> (String, String) {
+    pub(crate) fn text(&self) -> (String, String) {
         let name = |f: usize| if f < FACTS { format!("(p{f})") } else { format!("(d{})", f - FACTS) };
         let literal = |&(f, holds): &Sign| if holds { name(f) } else { format!("(not {})", name(f)) };
         let list = |signs: &[Sign]| signs.iter().map(literal).collect::<Vec<_>>().join(" ");
@@ -128,6 +128,21 @@ impl RandomTask {
         Some(self.close(next))
     }
 
+    /// All states that can be reached, with their derived facts.
+    pub(crate) fn reachable(&self) -> std::collections::BTreeSet<u32> {
+        let first = self.close(self.initial);
+        let mut found = std::collections::BTreeSet::from([first]);
+        let mut queue = vec![first];
+        while let Some(state) = queue.pop() {
+            for next in self.actions.iter().filter_map(|action| self.apply(state, action)) {
+                if found.insert(next) {
+                    queue.push(next);
+                }
+            }
+        }
+        found
+    }
+
     /// The cheapest cost to the goal, by relaxing until nothing changes.
     fn optimum(&self) -> Option<u64> {
         let mut cost = vec![u64::MAX; 1 << (FACTS + 2)];
@@ -154,7 +169,7 @@ impl RandomTask {
     }
 }
 
-fn all(signs: &[Sign], state: u32) -> bool {
+pub(crate) fn all(signs: &[Sign], state: u32) -> bool {
     signs.iter().all(|&(f, holds)| (state >> f & 1 == 1) == holds)
 }
 
@@ -219,14 +234,20 @@ proptest! {
         for preference in [Preference::Fastest, Preference::Stability, Preference::Cost] {
             let repaired =
                 repair(task, &query, &old.operators, &configuration, preference, &Budget::default());
-            match repaired.report.outcome {
+            let both = [Some(&repaired.reused), repaired.fresh.as_ref()];
+            let known: Vec<_> = both.into_iter().flatten().filter_map(|attempt| attempt.plan()).collect();
+            match repaired.report().outcome {
                 Outcome::Solved(plan) => {
-                    let verdict = grounded.verdict(before.iter().chain(&plan.operators));
-                    prop_assert!(verdict.is_valid(), "{preference:?}: {verdict:?}");
-                    let both = [&repaired.reused, &repaired.fresh];
-                    let mut known = both.into_iter().flatten();
-                    prop_assert!(known.clone().any(|c| c.plan == plan));
-                    prop_assert!(preference != Preference::Cost || known.all(|c| c.plan.cost >= plan.cost));
+                    let chosen = repaired.chosen().distance.unwrap();
+                    for (known, distance) in &known {
+                        let verdict = grounded.verdict(before.iter().chain(&known.operators));
+                        prop_assert!(verdict.is_valid(), "{preference:?}: {verdict:?}");
+                        let (kept, common) = (old.operators.len() - distance.removed, known.operators.len());
+                        prop_assert_eq!(kept, common - distance.added);
+                        prop_assert!(preference != Preference::Cost || known.cost >= plan.cost);
+                        prop_assert!(preference != Preference::Stability || distance.steps() >= chosen.steps());
+                    }
+                    prop_assert!(known.iter().any(|(known, _)| **known == plan));
                 }
                 Outcome::Unsolvable(_) => prop_assert!(matches!(solved(&query), Outcome::Unsolvable(_))),
                 other => prop_assert!(false, "{other:?}"),

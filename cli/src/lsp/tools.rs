@@ -2,7 +2,7 @@
 
 use crate::clock::{Deadline, Seconds};
 use crate::memory;
-use crate::plan::{limit_words, why_unsolvable, written};
+use crate::plan::{Unsolvable, limit_words, written};
 use ::lsp::{File, Judged, Limits, Planned, Remark, Task};
 use pddl::model::{Domain, Problem};
 use pddl::{Severity, Source, Span, parse_domain, parse_plan, parse_problem};
@@ -57,7 +57,9 @@ impl ::lsp::Tools for Tools {
                 }
             }
             Outcome::Unsolvable(reason) => {
-                let sentence = format!("there is no plan: {}", why_unsolvable(&domain, &grounded, &reason));
+                let why = Unsolvable::of(&domain, &problem, &grounded, &reason, &budget);
+                let mut sentence = format!("there is no plan: {}", why.sentence());
+                why.lines().iter().for_each(|line| sentence += &format!("\n{line}"));
                 Planned::Unsolvable(remark(Severity::Error, sentence, (File::Problem, problem.goal_span)))
             }
             Outcome::Unsupported(feature) => Planned::Limit(format!("{feature} are not supported")),

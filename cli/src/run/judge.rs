@@ -7,10 +7,11 @@ use super::script::questions;
 use super::story::{Commit, Entry, What};
 use crate::scenario::Staged;
 use dsr::Snapshot;
-use executive::Narration;
+use executive::{By, Narration};
 use mission::Mission;
 use mission::scenario::{Outcome, Replan, Violation};
 use pddl::model::{Condition, ConditionKind, Domain, Name};
+use serde::Serialize;
 use std::collections::BTreeSet;
 
 /// Collects what expectations are about.
@@ -23,6 +24,22 @@ pub(super) struct Record<'a> {
     asked_again: Vec<Name>,
     replans: Vec<Replan>,
     plans: u32,
+    repairs: Repairs,
+}
+
+/// What became of broken plans.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub(super) struct Repairs {
+    /// How often what was left of the plan was reused.
+    pub(super) reuse: u32,
+    /// How often a plan from scratch was nearer to it, or the only one.
+    pub(super) scratch: u32,
+    /// Steps that were given up, in all.
+    removed: usize,
+    /// Steps that were new.
+    added: usize,
+    /// Steps that came to be done in another order.
+    moved: usize,
 }
 
 impl<'a> Record<'a> {
@@ -35,12 +52,18 @@ impl<'a> Record<'a> {
             asked_again: Vec::new(),
             replans: Vec::new(),
             plans: 0,
+            repairs: Repairs::default(),
         }
     }
 
     /// How often a plan was made again.
     pub(super) fn replans(&self) -> u32 {
         self.plans.saturating_sub(1)
+    }
+
+    /// What became of broken plans.
+    pub(super) fn repairs(&self) -> Repairs {
+        self.repairs
     }
 
     /// Items that were asked again after they had been answered.
@@ -59,7 +82,18 @@ impl<'a> Record<'a> {
                 }
                 self.replans.push(Replan { names: names.into_iter().collect() });
             }
-            What::Pelea(Narration::Planned { .. }) => self.plans += 1,
+            What::Pelea(Narration::Planned { repair, .. }) => {
+                self.plans += 1;
+                if let Some((by, figures)) = repair.and_then(|r| Some((r.by, r.chosen()?))) {
+                    match by {
+                        By::Reuse => self.repairs.reuse += 1,
+                        By::Scratch => self.repairs.scratch += 1,
+                    }
+                    self.repairs.removed += figures.removed;
+                    self.repairs.added += figures.added;
+                    self.repairs.moved += figures.moved;
+                }
+            }
             What::Graph(commit) => self.note_commit(commit),
             _ => {}
         }

@@ -82,6 +82,7 @@ struct Summary<'a> {
     #[serde(flatten)]
     ending: &'a Ending,
     replans: u32,
+    repairs: judge::Repairs,
     asked_again: Vec<String>,
     violations: Vec<String>,
     report: &'a mission::report::Report,
@@ -321,10 +322,11 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
             let line: String = line.chars().take(if rule { width } else { usize::MAX }).collect();
             self.console.result(&line);
         }
-        let replans = self.record.replans();
+        let (replans, repairs) = (self.record.replans(), self.record.repairs());
         let time = seconds(elapsed);
         let word = if accomplished { "accomplished" } else { "not accomplished" };
-        self.console.result(&format!("\nmission {word} after {time:.1} s, {}", counted(replans)));
+        self.console
+            .result(&format!("\nmission {word} after {time:.1} s, {}", counted(replans, repairs.reuse)));
         let asked_again = self.record.asked_again().iter().map(ToString::to_string).collect();
         for violation in &violations {
             self.console.note(&format!("expectation not met: {violation}"));
@@ -336,6 +338,7 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
             time,
             ending,
             replans,
+            repairs,
             asked_again,
             violations,
             report: &report,
@@ -351,11 +354,13 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
     }
 }
 
-fn counted(replans: u32) -> String {
-    match replans {
-        0 => "no replans".to_owned(),
-        1 => "1 replan".to_owned(),
-        more => format!("{more} replans"),
+fn counted(replans: u32, repaired: u32) -> String {
+    match (replans, repaired) {
+        (0, _) => "no replans".to_owned(),
+        (1, 0) => "1 replan".to_owned(),
+        (1, _) => "1 replan, a repair".to_owned(),
+        (more, 0) => format!("{more} replans"),
+        (more, some) => format!("{more} replans, {some} of them repairs"),
     }
 }
 

@@ -4,7 +4,7 @@
 //! is changed), and the rest is cut, a line a thing. In a pipe every line is whole, for whoever searches it.
 
 use super::story::{Commit, Entry, What};
-use executive::{Ending, Narration};
+use executive::{By, Ending, Figures, Narration, Repair};
 use hal::sim::RoomEvent;
 
 /// Turns entries into lines.
@@ -154,7 +154,7 @@ impl Terminal {
     fn pelea(&mut self, time: f64, narration: &Narration) {
         use Narration as N;
         match narration {
-            N::Planned { plan, survives, count, .. } => {
+            N::Planned { plan, survives, repair, count, .. } => {
                 self.steps = plan.len();
                 let head = if *count > 1 { "replan" } else { "plan" };
                 let first: Vec<_> = plan.iter().take(3).map(ToString::to_string).collect();
@@ -163,6 +163,9 @@ impl Terminal {
                 let runs_on = if *survives { ", its first step runs on" } else { "" };
                 let text = format!("{} steps{runs_on}: {}{more}", plan.len(), first.join(" "));
                 self.line(time, Tone::Plan, head, &text);
+                if let Some(repair) = repair {
+                    self.line(time, Tone::Plan, "repair", &repaired(repair));
+                }
             }
             N::Deviated(deviation) => {
                 for literal in &deviation.broken {
@@ -192,6 +195,25 @@ impl Terminal {
                 self.line(time, Tone::Trouble, "end", &format!("mission not accomplished: {why}"));
             }
         }
+    }
+}
+
+/// Which of two plans was taken, and the figures of both.
+fn repaired(repair: &Repair) -> String {
+    let figures = |way: Option<Figures>| {
+        way.map_or_else(
+            || "no plan".to_owned(),
+            |f| {
+                let moved = if f.moved > 0 { format!(" {} moved", f.moved) } else { String::new() };
+                let states = if f.expanded == 1 { "state" } else { "states" };
+                format!("+{} -{}{moved}, {} {states}", f.added, f.removed, f.expanded)
+            },
+        )
+    };
+    let (reused, scratch) = (figures(repair.reused), figures(repair.scratch));
+    match repair.by {
+        By::Reuse => format!("the plan goes on ({reused}); from scratch {scratch}"),
+        By::Scratch => format!("a new plan ({scratch}); repaired {reused}"),
     }
 }
 

@@ -36,6 +36,16 @@ impl Course {
         Self { monitor: Monitor::new(model.task(), plan, goal, state), current: 0, refinement: None }
     }
 
+    /// The steps from the one at hand on.
+    pub(super) fn left(&self) -> &[OperatorId] {
+        &self.monitor.plan()[self.current.min(self.monitor.plan().len())..]
+    }
+
+    /// Whether the step at hand has been started.
+    pub(super) fn is_under_way(&self) -> bool {
+        self.refinement.is_some()
+    }
+
     pub(super) fn progress(&self, task: &Task, state: &State) -> Progress {
         match self.monitor.furthest(task, state) {
             Some(to) if to == self.current => Progress::Stays,

@@ -30,7 +30,7 @@ use failures::Failures;
 use high_to_low::{Methods, Refinement, RefinementEvent, Status};
 use low_to_high::{LowToHigh, Perception};
 use pddl::model::Name;
-use planner::{FactId, State};
+use planner::{FactId, OperatorId, State};
 use std::sync::Arc;
 
 /// What a mission allows.
@@ -78,13 +78,38 @@ enum Phase {
     /// Nothing has been seen yet.
     Waiting,
     /// A plan has been asked for, from this state; what was running waits to see whether it survives.
-    Deciding { request: RequestId, from: State, running: Option<Course> },
+    Deciding { request: RequestId, from: State, old: Old },
     /// A plan is being carried out.
     Acting(Course),
     /// There is no plan.
     FallingBack { refinement: Box<Refinement>, why: String },
     /// It is over.
     Ended,
+}
+
+/// What there was before a plan was asked for.
+#[expect(clippy::large_enum_variant, reason = "a wheel has one of it")]
+enum Old {
+    /// No plan.
+    Nothing,
+    /// A plan whose step at hand is over: what was left of it.
+    Stopped(Vec<OperatorId>),
+    /// A plan whose step at hand may go on.
+    Running(Course),
+}
+
+impl Old {
+    /// What was left of the plan, and which step of it is under way.
+    fn left(&self) -> (&[OperatorId], Option<OperatorId>) {
+        match self {
+            Self::Nothing => (&[], None),
+            Self::Stopped(left) => (left, None),
+            Self::Running(course) => {
+                let left = course.left();
+                (left, left.first().copied().filter(|_| course.is_under_way()))
+            }
+        }
+    }
 }
 
 impl Wheel {
@@ -174,7 +199,8 @@ impl Wheel {
             if let Some(sight) = &mut self.sight {
                 sight.state = self.model.state(sight.low_to_high.facts());
             }
-            if let Phase::Acting(course) | Phase::Deciding { running: Some(course), .. } = &mut self.phase {
+            if let Phase::Acting(course) | Phase::Deciding { old: Old::Running(course), .. } = &mut self.phase
+            {
                 course.monitor.change(&changes);
             }
         }
@@ -193,10 +219,10 @@ impl Wheel {
         }
         let deferred = self.deferred.take();
         match std::mem::replace(&mut self.phase, Phase::Ended) {
-            Phase::Waiting => self.ask(None, effects),
-            Phase::Deciding { request, from, running } => match deferred {
-                Some((id, decision)) if id == request => self.decided(decision, &from, running, now, effects),
-                _ => self.phase = Phase::Deciding { request, from, running },
+            Phase::Waiting => self.ask(Old::Nothing, effects),
+            Phase::Deciding { request, from, old } => match deferred {
+                Some((id, decision)) if id == request => self.decided(decision, &from, old, now, effects),
+                _ => self.phase = Phase::Deciding { request, from, old },
             },
             Phase::Acting(course) => self.act(course, now, effects),
             Phase::FallingBack { refinement, why } => self.fall(refinement, why, now, effects),
@@ -217,7 +243,7 @@ impl Wheel {
                 let mut deviation = course.monitor.deviation(&self.model, &sight.state, course.current);
                 sight.name_tokens(&mut deviation);
                 effects.push(Effect::Tell(Narration::Deviated(deviation)));
-                return self.ask(Some(course), effects);
+                return self.ask(Old::Running(course), effects);
             }
         }
         if effects.iter().any(is_write) {
@@ -245,55 +271,54 @@ impl Wheel {
         effects.push(Effect::Tell(Narration::Failed { step: step.clone(), why }));
         self.failures.add(step, &sight.state);
         course.withdraw(&sight.snapshot, effects);
-        self.ask(None, effects);
+        self.ask(Old::Stopped(course.left().to_vec()), effects);
     }
 
     /// Asks Decision Support for a plan from here.
-    fn ask(&mut self, running: Option<Course>, effects: &mut Vec<Effect>) {
+    fn ask(&mut self, old: Old, effects: &mut Vec<Effect>) {
         let Some(sight) = &self.sight else { return };
         let id = RequestId(self.next_request);
         self.next_request += 1;
+        let (broken, running) = old.left();
         effects.push(Effect::Plan(Request {
             id,
             state: sight.state.clone(),
+            broken: broken.to_vec(),
+            running,
             barred: self.failures.barred(&sight.state),
             expansions: self.policy.expansions,
         }));
-        self.phase = Phase::Deciding { request: id, from: sight.state.clone(), running };
+        self.phase = Phase::Deciding { request: id, from: sight.state.clone(), old };
     }
 
     /// Holds a decision, which was made for the state `from`, against the present.
-    fn decided(
-        &mut self,
-        decision: Decision,
-        from: &State,
-        running: Option<Course>,
-        now: Time,
-        effects: &mut Vec<Effect>,
-    ) {
+    fn decided(&mut self, decision: Decision, from: &State, old: Old, now: Time, effects: &mut Vec<Effect>) {
         let Some(sight) = &self.sight else { return };
         let moved_on = sight.state != *from;
         match decision {
-            Decision::Plan { operators, expanded } => {
+            Decision::Plan { operators, expanded, repair } => {
                 let mut course = Course::new(&self.model, operators, &sight.state);
                 if course.monitor.furthest(self.model.task(), &sight.state).is_none() {
-                    return self.ask(running, effects);
+                    return self.ask(old, effects);
                 }
-                let survives = running.is_some_and(|old| course.take_over(old, &sight.snapshot, effects));
+                let survives = match old {
+                    Old::Running(old) => course.take_over(old, &sight.snapshot, effects),
+                    Old::Nothing | Old::Stopped(_) => false,
+                };
                 self.plans += 1;
                 let plan = course.monitor.plan().iter().map(|&o| self.model.step(o)).collect();
                 let count = self.plans;
-                effects.push(Effect::Tell(Narration::Planned { plan, expanded, survives, count }));
+                effects.push(Effect::Tell(Narration::Planned { plan, expanded, survives, repair, count }));
                 self.act(course, now, effects);
             }
             // That there was none from there says nothing about here.
-            _ if moved_on => self.ask(running, effects),
-            Decision::NoPlan(why) => self.fall_back(running, why, now, effects),
+            _ if moved_on => self.ask(old, effects),
+            Decision::NoPlan(why) => self.fall_back(old, why, now, effects),
             Decision::LimitReached(most) => {
-                self.fall_back(running, format!("no plan within {most} expansions"), now, effects);
+                self.fall_back(old, format!("no plan within {most} expansions"), now, effects);
             }
             Decision::Rejected(why) => {
-                self.fall_back(running, format!("the plan found does not validate: {why}"), now, effects);
+                self.fall_back(old, format!("the plan found does not validate: {why}"), now, effects);
             }
         }
     }
@@ -312,9 +337,9 @@ impl Wheel {
         }
     }
 
-    fn fall_back(&mut self, running: Option<Course>, why: String, now: Time, effects: &mut Vec<Effect>) {
+    fn fall_back(&mut self, old: Old, why: String, now: Time, effects: &mut Vec<Effect>) {
         let Some(sight) = &self.sight else { return };
-        if let Some(mut course) = running {
+        if let Old::Running(mut course) = old {
             course.withdraw(&sight.snapshot, effects);
         }
         effects.push(Effect::Tell(Narration::FellBack { why: why.clone() }));
@@ -345,7 +370,7 @@ impl Wheel {
     }
 
     fn accomplished(&mut self, effects: &mut Vec<Effect>) {
-        if let (Phase::Acting(course) | Phase::Deciding { running: Some(course), .. }, Some(sight)) =
+        if let (Phase::Acting(course) | Phase::Deciding { old: Old::Running(course), .. }, Some(sight)) =
             (&mut self.phase, &self.sight)
         {
             let end = course.monitor.plan().len();

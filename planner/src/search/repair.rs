@@ -4,16 +4,18 @@
 //! first the longest suffix of the old plan that still reaches the goal; else a short search to a state
 //! from which some suffix does (its kernel: the goal regressed through it), nearest kernels first; else
 //! the old plan as far as its steps can be taken, and a search for the rest. What is found is set
-//! beside a plan from scratch, with the cost of each and how many steps it changes, and the caller's
-//! preference decides. Invariant: every plan is simulated before it is given out. Cost: a few
-//! searches of bounded expansions, and where it is asked for, one from scratch.
+//! beside a plan from scratch, with what each took and how far it is from the old plan, and the caller's
+//! preference decides. Invariant: every plan is simulated before it is given out, so kernels need not be
+//! exact (what axioms, numbers and conditional effects need is not followed back). Cost: a few searches
+//! of bounded work, and where it is asked for, one from scratch. Nothing here depends on a clock: with a
+//! configuration that is deterministic, so is the choice.
 //!
 //! Source: Fox, Gerevini, Long & Serina, "Plan stability: replanning versus plan repair", ICAPS 2006;
-//! kernels: Fikes, Hart & Nilsson, "Learning and executing generalized robot plans", AIJ 1972. We count
-//! changed steps along the order of the plan (insertions and deletions), not as sets of actions.
+//! kernels: Fikes, Hart & Nilsson, "Learning and executing generalized robot plans", AIJ 1972.
 
+use super::distance::Distance;
 use super::elimination::without_needless;
-use super::{Budget, Outcome, Plan, Query, Report, SearchConfiguration, Statistics, solve};
+use super::{Budget, Limit, Outcome, Plan, Query, Report, SearchConfiguration, Statistics, solve};
 use crate::ids::{FactId, OperatorId};
 use crate::task::{Goal, Literals, State, Task};
 use std::collections::BTreeMap;
@@ -23,36 +25,105 @@ use std::collections::BTreeMap;
 pub enum Preference {
     /// The first plan: from scratch only where nothing can be reused.
     Fastest,
-    /// Fewest changed steps, then least cost.
+    /// The smallest distance, then the fewest moved steps, then the least cost.
     Stability,
-    /// Least cost, then fewest changed steps.
+    /// The least cost, then the smallest distance.
     Cost,
 }
 
-/// A plan with its distance from the old one.
+/// One way to a plan, and what came of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Candidate {
-    /// The plan; it reaches the goal.
-    pub plan: Plan,
-    /// Steps of the old plan that it lacks, and steps that the old plan lacks.
-    pub changed: usize,
+pub struct Attempt {
+    /// The plan, or why there is none, and what that took.
+    pub report: Report,
+    /// How far the plan is from the old one; `None` without a plan.
+    pub distance: Option<Distance>,
+}
+
+impl Attempt {
+    /// The plan with its distance.
+    pub fn plan(&self) -> Option<(&Plan, Distance)> {
+        match (&self.report.outcome, self.distance) {
+            (Outcome::Solved(plan), Some(distance)) => Some((plan, distance)),
+            _ => None,
+        }
+    }
+}
+
+/// Where a plan came from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// The old plan was reused.
+    Reuse,
+    /// It was planned from scratch.
+    Scratch,
 }
 
 /// What repair came to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Repaired {
-    /// The chosen plan, or why there is none; what was searched for all candidates.
-    pub report: Report,
-    /// The plan by reuse, if one was found.
-    pub reused: Option<Candidate>,
-    /// The plan from scratch, if one was looked for and found.
-    pub fresh: Option<Candidate>,
+    /// Which plan was chosen; `None` where there is none.
+    pub way: Option<Way>,
+    /// The attempt to reuse the old plan.
+    pub reused: Attempt,
+    /// The plan from scratch, if one was looked for.
+    pub fresh: Option<Attempt>,
 }
 
-/// Expansions for each gap that is filled.
+impl Repaired {
+    /// Decides between the two. A plan from scratch has to be better to win.
+    pub fn of(preference: Preference, reused: Attempt, fresh: Option<Attempt>) -> Self {
+        let key = |(plan, distance): (&Plan, Distance)| {
+            let (cost, steps, moved) = (plan.cost, distance.steps() as u64, distance.moved as u64);
+            match preference {
+                Preference::Cost => [cost, steps, moved],
+                Preference::Stability => [steps, moved, cost],
+                Preference::Fastest => [0; 3],
+            }
+        };
+        let new = fresh.as_ref().and_then(Attempt::plan).map(key);
+        let way = match (reused.plan().map(key), new) {
+            (Some(old), Some(new)) if new < old => Some(Way::Scratch),
+            (Some(_), _) => Some(Way::Reuse),
+            (None, Some(_)) => Some(Way::Scratch),
+            (None, None) => None,
+        };
+        Self { way, reused, fresh }
+    }
+
+    /// The attempt whose plan was chosen, or the one that says why there is none.
+    pub fn chosen(&self) -> &Attempt {
+        match (self.way, &self.fresh) {
+            (Some(Way::Scratch) | None, Some(fresh)) => fresh,
+            _ => &self.reused,
+        }
+    }
+
+    /// The outcome, and what both attempts took.
+    pub fn report(&self) -> Report {
+        let fresh = self.fresh.as_ref().map_or_else(Statistics::default, |fresh| fresh.report.statistics);
+        let statistics = self.reused.report.statistics + fresh;
+        Report { outcome: self.chosen().report.outcome.clone(), statistics }
+    }
+}
+
+/// Expansions for each gap that is filled, where they are cheap.
 const GAP: u64 = 1000;
+/// Expansions times nodes of the relaxation, where they are not.
+const WORK: usize = 1 << 26;
 /// Gaps that are tried.
 const GAPS: usize = 4;
+
+/// A plan for another state or goal, to be repaired for the query.
+#[derive(Clone, Copy, Debug)]
+pub struct Repair<'a> {
+    /// The task.
+    pub task: &'a Task,
+    /// From where, to what, without which operators.
+    pub query: Query<'a>,
+    /// What is left of the old plan.
+    pub broken: &'a [OperatorId],
+}
 
 /// Repairs `broken`, a plan for another state or goal, for the query. `configuration` is for the plan
 /// from scratch.
@@ -64,83 +135,104 @@ pub fn repair(
     preference: Preference,
     budget: &Budget<'_>,
 ) -> Repaired {
-    let mut statistics = Statistics::default();
-    let mut work = Work { task, query, broken, budget, statistics: &mut statistics };
-    let reused = work.reused().map(|operators| {
-        let plan = without_needless(task, query, &Plan::of(task, operators));
-        Candidate { changed: changed(broken, &plan.operators), plan }
+    let repair = Repair { task, query: *query, broken };
+    let reused = repair.reuse(budget);
+    let fresh = (reused.plan().is_none() || preference != Preference::Fastest).then(|| {
+        let spent = reused.report.statistics.expanded;
+        let left = budget.expansions.map(|most| most.saturating_sub(spent));
+        repair.afresh(configuration, &Budget { expansions: left, ..*budget })
     });
-    let mut report = match &reused {
-        Some(candidate) => {
-            Report { outcome: Outcome::Solved(candidate.plan.clone()), statistics: Statistics::default() }
-        }
-        None => Report {
-            outcome: Outcome::LimitReached(super::Limit::Incomplete),
-            statistics: Statistics::default(),
-        },
-    };
-    let mut fresh = None;
-    if reused.is_none() || preference != Preference::Fastest {
-        let left = budget.expansions.map(|most| most.saturating_sub(statistics.expanded));
-        let scratch = solve(task, query, configuration, &Budget { expansions: left, ..*budget });
-        statistics += scratch.statistics;
-        if let Outcome::Solved(plan) = &scratch.outcome {
-            let candidate = Candidate { changed: changed(broken, &plan.operators), plan: plan.clone() };
-            let key = |c: &Candidate| match preference {
-                Preference::Cost => (c.plan.cost, c.changed as u64),
-                Preference::Stability | Preference::Fastest => (c.changed as u64, c.plan.cost),
-            };
-            if reused.as_ref().is_none_or(|old| key(&candidate) < key(old)) {
-                report.outcome = scratch.outcome;
+    Repaired::of(preference, reused, fresh)
+}
+
+impl Repair<'_> {
+    /// A plan that has as much of the old one as is found within some searches of bounded work. That there is
+    /// none proves nothing.
+    pub fn reuse(&self, budget: &Budget<'_>) -> Attempt {
+        let mut work = Work { repair: self, budget, statistics: Statistics::default() };
+        let outcome = match work.reused() {
+            Some(operators) => {
+                Outcome::Solved(without_needless(self.task, &self.query, &Plan::of(self.task, operators)))
             }
-            fresh = Some(candidate);
-        } else if reused.is_none() {
-            report.outcome = scratch.outcome;
-        }
+            None if (budget.interrupted)() => Outcome::LimitReached(Limit::Interrupted),
+            None => Outcome::LimitReached(Limit::Incomplete),
+        };
+        let statistics = work.statistics;
+        self.attempt(Report { outcome, statistics })
     }
-    report.statistics = statistics;
-    Repaired { report, reused, fresh }
+
+    /// A new plan.
+    pub fn afresh(&self, configuration: &SearchConfiguration, budget: &Budget<'_>) -> Attempt {
+        self.attempt(solve(self.task, &self.query, configuration, budget))
+    }
+
+    fn attempt(&self, report: Report) -> Attempt {
+        let distance = match &report.outcome {
+            Outcome::Solved(plan) => Some(Distance::between(self.task, self.broken, &plan.operators)),
+            _ => None,
+        };
+        Attempt { report, distance }
+    }
+
+    /// The step in a state: the operator, or another one of the same action and arguments that is
+    /// applicable (each stands for one part of a disjunction), and the state after it.
+    fn taken(&self, state: &State, step: OperatorId) -> Option<(OperatorId, State)> {
+        let operators = self.task.operators();
+        let own = &operators[step];
+        let after = (step.0 + 1..).map(OperatorId).take_while(|o| (o.0 as usize) < operators.len());
+        let before = (0..step.0).rev().map(OperatorId);
+        let same = |o: &OperatorId| {
+            let other = &operators[*o];
+            other.action == own.action && other.arguments == own.arguments
+        };
+        let copies = after.take_while(same).chain(before.take_while(same));
+        std::iter::once(step)
+            .chain(copies)
+            .filter(|o| !self.query.excluded.contains(o))
+            .find_map(|o| Some((o, self.task.successor(state, o)?)))
+    }
+
+    /// The steps as operators, if they lead from the query's state to its goal.
+    fn simulated(&self, steps: &[OperatorId]) -> Option<Vec<OperatorId>> {
+        let mut state = self.query.state.clone();
+        let mut done = Vec::with_capacity(steps.len());
+        for &step in steps {
+            let (operator, next) = self.taken(&state, step)?;
+            state = next;
+            done.push(operator);
+        }
+        self.task.satisfies(&state, self.query.goal).then_some(done)
+    }
 }
 
 struct Work<'a> {
-    task: &'a Task,
-    query: &'a Query<'a>,
-    broken: &'a [OperatorId],
+    repair: &'a Repair<'a>,
     budget: &'a Budget<'a>,
-    statistics: &'a mut Statistics,
+    statistics: Statistics,
 }
 
 impl Work<'_> {
     fn reused(&mut self) -> Option<Vec<OperatorId>> {
-        if self.query.goal.impossible.is_some() {
+        let broken = self.repair.broken;
+        if self.repair.query.goal.impossible.is_some() {
             return None;
         }
-        let usable = |steps: &[OperatorId]| !steps.iter().any(|o| self.query.excluded.contains(o));
-        let suffix = (0..=self.broken.len()).map(|start| &self.broken[start..]);
-        if let Some(whole) = suffix.clone().find(|steps| usable(steps) && self.reaches(steps)) {
-            return Some(whole.to_vec());
+        let mut suffixes = (0..=broken.len()).map(|start| &broken[start..]);
+        if let Some(whole) = suffixes.find_map(|steps| self.repair.simulated(steps)) {
+            return Some(whole);
         }
         self.gap().or_else(|| self.completed())
     }
 
-    /// Whether the steps lead from the query's state to its goal.
-    fn reaches(&self, steps: &[OperatorId]) -> bool {
-        let mut state = self.query.state.clone();
-        for &operator in steps {
-            let Some(next) = self.task.successor(&state, operator) else { return false };
-            state = next;
-        }
-        self.task.satisfies(&state, self.query.goal)
-    }
-
     /// A way to the kernel of a suffix, and the suffix.
     fn gap(&mut self) -> Option<Vec<OperatorId>> {
+        let Repair { task, query, broken } = *self.repair;
         let mut nearest: Vec<(usize, usize, Literals)> = Vec::new();
-        for (start, kernel) in kernels(self.task, self.broken, self.query.goal)? {
-            if self.broken[start..].iter().any(|o| self.query.excluded.contains(o)) {
+        for (start, kernel) in kernels(task, broken, query.goal) {
+            if broken[start..].iter().any(|o| query.excluded.contains(o)) {
                 continue;
             }
-            let holds = |f: &&FactId| self.query.state.contains(**f);
+            let holds = |f: &&FactId| query.state.contains(**f);
             let missing = kernel.positive.iter().filter(|f| !holds(f)).count()
                 + kernel.negative.iter().filter(holds).count();
             nearest.push((missing, start, kernel));
@@ -148,13 +240,13 @@ impl Work<'_> {
         nearest.sort_by_key(|&(missing, start, _)| (missing, start));
         for (_, start, kernel) in nearest.into_iter().take(GAPS) {
             let goal = Goal::new(kernel);
-            let found = self.search(&Query { goal: &goal, ..*self.query });
-            let whole = found.map(|mut steps| {
-                steps.extend_from_slice(&self.broken[start..]);
-                steps
+            let found = self.search(&Query { goal: &goal, ..query });
+            let whole = found.and_then(|mut steps| {
+                steps.extend_from_slice(&broken[start..]);
+                self.repair.simulated(&steps)
             });
-            if let Some(whole) = whole.filter(|steps| self.reaches(steps)) {
-                return Some(whole);
+            if whole.is_some() {
+                return whole;
             }
         }
         None
@@ -162,13 +254,11 @@ impl Work<'_> {
 
     /// The old plan as far as its steps can be taken, and a way on from there.
     fn completed(&mut self) -> Option<Vec<OperatorId>> {
-        let mut state: State = self.query.state.clone();
+        let query = self.repair.query;
+        let mut state: State = query.state.clone();
         let mut steps = Vec::new();
-        for &operator in self.broken {
-            if self.query.excluded.contains(&operator) {
-                continue;
-            }
-            if let Some(next) = self.task.successor(&state, operator) {
+        for &step in self.repair.broken {
+            if let Some((operator, next)) = self.repair.taken(&state, step) {
                 state = next;
                 steps.push(operator);
             }
@@ -176,16 +266,18 @@ impl Work<'_> {
         if steps.is_empty() {
             return None;
         }
-        steps.extend(self.search(&Query { state: &state, ..*self.query })?);
-        Some(steps).filter(|steps| self.reaches(steps))
+        steps.extend(self.search(&Query { state: &state, ..query })?);
+        self.repair.simulated(&steps)
     }
 
     fn search(&mut self, query: &Query<'_>) -> Option<Vec<OperatorId>> {
+        let task = self.repair.task;
+        let most = GAP.min((WORK / task.relaxation.nodes().max(1)) as u64).max(16);
         let left =
-            self.budget.expansions.map_or(GAP, |e| GAP.min(e.saturating_sub(self.statistics.expanded)));
+            self.budget.expansions.map_or(most, |e| most.min(e.saturating_sub(self.statistics.expanded)));
         let budget = Budget { expansions: Some(left), ..*self.budget };
-        let report = solve(self.task, query, &SearchConfiguration::default(), &budget);
-        *self.statistics += report.statistics;
+        let report = solve(task, query, &SearchConfiguration::default(), &budget);
+        self.statistics += report.statistics;
         match report.outcome {
             Outcome::Solved(plan) => Some(plan.operators),
             _ => None,
@@ -193,15 +285,8 @@ impl Work<'_> {
     }
 }
 
-/// For each suffix, where it starts and what must hold before it; `None` where regression is not exact.
-fn kernels(task: &Task, plan: &[OperatorId], goal: &Goal) -> Option<Vec<(usize, Literals)>> {
-    let exact = |&o: &OperatorId| {
-        let operator = &task.operators()[o];
-        operator.conditional.is_empty() && !operator.changes_numbers()
-    };
-    if !task.axioms().is_empty() || !plan.iter().all(exact) {
-        return None;
-    }
+/// For each suffix, where it starts and what must hold before it, as far as facts tell.
+fn kernels(task: &Task, plan: &[OperatorId], goal: &Goal) -> Vec<(usize, Literals)> {
     let mut kernel: BTreeMap<FactId, bool> = BTreeMap::new();
     let require = |kernel: &mut BTreeMap<FactId, bool>, literals: &Literals| {
         kernel.extend(literals.positive.iter().map(|&f| (f, true)));
@@ -217,44 +302,11 @@ fn kernels(task: &Task, plan: &[OperatorId], goal: &Goal) -> Option<Vec<(usize, 
         let operator = &task.operators()[operator];
         kernel.retain(|fact, wanted| {
             let given = if *wanted { &operator.adds } else { &operator.deletes };
-            given.binary_search(fact).is_err()
+            // Axioms and numbers decide anew after each step.
+            given.binary_search(fact).is_err() && !task.facts()[*fact].derived
         });
         require(&mut kernel, &operator.precondition);
         found.push((start, literals(&kernel)));
     }
-    Some(found)
-}
-
-/// Insertions and deletions between two plans: what a longest common subsequence leaves.
-fn changed(old: &[OperatorId], new: &[OperatorId]) -> usize {
-    let prefix = old.iter().zip(new).take_while(|(a, b)| a == b).count();
-    let (old, new) = (&old[prefix..], &new[prefix..]);
-    let suffix = old.iter().rev().zip(new.iter().rev()).take_while(|(a, b)| a == b).count();
-    let (old, new) = (&old[..old.len() - suffix], &new[..new.len() - suffix]);
-    let mut before = vec![0_usize; new.len() + 1];
-    for a in old {
-        let mut diagonal = 0;
-        for (i, b) in new.iter().enumerate() {
-            let above = before[i + 1];
-            before[i + 1] = if a == b { diagonal + 1 } else { above.max(before[i]) };
-            diagonal = above;
-        }
-    }
-    old.len() + new.len() - 2 * before[new.len()]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{OperatorId, changed};
-
-    #[test]
-    fn changes_are_insertions_and_deletions() {
-        let plan = |steps: &[u32]| steps.iter().map(|&s| OperatorId(s)).collect::<Vec<_>>();
-        let of = |a: &[u32], b: &[u32]| changed(&plan(a), &plan(b));
-        assert_eq!(of(&[1, 2, 3], &[1, 2, 3]), 0);
-        assert_eq!(of(&[1, 2, 3], &[2, 3]), 1);
-        assert_eq!(of(&[1, 2, 3, 4], &[1, 5, 3, 4]), 2);
-        assert_eq!(of(&[], &[7, 8]), 2);
-        assert_eq!(of(&[1, 2, 3, 4, 5], &[5, 1, 3, 2, 4]), 4);
-    }
+    found
 }

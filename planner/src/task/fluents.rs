@@ -68,12 +68,8 @@ impl Task {
     }
 
     fn term_name(&self, fluent: FluentId, coefficient: Number) -> String {
-        let name = self.fluent_name(fluent);
+        let name = self.fluent_name(&self.numeric.fluents[fluent.index()].application);
         if coefficient == Number::ONE { name } else { format!("(* {coefficient} {name})") }
-    }
-
-    fn fluent_name(&self, fluent: FluentId) -> String {
-        self.names.fluent(&self.numeric.fluents[fluent.index()].application)
     }
 
     fn expression_name(&self, expression: &Expression<FluentId>) -> String {

@@ -4,7 +4,9 @@ use super::{GroundAtom, ObjectValue, Operator, Task};
 use crate::ground::ValuePredicates;
 use crate::ids::{FactId, OperatorId};
 use crate::obstacle::Pattern;
-use pddl::model::{Domain, FunctionId, GroundApplication, IndexVec, Name, ObjectId, PredicateId, Problem};
+use pddl::model::{
+    ActionId, Domain, FunctionId, GroundApplication, IndexVec, Name, ObjectId, PredicateId, Problem,
+};
 use std::fmt::Write;
 
 /// The names that a grounded task needs of its domain and problem.
@@ -34,8 +36,13 @@ impl Names {
     }
 
     pub(crate) fn pattern(&self, pattern: &Pattern) -> String {
-        let mut text = format!("({}", self.predicates[pattern.predicate]);
-        for argument in &pattern.arguments {
+        self.open(&self.predicates[pattern.predicate], &pattern.arguments)
+    }
+
+    /// `(go ?from b)`.
+    fn open(&self, head: &Name, arguments: &[Result<ObjectId, Name>]) -> String {
+        let mut text = format!("({head}");
+        for argument in arguments {
             match argument {
                 Ok(object) => write!(text, " {}", self.objects[*object]),
                 Err(variable) => write!(text, " ?{}", variable.as_str().trim_start_matches('?')),
@@ -66,6 +73,21 @@ impl Task {
     pub fn operator_name(&self, operator: OperatorId) -> String {
         let Operator { action, arguments, .. } = &self.operators[operator];
         self.names.list(&self.names.actions[action.0 as usize], arguments)
+    }
+
+    /// A fluent as PDDL writes it, `(fuel a)`.
+    pub fn fluent_name(&self, fluent: &GroundApplication) -> String {
+        self.names.fluent(fluent)
+    }
+
+    /// A pattern as PDDL writes it, `(road ?from b)`.
+    pub fn pattern_name(&self, pattern: &Pattern) -> String {
+        self.names.pattern(pattern)
+    }
+
+    /// An action with open arguments, `(go ?from b)`.
+    pub fn schema_name(&self, action: ActionId, arguments: &[Result<ObjectId, Name>]) -> String {
+        self.names.open(&self.names.actions[action.0 as usize], arguments)
     }
 
     /// A ground atom as PDDL writes it.

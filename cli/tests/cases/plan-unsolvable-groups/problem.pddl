@@ -1,0 +1,6 @@
+(define (problem morning)
+  (:domain rounds)
+  (:objects ward store hall - room pills gauze - item)
+  (:init (at hall) (free) (in pills store)
+    (door ward store) (door store ward) (door hall ward) (door ward hall))
+  (:goal (and (in pills ward) (at ward) (at store))))

@@ -1,0 +1,5 @@
+(define (problem far)
+  (:domain tank)
+  (:objects a b - car)
+  (:init (= (fuel a) 0) (= (capacity a) 7) (= (fuel b) 0) (= (capacity b) 12))
+  (:goal (and (there a) (there b) (>= (fuel a) 9))))

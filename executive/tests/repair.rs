@@ -1,0 +1,90 @@
+//! Decision Support on a plan that no longer fits.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use executive::{By, Decision, Model, Request, RequestId, Step, decide};
+use low_to_high::Fact;
+use pddl::model::Name;
+use pddl::{Source, parse_domain, parse_problem};
+use planner::OperatorId;
+
+const DOMAIN: &str = "(define (domain lamps) (:requirements :typing :negative-preconditions) (:types lamp)
+    (:predicates (on ?l - lamp) (dead ?l - lamp) (open))
+    (:action light :parameters (?l - lamp) :precondition (and (open) (not (dead ?l))) :effect (on ?l))
+    (:action replace :parameters (?l - lamp) :precondition (dead ?l) :effect (not (dead ?l)))
+    (:action unlock :parameters () :effect (open)))";
+const PROBLEM: &str = "(define (problem p) (:domain lamps) (:objects a b c - lamp) (:init)
+    (:goal (and (on a) (on b) (on c))))";
+
+fn model() -> Model {
+    let domain = parse_domain(&Source::new("d", DOMAIN), &[]).model.unwrap();
+    let problem = parse_problem(&Source::new("p", PROBLEM), &domain).model.unwrap();
+    Model::new(domain, problem, &["on", "dead", "open"].map(Name::new)).unwrap()
+}
+
+fn fact(text: &str) -> Fact {
+    let mut words = text.split(' ').map(Name::new);
+    Fact { predicate: words.next().unwrap(), arguments: words.collect() }
+}
+
+fn operator(model: &Model, name: &str) -> OperatorId {
+    model.task().operators().ids().find(|&o| model.step(o).to_string() == name).unwrap()
+}
+
+fn request(model: &Model, seen: &[&str], broken: &[&str], running: Option<&str>) -> Request {
+    let facts: Vec<Fact> = seen.iter().map(|text| fact(text)).collect();
+    Request {
+        id: RequestId(0),
+        state: model.state(&facts),
+        broken: broken.iter().map(|name| operator(model, name)).collect(),
+        running: running.map(|name| operator(model, name)),
+        barred: Vec::new(),
+        expansions: 1_000,
+    }
+}
+
+fn names(model: &Model, decision: &Decision) -> Vec<String> {
+    let Decision::Plan { operators, .. } = decision else { panic!("{decision:?}") };
+    operators.iter().map(|&o| model.step(o).to_string()).collect()
+}
+
+#[test]
+fn what_is_left_of_a_plan_is_kept() {
+    let model = model();
+    let request =
+        request(&model, &["on b", "open", "dead a"], &["(light c)", "(light a)"], Some("(light c)"));
+    let decision = decide(&model, &request);
+    let plan = names(&model, &decision);
+    assert_eq!(
+        plan,
+        ["(light c)", "(replace a)", "(light a)"],
+        "what is running goes on, and one step is new"
+    );
+    let Decision::Plan { repair: Some(repair), .. } = &decision else { panic!("{decision:?}") };
+    let reused = repair.reused.unwrap();
+    assert_eq!((repair.by, reused.added, reused.removed), (By::Reuse, 1, 0));
+    assert_eq!(repair.scratch.unwrap().steps, 3);
+    assert_eq!(format!("{decision:?}"), format!("{:?}", decide(&model, &request)), "the same each time");
+}
+
+#[test]
+fn what_is_running_and_can_no_longer_be_done_does_not_go_on() {
+    let model = model();
+    let request = request(&model, &["on b"], &["(light c)", "(light a)"], Some("(light c)"));
+    assert_eq!(names(&model, &decide(&model, &request)), ["(unlock)", "(light c)", "(light a)"]);
+}
+
+#[test]
+fn a_step_that_failed_is_not_reused() {
+    let model = model();
+    let mut request = request(&model, &["on b", "open"], &["(light c)", "(light a)"], None);
+    request.barred = vec![Step { action: Name::new("light"), arguments: vec![Name::new("c")] }];
+    assert!(matches!(decide(&model, &request), Decision::NoPlan(_)));
+}
+
+#[test]
+fn a_first_plan_has_nothing_to_be_held_against() {
+    let model = model();
+    let decision = decide(&model, &request(&model, &["open"], &[], None));
+    assert!(matches!(&decision, Decision::Plan { repair: None, operators, .. } if operators.len() == 3));
+}

@@ -1,0 +1,181 @@
+//! Why there is no plan, as far as that was proven.
+//!
+//! Problem: "no plan" helps nobody who has to mend a model. Idea: three proofs, each told in its own terms.
+//! What grounding never reaches although nothing is ever deleted is traced back to what nothing gives
+//! (`reasons`); numbers are bounded by intervals (`ranges`); facts of one mutex group exclude each other; and
+//! where the search has visited every state, they are visited once more, to say which goals never held, which
+//! never together, and how near one came (`space`). Invariant: nothing is claimed that was not proven; what
+//! there is no proof for is left out. Cost: bounded in all four.
+//!
+//! Source: Göbelbecker et al., "Coming up with good excuses", ICAPS 2010, for the question.
+
+mod goal;
+mod needs;
+mod oracle;
+mod ranges;
+mod reasons;
+mod space;
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test")]
+mod tests;
+
+pub use ranges::{Extent, NeverCompares};
+pub use reasons::{Giver, Hindrance, Need, Reason, ReasonId, Why};
+pub use space::{Nearest, Space};
+
+use crate::ids::{FactId, OperatorId};
+use crate::search::{Budget, UnsolvableReason};
+use crate::task::{Impossible, Operator, Task};
+use goal::Walk;
+use needs::{Binding, Needs};
+use oracle::Oracle;
+use pddl::Span;
+use pddl::model::{Action, ConditionKind, Domain, Name, ObjectId, PredicateId, Problem};
+use ranges::Ranges;
+use reasons::Reasons;
+
+/// Parts of the goal, groups and pairs that are told.
+const MOST: usize = 32;
+/// Operators whose comparisons are looked at.
+const OPERATORS: usize = 5_000;
+
+/// An atom with open arguments.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pattern {
+    /// Its predicate.
+    pub predicate: PredicateId,
+    /// Its arguments: an object, or the variable that stands for any.
+    pub arguments: Vec<Result<ObjectId, Name>>,
+}
+
+/// An atom that is wanted, true or false.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Wanted {
+    /// Which.
+    pub pattern: Pattern,
+    /// Whether it shall hold.
+    pub positive: bool,
+}
+
+/// A part of the goal that no reachable state satisfies.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Part {
+    /// Where it stands in the problem.
+    pub span: Span,
+    /// It would take one of these, and none of them is ever so.
+    pub never: Vec<Never>,
+}
+
+/// What is never so.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Never {
+    /// A literal.
+    Literal(ReasonId),
+    /// A comparison of numbers.
+    Number(NeverCompares),
+    /// What no action has any influence on.
+    Condition(Span),
+}
+
+/// Two atoms of the goal of which at most one ever holds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Exclusive {
+    /// The two, as PDDL writes them.
+    pub pair: [String; 2],
+    /// A group of which at most one holds, both included.
+    pub group: Vec<String>,
+}
+
+/// Why there is no plan.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Explanation {
+    /// Every part of the goal that is never so by itself.
+    pub parts: Vec<Part>,
+    /// The reasons of literals, each once; [`ReasonId`] is the position.
+    pub reasons: Vec<Reason>,
+    /// Pairs of the goal that exclude each other.
+    pub exclusive: Vec<Exclusive>,
+    /// What a visit of the states showed, where that was the proof.
+    pub space: Option<Space>,
+}
+
+impl Explanation {
+    /// A reason.
+    pub fn reason(&self, id: ReasonId) -> &Reason {
+        &self.reasons[id.0 as usize]
+    }
+}
+
+/// Says why `task`, the grounding of `problem`, has no plan. `reason` is what the search said of the problem's own
+/// goal and initial state; `budget` bounds the visit of states where these were exhausted.
+pub fn explain(
+    domain: &Domain,
+    problem: &Problem,
+    task: &Task,
+    reason: &UnsolvableReason,
+    budget: &Budget<'_>,
+) -> Explanation {
+    let first = Oracle::new(domain, problem, task, &[]);
+    let excluded = out_of_range(&first);
+    let oracle = Oracle::new(domain, problem, task, &excluded);
+    let ranges = Ranges::new(&oracle);
+    let mut reasons = Reasons::new(&oracle, &ranges);
+    let walk = Walk { oracle: &oracle, ranges: &ranges };
+    let parts = walk.parts(&mut reasons);
+    let exclusive = exclusive(task, &walk.required(), reason);
+    let space = match reason {
+        UnsolvableReason::SpaceExhausted => Some(space::visit(task, budget)),
+        UnsolvableReason::Impossible(_) => None,
+    };
+    Explanation { parts, reasons: reasons.finish(), exclusive, space }
+}
+
+/// Operators that need a comparison that never holds.
+fn out_of_range(oracle: &Oracle<'_>) -> Vec<OperatorId> {
+    let (domain, task) = (oracle.domain, oracle.task);
+    let ranges = Ranges::new(oracle);
+    let compares = |action: &Action| {
+        let mut compares = false;
+        action.precondition.each(&mut |part| compares |= matches!(part.kind, ConditionKind::Compare(..)));
+        compares
+    };
+    let compares: Vec<bool> = domain.actions.iter().map(compares).collect();
+    let candidates = task.operators().enumerate().filter(|(_, o)| compares[o.action.0 as usize]);
+    let never = |operator: &Operator| {
+        let Action { variables, precondition, .. } = &domain.actions[operator.action];
+        let mut binding = Binding::new(variables);
+        for (parameter, &object) in variables.parameter_ids().zip(&operator.arguments) {
+            binding.set(parameter, Some(object));
+        }
+        let mut needs = Needs::default();
+        needs.add(precondition, true, &binding, oracle);
+        needs.comparisons.iter().any(|compared| ranges.never(compared, &binding).is_some())
+    };
+    candidates.take(OPERATORS).filter(|(_, operator)| never(operator)).map(|(id, _)| id).collect()
+}
+
+/// The pairs of which the task's groups say that they exclude each other.
+fn exclusive(task: &Task, facts: &[FactId], reason: &UnsolvableReason) -> Vec<Exclusive> {
+    // Groups are kept by whatever operators do, if they hold at first.
+    if !task.mutexes().keep(task.initial_state().words()) {
+        return Vec::new();
+    }
+    let mut found = Vec::new();
+    for (i, &a) in facts.iter().enumerate() {
+        for &b in &facts[i + 1..] {
+            let shared = task.mutexes().groups_of(a).find(|&g| task.mutexes().group(g).any(|f| f == b));
+            if let Some(group) = shared.filter(|_| a != b && found.len() < MOST) {
+                let names = task.mutexes().group(group).map(|fact| task.fact_name(fact));
+                found.push(Exclusive { pair: [a, b].map(|f| task.fact_name(f)), group: names.collect() });
+            }
+        }
+    }
+    // Where one of the two never changes, it is no fact of the task, and grounding alone has seen the group.
+    if let (true, UnsolvableReason::Impossible(Impossible::Exclusive(atoms))) = (found.is_empty(), reason)
+        && let [a, b] = atoms.as_slice()
+    {
+        let pair = [a, b].map(|atom| task.atom_name(atom));
+        found.push(Exclusive { group: pair.to_vec(), pair });
+    }
+    found
+}

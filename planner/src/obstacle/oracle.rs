@@ -1,0 +1,112 @@
+//! What may ever hold: the one place that decides it.
+//!
+//! Idea: grounding reached every atom that is true in some state if nothing is ever deleted, and knows the atoms
+//! that nothing deletes; one more exploration of the grounded relaxation from the initial state adds what only
+//! shows there. Invariant: what may hold in a reachable state is never denied.
+
+use super::Wanted;
+use crate::heuristics::{Combine, Costs, Explorer};
+use crate::ids::{FactId, OperatorId, id32};
+use crate::search::{Bound, Budget, Job, Meter, Query, Shared};
+use crate::task::{AtomStatus, Literals, Task};
+use pddl::model::{Domain, EffectKind, Idx, ObjectId, PredicateId, Problem, TypeSet};
+
+pub(super) struct Oracle<'a> {
+    pub(super) domain: &'a Domain,
+    pub(super) problem: &'a Problem,
+    pub(super) task: &'a Task,
+    /// By predicate: the atoms that may hold.
+    possible: Vec<Vec<u32>>,
+    /// By predicate: whether no action and no axiom changes it.
+    is_static: Vec<bool>,
+    /// By fact: whether it may become false.
+    may_fail: Vec<bool>,
+}
+
+impl<'a> Oracle<'a> {
+    /// `excluded` are operators that are known never to apply.
+    pub(super) fn new(
+        domain: &'a Domain,
+        problem: &'a Problem,
+        task: &'a Task,
+        excluded: &[OperatorId],
+    ) -> Self {
+        let query = Query { excluded, ..Query::of(task) };
+        let (barred, meter) = (query.barred(task), Meter::new(Budget::default()));
+        let (bound, shared) = (Bound::none(), Shared::default());
+        let (state, goal) = (query.state, query.goal);
+        let job = Job { task, state, goal, barred: &barred, meter: &meter, bound: &bound, shared: &shared };
+        let mut explorer = Explorer::new(&job, Vec::new(), Costs::Unit, Combine::Max);
+        explorer.explore(query.state.words());
+        let reached = |p: u32| explorer.cost(p) != u32::MAX;
+        let predicates = (0..task.atoms.len()).map(|a| task.atoms.predicate(id32(a)).index() + 1).max();
+        let mut possible = vec![Vec::new(); predicates.unwrap_or(0).max(domain.predicates.len())];
+        for atom in 0..id32(task.atoms.len()) {
+            let may_hold = match task.status[atom as usize] {
+                AtomStatus::NeverTrue => false,
+                AtomStatus::Fact(fact) => reached(fact.0),
+                AtomStatus::AlwaysTrue | AtomStatus::Irrelevant => true,
+            };
+            if may_hold {
+                possible[task.atoms.predicate(atom).index()].push(atom);
+            }
+        }
+        let may_fail = |fact: FactId| {
+            let negated = Literals { negative: Box::new([fact]), ..Literals::default() };
+            task.relaxation.literals(&negated).into_iter().all(reached)
+        };
+        let may_fail = task.facts().ids().map(may_fail).collect();
+        let mut is_static = vec![true; domain.predicates.len()];
+        for action in &domain.actions {
+            action.effect.each(&mut |part| {
+                if let EffectKind::Add(atom) | EffectKind::Delete(atom) = &part.kind {
+                    is_static[atom.predicate.index()] = false;
+                }
+            });
+        }
+        domain.axioms.iter().for_each(|axiom| is_static[axiom.predicate.index()] = false);
+        Self { domain, problem, task, possible, is_static, may_fail }
+    }
+
+    /// Whether some reachable state may have it so; `false` is proven.
+    pub(super) fn may_be(&self, wanted: &Wanted) -> bool {
+        if wanted.positive {
+            return self.matches(wanted).next().is_some();
+        }
+        let arguments: Result<Vec<ObjectId>, _> = wanted.pattern.arguments.iter().cloned().collect();
+        let Ok(arguments) = arguments else { return true };
+        match self.task.status(wanted.pattern.predicate, &arguments) {
+            AtomStatus::AlwaysTrue => false,
+            AtomStatus::Fact(fact) => self.may_fail[fact.index()],
+            AtomStatus::NeverTrue | AtomStatus::Irrelevant => true,
+        }
+    }
+
+    /// The arguments of the atoms that may hold and fit.
+    pub(super) fn matches<'s>(&'s self, wanted: &'s Wanted) -> impl Iterator<Item = &'s [u32]> {
+        let atoms = self.possible.get(wanted.pattern.predicate.index()).map_or(&[][..], Vec::as_slice);
+        atoms.iter().map(|&atom| self.task.atoms.row(atom)).filter(|row| fits(wanted, row))
+    }
+
+    /// Whether nothing ever changes atoms of the predicate.
+    pub(super) fn is_static(&self, predicate: PredicateId) -> bool {
+        self.is_static.get(predicate.index()).copied().unwrap_or(false)
+    }
+
+    /// Whether an object is of some types.
+    pub(super) fn is_of(&self, object: ObjectId, types: &TypeSet) -> bool {
+        self.problem.objects[object].types.0.iter().any(|&t| self.domain.types.is_in(t, types))
+    }
+}
+
+/// Whether a row fits, equal variables being equal objects.
+fn fits(wanted: &Wanted, row: &[u32]) -> bool {
+    let arguments = &wanted.pattern.arguments;
+    arguments.iter().zip(row).enumerate().all(|(i, (argument, &object))| match argument {
+        Ok(own) => own.0 == object,
+        Err(name) => {
+            let first = arguments[..i].iter().position(|other| other.as_ref() == Err(name));
+            first.is_none_or(|first| row[first] == object)
+        }
+    })
+}
