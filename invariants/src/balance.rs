@@ -146,8 +146,8 @@ pub(super) enum Verdict {
     Broken,
     /// Some add lacks a delete; each of these members would give it one.
     Unbalanced(Vec<Member>),
-    /// The work is used up.
-    TooMuchWork,
+    /// The work is used up, or the caller wants no more.
+    GivenUp,
 }
 
 /// Holds a candidate against all happenings that add one of its predicates.
@@ -156,10 +156,11 @@ pub(super) fn judge<'m, 'a: 'm>(
     candidate: &Invariant,
     moves: impl Iterator<Item = &'m Moves<'a>>,
     work: &mut usize,
+    go_on: &mut dyn FnMut(usize) -> bool,
 ) -> Verdict {
     for happening in moves {
         let cost = happening.adds.len() * (1 + happening.deletes.len());
-        let Some(left) = work.checked_sub(cost) else { return Verdict::TooMuchWork };
+        let Some(left) = work.checked_sub(cost).filter(|_| go_on(1 + cost)) else { return Verdict::GivenUp };
         *work = left;
         let member = |m: &Move<'_>| candidate.member(m.atom.predicate);
         let adds: Vec<_> = happening.adds.iter().filter_map(|a| Some((a, member(a)?))).collect();

@@ -34,4 +34,4 @@ mod synthesis;
 pub use balance::{differ, literals};
 pub use changes::{Change, Context, changes};
 pub use counts::Counts;
-pub use synthesis::{Happening, Invariant, Member, invariants};
+pub use synthesis::{Happening, Invariant, Member, invariants, invariants_while};

@@ -81,6 +81,16 @@ impl Invariant {
 
 /// All invariants that are found.
 pub fn invariants(domain: &Domain, happenings: &[Happening<'_>]) -> Vec<Invariant> {
+    invariants_while(domain, happenings, &mut |_| true)
+}
+
+/// What is found while `go_on` says so, which is told of the comparisons since it was last asked. Each of
+/// what was found is an invariant, whenever it ended.
+pub fn invariants_while(
+    domain: &Domain,
+    happenings: &[Happening<'_>],
+    go_on: &mut dyn FnMut(usize) -> bool,
+) -> Vec<Invariant> {
     let moves: Vec<Moves<'_>> = happenings.iter().map(Moves::of).collect();
     // By predicate: what adds it.
     let mut adders: Vec<Vec<usize>> = vec![Vec::new(); domain.predicates.len()];
@@ -111,10 +121,10 @@ pub fn invariants(domain: &Domain, happenings: &[Happening<'_>]) -> Vec<Invarian
             candidate.members.iter().flat_map(|m| &adders[m.predicate.0 as usize]).copied().collect();
         own.sort_unstable();
         own.dedup();
-        match judge(domain, &candidate, own.iter().map(|&i| &moves[i]), &mut work) {
+        match judge(domain, &candidate, own.iter().map(|&i| &moves[i]), &mut work, go_on) {
             Verdict::Holds => found.push(candidate),
             Verdict::Broken => {}
-            Verdict::TooMuchWork => break,
+            Verdict::GivenUp => break,
             Verdict::Unbalanced(remedies) => {
                 for member in remedies.into_iter().filter(|_| candidate.members.len() < PARTS) {
                     let mut members = candidate.members.clone();

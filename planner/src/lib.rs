@@ -28,6 +28,7 @@
 //! | `task` | the grounded task, states, successors, axioms, the delete relaxation |
 //! | `heuristics` | estimators, one file each |
 //! | `search` | search algorithms, configurations, the entry point |
+//! | `watch` | how grounding notices that its caller wants an end |
 
 mod ground;
 mod heuristics;
@@ -48,6 +49,7 @@ mod task;
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test")]
 mod test_support;
+mod watch;
 
 pub use ground::{Feature, GroundError, GroundOptions, Origin, ground};
 pub use heuristics::{Costs, HeuristicKind, Properties, Supported};

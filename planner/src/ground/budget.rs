@@ -11,12 +11,11 @@
 //! [`instance`] says 470.
 
 use super::error::GroundOptions;
+use crate::watch::Watch;
 use std::cell::Cell;
 
 /// Bytes beyond which 32-bit positions might not do.
 const MOST: usize = if usize::BITS > 36 { 1 << 36 } else { usize::MAX };
-/// Folded parts of formulas between two looks at the interruption.
-const PATIENCE: u32 = 1 << 16;
 
 impl GroundOptions<'_> {
     /// The budget in bytes.
@@ -47,28 +46,31 @@ pub(super) enum Stop {
 /// Watches over the expansion of one formula after the other.
 pub(super) struct Guard<'a> {
     options: &'a GroundOptions<'a>,
-    ticks: Cell<u32>,
+    watch: &'a Watch<'a>,
     parts: Cell<usize>,
     stop: Cell<Option<Stop>>,
 }
 
 impl<'a> Guard<'a> {
-    pub(super) fn new(options: &'a GroundOptions<'a>) -> Self {
-        Self { options, ticks: Cell::new(0), parts: Cell::new(0), stop: Cell::new(None) }
+    pub(super) fn new(options: &'a GroundOptions<'a>, watch: &'a Watch<'a>) -> Self {
+        Self { options, watch, parts: Cell::new(0), stop: Cell::new(None) }
     }
 
     /// The next instance begins.
     pub(super) fn begin(&self) {
         self.parts.set(0);
+        self.spend(256);
+    }
+
+    fn spend(&self, units: usize) {
+        if self.watch.spend(units).is_err() {
+            self.stop.set(Some(Stop::Interrupted));
+        }
     }
 
     /// A part that is looked at. Answers whether to go on.
     pub(super) fn look(&self) -> bool {
-        let ticks = self.ticks.get().wrapping_add(1);
-        self.ticks.set(ticks);
-        if ticks.is_multiple_of(PATIENCE) && (self.options.interrupted)() {
-            self.stop.set(Some(Stop::Interrupted));
-        }
+        self.spend(16);
         self.stop.get().is_none()
     }
 
@@ -76,6 +78,7 @@ impl<'a> Guard<'a> {
     pub(super) fn keep(&self) {
         let parts = self.parts.get() + 1;
         self.parts.set(parts);
+        self.spend(32);
         if instance(0, parts) > self.options.bytes() {
             self.stop.set(Some(Stop::Memory));
         }

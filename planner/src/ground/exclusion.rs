@@ -13,7 +13,8 @@ use super::atoms::{AtomTable, Packing};
 use super::instantiate::Lit;
 use super::values::ValuePredicates;
 use crate::ids::id32;
-use invariants::{Happening, Invariant, Member, invariants};
+use crate::watch::{Interrupted, Spend, Watch};
+use invariants::{Happening, Invariant, Member, invariants_while};
 use pddl::model::{Domain, PredicateId, Problem};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -31,6 +32,7 @@ pub(crate) struct Exclusions {
 
 impl Exclusions {
     /// Of the atoms that were reached. `initial` are those that change and hold at first.
+    #[expect(clippy::too_many_arguments, reason = "a stage takes what the stages before it made")]
     pub(crate) fn new(
         domain: &Domain,
         problem: &Problem,
@@ -39,21 +41,24 @@ impl Exclusions {
         table: &AtomTable,
         statics: u32,
         initial: &[u32],
-    ) -> Self {
+        watch: &Watch<'_>,
+    ) -> Result<Self, Interrupted> {
         // Invariants take an object to be of one type.
         if problem.objects.iter().any(|o| o.types.0.len() > 1) {
-            return Self::default();
+            return Ok(Self::default());
         }
         let happenings: Vec<Happening<'_>> = domain.actions.iter().map(Happening::of_action).collect();
-        let mut found = invariants(domain, &happenings);
+        let mut found = invariants_while(domain, &happenings, &mut |work| watch.spend(64 * work).is_ok());
+        watch.spend(0)?;
         found.extend(of_values(domain, values));
         found.retain(|i| i.members.iter().all(|m| !exogenous.contains(&m.predicate)));
         if found.is_empty() {
-            return Self::default();
+            return Ok(Self::default());
         }
         let atoms = id32(table.len());
         let mut by_predicate: Vec<Vec<u32>> = vec![Vec::new(); domain.predicates.len()];
         for atom in statics..atoms {
+            watch.spend(8)?;
             by_predicate[table.predicate(atom).0 as usize].push(atom);
         }
         let holds: FxHashSet<u32> = initial.iter().copied().collect();
@@ -61,7 +66,8 @@ impl Exclusions {
         let mut count = 0;
         let mut known: FxHashSet<Vec<u32>> = FxHashSet::default();
         for invariant in &found {
-            for group in instances(invariant, table, &by_predicate, &holds, problem.objects.len()) {
+            for group in instances(invariant, table, &by_predicate, &holds, problem.objects.len(), watch)? {
+                watch.spend(64 + 8 * group.len())?;
                 if pairs.len() + group.len() > ENTRIES || known.contains(&group) {
                     continue;
                 }
@@ -71,17 +77,21 @@ impl Exclusions {
             }
         }
         let mut starts = vec![0_u32; atoms as usize + 1];
-        pairs.iter().for_each(|&(atom, _)| starts[atom as usize + 1] += 1);
+        for part in watch.parts(&pairs, 4) {
+            part?.iter().for_each(|&(atom, _)| starts[atom as usize + 1] += 1);
+        }
         for i in 0..atoms as usize {
             starts[i + 1] += starts[i];
         }
         let mut fill = starts.clone();
         let mut groups = vec![0; pairs.len()];
-        for (atom, group) in pairs {
-            groups[fill[atom as usize] as usize] = group;
-            fill[atom as usize] += 1;
+        for part in watch.parts(&pairs, 8) {
+            for &(atom, group) in part? {
+                groups[fill[atom as usize] as usize] = group;
+                fill[atom as usize] += 1;
+            }
         }
-        Self { starts, groups, count: count as usize }
+        Ok(Self { starts, groups, count: count as usize })
     }
 
     /// The groups of an atom.
@@ -118,12 +128,14 @@ fn instances(
     by_predicate: &[Vec<u32>],
     holds: &FxHashSet<u32>,
     objects: usize,
-) -> Vec<Vec<u32>> {
+    watch: &Watch<'_>,
+) -> Result<Vec<Vec<u32>>, Interrupted> {
     let mut packing = Packing::new(objects);
     let mut numbers: FxHashMap<u64, usize> = FxHashMap::default();
     let mut found: Vec<(u32, Vec<u32>)> = Vec::new();
     for member in &invariant.members {
         for &atom in &by_predicate[member.predicate.0 as usize] {
+            watch.spend(64)?;
             let row = table.row(atom);
             let key = packing.key(member.parameters.iter().map(|&p| row[p]));
             let next = found.len();
@@ -136,7 +148,8 @@ fn instances(
             group.push(atom);
         }
     }
-    found.into_iter().filter(|(held, group)| *held <= 1 && group.len() > 1).map(|(_, group)| group).collect()
+    let exclusive = found.into_iter().filter(|(held, group)| *held <= 1 && group.len() > 1);
+    Ok(exclusive.map(|(_, group)| group).collect())
 }
 
 /// Which groups the conjunction at hand has an atom of.

@@ -10,14 +10,16 @@ use super::instantiate::Lit;
 use super::measure::{Chosen, comparisons};
 use super::numbers::Comparison;
 use super::prune::{Pruned, prune};
-use super::raw::{RawEffects, RawOperator, RawTask, marked};
+use super::raw::{Failure, RawEffects, RawOperator, RawTask, marked};
 use crate::ids::{FactId, OperatorId, id32};
 use crate::task::{
     AtomStatus, AxiomProgram, AxiomRule, ConditionalEffect, Fact, Goal, GroundAtom, Impossible, Literals,
-    Mutexes, Names, Numeric, ObjectValue, Operator, Packing, Relaxation, State, SuccessorTree, Task,
-    undominated, variables,
+    Mutexes, Names, NoProgram, Numeric, ObjectValue, Operator, Packing, Relaxation, State, SuccessorTree,
+    Task, undominated, variables,
 };
+use crate::watch::{Interrupted, Spend, Watch};
 use pddl::model::{Domain, IndexVec, Problem};
+use rustc_hash::FxHashSet;
 
 const NONE: u32 = u32::MAX;
 
@@ -36,8 +38,8 @@ pub(crate) fn finish(
     statics: u32,
     initial: &[u32],
     names: Names,
-    options: &GroundOptions<'_>,
-) -> Result<Task, GroundError> {
+    (options, watch): (&GroundOptions<'_>, &Watch<'_>),
+) -> Result<Task, Failure> {
     let known = id32(table.len());
     let value = |&fluent: &u32| fluents.initial(&raw.numbers.keys[fluent as usize]);
     let compared = marked(raw.atoms, raw.numbers.atoms.iter().map(|(atom, _)| *atom));
@@ -52,12 +54,13 @@ pub(crate) fn finish(
     let derived = marked(raw.atoms, (statics..raw.atoms).filter(|&a| is_derived(a)));
     let is_exogenous = |a: u32| a < known && options.exogenous.contains(&table.predicate(a));
     let exogenous = marked(raw.atoms, (statics..raw.atoms).filter(|&a| is_exogenous(a)));
-    let pruned = prune(&raw, &holds, &derived, &exogenous);
+    let pruned = prune(&raw, &holds, &derived, &exogenous, watch)?;
 
     let mut facts: IndexVec<crate::ids::FactId, Fact> = IndexVec::new();
     let mut numbers = vec![NONE; raw.atoms as usize];
     let mut status = Vec::with_capacity(known as usize);
     for a in 0..raw.atoms {
+        watch.spend(64)?;
         let i = a as usize;
         let kept = pruned.needed[i] && !pruned.always[i] && !pruned.never[i];
         if kept {
@@ -82,6 +85,7 @@ pub(crate) fn finish(
     let view = View { pruned: &pruned, numbers: &numbers };
     let mut rules: Vec<AxiomRule> = Vec::new();
     for (head, body) in raw.rules.iter().filter(|(h, _)| numbers[*h as usize] != NONE) {
+        watch.spend(64 + 8 * body.len())?;
         if let Some(body) = view.literals(body) {
             rules.push(AxiomRule { head: FactId(numbers[*head as usize]), body });
         }
@@ -90,6 +94,7 @@ pub(crate) fn finish(
     let (mut operators, mut amounts) = (IndexVec::new(), Vec::new());
     // Each raw operator makes room for the next one that is finished.
     for mut own in std::mem::take(&mut raw.operators) {
+        watch.spend(own.work())?;
         let Some(operator) = view.operator(&mut own, &chosen) else { continue };
         amounts.push(if chosen.metric.is_some() {
             chosen.guess(operator.numeric.as_deref())
@@ -98,18 +103,19 @@ pub(crate) fn finish(
         });
         operators.push(operator);
     }
-    let cost_scale = set_costs(&mut operators, &amounts, costs);
+    let cost_scale = set_costs(&mut operators, &amounts, costs, watch)?;
     let fact = |atom: u32| (numbers[atom as usize] != NONE).then(|| FactId(numbers[atom as usize]));
     let compared = comparisons(&raw, &chosen, fact);
 
-    let axioms = AxiomProgram::new(&facts, rules).map_err(|cycle| {
-        let predicate = facts[cycle.0].atom.as_ref().map(|a| a.predicate);
+    let axioms = AxiomProgram::new(&facts, rules, watch).map_err(|why| {
+        let NoProgram::NotStratified(fact) = why else { return Failure::Interrupted };
+        let predicate = facts[fact].atom.as_ref().map(|a| a.predicate);
         let axiom = domain.axioms.iter().find(|x| predicate.is_none_or(|p| p == x.predicate));
-        GroundError::Unsupported {
+        Failure::Ground(GroundError::Unsupported {
             feature: Feature::UnstratifiedAxioms,
             origin: Origin::Domain,
             span: axiom.map_or(problem.goal_span, |x| x.span),
-        }
+        })
     })?;
     let Chosen { fluents, stored, metric, .. } = chosen;
     let effects = operators.iter_mut().filter_map(|o: &mut Operator| o.numeric.as_deref_mut());
@@ -123,22 +129,24 @@ pub(crate) fn finish(
         }
     }
     axioms.close(state.words_mut());
-    let groups = groups(exclusions, &numbers, known);
-    let mutexes = Mutexes::new(facts.len(), &groups, &operators, &state);
-    let tree = || SuccessorTree::new(facts.len(), &operators);
+    let groups = groups(exclusions, &numbers, known, watch)?;
+    let mutexes = Mutexes::new(facts.len(), &groups, &operators, &state, watch)?;
     let relaxation = || {
-        let relaxation = Relaxation::new(&facts, &operators, &axioms, &numeric, &goal);
-        (undominated(&relaxation), relaxation)
+        let relaxation = Relaxation::new(&facts, &operators, &axioms, &numeric, &goal, watch)?;
+        Ok::<_, Interrupted>((undominated(&relaxation, watch)?, relaxation))
     };
-    let (successors, (undominated, relaxation)) = if operators.len() < PARALLEL {
-        (tree(), relaxation())
+    let (successors, relaxation) = if operators.len() < PARALLEL {
+        (SuccessorTree::new(facts.len(), &operators, watch), relaxation())
     } else {
+        let closure = watch.closure();
+        let tree = || SuccessorTree::new(facts.len(), &operators, &Watch::new(closure));
         std::thread::scope(|scope| {
             let tree = scope.spawn(tree);
             let relaxation = relaxation();
             (tree.join().expect("it panics nowhere"), relaxation)
         })
     };
+    let (successors, (undominated, relaxation)) = (successors?, relaxation?);
     let is_derived: Vec<bool> = facts.iter().map(|f| f.derived).collect();
     let variables = variables(&mutexes, &is_derived);
     Ok(Task {
@@ -163,28 +171,51 @@ pub(crate) fn finish(
 }
 
 /// The groups of which at least two atoms are facts.
-fn groups(exclusions: &Exclusions, numbers: &[u32], known: u32) -> Vec<Vec<u32>> {
+fn groups(
+    exclusions: &Exclusions,
+    numbers: &[u32],
+    known: u32,
+    watch: &Watch<'_>,
+) -> Result<Vec<Vec<u32>>, Interrupted> {
     let mut groups: Vec<Vec<u32>> = vec![Vec::new(); exclusions.len()];
     for atom in (0..known).filter(|&a| numbers[a as usize] != NONE) {
+        watch.spend(8 + 16 * exclusions.of(atom).len())?;
         for &group in exclusions.of(atom) {
             groups[group as usize].push(numbers[atom as usize]);
         }
     }
-    groups.retain(|g| g.len() > 1);
-    // Different groups of atoms may be the same group of facts.
-    groups.sort_unstable();
-    groups.dedup();
-    groups
+    // Different groups of atoms may be the same group of facts. In order, by their first facts.
+    let mut by_first: Vec<Vec<Vec<u32>>> = vec![Vec::new(); numbers.len()];
+    for group in groups.into_iter().filter(|g| g.len() > 1) {
+        watch.spend(32)?;
+        by_first[group[0] as usize].push(group);
+    }
+    let mut sorted = Vec::new();
+    for mut group in by_first {
+        watch.spend(4 + 256 * group.len())?;
+        group.sort_unstable();
+        group.dedup();
+        sorted.append(&mut group);
+    }
+    Ok(sorted)
 }
 
 /// Makes integers of the costs; gives the scale.
-fn set_costs(operators: &mut IndexVec<OperatorId, Operator>, amounts: &[f64], costs: &CostModel) -> u32 {
+fn set_costs(
+    operators: &mut IndexVec<OperatorId, Operator>,
+    amounts: &[f64],
+    costs: &CostModel,
+    watch: &Watch<'_>,
+) -> Result<u32, Interrupted> {
     // Where nothing costs anything, fewer steps are better.
     if costs.is_unit() || (matches!(costs.measure, Measure::Value(_)) && amounts.iter().all(|&a| a == 0.0)) {
-        operators.iter_mut().for_each(|operator| operator.cost = 1);
-        return 1;
+        return Ok(1);
     }
-    let scale = scale(amounts);
+    let mut different = FxHashSet::default();
+    for part in watch.parts(amounts, 8) {
+        different.extend(part?.iter().map(|amount| amount.to_bits()));
+    }
+    let scale = scale(&different.into_iter().map(f64::from_bits).collect::<Vec<_>>());
     for (operator, amount) in operators.iter_mut().zip(amounts) {
         #[expect(
             clippy::cast_possible_truncation,
@@ -193,8 +224,9 @@ fn set_costs(operators: &mut IndexVec<OperatorId, Operator>, amounts: &[f64], co
         )]
         let cost = (amount * f64::from(scale)).round() as u32;
         operator.cost = cost;
+        watch.spend(8)?;
     }
-    scale
+    Ok(scale)
 }
 
 pub(super) struct View<'a> {

@@ -15,6 +15,7 @@ use super::formula::{Formula, Literal};
 use super::numbers::{Comparison, Numbers};
 use super::universe::Range;
 use crate::ids::id32;
+use crate::watch::Watch;
 use pddl::model::VariableId;
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
@@ -58,10 +59,10 @@ impl<'a> Instantiator<'a> {
         is_static: &'a [bool],
         exclusions: &'a Exclusions,
         fluents: &'a Fluents,
-        options: &'a GroundOptions<'a>,
+        (options, watch): (&'a GroundOptions<'a>, &'a Watch<'a>),
     ) -> Self {
         let (next, marks, numbers) = (id32(table.len()), Marks::new(exclusions), Numbers::default());
-        let (auxiliary, rules, guard) = (FxHashMap::default(), Vec::new(), Guard::new(options));
+        let (auxiliary, rules, guard) = (FxHashMap::default(), Vec::new(), Guard::new(options, watch));
         Self { table, is_static, exclusions, marks, guard, fluents, numbers, auxiliary, rules, next }
     }
 

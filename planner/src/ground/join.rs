@@ -20,8 +20,10 @@ use super::formula::Formula;
 use super::instantiate::Ground;
 use super::numbers::Comparison;
 use super::plan::{Filter, JoinPlan, Step, plan};
+use super::raw::Failure;
 use super::rule::Rule;
 use super::schema::Schema;
+use crate::watch::Watch;
 use pddl::model::{PredicateId, Term};
 use rustc_hash::FxHashMap;
 
@@ -96,12 +98,12 @@ pub(crate) fn reach(
     statics: u32,
     (is_static, fluents): (&[bool], &Fluents),
     objects: usize,
-    options: &GroundOptions<'_>,
-) -> Result<Reached, GroundError> {
+    (options, watch): (&GroundOptions<'_>, &Watch<'_>),
+) -> Result<Reached, Failure> {
     let mut indices = Indices::new(is_static.len(), objects);
     let mut triggered: Vec<Vec<(usize, JoinPlan)>> = vec![Vec::new(); is_static.len()];
     let mut at_once = Vec::new();
-    let mut statistics = super::plan::Statistics::new(&table, statics);
+    let mut statistics = super::plan::Statistics::new(&table, statics, watch);
     for (r, rule) in rules.iter().enumerate() {
         let changing: Vec<usize> =
             (0..rule.body.len()).filter(|&i| !is_static[rule.body[i].predicate.0 as usize]).collect();
@@ -119,18 +121,10 @@ pub(crate) fn reach(
         .collect();
     let bytes = (0..crate::ids::id32(table.len())).map(|a| budget::atom(table.row(a).len())).sum();
     let instance_bytes = schemas.iter().map(Schema::instance_bytes).collect();
-    let mut out = Out {
-        schemas,
-        table,
-        bindings,
-        instance_bytes,
-        bytes,
-        allowed: options.bytes(),
-        steps: 0,
-        options,
-        fluents,
-    };
+    let allowed = options.bytes();
+    let mut out = Out { schemas, table, bindings, instance_bytes, bytes, allowed, watch, fluents };
     for atom in 0..statics {
+        watch.spend(128)?;
         indices.insert(&out.table, atom);
     }
     let mut binding = Vec::new();
@@ -140,6 +134,7 @@ pub(crate) fn reach(
     }
     let mut current = statics;
     while (current as usize) < out.table.len() {
+        watch.spend(128)?;
         indices.insert(&out.table, current);
         let predicate = out.table.predicate(current).0 as usize;
         for (r, plan) in &triggered[predicate] {
@@ -159,12 +154,15 @@ struct Out<'a> {
     /// Of everything that was found.
     bytes: usize,
     allowed: usize,
-    steps: u32,
-    options: &'a GroundOptions<'a>,
+    watch: &'a Watch<'a>,
     fluents: &'a Fluents,
 }
 
 impl Out<'_> {
+    fn interrupted(&self, own: usize) -> GroundError {
+        GroundError::Interrupted { schema: self.schemas[own].name.clone() }
+    }
+
     /// Names the schema with the most bytes, or the one that was at work.
     fn limit(&self, own: usize) -> GroundError {
         let bytes = |i: &usize| (self.bindings[*i].rows * self.instance_bytes[*i], *i == own);
@@ -210,10 +208,8 @@ impl Join<'_, '_> {
     }
 
     fn step(&mut self, at: usize, binding: &mut Vec<u32>) -> Result<(), GroundError> {
-        self.out.steps = self.out.steps.wrapping_add(1);
-        if self.out.steps.is_multiple_of(4096) && (self.out.options.interrupted)() {
-            let own = self.out.schemas[self.rule.schema].name.clone();
-            return Err(GroundError::Interrupted { schema: own });
+        if self.out.watch.spend(32).is_err() {
+            return Err(self.out.interrupted(self.rule.schema));
         }
         let (rule, plan, indices) = (self.rule, self.plan, self.indices);
         let Some(step) = plan.steps.get(at) else {
@@ -258,7 +254,11 @@ impl Join<'_, '_> {
                 Ok(())
             }
             Step::Scan { atom, index, key, assign, repeat } => {
-                'rows: for &candidate in indices.bucket(*index, key, binding) {
+                let candidates = indices.bucket(*index, key, binding);
+                'rows: for (i, &candidate) in candidates.iter().enumerate() {
+                    if i.is_multiple_of(256) && self.out.watch.spend(1024).is_err() {
+                        return Err(self.out.interrupted(self.rule.schema));
+                    }
                     if candidate == self.current && self.skips(*atom) {
                         continue;
                     }

@@ -33,6 +33,7 @@ pub(crate) use atoms::AtomTable;
 pub use error::{Feature, GroundError, GroundOptions, Origin};
 
 use crate::task::{Names, Task};
+use crate::watch::Watch;
 use cost::{CostModel, Measure, metric_span};
 use exclusion::Exclusions;
 use fluents::Fluents;
@@ -41,6 +42,7 @@ use pddl::Diagnostic;
 use pddl::model::Feature as Language;
 use pddl::model::{Domain, EffectKind, Idx, PredicateId, Problem};
 use raw::Failure;
+use std::cmp::Reverse;
 use universe::Universe;
 pub(crate) use values::ValuePredicates;
 
@@ -49,18 +51,29 @@ pub(crate) use values::ValuePredicates;
 /// # Errors
 /// A feature that the planner does not support, a limit of `options`, or its interruption.
 pub fn ground(domain: &Domain, problem: &Problem, options: &GroundOptions<'_>) -> Result<Task, GroundError> {
+    watched(domain, problem, options, &Watch::new(options.interrupted))
+}
+
+/// The same, with a watch that its caller can look at afterwards.
+pub(crate) fn watched(
+    domain: &Domain,
+    problem: &Problem,
+    options: &GroundOptions<'_>,
+    watch: &Watch<'_>,
+) -> Result<Task, GroundError> {
     refuse(domain, problem)?;
     let compiled = values::compile(domain, problem);
     let (domain, problem, values) = match &compiled {
         Some((domain, problem, values)) => (domain, problem, values.clone()),
         None => (domain, problem, ValuePredicates::none(domain)),
     };
-    match build(domain, problem, values.clone(), options, true) {
-        Err(Failure::NegativeCost) => build(domain, problem, values, options, false),
+    match build(domain, problem, values.clone(), (options, watch), true) {
+        Err(Failure::NegativeCost) => build(domain, problem, values, (options, watch), false),
         result => result,
     }
     .map_err(|failure| match failure {
         Failure::Ground(error) => error,
+        Failure::Interrupted => GroundError::Interrupted { schema: problem.name.clone() },
         // Costs that are evaluated along the plan are never negative ones.
         Failure::NegativeCost => GroundError::Unsupported {
             feature: Feature::OptimalMetric,
@@ -75,7 +88,7 @@ fn build(
     domain: &Domain,
     problem: &Problem,
     values: ValuePredicates,
-    options: &GroundOptions<'_>,
+    (options, watch): (&GroundOptions<'_>, &Watch<'_>),
     additive: bool,
 ) -> Result<Task, Failure> {
     let mut fluents = Fluents::new(domain, problem)?;
@@ -89,20 +102,18 @@ fn build(
 
     let mut table = AtomTable::new(domain.predicates.len(), problem.objects.len());
     let insert = |table: &mut AtomTable, fact: &pddl::model::Fact| {
-        table.insert(fact.predicate, fact.arguments.iter().map(|o| o.0))
+        watch.spend(128).map(|()| table.insert(fact.predicate, fact.arguments.iter().map(|o| o.0)))
     };
     for fact in problem.init.iter().filter(|f| is_static[f.predicate.index()]) {
-        insert(&mut table, fact);
+        insert(&mut table, fact)?;
     }
     let statics = ids_of(&table);
-    let initial: Vec<u32> = problem
-        .init
-        .iter()
-        .filter(|f| !is_static[f.predicate.index()])
-        .map(|f| insert(&mut table, f))
-        .collect();
+    let mut initial = Vec::new();
+    for fact in problem.init.iter().filter(|f| !is_static[f.predicate.index()]) {
+        initial.push(insert(&mut table, fact)?);
+    }
     for &predicate in options.exogenous {
-        add_all_instances(domain, predicate, &mut universe, &mut table, options)?;
+        add_all_instances(domain, predicate, &mut universe, &mut table, (options, watch))?;
     }
 
     let rules = rule::rules(&schemas, &is_static, &fluents);
@@ -113,12 +124,15 @@ fn build(
         statics,
         (&is_static, &fluents),
         problem.objects.len(),
-        options,
+        (options, watch),
     )?;
     let goal = Formula::of(&problem.goal, true, Origin::Problem, &mut universe)?;
     let slots = universe.slots(&problem.goal_variables);
+    let exogenous = options.exogenous;
     let exclusions =
-        Exclusions::new(domain, problem, &values, options.exogenous, &reached.table, statics, &initial);
+        Exclusions::new(domain, problem, &values, exogenous, &reached.table, statics, &initial, watch)?;
+    let most = (0..schemas.len()).max_by_key(|&i| (reached.bindings[i].rows, Reverse(i)));
+    let most = most.map(|i| schemas[i].name.clone());
     let models = (&costs, &fluents);
     let raw = raw::instantiate(
         &schemas,
@@ -128,11 +142,11 @@ fn build(
         models,
         &values,
         (&goal, &slots),
-        options,
+        (options, watch),
     )?;
     drop(reached.bindings);
     let names = Names::of(domain, problem, values);
-    Ok(finish::finish(
+    finish::finish(
         domain,
         problem,
         models,
@@ -142,8 +156,12 @@ fn build(
         statics,
         &initial,
         names,
-        options,
-    )?)
+        (options, watch),
+    )
+    .map_err(|failure| match (failure, most) {
+        (Failure::Interrupted, Some(schema)) => GroundError::Interrupted { schema }.into(),
+        (failure, _) => failure,
+    })
 }
 
 fn ids_of(table: &AtomTable) -> u32 {
@@ -197,8 +215,8 @@ fn add_all_instances(
     predicate: PredicateId,
     universe: &mut Universe<'_>,
     table: &mut AtomTable,
-    options: &GroundOptions<'_>,
-) -> Result<(), GroundError> {
+    (options, watch): (&GroundOptions<'_>, &Watch<'_>),
+) -> Result<(), Failure> {
     let declared = &domain.predicates[predicate];
     let ranges = universe.slots(&declared.variables);
     let ranges: Vec<&[u32]> =
@@ -209,10 +227,11 @@ fn add_all_instances(
     let before = table.len();
     let mut odometer = vec![0_usize; ranges.len()];
     loop {
+        watch.spend(128)?;
         table.insert(predicate, odometer.iter().zip(&ranges).map(|(&i, r)| r[i]));
         let instances = table.len() - before;
         if instances * budget::atom(ranges.len()) > options.bytes() {
-            return Err(GroundError::Limit { schema: declared.name.clone(), instances });
+            return Err(GroundError::Limit { schema: declared.name.clone(), instances }.into());
         }
         let Some(digit) = (0..ranges.len()).rev().find(|&d| odometer[d] + 1 < ranges[d].len()) else {
             return Ok(());

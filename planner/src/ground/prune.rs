@@ -12,6 +12,8 @@ use super::numbers::{Comparison, RawChange};
 use super::raw::{RawEffects, RawTask};
 use crate::ids::id32;
 use crate::number::{Expression, Influence};
+use crate::task::Rows;
+use crate::watch::{Interrupted, Spend, Watch};
 
 /// What is known of each atom.
 pub(crate) struct Pruned {
@@ -47,29 +49,38 @@ impl Pruned {
     }
 }
 
-/// A way to reach literals.
+/// Ways to reach literals: what each needs and gives.
+#[derive(Default)]
 struct Nodes {
-    missing: Vec<u32>,
-    effects: Vec<Lit>,
-    effect_ends: Vec<u32>,
-    pairs: Vec<(Lit, u32)>,
+    needs: Rows,
+    gives: Rows,
 }
 
 impl Nodes {
-    fn push(&mut self, conditions: [&[Lit]; 2], effects: &RawEffects) {
-        let node = id32(self.missing.len());
-        let before = self.pairs.len();
-        self.pairs.extend(conditions.into_iter().flatten().map(|&l| (l, node)));
-        self.missing.push(id32(self.pairs.len() - before));
-        self.effects.extend(effects.adds.iter().map(|a| a << 1));
-        self.effects.extend(effects.deletes.iter().map(|a| a << 1 | 1));
-        self.effect_ends.push(id32(self.effects.len()));
+    fn push(
+        &mut self,
+        conditions: [&[Lit]; 2],
+        effects: &RawEffects,
+        watch: &Watch<'_>,
+    ) -> Result<(), Interrupted> {
+        let needs = conditions.into_iter().flatten().copied();
+        let adds = effects.adds.iter().map(|a| a << 1);
+        let gives = adds.chain(effects.deletes.iter().map(|a| a << 1 | 1));
+        self.needs.push(needs);
+        self.gives.push(gives);
+        watch.spend(16 + conditions[0].len() + conditions[1].len() + effects.len())
     }
 }
 
 /// Analyses the raw task. `initial`, `derived`, `exogenous` mark atoms.
-pub(crate) fn prune(raw: &RawTask, initial: &[bool], derived: &[bool], exogenous: &[bool]) -> Pruned {
-    let reached = reachable(raw, initial, derived, exogenous);
+pub(crate) fn prune(
+    raw: &RawTask,
+    initial: &[bool],
+    derived: &[bool],
+    exogenous: &[bool],
+    watch: &Watch<'_>,
+) -> Result<Pruned, Interrupted> {
+    let reached = reachable(raw, initial, derived, exogenous, watch)?;
     let n = raw.atoms as usize;
     let mut pruned = Pruned {
         always: (0..n).map(|a| !derived[a] && !reached[a << 1 | 1]).collect(),
@@ -78,53 +89,67 @@ pub(crate) fn prune(raw: &RawTask, initial: &[bool], derived: &[bool], exogenous
         read: vec![false; raw.numbers.keys.len()],
         measured: vec![false; raw.numbers.keys.len()],
     };
-    loop {
-        let mut changed = false;
-        for (head, body) in &raw.rules {
-            let holds = body.iter().all(|&l| pruned.constant(l) == Some(true));
-            if holds && !pruned.always[*head as usize] && !pruned.never[*head as usize] {
-                pruned.always[*head as usize] = true;
-                changed = true;
-            }
-        }
-        if !changed {
-            break;
-        }
-    }
-    relevance(raw, exogenous, &mut pruned);
-    pruned
+    always_derived(raw, &mut pruned, watch)?;
+    relevance(raw, exogenous, &mut pruned, watch)?;
+    Ok(pruned)
 }
 
-fn reachable(raw: &RawTask, initial: &[bool], derived: &[bool], exogenous: &[bool]) -> Vec<bool> {
-    let mut nodes =
-        Nodes { missing: Vec::new(), effects: Vec::new(), effect_ends: vec![0], pairs: Vec::new() };
+/// Marks what follows by rules from what always holds.
+fn always_derived(raw: &RawTask, pruned: &mut Pruned, watch: &Watch<'_>) -> Result<(), Interrupted> {
+    let mut readers = Rows::default();
+    let mut missing: Vec<usize> = Vec::with_capacity(raw.rules.len());
+    let mut queue: Vec<u32> = Vec::new();
+    for (rule, (_, body)) in (0..).zip(&raw.rules) {
+        watch.spend(16 + 4 * body.len())?;
+        let open = body.iter().filter(|&&l| pruned.constant(l) != Some(true));
+        missing.push(open.clone().count());
+        // A negative literal that is open stays so: atoms only come to hold.
+        readers.push(open.filter(|&&l| l & 1 == 0).map(|l| l >> 1));
+        if missing.last() == Some(&0) {
+            queue.push(rule);
+        }
+    }
+    let readers = readers.transposed(raw.atoms as usize, watch)?;
+    while let Some(rule) = queue.pop() {
+        let head = raw.rules[rule as usize].0;
+        if pruned.never[head as usize] || std::mem::replace(&mut pruned.always[head as usize], true) {
+            continue;
+        }
+        for &reader in readers.row(head) {
+            watch.spend(8)?;
+            missing[reader as usize] -= 1;
+            if missing[reader as usize] == 0 {
+                queue.push(reader);
+            }
+        }
+    }
+    Ok(())
+}
+
+fn reachable(
+    raw: &RawTask,
+    initial: &[bool],
+    derived: &[bool],
+    exogenous: &[bool],
+    watch: &Watch<'_>,
+) -> Result<Vec<bool>, Interrupted> {
+    let mut nodes = Nodes::default();
     let readers = readers(raw);
     for op in &raw.operators {
-        nodes.push([&op.precondition, &[]], &op.effects);
+        nodes.push([&op.precondition, &[]], &op.effects, watch)?;
         for (condition, effects) in &op.conditional {
-            nodes.push([&op.precondition, condition], effects);
+            nodes.push([&op.precondition, condition], effects, watch)?;
         }
         for change in &op.numbers {
-            nodes.push([&op.precondition, &change.condition], &influenced(raw, &readers, change));
+            let influenced = influenced(raw, &readers, change, watch)?;
+            nodes.push([&op.precondition, &change.condition], &influenced, watch)?;
         }
     }
     for (head, body) in &raw.rules {
-        nodes.push([body, &[]], &RawEffects { adds: vec![*head], deletes: Vec::new() });
+        nodes.push([body, &[]], &RawEffects { adds: vec![*head], deletes: Vec::new() }, watch)?;
     }
     let n = raw.atoms as usize;
-    let mut starts = vec![0_u32; 2 * n + 1];
-    for &(l, _) in &nodes.pairs {
-        starts[l as usize + 1] += 1;
-    }
-    for i in 0..2 * n {
-        starts[i + 1] += starts[i];
-    }
-    let mut fill = starts.clone();
-    let mut needed_by = vec![0_u32; nodes.pairs.len()];
-    for &(l, node) in &nodes.pairs {
-        needed_by[fill[l as usize] as usize] = node;
-        fill[l as usize] += 1;
-    }
+    let needed_by = nodes.needs.transposed(2 * n, watch)?;
     let mut reached = vec![false; 2 * n];
     let mut queue: Vec<Lit> = Vec::new();
     let mut reach = |l: Lit, queue: &mut Vec<Lit>| {
@@ -133,6 +158,7 @@ fn reachable(raw: &RawTask, initial: &[bool], derived: &[bool], exogenous: &[boo
         }
     };
     for a in 0..n {
+        watch.spend(4)?;
         let lit = id32(a) << 1;
         if initial[a] || exogenous[a] {
             reach(lit, &mut queue);
@@ -141,38 +167,28 @@ fn reachable(raw: &RawTask, initial: &[bool], derived: &[bool], exogenous: &[boo
             reach(lit | 1, &mut queue);
         }
     }
-    let mut missing = nodes.missing;
-    let effects_of =
-        |node: usize| &nodes.effects[nodes.effect_ends[node] as usize..nodes.effect_ends[node + 1] as usize];
-    for (node, _) in missing.iter().enumerate().filter(|&(_, &m)| m == 0) {
-        effects_of(node).iter().for_each(|&l| reach(l, &mut queue));
+    let mut missing = Vec::with_capacity(nodes.needs.len());
+    for node in 0..id32(nodes.needs.len()) {
+        watch.spend(4)?;
+        let needs = id32(nodes.needs.row(node).len());
+        missing.push(needs);
+        if needs == 0 {
+            nodes.gives.row(node).iter().for_each(|&l| reach(l, &mut queue));
+        }
     }
     while let Some(l) = queue.pop() {
-        for &node in &needed_by[starts[l as usize] as usize..starts[l as usize + 1] as usize] {
-            missing[node as usize] -= 1;
-            if missing[node as usize] == 0 {
-                effects_of(node as usize).iter().for_each(|&l| reach(l, &mut queue));
+        for part in watch.parts(needed_by.row(l), 8) {
+            for &node in part? {
+                missing[node as usize] -= 1;
+                if missing[node as usize] == 0 {
+                    let gives = nodes.gives.row(node);
+                    watch.spend(4 * gives.len())?;
+                    gives.iter().for_each(|&l| reach(l, &mut queue));
+                }
             }
         }
     }
-    reached
-}
-
-/// The pairs in order of their first halves, otherwise as they were, without neighbours that are equal.
-fn grouped(pairs: &[(u32, u32)]) -> Vec<(u32, u32)> {
-    let most = pairs.iter().map(|p| p.0 as usize).max().unwrap_or(0);
-    let mut at = vec![0_u32; most + 2];
-    pairs.iter().for_each(|p| at[p.0 as usize + 1] += 1);
-    for i in 0..=most {
-        at[i + 1] += at[i];
-    }
-    let mut sorted = vec![(0, 0); pairs.len()];
-    for &pair in pairs {
-        sorted[at[pair.0 as usize] as usize] = pair;
-        at[pair.0 as usize] += 1;
-    }
-    sorted.dedup();
-    sorted
+    Ok(reached)
 }
 
 /// By numeric fluent: positions of the comparisons that read it.
@@ -185,9 +201,15 @@ fn readers(raw: &RawTask) -> Vec<Vec<u32>> {
 }
 
 /// The comparisons that a change may make true and false.
-fn influenced(raw: &RawTask, readers: &[Vec<u32>], change: &RawChange) -> RawEffects {
+fn influenced(
+    raw: &RawTask,
+    readers: &[Vec<u32>],
+    change: &RawChange,
+    watch: &Watch<'_>,
+) -> Result<RawEffects, Interrupted> {
     let mut effects = RawEffects::default();
     for &position in &readers[change.fluent as usize] {
+        watch.spend(64)?;
         let (atom, comparison) = &raw.numbers.atoms[position as usize];
         let compared = (comparison.relation, &comparison.expression);
         let influence = Influence::of(compared, &change.fluent, change.change, change.value.as_ref());
@@ -198,11 +220,16 @@ fn influenced(raw: &RawTask, readers: &[Vec<u32>], change: &RawChange) -> RawEff
             effects.deletes.push(*atom);
         }
     }
-    effects
+    Ok(effects)
 }
 
 /// Marks what the metric reads, directly or through effects; gives the changes of that.
-fn measured<'r>(raw: &'r RawTask, changed_by: &[(u32, u32)], pruned: &mut Pruned) -> Vec<&'r RawChange> {
+fn measured<'r>(
+    raw: &'r RawTask,
+    changed_by: &Rows,
+    pruned: &mut Pruned,
+    watch: &Watch<'_>,
+) -> Result<Vec<&'r RawChange>, Interrupted> {
     let mut queue = Vec::new();
     let mark = |expression: &Expression<u32>, pruned: &mut Pruned, queue: &mut Vec<u32>| {
         expression.each_fluent(&mut |&fluent| {
@@ -214,34 +241,45 @@ fn measured<'r>(raw: &'r RawTask, changed_by: &[(u32, u32)], pruned: &mut Pruned
     let mut changes = Vec::new();
     raw.metric.iter().for_each(|metric| mark(metric, pruned, &mut queue));
     while let Some(fluent) = queue.pop() {
-        let of = raw.atoms + fluent;
-        let from = changed_by.partition_point(|&(a, _)| a < of);
-        for &(_, i) in changed_by[from..].iter().take_while(|&&(a, _)| a == of) {
+        for &i in changed_by.row(raw.atoms + fluent) {
+            watch.spend(64)?;
             for change in raw.operators[i as usize].numbers.iter().filter(|c| c.fluent == fluent) {
                 change.value.iter().for_each(|value| mark(value, pruned, &mut queue));
                 changes.push(change);
             }
         }
     }
-    changes
+    Ok(changes)
 }
 
-fn relevance(raw: &RawTask, exogenous: &[bool], pruned: &mut Pruned) {
-    // By atom: the operators that change it and the rules that derive it (numbered after them).
-    let n = raw.atoms as usize;
-    let operators = raw.operators.len();
-    let mut changed_by: Vec<(u32, u32)> = Vec::new();
-    for (i, op) in raw.operators.iter().enumerate() {
-        for effects in std::iter::once(&op.effects).chain(op.conditional.iter().map(|(_, e)| e)) {
-            changed_by.extend(effects.adds.iter().chain(&effects.deletes).map(|&a| (a, id32(i))));
+/// By atom, and after the atoms by numeric fluent: the operators that change it and the rules that derive
+/// it (numbered after them).
+fn changed_by(raw: &RawTask, watch: &Watch<'_>) -> Result<Rows, Interrupted> {
+    let mut changes = Rows::default();
+    for op in &raw.operators {
+        let all = || std::iter::once(&op.effects).chain(op.conditional.iter().map(|(_, e)| e));
+        watch.spend(16 + 8 * all().map(RawEffects::len).sum::<usize>() + 8 * op.numbers.len())?;
+        let atoms = all().flat_map(|e| e.adds.iter().chain(&e.deletes).copied());
+        let fluents = op.numbers.iter().map(|change| raw.atoms + change.fluent);
+        if op.conditional.is_empty() && op.numbers.is_empty() {
+            changes.push(atoms);
+        } else {
+            changes.push_sorted(atoms.chain(fluents));
         }
     }
-    changed_by.extend(raw.rules.iter().enumerate().map(|(i, (head, _))| (*head, id32(operators + i))));
-    // Numeric fluents come after the atoms.
-    for (i, op) in raw.operators.iter().enumerate() {
-        changed_by.extend(op.numbers.iter().map(|change| (raw.atoms + change.fluent, id32(i))));
-    }
-    let changed_by = grouped(&changed_by);
+    raw.rules.iter().for_each(|(head, _)| changes.push([*head]));
+    changes.transposed(raw.atoms as usize + raw.numbers.keys.len(), watch)
+}
+
+fn relevance(
+    raw: &RawTask,
+    exogenous: &[bool],
+    pruned: &mut Pruned,
+    watch: &Watch<'_>,
+) -> Result<(), Interrupted> {
+    let n = raw.atoms as usize;
+    let operators = raw.operators.len();
+    let changed_by = changed_by(raw, watch)?;
     let mut compared: Vec<Option<&Comparison<u32>>> = vec![None; n];
     raw.numbers.atoms.iter().for_each(|(atom, comparison)| compared[*atom as usize] = Some(comparison));
     let mut queue: Vec<u32> = Vec::new();
@@ -261,10 +299,12 @@ fn relevance(raw: &RawTask, exogenous: &[bool], pruned: &mut Pruned) {
     for &l in &raw.goal {
         need(l, pruned, &mut queue);
     }
-    for change in measured(raw, &changed_by, pruned) {
+    for change in measured(raw, &changed_by, pruned, watch)? {
+        watch.spend(8 + change.condition.len())?;
         change.condition.iter().for_each(|&l| need(l, pruned, &mut queue));
     }
     for a in (0..n).filter(|&a| exogenous[a]) {
+        watch.spend(8)?;
         need(id32(a) << 1, pruned, &mut queue);
     }
     let mut seen = vec![false; operators + raw.rules.len()];
@@ -272,16 +312,17 @@ fn relevance(raw: &RawTask, exogenous: &[bool], pruned: &mut Pruned) {
         if let Some(comparison) = compared.get(atom as usize).copied().flatten() {
             read(&comparison.expression, pruned, &mut queue);
         }
-        let from = changed_by.partition_point(|&(a, _)| a < atom);
-        for &(_, i) in changed_by[from..].iter().take_while(|&&(a, _)| a == atom) {
+        for &i in changed_by.row(atom) {
             let i = i as usize;
             let Some(op) = raw.operators.get(i) else {
                 let (_, body) = &raw.rules[i - operators];
+                watch.spend(8 + 4 * body.len())?;
                 if !pruned.is_refuted(body) {
                     body.iter().for_each(|&l| need(l, pruned, &mut queue));
                 }
                 continue;
             };
+            watch.spend(16 + 4 * op.precondition.len())?;
             if pruned.is_refuted(&op.precondition) {
                 continue;
             }
@@ -289,12 +330,14 @@ fn relevance(raw: &RawTask, exogenous: &[bool], pruned: &mut Pruned) {
                 op.precondition.iter().for_each(|&l| need(l, pruned, &mut queue));
             }
             for change in op.numbers.iter().filter(|c| raw.atoms + c.fluent == atom) {
+                watch.spend(16 + 4 * change.condition.len())?;
                 if !pruned.is_refuted(&change.condition) {
                     change.condition.iter().for_each(|&l| need(l, pruned, &mut queue));
                     change.value.iter().for_each(|value| read(value, pruned, &mut queue));
                 }
             }
             for (condition, effects) in &op.conditional {
+                watch.spend(8 + 4 * condition.len() + effects.len())?;
                 let touches = effects.adds.contains(&atom) || effects.deletes.contains(&atom);
                 if touches && !pruned.is_refuted(condition) {
                     condition.iter().for_each(|&l| need(l, pruned, &mut queue));
@@ -302,4 +345,5 @@ fn relevance(raw: &RawTask, exogenous: &[bool], pruned: &mut Pruned) {
             }
         }
     }
+    Ok(())
 }

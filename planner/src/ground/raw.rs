@@ -18,6 +18,7 @@ use super::schema::{Product, Schema, SchemaEffect};
 use super::values::ValuePredicates;
 use crate::ids::id32;
 use crate::number::Expression;
+use crate::watch::{Interrupted, Watch};
 use pddl::model::{ActionId, Name, ObjectId, VariableId};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
@@ -30,6 +31,12 @@ const COPIES: usize = 4;
 pub(crate) struct RawEffects {
     pub(crate) adds: Vec<u32>,
     pub(crate) deletes: Vec<u32>,
+}
+
+impl RawEffects {
+    pub(crate) fn len(&self) -> usize {
+        self.adds.len() + self.deletes.len()
+    }
 }
 
 /// Condition, whether it adds, atom.
@@ -48,11 +55,16 @@ pub(crate) struct RawOperator {
 }
 
 impl RawOperator {
+    /// Units of work to look at all of it once.
+    pub(crate) fn work(&self) -> usize {
+        let conditional: usize = self.conditional.iter().map(|(c, e)| 64 + 8 * (c.len() + e.len())).sum();
+        128 + 8 * (self.precondition.len() + self.effects.len()) + 256 * self.numbers.len() + conditional
+    }
+
     /// Bytes that it takes until the task is done.
     fn bytes(&self) -> usize {
-        let changes = |e: &RawEffects| e.adds.len() + e.deletes.len();
-        let conditional: usize = self.conditional.iter().map(|(c, e)| 4 + c.len() + changes(e)).sum();
-        budget::instance(self.arguments.len(), self.precondition.len() + changes(&self.effects) + conditional)
+        let conditional: usize = self.conditional.iter().map(|(c, e)| 4 + c.len() + e.len()).sum();
+        budget::instance(self.arguments.len(), self.precondition.len() + self.effects.len() + conditional)
     }
 }
 
@@ -78,6 +90,14 @@ pub(crate) enum Failure {
     Ground(GroundError),
     /// Costs are no sum: an operator improves the metric.
     NegativeCost,
+    /// The caller's interruption came first.
+    Interrupted,
+}
+
+impl From<Interrupted> for Failure {
+    fn from(_: Interrupted) -> Self {
+        Self::Interrupted
+    }
 }
 
 impl From<GroundError> for Failure {
@@ -96,9 +116,9 @@ pub(crate) fn instantiate(
     (costs, fluents): (&CostModel, &Fluents),
     values: &ValuePredicates,
     goal: (&Formula, &[std::sync::Arc<super::universe::Range>]),
-    options: &GroundOptions<'_>,
+    (options, watch): (&GroundOptions<'_>, &Watch<'_>),
 ) -> Result<RawTask, Failure> {
-    let mut work = Instantiator::new(&reached.table, is_static, exclusions, fluents, options);
+    let mut work = Instantiator::new(&reached.table, is_static, exclusions, fluents, (options, watch));
     let mut operators = Vec::new();
     let mut bytes = 0;
     let mut rules = Vec::new();
@@ -106,9 +126,6 @@ pub(crate) fn instantiate(
         let mut binding = vec![0; schema.slots.len()];
         let mut seen = FxHashSet::default();
         for row in 0..bindings.rows {
-            if row.is_multiple_of(1024) && (options.interrupted)() {
-                return Err(GroundError::Interrupted { schema: schema.name.clone() }.into());
-            }
             if bytes > options.bytes() {
                 return Err(stopped(Stop::Memory, schema, bindings.rows).into());
             }
@@ -142,7 +159,7 @@ pub(crate) fn instantiate(
                     if let Some(stop) = work.guard.stopped() {
                         return Err(stopped(stop, schema, bindings.rows).into());
                     }
-                    let mut clashes = clashes(work.table, values, &all);
+                    let mut clashes = clashes(&work, values, &all);
                     let Some(changes) = changes(&mut work, schema, numbers, &mut binding, &mut clashes)
                     else {
                         continue;
@@ -277,8 +294,9 @@ fn expand(
     found
 }
 
-/// Conditions under which an object fluent would get two values at once.
-fn clashes(table: &AtomTable, values: &ValuePredicates, effects: &[GroundEffect]) -> Vec<Vec<Lit>> {
+/// Conditions under which an object fluent would get two values at once; none where the guard stops.
+fn clashes(work: &Instantiator<'_>, values: &ValuePredicates, effects: &[GroundEffect]) -> Vec<Vec<Lit>> {
+    let table = work.table;
     let given = |(condition, positive, atom): &GroundEffect| {
         let is_value = *positive && values.function(table.predicate(*atom)).is_some();
         is_value.then(|| (condition.clone(), *atom))
@@ -287,6 +305,9 @@ fn clashes(table: &AtomTable, values: &ValuePredicates, effects: &[GroundEffect]
     let mut found = Vec::new();
     for (i, (first, a)) in given.iter().enumerate() {
         for (second, b) in &given[i + 1..] {
+            if !work.guard.look() {
+                return Vec::new();
+            }
             if are_rivals(table, values, *a, *b) {
                 found.extend(consistent(first.iter().chain(second).copied().collect()));
             }

@@ -16,6 +16,7 @@ use crate::heuristics::repetitions::Repetitions;
 use crate::ids::id32;
 use crate::search::{Job, Meter};
 use crate::task::{ALONE, AXIOM, Relaxation, Way};
+use crate::watch::CHUNK;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -88,16 +89,18 @@ impl<'a> Explorer<'a> {
         counting: Counting,
     ) -> Self {
         let barred = job.barred;
-        let template: Vec<Node> = (0..graph.nodes())
-            .map(|n| {
-                let operator = graph.operator[n];
-                let cost = if operator == AXIOM { 0 } else { costs.of(graph.cost[n]) };
-                let missing = id32(graph.preconditions.row(id32(n)).len());
-                // A barred node waits for a precondition that never comes.
-                let extra = u32::from(operator != AXIOM && barred.contains_number(operator));
-                Node { cost, missing: missing + extra }
-            })
-            .collect();
+        let mut template = vec![Node { cost: 0, missing: 0 }; graph.nodes()];
+        for (n, node) in template.iter_mut().enumerate() {
+            // What is not filled in when the meter is stopped is not explored.
+            if n.is_multiple_of(CHUNK) && job.meter.spend(8 * CHUNK) {
+                break;
+            }
+            let operator = graph.operator[n];
+            node.cost = if operator == AXIOM { 0 } else { costs.of(graph.cost[n]) };
+            let missing = id32(graph.preconditions.row(id32(n)).len());
+            // A barred node waits for a precondition that never comes.
+            node.missing = missing + u32::from(operator != AXIOM && barred.contains_number(operator));
+        }
         let repetitions = match counting {
             Counting::Once => None,
             Counting::Repetitions => Repetitions::new(graph, &job.task.numeric),
@@ -192,8 +195,10 @@ impl<'a> Explorer<'a> {
     /// Settles propositions from the state until the whole goal is settled (or all, without goals).
     /// Answers whether the goal was reached; where the meter is stopped, that is not to be believed.
     pub(crate) fn explore(&mut self, words: &[u64]) -> bool {
+        if self.meter.spend((self.nodes.len() + self.cost.len()) / 8) {
+            return false;
+        }
         self.reset();
-        self.meter.spend((self.nodes.len() + self.cost.len()) / 8);
         let graph = self.graph;
         graph.for_each_true(words, |p| self.offer(p, 0, UNREACHED));
         for &node in &graph.free {

@@ -35,7 +35,11 @@ impl<'a> LmCut<'a> {
             meter: job.meter,
             explorer: Explorer::on(graph, job, Vec::new(), costs, Combine::Max, Counting::Once),
             goal: graph.literals(&job.goal.literals),
-            achieved_by: graph.effects.transposed(graph.propositions()),
+            // Nobody reads it once the meter is stopped.
+            achieved_by: graph
+                .effects
+                .transposed(graph.propositions(), job.meter)
+                .unwrap_or_else(|_| Rows::empty(graph.propositions())),
             costs: job.task.operators.iter().map(|o| costs.of(o.cost)).collect(),
             remaining: Vec::new(),
             dearest: vec![UNREACHED; graph.nodes()],

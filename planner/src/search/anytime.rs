@@ -91,7 +91,7 @@ pub fn improve(
             .run(offer(&Plan { operators: Vec::new(), cost: u64::MAX }), &mut |plan| offer(&plan))
     };
     let search = || {
-        let mut better = |plan: &Plan| drop(offer(&without_needless(task, query, plan)));
+        let mut better = |plan: &Plan| drop(offer(&without_needless(task, query, plan, budget.interrupted)));
         let sink = Sink::Better(&mut better);
         portfolio::run(task, query, &[(Engine::Improving, 1)], Threads::One, &bound, &rest, sink)
     };

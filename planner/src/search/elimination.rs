@@ -13,8 +13,13 @@ use crate::task::Task;
 /// Words copied, at most.
 const WORK: usize = 1 << 23;
 
-/// The plan without what it does not need.
-pub(crate) fn without_needless(task: &Task, query: &Query<'_>, plan: &Plan) -> Plan {
+/// The plan without what it does not need, as far as that is known when the caller interrupts.
+pub(crate) fn without_needless(
+    task: &Task,
+    query: &Query<'_>,
+    plan: &Plan,
+    interrupted: &dyn Fn() -> bool,
+) -> Plan {
     let n = plan.operators.len();
     if n * n * (task.words_per_state() + 8) / 2 > WORK {
         return plan.clone();
@@ -23,7 +28,7 @@ pub(crate) fn without_needless(task: &Task, query: &Query<'_>, plan: &Plan) -> P
     let mut state = query.state.words().to_vec();
     let mut next = state.clone();
     let mut i = 0;
-    while i < kept.len() {
+    while i < kept.len() && !interrupted() {
         if let Some(shorter) = left_out(task, query, &state, &kept[i..]) {
             kept.truncate(i);
             kept.extend(shorter);

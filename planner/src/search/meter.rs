@@ -8,6 +8,7 @@
 //! believed.
 
 use super::{Budget, Limit};
+use crate::watch::{Interrupted, Spend};
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering::Relaxed};
 
 /// Units of work between two questions to the caller: well under a millisecond.
@@ -49,6 +50,12 @@ pub(crate) enum Signal {
     Go,
     Pause,
     Stop(Limit),
+}
+
+impl Spend for Meter<'_> {
+    fn try_spend(&self, units: usize) -> Result<(), Interrupted> {
+        if self.spend(units) { Err(Interrupted) } else { Ok(()) }
+    }
 }
 
 impl<'a> Meter<'a> {

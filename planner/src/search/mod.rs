@@ -80,7 +80,7 @@ pub fn solve(
     if let Outcome::Solved(plan) = &mut report.outcome
         && !configuration.optimal
     {
-        *plan = elimination::without_needless(task, query, plan);
+        *plan = elimination::without_needless(task, query, plan, budget.interrupted);
     }
     report
 }

@@ -152,7 +152,8 @@ impl Repair<'_> {
         let mut work = Work { repair: self, budget, statistics: Statistics::default() };
         let outcome = match work.reused() {
             Some(operators) => {
-                Outcome::Solved(without_needless(self.task, &self.query, &Plan::of(self.task, operators)))
+                let plan = Plan::of(self.task, operators);
+                Outcome::Solved(without_needless(self.task, &self.query, &plan, budget.interrupted))
             }
             None if (budget.interrupted)() => Outcome::LimitReached(Limit::Interrupted),
             None => Outcome::LimitReached(Limit::Incomplete),

@@ -12,6 +12,7 @@
 
 use super::{Fact, Literals, Rows, contains, for_each_set, set, unset};
 use crate::ids::{FactId, id32};
+use crate::watch::{Interrupted, Watch, sort_by_count};
 use pddl::model::{Idx, IndexVec};
 
 /// `head` holds where `body` does.
@@ -43,21 +44,39 @@ pub(crate) struct AxiomProgram {
     followers: Rows,
 }
 
-/// A derived fact that depends on its own negation.
+/// Why there is no order of evaluation.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct NotStratified(pub(crate) FactId);
+pub(crate) enum NoProgram {
+    /// A derived fact depends on its own negation.
+    NotStratified(FactId),
+    Interrupted,
+}
+
+impl From<Interrupted> for NoProgram {
+    fn from(_: Interrupted) -> Self {
+        Self::Interrupted
+    }
+}
 
 impl AxiomProgram {
-    pub(crate) fn new(facts: &IndexVec<FactId, Fact>, rules: Vec<AxiomRule>) -> Result<Self, NotStratified> {
-        let order = components(facts, &rules);
+    pub(crate) fn new(
+        facts: &IndexVec<FactId, Fact>,
+        rules: Vec<AxiomRule>,
+        watch: &Watch<'_>,
+    ) -> Result<Self, NoProgram> {
+        let order = components(facts, &rules, watch)?;
         let mut component_of = vec![usize::MAX; facts.len()];
         for (i, members) in order.iter().enumerate() {
             for m in members {
                 component_of[m.index()] = i;
             }
         }
-        let mut sorted = rules;
-        sorted.sort_by_key(|r| component_of[r.head.index()]);
+        let places: Vec<u32> = (0..id32(rules.len())).collect();
+        let component = |rule: u32| component_of[rules[rule as usize].head.index()];
+        let places = sort_by_count(&places, order.len(), watch, component)?;
+        let mut rules: Vec<Option<AxiomRule>> = rules.into_iter().map(Some).collect();
+        let take = |place: &u32| rules[*place as usize].take().expect("each has one place");
+        let sorted: Vec<AxiomRule> = places.iter().map(take).collect();
         let mut built = Vec::new();
         let mut start = 0;
         while start < sorted.len() {
@@ -65,8 +84,9 @@ impl AxiomProgram {
             let end = start + sorted[start..].partition_point(|r| component_of[r.head.index()] == component);
             let own = |f: &FactId| component_of[f.index()] == component;
             for rule in &sorted[start..end] {
+                watch.spend(16 + 4 * rule.body.len())?;
                 if let Some(&f) = rule.body.negative.iter().find(|f| own(f)) {
-                    return Err(NotStratified(f));
+                    return Err(NoProgram::NotStratified(f));
                 }
             }
             let recursive = sorted[start..end].iter().any(|r| r.body.positive.iter().any(own));
@@ -75,12 +95,12 @@ impl AxiomProgram {
             start = end;
         }
         let mut program = Self { rules: sorted, components: built, ..Self::default() };
-        program.index(facts.len(), &component_of);
+        program.index(facts.len(), &component_of, watch)?;
         Ok(program)
     }
 
     /// Notes who reads what.
-    fn index(&mut self, facts: usize, component_of: &[usize]) {
+    fn index(&mut self, facts: usize, component_of: &[usize], watch: &Watch<'_>) -> Result<(), Interrupted> {
         self.read = vec![0; facts.div_ceil(64)];
         let (mut reads, mut needs) = (Rows::default(), Rows::default());
         for component in &self.components {
@@ -88,6 +108,7 @@ impl AxiomProgram {
             let own = component_of[component.heads[0].index()];
             let mut outside: Vec<u32> = Vec::new();
             for rule in rules {
+                watch.spend(64 + 8 * rule.body.len())?;
                 let (inside, others): (Vec<FactId>, Vec<FactId>) =
                     rule.body.positive.iter().partition(|f| component_of[f.index()] == own);
                 needs.push(inside.into_iter().map(|f| f.0));
@@ -98,8 +119,9 @@ impl AxiomProgram {
             outside.iter().for_each(|&f| set(&mut self.read, FactId(f)));
             reads.push(outside);
         }
-        self.readers = reads.transposed(facts);
-        self.followers = needs.transposed(facts);
+        self.readers = reads.transposed(facts, watch)?;
+        self.followers = needs.transposed(facts, watch)?;
+        Ok(())
     }
 
     pub(crate) fn rules(&self) -> &[AxiomRule] {
@@ -175,10 +197,15 @@ impl AxiomProgram {
 }
 
 /// Strongly connected components of the derived facts, dependencies first (Tarjan, iterative).
-fn components(facts: &IndexVec<FactId, Fact>, rules: &[AxiomRule]) -> Vec<Vec<FactId>> {
+fn components(
+    facts: &IndexVec<FactId, Fact>,
+    rules: &[AxiomRule],
+    watch: &Watch<'_>,
+) -> Result<Vec<Vec<FactId>>, Interrupted> {
     let n = facts.len();
     let mut below: Vec<Vec<u32>> = vec![Vec::new(); n];
     for rule in rules {
+        watch.spend(8 + 4 * rule.body.len())?;
         let body = rule.body.positive.iter().chain(rule.body.negative.iter());
         below[rule.head.index()].extend(body.filter(|&&f| facts[f].derived).map(|f| f.0));
     }
@@ -197,6 +224,7 @@ fn components(facts: &IndexVec<FactId, Fact>, rules: &[AxiomRule]) -> Vec<Vec<Fa
                 stack.push(v);
                 on_stack[v] = true;
             }
+            watch.spend(8)?;
             if let Some(&w) = below[v].get(*edge) {
                 *edge += 1;
                 let w = w as usize;
@@ -224,7 +252,7 @@ fn components(facts: &IndexVec<FactId, Fact>, rules: &[AxiomRule]) -> Vec<Vec<Fa
             }
         }
     }
-    found
+    Ok(found)
 }
 
 #[cfg(test)]
@@ -289,7 +317,7 @@ mod tests {
                 head: FactId(*head),
                 body: Literals { positive: literals(positive), negative: literals(negative) },
             });
-            let program = AxiomProgram::new(&facts, built.collect()).unwrap();
+            let program = AxiomProgram::new(&facts, built.collect(), &crate::watch::Watch::new(&|| false)).unwrap();
             let mut before = [0_u64];
             program.close(&mut before);
             prop_assert_eq!(before[0], by_definition(&rules, 0));

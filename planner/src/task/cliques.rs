@@ -11,22 +11,24 @@
 
 use super::relaxation::Relaxation;
 use crate::ids::id32;
+use crate::watch::{Interrupted, Watch};
 use rustc_hash::FxHashMap;
 
 /// A proposition without a clique.
 pub(crate) const ALONE: u32 = u32::MAX;
 
 /// The clique of each proposition, or [`ALONE`], and how many cliques there are.
-pub(super) fn cliques(graph: &Relaxation) -> (Vec<u32>, usize) {
+pub(super) fn cliques(graph: &Relaxation, watch: &Watch<'_>) -> Result<(Vec<u32>, usize), Interrupted> {
     let mut of = vec![ALONE; graph.propositions()];
     if !graph.ways.is_empty() {
         // Comparisons of numbers have costs of their own.
-        return (of, 0);
+        return Ok((of, 0));
     }
     let mut known: FxHashMap<((bool, u32), Vec<u32>), u32> = FxHashMap::default();
     let mut first: Vec<u32> = Vec::new();
     for p in 0..id32(graph.propositions()) {
         let (_, moves) = graph.waiting_and_moves(p);
+        watch.spend(8 + 64 * moves.len())?;
         let Some(price) = moves.first().map(|&n| graph.price(n)) else { continue };
         if moves.iter().any(|&n| graph.price(n) != price) {
             continue;
@@ -49,7 +51,7 @@ pub(super) fn cliques(graph: &Relaxation) -> (Vec<u32>, usize) {
             *clique = ALONE;
         }
     }
-    (of, first.len())
+    Ok((of, first.len()))
 }
 
 #[cfg(test)]

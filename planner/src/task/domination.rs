@@ -11,14 +11,18 @@
 //!
 //! Source: Helmert, "The Fast Downward planning system", JAIR 2006, simplification of unary operators.
 
+use super::Rows;
 use super::relaxation::Relaxation;
 use crate::ids::id32;
+use crate::watch::{Interrupted, Spend, Watch, sort_by_count};
+use rustc_hash::FxHashMap;
 
 /// Kept achievers looked at, for each achiever of a proposition on average.
 const LOOKS: usize = 64;
 
 struct Work<'g> {
     graph: &'g Relaxation,
+    watch: &'g Watch<'g>,
     /// Kept achievers of the current proposition, by their rarest need.
     by_need: Vec<Vec<u32>>,
     touched: Vec<u32>,
@@ -29,62 +33,90 @@ struct Work<'g> {
 }
 
 /// The undominated part of `graph`.
-pub(crate) fn undominated(graph: &Relaxation) -> Relaxation {
-    let achievers = graph.effects.transposed(graph.propositions());
-    let mut kept: Vec<Vec<u32>> = vec![Vec::new(); graph.nodes()];
+pub(crate) fn undominated(graph: &Relaxation, watch: &Watch<'_>) -> Result<Relaxation, Interrupted> {
+    let order = by_needs_and_price(graph, watch)?;
+    let achievers = graph.effects.transposed_in(order.into_iter(), graph.propositions(), watch)?;
+    let mut kept = Rows::default();
     let mut work = Work {
         graph,
+        watch,
         by_need: vec![Vec::new(); graph.propositions()],
         touched: Vec::new(),
         free: Vec::new(),
         mark: vec![u32::MAX; graph.propositions()],
     };
+    let mut undominated = Vec::new();
     for proposition in 0..id32(graph.propositions()) {
+        let candidates = achievers.row(proposition);
         if graph.ways.comparison(proposition).is_some() {
-            achievers.row(proposition).iter().for_each(|&node| kept[node as usize].push(proposition));
+            kept.push(candidates.iter().copied());
             continue;
         }
-        let mut candidates = achievers.row(proposition).to_vec();
-        candidates.sort_by_key(|&n| (graph.preconditions.row(n).len(), graph.price(n), n));
         let mut looks = LOOKS * candidates.len();
-        for node in candidates {
-            if !work.is_dominated(node, proposition, &mut looks) {
-                kept[node as usize].push(proposition);
+        undominated.clear();
+        for &node in candidates {
+            if !work.is_dominated(node, proposition, &mut looks)? {
+                undominated.push(node);
                 work.keep(node);
             }
         }
+        kept.push(undominated.iter().copied());
         work.clear();
     }
-    graph.with_effects(&kept)
+    graph.with_effects(&kept.transposed(graph.nodes(), watch)?, watch)
+}
+
+/// The nodes: those with few needs first, then the cheap ones.
+fn by_needs_and_price(graph: &Relaxation, watch: &Watch<'_>) -> Result<Vec<u32>, Interrupted> {
+    let nodes: Vec<u32> = (0..id32(graph.nodes())).collect();
+    let mut ranks: FxHashMap<(bool, u32), usize> = FxHashMap::default();
+    let mut most = 0;
+    for part in watch.parts(&nodes, 8) {
+        for &node in part? {
+            ranks.entry(graph.price(node)).or_insert(0);
+            most = most.max(graph.preconditions.row(node).len());
+        }
+    }
+    let mut prices: Vec<(bool, u32)> = ranks.keys().copied().collect();
+    prices.sort_unstable();
+    prices.iter().enumerate().for_each(|(rank, price)| *ranks.entry(*price).or_default() = rank);
+    let cheap = match prices.len() {
+        0 | 1 => nodes,
+        different => sort_by_count(&nodes, different, watch, |node| ranks[&graph.price(node)])?,
+    };
+    sort_by_count(&cheap, most + 1, watch, |node| graph.preconditions.row(node).len())
 }
 
 impl Work<'_> {
-    fn is_dominated(&mut self, node: u32, proposition: u32, looks: &mut usize) -> bool {
+    fn is_dominated(&mut self, node: u32, proposition: u32, looks: &mut usize) -> Result<bool, Interrupted> {
         let graph = self.graph;
         let needs = graph.preconditions.row(node);
+        self.watch.spend(16 + 4 * needs.len())?;
         for &p in needs {
             self.mark[p as usize] = node;
         }
         if needs.contains(&proposition) {
-            return true;
+            return Ok(true);
         }
         let price = graph.price(node);
-        if self.free.iter().any(|&other| graph.price(other) <= price) {
-            return true;
+        // In order of their price: the first is the cheapest.
+        if self.free.first().is_some_and(|&other| graph.price(other) <= price) {
+            return Ok(true);
         }
         for &p in needs {
             for &other in &self.by_need[p as usize] {
                 if *looks == 0 {
-                    return false;
+                    return Ok(false);
                 }
                 *looks -= 1;
-                let all = graph.preconditions.row(other).iter().all(|&q| self.mark[q as usize] == node);
-                if all && graph.price(other) <= price {
-                    return true;
+                let row = graph.preconditions.row(other);
+                self.watch.spend(8 + row.len())?;
+                if row.iter().all(|&q| self.mark[q as usize] == node) && graph.price(other) <= price {
+                    return Ok(true);
                 }
             }
         }
-        false
+        Ok(false)
     }
 
     fn keep(&mut self, node: u32) {

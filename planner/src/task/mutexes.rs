@@ -10,6 +10,7 @@
 
 use super::{Operator, Rows, State, contains};
 use crate::ids::{FactId, OperatorId, id32};
+use crate::watch::{Interrupted, Watch};
 use pddl::model::{Idx, IndexVec};
 
 /// The groups.
@@ -30,16 +31,24 @@ impl Mutexes {
         groups: &[Vec<u32>],
         operators: &IndexVec<OperatorId, Operator>,
         initial: &State,
-    ) -> Self {
+        watch: &Watch<'_>,
+    ) -> Result<Self, Interrupted> {
         let mut rows = Rows::default();
-        groups.iter().for_each(|g| rows.push(g.iter().copied()));
-        let of = rows.transposed(facts);
+        for group in groups {
+            watch.spend(8 + 4 * group.len())?;
+            rows.push(group.iter().copied());
+        }
+        let of = rows.transposed(facts, watch)?;
         let one = |group: &Vec<u32>| group.iter().filter(|&&f| initial.contains(FactId(f))).count() == 1;
         let mut mutexes = Self { groups: rows, of, exact: groups.iter().map(one).collect() };
         if !groups.is_empty() {
-            operators.iter().for_each(|o| mutexes.leave(o));
+            for operator in operators {
+                let (deletes, adds) = (operator.deletes.len(), operator.adds.len());
+                watch.spend(16 + 8 * deletes * (1 + adds) + 16 * operator.conditional.len())?;
+                mutexes.leave(operator);
+            }
         }
-        mutexes
+        Ok(mutexes)
     }
 
     /// Notes the groups of which no fact may hold after the operator.

@@ -11,64 +11,11 @@
 //! Source: Hoffmann & Nebel, "The FF planning system", JAIR 2001, §3; negations as in Helmert 2006.
 
 use super::cliques::cliques;
-use super::{AxiomProgram, Fact, Goal, Literals, Numeric, Operator, Way, Ways, contains, for_each_set};
+use super::{AxiomProgram, Fact, Goal, Literals, Numeric, Operator, Rows, Way, Ways, contains, for_each_set};
 use crate::ids::{FactId, OperatorId, id32};
+use crate::watch::{Interrupted, Watch, sort_by_count};
 use pddl::model::{Idx, IndexVec};
 use rustc_hash::FxHashMap;
-
-/// Rows of `u32` behind each other.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Rows {
-    starts: Vec<u32>,
-    items: Vec<u32>,
-}
-
-impl Rows {
-    pub(crate) fn push(&mut self, row: impl IntoIterator<Item = u32>) {
-        if self.starts.is_empty() {
-            self.starts.push(0);
-        }
-        self.items.extend(row);
-        self.starts.push(id32(self.items.len()));
-    }
-
-    pub(crate) fn row(&self, i: u32) -> &[u32] {
-        &self.items[self.range(i)]
-    }
-
-    /// The positions of a row among all items.
-    pub(crate) fn range(&self, i: u32) -> std::ops::Range<usize> {
-        self.starts[i as usize] as usize..self.starts[i as usize + 1] as usize
-    }
-
-    pub(crate) fn item(&self, position: usize) -> u32 {
-        self.items[position]
-    }
-
-    fn len(&self) -> usize {
-        self.starts.len().saturating_sub(1)
-    }
-
-    /// For each of `n` items, the rows that hold it.
-    pub(crate) fn transposed(&self, n: usize) -> Self {
-        let mut starts = vec![0_u32; n + 1];
-        for &item in &self.items {
-            starts[item as usize + 1] += 1;
-        }
-        for i in 0..n {
-            starts[i + 1] += starts[i];
-        }
-        let mut fill = starts.clone();
-        let mut items = vec![0; self.items.len()];
-        for row in 0..self.len() {
-            for &item in self.row(id32(row)) {
-                items[fill[item as usize] as usize] = id32(row);
-                fill[item as usize] += 1;
-            }
-        }
-        Self { starts, items }
-    }
-}
 
 /// No operator: an axiom's node.
 pub(crate) const AXIOM: u32 = u32::MAX;
@@ -113,7 +60,8 @@ impl Relaxation {
         axioms: &AxiomProgram,
         numeric: &Numeric,
         goal: &Goal,
-    ) -> Self {
+        watch: &Watch<'_>,
+    ) -> Result<Self, Interrupted> {
         let mut graph = Self { facts: facts.len(), negation: vec![0; facts.len()], ..Self::default() };
         let conditions = operators.iter().flat_map(|o| {
             let updates = o.numeric.iter().flat_map(|e| e.updates.iter());
@@ -121,6 +69,7 @@ impl Relaxation {
             std::iter::once(&o.precondition).chain(conditional).chain(updates.map(|u| &u.condition))
         });
         for literals in conditions.chain(axioms.rules().iter().map(|r| &r.body)).chain([&goal.literals]) {
+            watch.spend(8 + literals.negative.len())?;
             for &f in &literals.negative {
                 if graph.negation[f.index()] == 0 {
                     let proposition = id32(graph.facts + graph.negated.len());
@@ -137,10 +86,11 @@ impl Relaxation {
             comparisons.map(|(c, position)| (c.fact, position)).collect();
         for (id, op) in operators.enumerate() {
             graph.ways.set_takings(id.0, numeric.takings(op, &comparisons));
+            watch.spend(32 + 8 * (op.precondition.len() + op.adds.len() + op.deletes.len()))?;
             graph.node(id.0, op.cost, &[&op.precondition], &op.adds, &op.deletes);
             for influenced in op.numeric.iter().flat_map(|e| numeric.influences(e)) {
                 let (facts, ways): (Vec<FactId>, Vec<Way>) = influenced.holds.into_iter().unzip();
-                let before = graph.effects.items.len();
+                let before = graph.effects.items();
                 graph.node(
                     id.0,
                     op.cost,
@@ -153,26 +103,29 @@ impl Relaxation {
                 }
             }
             for e in &op.conditional {
+                watch.spend(32 + 8 * (op.precondition.len() + e.condition.len() + e.adds.len()))?;
                 graph.node(id.0, op.cost, &[&op.precondition, &e.condition], &e.adds, &e.deletes);
             }
         }
         for rule in axioms.rules() {
+            watch.spend(32 + 8 * rule.body.len())?;
             graph.node(AXIOM, 0, &[&rule.body], &[rule.head], &[]);
         }
         graph.first_move = id32(graph.nodes());
-        graph.index();
-        graph
+        graph.index(watch)?;
+        Ok(graph)
     }
 
     /// Finds who needs what.
-    fn index(&mut self) {
-        self.needed_by = self.preconditions.transposed(self.propositions());
+    fn index(&mut self, watch: &Watch<'_>) -> Result<(), Interrupted> {
+        self.needed_by = self.preconditions.transposed(self.propositions(), watch)?;
         let starts = (0..id32(self.propositions())).map(|p| {
             let row = self.needed_by.row(p);
-            id32(row.partition_point(|&node| node < self.first_move))
+            watch.spend(32).map(|()| id32(row.partition_point(|&node| node < self.first_move)))
         });
-        self.moves_at = starts.collect();
-        (self.clique, self.cliques) = cliques(self);
+        self.moves_at = starts.collect::<Result<_, _>>()?;
+        (self.clique, self.cliques) = cliques(self, watch)?;
+        Ok(())
     }
 
     /// The nodes that need a proposition: those that may need others as well, and the moves.
@@ -181,22 +134,23 @@ impl Relaxation {
     }
 
     fn node(&mut self, op: u32, cost: u32, needs: &[&Literals], adds: &[FactId], deletes: &[FactId]) {
-        let mut pre: Vec<u32> = needs.iter().flat_map(|l| self.literals(l)).collect();
-        pre.sort_unstable();
-        pre.dedup();
         let negation = &self.negation;
-        let negated = deletes.iter().map(|f| negation[f.index()]).filter(|&p| p != 0);
-        let effects: Vec<u32> = adds.iter().map(|f| f.0).chain(negated).collect();
-        if effects.is_empty() {
+        let achieves = |f: &&FactId| negation[f.index()] != 0;
+        if adds.is_empty() && !deletes.iter().any(|f| achieves(&f)) {
             return;
         }
-        if pre.is_empty() {
-            self.free.push(id32(self.operator.len()));
+        let negated = deletes.iter().filter(achieves).map(|f| negation[f.index()]);
+        self.effects.push(adds.iter().map(|f| f.0).chain(negated));
+        let positive = needs.iter().flat_map(|l| l.positive.iter().map(|f| f.0));
+        // Each negated fact of a condition was given a proposition.
+        let negative = needs.iter().flat_map(|l| l.negative.iter().map(|f| negation[f.index()]));
+        self.preconditions.push_sorted(positive.chain(negative));
+        let node = id32(self.operator.len());
+        if self.preconditions.row(node).is_empty() {
+            self.free.push(node);
         }
         self.operator.push(op);
         self.cost.push(cost);
-        self.preconditions.push(pre);
-        self.effects.push(effects);
     }
 
     /// What a node counts: first whether it is an operator at all, then its cost.
@@ -206,7 +160,7 @@ impl Relaxation {
 
     /// The same graph with these effects for each node; nodes without effects go, and moves come last,
     /// by what they need.
-    pub(crate) fn with_effects(&self, effects: &[Vec<u32>]) -> Self {
+    pub(crate) fn with_effects(&self, effects: &Rows, watch: &Watch<'_>) -> Result<Self, Interrupted> {
         let mut graph = Self {
             facts: self.facts,
             negated: self.negated.clone(),
@@ -215,33 +169,39 @@ impl Relaxation {
             ways: self.ways.without_effects(),
             ..Self::default()
         };
-        let kept = (0..id32(self.nodes())).filter(|&n| !effects[n as usize].is_empty());
-        let is_move = |n: &u32| self.preconditions.row(*n).len() == 1;
-        let (mut moves, others): (Vec<u32>, Vec<u32>) = kept.partition(is_move);
-        moves.sort_by_key(|&n| self.preconditions.row(n)[0]);
+        let (mut moves, mut others) = (Vec::new(), Vec::new());
+        for node in 0..id32(effects.len()) {
+            watch.spend(4)?;
+            let is_move = self.preconditions.row(node).len() == 1;
+            if !effects.row(node).is_empty() {
+                (if is_move { &mut moves } else { &mut others }).push(node);
+            }
+        }
+        let needed = |node: u32| self.preconditions.row(node)[0] as usize;
+        let moves = sort_by_count(&moves, self.propositions(), watch, needed)?;
         graph.first_move = id32(others.len());
-        for node in others.into_iter().chain(moves).map(|n| n as usize) {
-            let effects = &effects[node];
-            let needs = self.preconditions.row(id32(node));
+        for node in others.into_iter().chain(moves) {
+            let (needs, achieves) = (self.preconditions.row(node), effects.row(node));
+            watch.spend(16 + 2 * (needs.len() + achieves.len()))?;
             if needs.is_empty() {
                 graph.free.push(id32(graph.operator.len()));
             }
-            graph.operator.push(self.operator[node]);
-            graph.cost.push(self.cost[node]);
+            graph.operator.push(self.operator[node as usize]);
+            graph.cost.push(self.cost[node as usize]);
             graph.preconditions.push(needs.iter().copied());
             if !self.ways.is_empty() {
-                let before = graph.effects.items.len();
-                for (i, effect) in effects.iter().enumerate() {
-                    let mut known = self.effects.range(id32(node));
+                let before = graph.effects.items();
+                for (i, effect) in achieves.iter().enumerate() {
+                    let mut known = self.effects.range(node);
                     if let Some(position) = known.find(|&position| self.effects.item(position) == *effect) {
                         graph.ways.set(before + i, *effect, self.ways.get(position).clone());
                     }
                 }
             }
-            graph.effects.push(effects.iter().copied());
+            graph.effects.push(achieves.iter().copied());
         }
-        graph.index();
-        graph
+        graph.index(watch)?;
+        Ok(graph)
     }
 
     /// The propositions of a conjunction. A negated fact without a proposition (a goal that came

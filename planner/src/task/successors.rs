@@ -10,6 +10,7 @@
 
 use super::{Operator, contains};
 use crate::ids::{FactId, OperatorId, id32};
+use crate::watch::{Interrupted, Spend, Watch};
 use pddl::model::{Idx, IndexVec};
 
 #[derive(Clone, Debug)]
@@ -22,6 +23,16 @@ struct Node {
     first: u32,
     last: u32,
 }
+
+/// A range of sorted operators whose keys agree up to the node, and go on.
+struct Branch {
+    node: Option<usize>,
+    at: usize,
+    end: usize,
+}
+
+/// Operators that are compared with each other; more are counted.
+const FEW: usize = 1 << 10;
 
 /// The literals of each operator's precondition, frequent facts first, behind each other.
 struct Keys {
@@ -41,11 +52,57 @@ impl Keys {
         &self.literals[self.starts[i] as usize..self.starts[i + 1] as usize]
     }
 
-    /// The first two literals as a number that compares as they do; a missing one is 0.
-    fn prefix(&self, operator: u32) -> u64 {
-        let key = self.of(operator);
-        let part = |i: usize| key.get(i).map_or(0, |&l| u64::from(l) + 1);
-        part(0) << 32 | part(1)
+    /// What an operator is sorted by at a depth: nothing comes first.
+    fn symbol(&self, operator: u32, depth: usize) -> u32 {
+        self.of(operator).get(depth).map_or(0, |&l| l + 1)
+    }
+}
+
+/// Operators in the order of their keys: counted by one literal after the other, so that no comparison of
+/// a million takes long at a stretch.
+struct Sorter<'k> {
+    keys: &'k Keys,
+    watch: &'k Watch<'k>,
+    counts: Vec<u32>,
+    sorted: Vec<u32>,
+}
+
+impl Sorter<'_> {
+    /// Sorts operators whose keys agree up to `depth`.
+    fn sort(&mut self, items: &mut [u32], depth: usize) -> Result<(), Interrupted> {
+        let keys = self.keys;
+        self.watch.spend(64 * items.len().min(FEW))?;
+        if items.len() <= FEW {
+            let rest = |i: u32| keys.of(i).get(depth..).unwrap_or(&[]);
+            items.sort_unstable_by(|&a, &b| rest(a).cmp(rest(b)).then(a.cmp(&b)));
+            return Ok(());
+        }
+        self.counts.fill(0);
+        self.watch.spend(self.counts.len() / 4)?;
+        for part in self.watch.parts(items, 8) {
+            part?.iter().for_each(|&i| self.counts[keys.symbol(i, depth) as usize + 1] += 1);
+        }
+        for i in 1..self.counts.len() {
+            self.counts[i] += self.counts[i - 1];
+        }
+        for part in self.watch.parts(items, 8) {
+            for &i in part? {
+                let place = &mut self.counts[keys.symbol(i, depth) as usize];
+                self.sorted[*place as usize] = i;
+                *place += 1;
+            }
+        }
+        items.copy_from_slice(&self.sorted[..items.len()]);
+        let mut at = 0;
+        while at < items.len() {
+            let symbol = keys.symbol(items[at], depth);
+            let end = at + gallop(&items[at..], |i| keys.symbol(i, depth) == symbol);
+            if symbol > 0 {
+                self.sort(&mut items[at..end], depth + 1)?;
+            }
+            at = end;
+        }
+        Ok(())
     }
 }
 
@@ -69,15 +126,21 @@ pub(crate) struct SuccessorTree {
 }
 
 impl SuccessorTree {
-    pub(crate) fn new(facts: usize, operators: &IndexVec<OperatorId, Operator>) -> Self {
+    pub(crate) fn new(
+        facts: usize,
+        operators: &IndexVec<OperatorId, Operator>,
+        watch: &Watch<'_>,
+    ) -> Result<Self, Interrupted> {
         let mut frequency = vec![0_u32; facts];
         for op in operators {
+            watch.spend(8 + op.precondition.positive.len())?;
             for f in &op.precondition.positive {
                 frequency[f.index()] += 1;
             }
         }
         let mut keys = Keys::default();
         for op in operators {
+            watch.spend(16 + 8 * op.precondition.len())?;
             let start = keys.literals.len();
             keys.literals.extend(op.precondition.positive.iter().map(|f| f.0 << 1));
             keys.literals[start..]
@@ -85,32 +148,42 @@ impl SuccessorTree {
             keys.literals.extend(op.precondition.negative.iter().map(|f| f.0 << 1 | 1));
             keys.starts.push(id32(keys.literals.len()));
         }
-        let mut sorted: Vec<(u64, u32)> = (0..id32(operators.len())).map(|i| (keys.prefix(i), i)).collect();
-        sorted.sort_unstable_by(|a, b| {
-            a.0.cmp(&b.0).then_with(|| keys.of(a.1).cmp(keys.of(b.1))).then(a.1.cmp(&b.1))
-        });
-        let sorted: Vec<u32> = sorted.into_iter().map(|(_, i)| i).collect();
+        let mut sorted: Vec<u32> = (0..id32(operators.len())).collect();
+        let (counts, buffer) = match sorted.len() {
+            0..=FEW => (Vec::new(), Vec::new()),
+            many => (vec![0; 2 * facts + 2], vec![0; many]),
+        };
+        Sorter { keys: &keys, watch, counts, sorted: buffer }.sort(&mut sorted, 0)?;
         let unconditional = sorted.partition_point(|&i| keys.of(i).is_empty());
         let mut tree = Self { unconditional, ..Self::default() };
-        tree.operators.extend(sorted.iter().map(|&i| OperatorId(i)));
-        tree.build(&keys, &sorted, unconditional..sorted.len(), 0);
-        tree
+        tree.build(&keys, &sorted, watch)?;
+        tree.operators = sorted.into_iter().map(OperatorId).collect();
+        Ok(tree)
     }
 
-    /// Appends the nodes for a range of the sorted operators, whose keys agree up to `depth` and are
-    /// longer than it. The operators of a branch lie together in that order, those of its node first.
-    fn build(&mut self, keys: &Keys, sorted: &[u32], range: std::ops::Range<usize>, depth: usize) {
-        let mut at = range.start;
-        while at < range.end {
-            let literal = keys.of(sorted[at])[depth];
-            let branch = at + gallop(&sorted[at..range.end], |i| keys.of(i)[depth] == literal);
-            let ends = at + gallop(&sorted[at..branch], |i| keys.of(i).len() == depth + 1);
-            let node = self.nodes.len();
-            self.nodes.push(Node { literal, skip_to: 0, first: id32(at), last: id32(ends) });
-            self.build(keys, sorted, ends..branch, depth + 1);
-            self.nodes[node].skip_to = id32(self.nodes.len());
-            at = branch;
+    /// Appends the nodes. The operators of a branch lie together in the sorted order, those of its node
+    /// first. (No recursion: a precondition may be as long as there are facts.)
+    fn build(&mut self, keys: &Keys, sorted: &[u32], watch: &Watch<'_>) -> Result<(), Interrupted> {
+        let mut open = vec![Branch { node: None, at: self.unconditional, end: sorted.len() }];
+        while let Some(depth) = open.len().checked_sub(1) {
+            let Branch { node, at, end } = &mut open[depth];
+            if at == end {
+                if let Some(node) = *node {
+                    self.nodes[node].skip_to = id32(self.nodes.len());
+                }
+                open.pop();
+                continue;
+            }
+            watch.spend(32)?;
+            let literal = keys.of(sorted[*at])[depth];
+            let branch = *at + gallop(&sorted[*at..*end], |i| keys.of(i)[depth] == literal);
+            let ends = *at + gallop(&sorted[*at..branch], |i| keys.of(i).len() == depth + 1);
+            let new = Branch { node: Some(self.nodes.len()), at: ends, end: branch };
+            self.nodes.push(Node { literal, skip_to: 0, first: id32(*at), last: id32(ends) });
+            *at = branch;
+            open.push(new);
         }
+        Ok(())
     }
 
     /// Appends every applicable operator to `found`.

@@ -83,7 +83,10 @@ impl LandmarkGraph {
             graph,
             labels,
             meter,
-            achieved_by: graph.effects.transposed(graph.propositions()),
+            achieved_by: graph
+                .effects
+                .transposed(graph.propositions(), meter)
+                .unwrap_or_else(|_| Rows::empty(graph.propositions())),
             found: empty,
             facts: FxHashMap::default(),
             disjunctive: FxHashMap::default(),
@@ -223,8 +226,13 @@ impl Builder<'_> {
         let achievers = self.first_achievers(&propositions);
         let Some((&first, rest)) = achievers.split_first() else { return };
         let row = |n: u32| self.graph.preconditions.row(n);
-        let shared: Vec<u32> =
-            row(first).iter().copied().filter(|p| rest.iter().all(|&n| row(n).contains(p))).collect();
+        let mut shared: Vec<u32> = row(first).to_vec();
+        for &n in rest {
+            if shared.is_empty() || self.meter.spend(row(n).len() * shared.len()) {
+                break;
+            }
+            shared.retain(|p| row(n).contains(p));
+        }
         let groups = self.disjunctions(&achievers, &shared);
         for p in shared {
             let before = self.fact(p);
@@ -252,6 +260,9 @@ impl Builder<'_> {
         };
         let mut candidates: Vec<(PredicateId, Vec<u32>)> = Vec::new();
         for (i, &node) in achievers.iter().enumerate() {
+            if self.meter.spend(64 + 32 * self.graph.preconditions.row(node).len()) {
+                return Vec::new();
+            }
             let mut here: Vec<(PredicateId, u32)> = self
                 .graph
                 .preconditions
@@ -302,6 +313,9 @@ impl Builder<'_> {
         let mut facts = facts;
         facts.sort_unstable();
         for (p, id) in facts {
+            if self.meter.spend(8 * self.labels.of(p).len()) {
+                return;
+            }
             for &l in self.labels.of(p) {
                 if let Some(&before) = self.facts.get(&l) {
                     self.order(before, id, false);

@@ -45,7 +45,11 @@ impl Labels {
         for p in 0..graph.propositions() {
             if labels.initial[p] {
                 labels.of[p] = Some(Box::new([]));
-                for &node in graph.needed_by.row(crate::ids::id32(p)) {
+                let waiting = graph.needed_by.row(crate::ids::id32(p));
+                if meter.spend(8 * waiting.len()) {
+                    return None;
+                }
+                for &node in waiting {
                     missing[node as usize] -= 1;
                     if missing[node as usize] == 0 && !std::mem::replace(&mut queued[node as usize], true) {
                         queue.push_back(node);
@@ -70,7 +74,9 @@ impl Labels {
                 if !labels.shrink(p, &union) {
                     continue;
                 }
-                for &next in graph.needed_by.row(p) {
+                let waiting = graph.needed_by.row(p);
+                meter.spend(8 * waiting.len());
+                for &next in waiting {
                     if first {
                         missing[next as usize] -= 1;
                     }

@@ -1,0 +1,111 @@
+//! `cancel DOMAIN PROBLEM [ROUNDS] [SECONDS]`: cancels grounding, and then searching, improving and
+//! repairing, at random instants, and shows how long each took to return from then on. Instants and delays
+//! are processor time of the whole process, so that other programs do not matter; where two threads run,
+//! both are counted.
+#![allow(clippy::print_stdout, clippy::print_stderr, missing_docs)]
+
+use planner::{
+    Budget, GroundOptions, Outcome, Preference, Query, SearchConfiguration, ground, improve, repair, solve,
+};
+use rustix::time::{ClockId, clock_gettime};
+use std::time::Duration;
+
+/// Processor time that this process has used.
+fn used() -> Duration {
+    let time = clock_gettime(ClockId::ProcessCPUTime);
+    Duration::new(u64::try_from(time.tv_sec).unwrap_or(0), u32::try_from(time.tv_nsec).unwrap_or(0))
+}
+
+fn budget(interrupted: &(dyn Fn() -> bool + Sync)) -> Budget<'_> {
+    Budget { interrupted, memory_bytes: Some(4 << 30), ..Budget::default() }
+}
+
+/// Random enough: a linear congruence.
+struct Instants(u64);
+
+impl Instants {
+    fn below(&mut self, most: Duration) -> Duration {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        most.mul_f64(f64::from(u32::try_from(self.0 >> 32).unwrap_or(0)) / f64::from(u32::MAX))
+    }
+}
+
+/// Cancels `work` again and again; it says whether it was cancelled.
+fn measure(
+    name: &str,
+    rounds: usize,
+    most: Duration,
+    instants: &mut Instants,
+    mut work: impl FnMut(&(dyn Fn() -> bool + Sync)) -> bool,
+) {
+    let mut delays = Vec::new();
+    for _ in 0..rounds {
+        let end = used() + instants.below(most);
+        if work(&move || used() >= end) {
+            delays.push(used().saturating_sub(end).as_secs_f64() * 1e3);
+        }
+    }
+    delays.sort_unstable_by(f64::total_cmp);
+    let Some(last) = delays.len().checked_sub(1) else {
+        println!("{name:8}  done before each of {rounds} instants");
+        return;
+    };
+    println!(
+        "{name:8}  cancelled {:3} times up to {:6.0} ms: p50 {:6.2} ms, p99 {:6.2} ms, longest {:6.2} ms",
+        delays.len(),
+        most.as_secs_f64() * 1e3,
+        delays[last / 2],
+        delays[last * 99 / 100],
+        delays[last]
+    );
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [domain, problem, rest @ ..] = arguments.as_slice() else {
+        return Err("DOMAIN PROBLEM [ROUNDS] [SECONDS]".into());
+    };
+    let rounds: usize = rest.first().map_or(Ok(50), |text| text.parse())?;
+    let seconds = Duration::from_secs_f64(rest.get(1).map_or(Ok(2.0), |text| text.parse())?);
+    let read =
+        |path: &String| std::fs::read_to_string(path).map(|text| pddl::Source::new(path.clone(), text));
+    let domain = pddl::parse_domain(&read(domain)?, &[]);
+    let domain = domain.model.ok_or_else(|| format!("{:?}", domain.diagnostics))?;
+    let problem = pddl::parse_problem(&read(problem)?, &domain);
+    let problem = problem.model.ok_or_else(|| format!("{:?}", problem.diagnostics))?;
+
+    let start = used();
+    let task = ground(&domain, &problem, &GroundOptions::default())?;
+    let whole = used() - start;
+    println!("{} facts, {} operators", task.facts().len(), task.operators().len());
+    let mut instants = Instants(2009);
+    measure("ground", rounds, whole, &mut instants, |interrupted| {
+        ground(&domain, &problem, &GroundOptions { interrupted, ..GroundOptions::default() }).is_err()
+    });
+
+    let query = Query::of(&task);
+    let searches = [SearchConfiguration::portfolio(), SearchConfiguration::default()];
+    for configuration in &searches {
+        measure(configuration.name, rounds, seconds, &mut instants, |interrupted| {
+            let report = solve(&task, &query, configuration, &budget(interrupted));
+            !matches!(report.outcome, Outcome::Solved(_) | Outcome::Unsolvable(_))
+        });
+    }
+    measure("improve", rounds, seconds, &mut instants, |interrupted| {
+        let mut none = |_: &planner::Plan| {};
+        let improved = improve(&task, &query, &searches[0], &budget(interrupted), &mut none);
+        improved.quality != planner::Quality::Optimal
+    });
+    let end = used() + 10 * seconds;
+    let found = solve(&task, &query, &searches[0], &budget(&move || used() >= end));
+    if let Outcome::Solved(plan) = found.outcome {
+        let excluded = &plan.operators[plan.operators.len() / 2..][..1];
+        let query = Query { excluded, ..query };
+        measure("repair", rounds, seconds, &mut instants, |interrupted| {
+            let (broken, budget) = (&plan.operators, budget(interrupted));
+            let repaired = repair(&task, &query, broken, &searches[1], Preference::Stability, &budget);
+            repaired.fresh.is_none()
+        });
+    }
+    Ok(())
+}
