@@ -266,7 +266,7 @@ pub(crate) fn written(task: &Task, found: &planner::Plan) -> (String, pddl::Sequ
         let line = task.operator_name(id);
         let start = u32::try_from(text.len()).unwrap_or(u32::MAX);
         let end = u32::try_from(text.len() + line.len()).unwrap_or(u32::MAX);
-        let operator = &task.operators()[id];
+        let operator = task.operator(id);
         plan.steps.push(PlanStep {
             action: operator.action,
             arguments: operator.arguments.to_vec(),

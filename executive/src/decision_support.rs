@@ -183,7 +183,7 @@ fn objection(model: &Model, state: &State, plan: &[OperatorId]) -> Option<String
     let steps = plan
         .iter()
         .map(|&operator| {
-            let operator = &model.task().operators()[operator];
+            let operator = model.task().operator(operator);
             let arguments = operator.arguments.to_vec();
             pddl::PlanStep { action: operator.action, arguments, span: pddl::Span::default() }
         })

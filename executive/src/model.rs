@@ -118,7 +118,7 @@ impl Model {
 
     /// What an operator is called.
     pub fn step(&self, operator: OperatorId) -> Step {
-        let operator = &self.task.operators()[operator];
+        let operator = self.task.operator(operator);
         Step {
             action: self.domain.actions[operator.action].name.clone(),
             arguments: operator.arguments.iter().map(|&o| self.problem.objects[o].name.clone()).collect(),

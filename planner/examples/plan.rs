@@ -59,7 +59,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let lines: String = plan.operators.iter().map(|&o| task.operator_name(o) + "\n").collect();
     let text = format!("{lines}; cost = {}\n", plan.cost / u64::from(task.cost_scale()));
     let steps = plan.operators.iter().map(|&o| {
-        let o = &task.operators()[o];
+        let o = task.operator(o);
         pddl::PlanStep { action: o.action, arguments: o.arguments.to_vec(), span: pddl::Span::default() }
     });
     eprintln!("solved     {:9.3} s {:?}", start.elapsed().as_secs_f64(), report.statistics);

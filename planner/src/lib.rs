@@ -65,6 +65,6 @@ pub use search::{
     SearchConfiguration, Statistics, Threads, UnsolvableReason, Way, Width, improve, repair, solve,
 };
 pub use task::{
-    AtomStatus, AxiomRule, ConditionalEffect, Fact, Goal, GroundAtom, Impossible, Literals, Mutexes,
-    ObjectValue, Operator, State, Task, Variable,
+    AtomStatus, AxiomRule, ConditionalEffect, ConditionalEffects, Fact, Goal, GroundAtom, Impossible,
+    Literals, LiteralsRef, Mutexes, ObjectValue, Operator, Operators, State, Task, Variable,
 };

@@ -408,7 +408,7 @@ proptest! {
                 if child == new {
                     states.push((next, Vec::new()));
                 }
-                states[child].1.push((at, u64::from(task.operators()[operator].cost)));
+                states[child].1.push((at, u64::from(task.operators().cost(operator))));
             }
             at += 1;
         }

@@ -28,7 +28,7 @@ impl Grounded {
         &self,
         operators: impl IntoIterator<Item = &'o OperatorId>,
     ) -> validator::Verdict {
-        let steps = operators.into_iter().map(|&o| &self.task.operators()[o]).map(|o| pddl::PlanStep {
+        let steps = operators.into_iter().map(|&o| self.task.operator(o)).map(|o| pddl::PlanStep {
             action: o.action,
             arguments: o.arguments.to_vec(),
             span: pddl::Span::default(),

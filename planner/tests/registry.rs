@@ -228,7 +228,7 @@ fn validated(case: &Case, task: &Task, plan: &Plan) -> validator::Number {
 
 fn steps(task: &Task, plan: &Plan) -> pddl::SequentialPlan {
     let steps = plan.operators.iter().map(|&o| {
-        let o = &task.operators()[o];
+        let o = task.operator(o);
         pddl::PlanStep { action: o.action, arguments: o.arguments.to_vec(), span: pddl::Span::default() }
     });
     pddl::SequentialPlan::new(steps.collect())

@@ -26,7 +26,7 @@ impl Kernels {
     /// Whether regression is exact for this plan.
     pub(super) fn can_regress(task: &Task, plan: &[OperatorId]) -> bool {
         let regresses = |&o: &OperatorId| {
-            let operator = &task.operators()[o];
+            let operator = task.operator(o);
             operator.conditional.is_empty() && !operator.changes_numbers()
         };
         task.axioms().is_empty() && plan.iter().all(regresses)
@@ -35,21 +35,21 @@ impl Kernels {
     /// Regresses `goal` through `plan`, and counts against `state`.
     pub(super) fn new(task: &Task, plan: &[OperatorId], goal: &Goal, state: &State) -> Self {
         let mut kernel: BTreeMap<FactId, bool> = BTreeMap::new();
-        require(&mut kernel, &goal.literals);
+        require(&mut kernel, goal.literals.as_ref());
         let mut conditions = vec![kernel.iter().map(|(&f, &b)| (f, b)).collect::<Vec<_>>()];
         for &operator in plan.iter().rev() {
-            let operator = &task.operators()[operator];
-            for fact in &operator.adds {
+            let operator = task.operator(operator);
+            for fact in operator.adds {
                 if kernel.get(fact) == Some(&true) {
                     kernel.remove(fact);
                 }
             }
-            for fact in &operator.deletes {
+            for fact in operator.deletes {
                 if kernel.get(fact) == Some(&false) {
                     kernel.remove(fact);
                 }
             }
-            require(&mut kernel, &operator.precondition);
+            require(&mut kernel, operator.precondition);
             conditions.push(kernel.iter().map(|(&f, &b)| (f, b)).collect());
         }
         conditions.reverse();
@@ -86,7 +86,7 @@ impl Kernels {
     }
 }
 
-fn require(kernel: &mut BTreeMap<FactId, bool>, literals: &planner::Literals) {
+fn require(kernel: &mut BTreeMap<FactId, bool>, literals: planner::LiteralsRef<'_>) {
     kernel.extend(literals.positive.iter().map(|&f| (f, true)));
     kernel.extend(literals.negative.iter().map(|&f| (f, false)));
 }

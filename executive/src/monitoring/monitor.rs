@@ -85,20 +85,20 @@ impl Monitor {
         let task = model.task();
         let mut state = state.clone();
         for &operator in &self.plan[current..] {
-            let precondition = &task.operators()[operator].precondition;
+            let precondition = task.operator(operator).precondition;
             let Some(next) = task.successor(&state, operator) else {
                 return self.unsatisfied(model, current, precondition, &state);
             };
             state = next;
         }
-        self.unsatisfied(model, current, &self.goal.literals, &state)
+        self.unsatisfied(model, current, self.goal.literals.as_ref(), &state)
     }
 
     fn unsatisfied(
         &self,
         model: &Model,
         current: usize,
-        literals: &planner::Literals,
+        literals: planner::LiteralsRef<'_>,
         state: &State,
     ) -> Vec<BrokenLiteral> {
         let positive = literals.positive.iter().map(|&fact| (fact, true));
@@ -114,12 +114,12 @@ impl Monitor {
     fn explain(&self, model: &Model, current: usize, (fact, positive): Literal) -> BrokenLiteral {
         let operators = model.task().operators();
         let needs = |&&operator: &&OperatorId| {
-            let precondition = &operators[operator].precondition;
-            let among = if positive { &precondition.positive } else { &precondition.negative };
+            let precondition = operators.get(operator).precondition;
+            let among = if positive { precondition.positive } else { precondition.negative };
             among.contains(&fact)
         };
         let gives = |&&operator: &&OperatorId| {
-            let among = if positive { &operators[operator].adds } else { &operators[operator].deletes };
+            let among = if positive { operators.get(operator).adds } else { operators.get(operator).deletes };
             among.contains(&fact)
         };
         BrokenLiteral {

@@ -10,15 +10,15 @@ use super::instantiate::Lit;
 use super::measure::{Chosen, comparisons};
 use super::numbers::Comparison;
 use super::prune::{Pruned, prune};
-use super::raw::{Failure, RawEffects, RawOperator, RawTask, marked};
-use crate::ids::{FactId, OperatorId, id32};
+use super::raw::{Failure, RawOperator, RawOperators, RawTask, marked};
+use crate::ids::{FactId, id32};
 use crate::task::{
-    AtomStatus, AxiomProgram, AxiomRule, ConditionalEffect, Fact, Goal, GroundAtom, Impossible, Literals,
-    Mutexes, Names, NoProgram, Numeric, ObjectValue, Operator, Packing, Relaxation, State, SuccessorTree,
-    Task, undominated, variables,
+    AtomStatus, AxiomProgram, AxiomRule, Fact, Goal, GroundAtom, Impossible, Literals, Mutexes, Names,
+    NewOperator, NoProgram, Numeric, NumericEffects, ObjectValue, Operators, Packing, Relaxation, State,
+    SuccessorTree, Task, undominated, variables,
 };
 use crate::watch::{Interrupted, Spend, Watch};
-use pddl::model::{Domain, IndexVec, Problem};
+use pddl::model::{Domain, IndexVec, ObjectId, Problem};
 use rustc_hash::FxHashSet;
 
 const NONE: u32 = u32::MAX;
@@ -91,18 +91,18 @@ pub(crate) fn finish(
         }
     }
     let chosen = Chosen::of(&raw, &pruned, fluents, &costs.measure);
-    let (mut operators, mut amounts) = (IndexVec::new(), Vec::new());
-    // Each raw operator makes room for the next one that is finished.
-    for mut own in std::mem::take(&mut raw.operators) {
-        watch.spend(own.work())?;
-        let Some(operator) = view.operator(&mut own, &chosen) else { continue };
-        amounts.push(if chosen.metric.is_some() {
-            chosen.guess(operator.numeric.as_deref())
-        } else {
-            own.cost
-        });
-        operators.push(operator);
+    let (mut operators, mut amounts, mut parts) = (Operators::default(), Vec::new(), Parts::default());
+    let raw_operators = std::mem::take(&mut raw.operators);
+    for own in raw_operators.iter() {
+        watch.spend(raw_operators.work(&own))?;
+        let Some(numeric) = view.operator(&raw_operators, &own, &chosen, &mut parts, &mut operators) else {
+            continue;
+        };
+        amounts.push(if chosen.metric.is_some() { chosen.guess(numeric.as_deref()) } else { own.cost });
+        let (action, arguments) = (own.action, &parts.arguments[..]);
+        operators.push(NewOperator { action, arguments, facts: parts.facts(), numeric });
     }
+    drop(raw_operators);
     let cost_scale = set_costs(&mut operators, &amounts, costs, watch)?;
     let fact = |atom: u32| (numbers[atom as usize] != NONE).then(|| FactId(numbers[atom as usize]));
     let compared = comparisons(&raw, &chosen, fact);
@@ -118,8 +118,7 @@ pub(crate) fn finish(
         })
     })?;
     let Chosen { fluents, stored, metric, .. } = chosen;
-    let effects = operators.iter_mut().filter_map(|o: &mut Operator| o.numeric.as_deref_mut());
-    let numeric = Numeric::new(facts.len().div_ceil(64), fluents, stored, compared, effects);
+    let numeric = Numeric::new(facts.len().div_ceil(64), fluents, stored, compared, operators.numeric_mut());
     let mut state = State::empty(facts.len(), numeric.words());
     let fit = numeric.initialise(state.words_mut());
     state.note_fit(fit);
@@ -202,7 +201,7 @@ fn groups(
 
 /// Makes integers of the costs; gives the scale.
 fn set_costs(
-    operators: &mut IndexVec<OperatorId, Operator>,
+    operators: &mut Operators,
     amounts: &[f64],
     costs: &CostModel,
     watch: &Watch<'_>,
@@ -216,14 +215,14 @@ fn set_costs(
         different.extend(part?.iter().map(|amount| amount.to_bits()));
     }
     let scale = scale(&different.into_iter().map(f64::from_bits).collect::<Vec<_>>());
-    for (operator, amount) in operators.iter_mut().zip(amounts) {
+    for (operator, amount) in amounts.iter().enumerate() {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
             reason = "not negative; saturates"
         )]
         let cost = (amount * f64::from(scale)).round() as u32;
-        operator.cost = cost;
+        operators.set_cost(operator, cost);
         watch.spend(8)?;
     }
     Ok(scale)
@@ -257,49 +256,83 @@ impl View<'_> {
         Some(Literals { positive: facts(0, positive), negative: facts(1, negative) })
     }
 
-    fn facts(&self, atoms: &[u32]) -> Box<[FactId]> {
-        let kept = || atoms.iter().map(|&a| self.numbers[a as usize]).filter(|&n| n != NONE).map(FactId);
-        let mut facts = Vec::with_capacity(kept().count());
-        facts.extend(kept());
+    /// The facts among atoms that are sorted, instead of what was in `facts`.
+    fn facts(&self, atoms: &[u32], facts: &mut Vec<FactId>) {
+        facts.clear();
+        facts.extend(atoms.iter().map(|&a| self.numbers[a as usize]).filter(|&n| n != NONE).map(FactId));
         debug_assert!(facts.is_sorted());
-        facts.into_boxed_slice()
     }
 
-    fn effects(&self, effects: &RawEffects) -> (Box<[FactId]>, Box<[FactId]>) {
-        (self.facts(&effects.adds), self.facts(&effects.deletes))
+    /// The facts of a conjunction; `false` if it never holds.
+    fn condition(&self, literals: &[Lit], positive: &mut Vec<FactId>, negative: &mut Vec<FactId>) -> bool {
+        positive.clear();
+        negative.clear();
+        for &l in literals {
+            match self.pruned.constant(l) {
+                Some(true) => {}
+                Some(false) => return false,
+                None => {
+                    let fact = FactId(self.numbers[(l >> 1) as usize]);
+                    (if l & 1 == 0 { &mut *positive } else { &mut *negative }).push(fact);
+                }
+            }
+        }
+        true
     }
 
-    /// The operator, unless it can never be applied or changes nothing that is needed.
-    fn operator(&self, raw: &mut RawOperator, chosen: &Chosen) -> Option<Operator> {
+    /// The operator's parts and effects on numbers, unless it can never be applied or changes nothing that
+    /// is needed. Its conditional effects are added to `operators`.
+    fn operator(
+        &self,
+        all: &RawOperators,
+        raw: &RawOperator<'_>,
+        chosen: &Chosen,
+        parts: &mut Parts,
+        operators: &mut Operators,
+    ) -> Option<Option<Box<NumericEffects>>> {
         // What a useless operator reads was not kept.
-        if !raw.numbers.is_empty() && self.pruned.is_refuted(&raw.precondition) {
+        let Parts { arguments, positive, negative, adds, deletes, conditional } = parts;
+        if self.pruned.is_refuted(raw.precondition) {
             return None;
         }
-        let (adds, deletes) = self.effects(&raw.effects);
-        let mut conditional = Vec::new();
-        for (condition, effects) in &raw.conditional {
-            let (adds, deletes) = self.effects(effects);
-            if !adds.is_empty() || !deletes.is_empty() {
-                let Some(condition) = self.literals(condition) else { continue };
-                conditional.push(ConditionalEffect { condition, adds, deletes });
+        self.facts(raw.adds, adds);
+        self.facts(raw.deletes, deletes);
+        let mut effects = 0;
+        for (condition, adds, deletes) in all.conditional(raw) {
+            let [p, n, a, d] = conditional;
+            self.facts(adds, a);
+            self.facts(deletes, d);
+            if (!a.is_empty() || !d.is_empty()) && self.condition(condition, p, n) {
+                operators.push_conditional([p, n, a, d]);
+                effects += 1;
             }
         }
         let numeric = chosen.effects(raw, self);
         let counts = numeric.as_ref().is_some_and(|effects| !effects.updates.is_empty());
-        if adds.is_empty() && deletes.is_empty() && conditional.is_empty() && !counts {
+        if adds.is_empty() && deletes.is_empty() && effects == 0 && !counts {
             return None;
         }
-        let precondition = self.literals(&raw.precondition)?;
-        Some(Operator {
-            action: raw.action,
-            arguments: std::mem::take(&mut raw.arguments),
-            precondition,
-            adds,
-            deletes,
-            conditional: conditional.into(),
-            numeric,
-            cost: 1,
-        })
+        self.condition(raw.precondition, positive, negative);
+        arguments.clear();
+        arguments.extend(raw.arguments.iter().map(|&o| ObjectId(o)));
+        Some(numeric)
+    }
+}
+
+/// The parts of the operator at hand.
+#[derive(Default)]
+struct Parts {
+    arguments: Vec<ObjectId>,
+    positive: Vec<FactId>,
+    negative: Vec<FactId>,
+    adds: Vec<FactId>,
+    deletes: Vec<FactId>,
+    conditional: [Vec<FactId>; 4],
+}
+
+impl Parts {
+    fn facts(&self) -> [&[FactId]; 4] {
+        [&self.positive, &self.negative, &self.adds, &self.deletes]
     }
 }
 

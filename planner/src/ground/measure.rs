@@ -58,9 +58,9 @@ impl Chosen {
     }
 
     /// What an operator does to fluents that were kept.
-    pub(super) fn effects(&self, raw: &RawOperator, view: &View<'_>) -> Option<Box<NumericEffects>> {
+    pub(super) fn effects(&self, raw: &RawOperator<'_>, view: &View<'_>) -> Option<Box<NumericEffects>> {
         let (mut updates, mut metric) = (Vec::new(), Vec::new());
-        for change in &raw.numbers {
+        for change in raw.numbers {
             let Some(fluent) = self.fluent(change.fluent) else { continue };
             let Some(condition) = view.literals(&change.condition) else { continue };
             let value = change.value.as_ref().map(|value| self.expression(value));

@@ -49,26 +49,24 @@ impl Pruned {
     }
 }
 
-/// Ways to reach literals: what each needs and gives.
+/// What each way to reach literals gives. The operators' own needs are their preconditions as they are;
+/// ways beyond that, by conditional effects, changes of numbers and rules, come after the operators.
 #[derive(Default)]
-struct Nodes {
+struct Ways {
     needs: Rows,
     gives: Rows,
 }
 
-impl Nodes {
+impl Ways {
     fn push(
         &mut self,
         conditions: [&[Lit]; 2],
-        effects: &RawEffects,
+        (adds, deletes): (&[u32], &[u32]),
         watch: &Watch<'_>,
     ) -> Result<(), Interrupted> {
-        let needs = conditions.into_iter().flatten().copied();
-        let adds = effects.adds.iter().map(|a| a << 1);
-        let gives = adds.chain(effects.deletes.iter().map(|a| a << 1 | 1));
-        self.needs.push(needs);
-        self.gives.push(gives);
-        watch.spend(16 + conditions[0].len() + conditions[1].len() + effects.len())
+        self.needs.push(conditions.into_iter().flatten().copied());
+        self.gives.push(adds.iter().map(|a| a << 1).chain(deletes.iter().map(|a| a << 1 | 1)));
+        watch.spend(16 + conditions[0].len() + conditions[1].len() + adds.len() + deletes.len())
     }
 }
 
@@ -133,23 +131,25 @@ fn reachable(
     exogenous: &[bool],
     watch: &Watch<'_>,
 ) -> Result<Vec<bool>, Interrupted> {
-    let mut nodes = Nodes::default();
+    let mut more = Ways::default();
     let readers = readers(raw);
-    for op in &raw.operators {
-        nodes.push([&op.precondition, &[]], &op.effects, watch)?;
-        for (condition, effects) in &op.conditional {
-            nodes.push([&op.precondition, condition], effects, watch)?;
+    for op in raw.operators.iter() {
+        watch.spend(8)?;
+        for (condition, adds, deletes) in raw.operators.conditional(&op) {
+            more.push([op.precondition, condition], (adds, deletes), watch)?;
         }
-        for change in &op.numbers {
+        for change in op.numbers {
             let influenced = influenced(raw, &readers, change, watch)?;
-            nodes.push([&op.precondition, &change.condition], &influenced, watch)?;
+            more.push([op.precondition, &change.condition], (&influenced.adds, &influenced.deletes), watch)?;
         }
     }
     for (head, body) in &raw.rules {
-        nodes.push([body, &[]], &RawEffects { adds: vec![*head], deletes: Vec::new() }, watch)?;
+        more.push([body, &[]], (&[*head], &[]), watch)?;
     }
     let n = raw.atoms as usize;
-    let needed_by = nodes.needs.transposed(2 * n, watch)?;
+    let operators = id32(raw.operators.len());
+    let needed_by = raw.operators.preconditions.transposed(2 * n, watch)?;
+    let more_needed_by = more.needs.transposed(2 * n, watch)?;
     let mut reached = vec![false; 2 * n];
     let mut queue: Vec<Lit> = Vec::new();
     let mut reach = |l: Lit, queue: &mut Vec<Lit>| {
@@ -167,23 +167,37 @@ fn reachable(
             reach(lit | 1, &mut queue);
         }
     }
-    let mut missing = Vec::with_capacity(nodes.needs.len());
-    for node in 0..id32(nodes.needs.len()) {
-        watch.spend(4)?;
-        let needs = id32(nodes.needs.row(node).len());
-        missing.push(needs);
-        if needs == 0 {
-            nodes.gives.row(node).iter().for_each(|&l| reach(l, &mut queue));
+    let mut missing: Vec<u32> = Vec::with_capacity(raw.operators.len() + more.needs.len());
+    let mut ready: Vec<u32> = Vec::new();
+    for (rows, before) in [(&raw.operators.preconditions, 0), (&more.needs, operators)] {
+        for way in 0..id32(rows.len()) {
+            watch.spend(4)?;
+            missing.push(id32(rows.row(way).len()));
+            if missing.last() == Some(&0) {
+                ready.push(before + way);
+            }
         }
     }
-    while let Some(l) = queue.pop() {
-        for part in watch.parts(needed_by.row(l), 8) {
-            for &node in part? {
-                missing[node as usize] -= 1;
-                if missing[node as usize] == 0 {
-                    let gives = nodes.gives.row(node);
-                    watch.spend(4 * gives.len())?;
-                    gives.iter().for_each(|&l| reach(l, &mut queue));
+    loop {
+        while let Some(way) = ready.pop() {
+            watch.spend(16)?;
+            if way < operators {
+                let op = raw.operators.get(way);
+                op.adds.iter().for_each(|&a| reach(a << 1, &mut queue));
+                op.deletes.iter().for_each(|&a| reach(a << 1 | 1, &mut queue));
+            } else {
+                more.gives.row(way - operators).iter().for_each(|&l| reach(l, &mut queue));
+            }
+        }
+        let Some(l) = queue.pop() else { break };
+        for (rows, before) in [(&needed_by, 0), (&more_needed_by, operators)] {
+            for part in watch.parts(rows.row(l), 8) {
+                for &way in part? {
+                    let missing = &mut missing[(before + way) as usize];
+                    *missing -= 1;
+                    if *missing == 0 {
+                        ready.push(before + way);
+                    }
                 }
             }
         }
@@ -243,7 +257,7 @@ fn measured<'r>(
     while let Some(fluent) = queue.pop() {
         for &i in changed_by.row(raw.atoms + fluent) {
             watch.spend(64)?;
-            for change in raw.operators[i as usize].numbers.iter().filter(|c| c.fluent == fluent) {
+            for change in raw.operators.get(i).numbers.iter().filter(|c| c.fluent == fluent) {
                 change.value.iter().for_each(|value| mark(value, pruned, &mut queue));
                 changes.push(change);
             }
@@ -256,15 +270,16 @@ fn measured<'r>(
 /// it (numbered after them).
 fn changed_by(raw: &RawTask, watch: &Watch<'_>) -> Result<Rows, Interrupted> {
     let mut changes = Rows::default();
-    for op in &raw.operators {
-        let all = || std::iter::once(&op.effects).chain(op.conditional.iter().map(|(_, e)| e));
-        watch.spend(16 + 8 * all().map(RawEffects::len).sum::<usize>() + 8 * op.numbers.len())?;
-        let atoms = all().flat_map(|e| e.adds.iter().chain(&e.deletes).copied());
-        let fluents = op.numbers.iter().map(|change| raw.atoms + change.fluent);
-        if op.conditional.is_empty() && op.numbers.is_empty() {
-            changes.push(atoms);
+    for op in raw.operators.iter() {
+        watch.spend(16 + 8 * raw.operators.size(&op) + 8 * op.numbers.len())?;
+        let own = op.adds.iter().chain(op.deletes);
+        let conditional = raw.operators.conditional(&op);
+        if conditional.len() == 0 && op.numbers.is_empty() {
+            changes.push(own.copied());
         } else {
-            changes.push_sorted(atoms.chain(fluents));
+            let atoms = own.chain(conditional.flat_map(|(_, adds, deletes)| adds.iter().chain(deletes)));
+            let fluents = op.numbers.iter().map(|change| raw.atoms + change.fluent);
+            changes.push_sorted(atoms.copied().chain(fluents));
         }
     }
     raw.rules.iter().for_each(|(head, _)| changes.push([*head]));
@@ -313,20 +328,20 @@ fn relevance(
             read(&comparison.expression, pruned, &mut queue);
         }
         for &i in changed_by.row(atom) {
-            let i = i as usize;
-            let Some(op) = raw.operators.get(i) else {
-                let (_, body) = &raw.rules[i - operators];
+            if i as usize >= operators {
+                let (_, body) = &raw.rules[i as usize - operators];
                 watch.spend(8 + 4 * body.len())?;
                 if !pruned.is_refuted(body) {
                     body.iter().for_each(|&l| need(l, pruned, &mut queue));
                 }
                 continue;
-            };
+            }
+            let op = raw.operators.get(i);
             watch.spend(16 + 4 * op.precondition.len())?;
-            if pruned.is_refuted(&op.precondition) {
+            if pruned.is_refuted(op.precondition) {
                 continue;
             }
-            if !std::mem::replace(&mut seen[i], true) {
+            if !std::mem::replace(&mut seen[i as usize], true) {
                 op.precondition.iter().for_each(|&l| need(l, pruned, &mut queue));
             }
             for change in op.numbers.iter().filter(|c| raw.atoms + c.fluent == atom) {
@@ -336,9 +351,9 @@ fn relevance(
                     change.value.iter().for_each(|value| read(value, pruned, &mut queue));
                 }
             }
-            for (condition, effects) in &op.conditional {
-                watch.spend(8 + 4 * condition.len() + effects.len())?;
-                let touches = effects.adds.contains(&atom) || effects.deletes.contains(&atom);
+            for (condition, adds, deletes) in raw.operators.conditional(&op) {
+                watch.spend(8 + 4 * condition.len() + adds.len() + deletes.len())?;
+                let touches = adds.contains(&atom) || deletes.contains(&atom);
                 if touches && !pruned.is_refuted(condition) {
                     condition.iter().for_each(|&l| need(l, pruned, &mut queue));
                 }

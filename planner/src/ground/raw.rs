@@ -18,8 +18,9 @@ use super::schema::{Product, Schema, SchemaEffect};
 use super::values::ValuePredicates;
 use crate::ids::id32;
 use crate::number::Expression;
+use crate::task::Rows;
 use crate::watch::{Interrupted, Watch};
-use pddl::model::{ActionId, Name, ObjectId, VariableId};
+use pddl::model::{ActionId, Name, VariableId};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 
@@ -33,44 +34,93 @@ pub(crate) struct RawEffects {
     pub(crate) deletes: Vec<u32>,
 }
 
-impl RawEffects {
-    pub(crate) fn len(&self) -> usize {
-        self.adds.len() + self.deletes.len()
-    }
-}
-
 /// Condition, whether it adds, atom.
 type GroundEffect = (Vec<Lit>, bool, u32);
 
 /// An operator over atoms of the table.
-#[derive(Clone, Debug)]
-pub(crate) struct RawOperator {
+#[derive(Clone, Copy)]
+pub(crate) struct RawOperator<'r> {
     pub(crate) action: ActionId,
-    pub(crate) arguments: Box<[ObjectId]>,
-    pub(crate) precondition: Vec<Lit>,
-    pub(crate) effects: RawEffects,
-    pub(crate) conditional: Vec<(Vec<Lit>, RawEffects)>,
+    pub(crate) arguments: &'r [u32],
+    pub(crate) precondition: &'r [Lit],
+    pub(crate) adds: &'r [u32],
+    pub(crate) deletes: &'r [u32],
+    /// Which of all conditional effects are its own.
+    pub(crate) conditional: (u32, u32),
     pub(crate) cost: f64,
-    pub(crate) numbers: Vec<RawChange>,
+    pub(crate) numbers: &'r [RawChange],
 }
 
-impl RawOperator {
-    /// Units of work to look at all of it once.
-    pub(crate) fn work(&self) -> usize {
-        let conditional: usize = self.conditional.iter().map(|(c, e)| 64 + 8 * (c.len() + e.len())).sum();
-        128 + 8 * (self.precondition.len() + self.effects.len()) + 256 * self.numbers.len() + conditional
+/// All operators, their parts behind each other: see `Operators`, which they become.
+#[derive(Default)]
+pub(crate) struct RawOperators {
+    actions: Vec<ActionId>,
+    arguments: Rows,
+    pub(crate) preconditions: Rows,
+    adds: Rows,
+    deletes: Rows,
+    conditional_ends: Vec<u32>,
+    conditions: Rows,
+    conditional_adds: Rows,
+    conditional_deletes: Rows,
+    costs: Vec<f64>,
+    number_ends: Vec<u32>,
+    numbers: Vec<RawChange>,
+}
+
+/// An effect under a condition: that, what it adds and what it deletes.
+type RawConditional<'r> = (&'r [Lit], &'r [u32], &'r [u32]);
+
+impl RawOperators {
+    pub(crate) fn len(&self) -> usize {
+        self.actions.len()
     }
 
-    /// Bytes that it takes until the task is done.
-    fn bytes(&self) -> usize {
-        let conditional: usize = self.conditional.iter().map(|(c, e)| 4 + c.len() + e.len()).sum();
-        budget::instance(self.arguments.len(), self.precondition.len() + self.effects.len() + conditional)
+    pub(crate) fn get(&self, operator: u32) -> RawOperator<'_> {
+        let i = operator as usize;
+        let range = |ends: &[u32]| (if i == 0 { 0 } else { ends[i - 1] }, ends[i]);
+        let numbers = range(&self.number_ends);
+        RawOperator {
+            action: self.actions[i],
+            arguments: self.arguments.row(operator),
+            precondition: self.preconditions.row(operator),
+            adds: self.adds.row(operator),
+            deletes: self.deletes.row(operator),
+            conditional: range(&self.conditional_ends),
+            cost: self.costs[i],
+            numbers: &self.numbers[numbers.0 as usize..numbers.1 as usize],
+        }
+    }
+
+    pub(crate) fn iter(&self) -> impl Iterator<Item = RawOperator<'_>> {
+        (0..id32(self.len())).map(|i| self.get(i))
+    }
+
+    pub(crate) fn conditional<'r>(
+        &'r self,
+        of: &RawOperator<'_>,
+    ) -> impl ExactSizeIterator<Item = RawConditional<'r>> + Clone {
+        let (first, end) = of.conditional;
+        (first as usize..end as usize)
+            .map(id32)
+            .map(|i| (self.conditions.row(i), self.conditional_adds.row(i), self.conditional_deletes.row(i)))
+    }
+
+    /// Literals and changes of an operator, those under conditions with them.
+    pub(crate) fn size(&self, of: &RawOperator<'_>) -> usize {
+        let conditional: usize = self.conditional(of).map(|(c, a, d)| 4 + c.len() + a.len() + d.len()).sum();
+        of.precondition.len() + of.adds.len() + of.deletes.len() + conditional
+    }
+
+    /// Units of work to look at all of an operator once.
+    pub(crate) fn work(&self, of: &RawOperator<'_>) -> usize {
+        128 + 8 * self.size(of) + 256 * of.numbers.len()
     }
 }
 
 /// The task before pruning.
 pub(crate) struct RawTask {
-    pub(crate) operators: Vec<RawOperator>,
+    pub(crate) operators: RawOperators,
     pub(crate) rules: Vec<(u32, Vec<Lit>)>,
     pub(crate) goal: Vec<Lit>,
     /// Whether some part of the goal folded to false.
@@ -119,7 +169,7 @@ pub(crate) fn instantiate(
     (options, watch): (&GroundOptions<'_>, &Watch<'_>),
 ) -> Result<RawTask, Failure> {
     let mut work = Instantiator::new(&reached.table, is_static, exclusions, fluents, (options, watch));
-    let mut operators = Vec::new();
+    let mut operators = RawOperators::default();
     let mut bytes = 0;
     let mut rules = Vec::new();
     for (schema, bindings) in schemas.iter().zip(&reached.bindings) {
@@ -148,8 +198,6 @@ pub(crate) fn instantiate(
                     if alternatives.is_empty() {
                         continue;
                     }
-                    let arguments = &binding[..schema.parameters];
-                    let arguments: Box<[ObjectId]> = arguments.iter().map(|&o| ObjectId(o)).collect();
                     let cost = match costs.cost(fluents, terms, &binding) {
                         Ok(cost) => cost,
                         Err(NoCost::Inapplicable) => continue,
@@ -167,17 +215,18 @@ pub(crate) fn instantiate(
                     if let Some(stop) = work.guard.stopped() {
                         return Err(stopped(stop, schema, bindings.rows).into());
                     }
+                    let arguments = &binding[..schema.parameters];
                     for precondition in alternatives {
                         let Some(precondition) = work.without(precondition, &clashes) else { continue };
                         // Hoisted variables may leave no trace: one operator of equals is enough.
                         if !schema.hoisted.is_empty()
-                            && !seen.insert((arguments.clone(), precondition.clone()))
+                            && !seen.insert((Box::<[u32]>::from(arguments), precondition.clone()))
                         {
                             continue;
                         }
-                        let new = operator(&mut work, *id, &arguments, precondition, (&all, &changes), cost);
-                        bytes += new.bytes();
-                        operators.push(new);
+                        let size =
+                            operators.add(&mut work, *id, arguments, precondition, (&all, &changes), cost);
+                        bytes += budget::instance(arguments.len(), size);
                     }
                 }
             }
@@ -345,46 +394,60 @@ pub(super) fn each_binding(
     }
 }
 
-fn operator(
-    work: &mut Instantiator<'_>,
-    action: ActionId,
-    arguments: &[ObjectId],
-    mut precondition: Vec<Lit>,
-    (effects, changes): (&[GroundEffect], &[RawChange]),
-    cost: f64,
-) -> RawOperator {
-    let mut always = RawEffects::default();
-    let mut by_condition: BTreeMap<Vec<Lit>, RawEffects> = BTreeMap::new();
-    // Leaves the groups of the precondition marked.
-    work.without_implied(&mut precondition);
-    let marks = &work.marks;
-    // What the precondition excludes does not hold, and need not be deleted.
-    let is_absent =
-        |atom: u32| precondition.binary_search(&(atom << 1)).is_err() && marks.exclude(work.exclusions, atom);
-    let contradicts = |condition: &[Lit]| {
-        let absent = condition.iter().any(|&l| l & 1 == 0 && is_absent(l >> 1));
-        absent || condition.iter().any(|l| precondition.binary_search(&(l ^ 1)).is_ok())
-    };
-    let given = |l: Lit| precondition.binary_search(&l).is_ok() || (l & 1 == 1 && is_absent(l >> 1));
-    for (condition, positive, atom) in effects {
-        if (!positive && is_absent(*atom)) || contradicts(condition) {
-            continue;
+impl RawOperators {
+    /// Adds an operator; gives its size.
+    fn add(
+        &mut self,
+        work: &mut Instantiator<'_>,
+        action: ActionId,
+        arguments: &[u32],
+        mut precondition: Vec<Lit>,
+        (effects, changes): (&[GroundEffect], &[RawChange]),
+        cost: f64,
+    ) -> usize {
+        let mut always = RawEffects::default();
+        let mut by_condition: BTreeMap<Vec<Lit>, RawEffects> = BTreeMap::new();
+        // Leaves the groups of the precondition marked.
+        work.without_implied(&mut precondition);
+        let marks = &work.marks;
+        // What the precondition excludes does not hold, and need not be deleted.
+        let is_absent = |atom: u32| {
+            precondition.binary_search(&(atom << 1)).is_err() && marks.exclude(work.exclusions, atom)
+        };
+        let contradicts = |condition: &[Lit]| {
+            let absent = condition.iter().any(|&l| l & 1 == 0 && is_absent(l >> 1));
+            absent || condition.iter().any(|l| precondition.binary_search(&(l ^ 1)).is_ok())
+        };
+        let given = |l: Lit| precondition.binary_search(&l).is_ok() || (l & 1 == 1 && is_absent(l >> 1));
+        for (condition, positive, atom) in effects {
+            if (!positive && is_absent(*atom)) || contradicts(condition) {
+                continue;
+            }
+            let open: Vec<Lit> = condition.iter().copied().filter(|&l| !given(l)).collect();
+            let into = if open.is_empty() { &mut always } else { by_condition.entry(open).or_default() };
+            (if *positive { &mut into.adds } else { &mut into.deletes }).push(*atom);
         }
-        let open: Vec<Lit> = condition.iter().copied().filter(|&l| !given(l)).collect();
-        let into = if open.is_empty() { &mut always } else { by_condition.entry(open).or_default() };
-        (if *positive { &mut into.adds } else { &mut into.deletes }).push(*atom);
-    }
-    let mut numbers: Vec<RawChange> =
-        changes.iter().filter(|change| !contradicts(&change.condition)).cloned().collect();
-    numbers.iter_mut().for_each(|change| change.condition.retain(|&l| !given(l)));
-    RawOperator {
-        action,
-        numbers,
-        arguments: arguments.into(),
-        precondition,
-        effects: tidy(always),
-        conditional: by_condition.into_iter().map(|(c, e)| (c, tidy(e))).collect(),
-        cost,
+        for change in changes.iter().filter(|change| !contradicts(&change.condition)) {
+            let mut change = change.clone();
+            change.condition.retain(|&l| !given(l));
+            self.numbers.push(change);
+        }
+        let always = tidy(always);
+        self.actions.push(action);
+        self.arguments.push(arguments.iter().copied());
+        self.preconditions.push(precondition);
+        self.adds.push(always.adds);
+        self.deletes.push(always.deletes);
+        for (condition, effects) in by_condition {
+            let effects = tidy(effects);
+            self.conditions.push(condition);
+            self.conditional_adds.push(effects.adds);
+            self.conditional_deletes.push(effects.deletes);
+        }
+        self.conditional_ends.push(id32(self.conditions.len()));
+        self.costs.push(cost);
+        self.number_ends.push(id32(self.numbers.len()));
+        self.size(&self.get(id32(self.len() - 1)))
     }
 }
 

@@ -123,7 +123,7 @@ impl CountedPlan {
             let before = if again { *count } else { 0 };
             *count = before.max(times);
             let added = *count - before;
-            let operator = &task.operators.as_slice()[number as usize];
+            let operator = task.operator(OperatorId(number));
             total = total.saturating_add(added.saturating_mul(costs.of(operator.cost)));
             self.real += u64::from(added) * u64::from(operator.cost);
             if added > 0 {

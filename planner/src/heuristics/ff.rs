@@ -87,7 +87,7 @@ impl<'a> Ff<'a> {
             {
                 continue;
             }
-            let operator = &self.task.operators.as_slice()[number as usize];
+            let operator = self.task.operator(OperatorId(number));
             total = total.saturating_add(self.costs.of(operator.cost));
             self.real += u64::from(operator.cost);
             let Some(preferred) = preferred.as_deref_mut() else { continue };

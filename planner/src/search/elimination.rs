@@ -56,7 +56,7 @@ fn left_out(task: &Task, query: &Query<'_>, from: &[u64], steps: &[OperatorId]) 
     let mut next = state.clone();
     let mut done = Vec::new();
     for &operator in &steps[1..] {
-        if task.operators[operator].precondition.hold_in(&state) {
+        if task.operator(operator).precondition.hold_in(&state) {
             next.copy_from_slice(&state);
             if !task.apply(operator, &state, &mut next) {
                 return None;

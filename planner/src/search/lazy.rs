@@ -200,7 +200,7 @@ impl<'a> Lazy<'a> {
             });
         };
         let task = self.job.task;
-        let cost = self.reached_at[from.0 as usize] + u64::from(task.operators[operator].cost);
+        let cost = self.reached_at[from.0 as usize] + u64::from(task.operators.cost(operator));
         if cost >= self.job.bound.get() {
             self.pruned |= self.order == Order::Greedy;
             return None;

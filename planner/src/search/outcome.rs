@@ -16,7 +16,7 @@ pub struct Plan {
 
 impl Plan {
     pub(crate) fn of(task: &Task, operators: Vec<OperatorId>) -> Self {
-        let cost = operators.iter().map(|&o| u64::from(task.operators()[o].cost)).sum();
+        let cost = operators.iter().map(|&o| u64::from(task.operators().cost(o))).sum();
         Self { operators, cost }
     }
 }

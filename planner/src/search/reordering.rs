@@ -58,19 +58,19 @@ fn dependents(task: &Task, steps: &[OperatorId]) -> Vec<Vec<usize>> {
     let mut writer: FxHashMap<FactId, usize> = FxHashMap::default();
     let mut readers: FxHashMap<FactId, Vec<usize>> = FxHashMap::default();
     for (i, &step) in steps.iter().enumerate() {
-        let operator = &task.operators[step];
-        let conditions = operator.conditional.iter().map(|e| &e.condition);
-        let reads = std::iter::once(&operator.precondition)
+        let operator = task.operator(step);
+        let conditions = operator.conditional.iter().map(|e| e.condition);
+        let reads = std::iter::once(operator.precondition)
             .chain(conditions)
-            .flat_map(|l| l.positive.iter().chain(&l.negative));
+            .flat_map(|l| l.positive.iter().chain(l.negative));
         for fact in reads {
             if let Some(&by) = writer.get(fact) {
                 after[by].push(i);
             }
             readers.entry(*fact).or_default().push(i);
         }
-        let conditional = operator.conditional.iter().flat_map(|e| e.adds.iter().chain(&e.deletes));
-        for fact in operator.adds.iter().chain(&operator.deletes).chain(conditional) {
+        let conditional = operator.conditional.iter().flat_map(|e| e.adds.iter().chain(e.deletes));
+        for fact in operator.adds.iter().chain(operator.deletes).chain(conditional) {
             for by in readers.remove(fact).unwrap_or_default().into_iter().chain(writer.insert(*fact, i)) {
                 if by != i {
                     after[by].push(i);

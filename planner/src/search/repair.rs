@@ -17,7 +17,7 @@ use super::distance::Distance;
 use super::elimination::without_needless;
 use super::{Budget, Limit, Outcome, Plan, Query, Report, SearchConfiguration, Statistics, solve};
 use crate::ids::{FactId, OperatorId};
-use crate::task::{Goal, Literals, State, Task};
+use crate::task::{Goal, Literals, LiteralsRef, State, Task};
 use std::collections::BTreeMap;
 
 /// What decides between a repaired plan and a new one.
@@ -179,11 +179,11 @@ impl Repair<'_> {
     /// applicable (each stands for one part of a disjunction), and the state after it.
     fn taken(&self, state: &State, step: OperatorId) -> Option<(OperatorId, State)> {
         let operators = self.task.operators();
-        let own = &operators[step];
+        let own = operators.get(step);
         let after = (step.0 + 1..).map(OperatorId).take_while(|o| (o.0 as usize) < operators.len());
         let before = (0..step.0).rev().map(OperatorId);
         let same = |o: &OperatorId| {
-            let other = &operators[*o];
+            let other = operators.get(*o);
             other.action == own.action && other.arguments == own.arguments
         };
         let copies = after.take_while(same).chain(before.take_while(same));
@@ -289,7 +289,7 @@ impl Work<'_> {
 /// For each suffix, where it starts and what must hold before it, as far as facts tell.
 fn kernels(task: &Task, plan: &[OperatorId], goal: &Goal) -> Vec<(usize, Literals)> {
     let mut kernel: BTreeMap<FactId, bool> = BTreeMap::new();
-    let require = |kernel: &mut BTreeMap<FactId, bool>, literals: &Literals| {
+    let require = |kernel: &mut BTreeMap<FactId, bool>, literals: LiteralsRef<'_>| {
         kernel.extend(literals.positive.iter().map(|&f| (f, true)));
         kernel.extend(literals.negative.iter().map(|&f| (f, false)));
     };
@@ -297,16 +297,16 @@ fn kernels(task: &Task, plan: &[OperatorId], goal: &Goal) -> Vec<(usize, Literal
         let of = |wanted: bool| kernel.iter().filter(move |&(_, &b)| b == wanted).map(|(&f, _)| f).collect();
         Literals { positive: of(true), negative: of(false) }
     };
-    require(&mut kernel, &goal.literals);
+    require(&mut kernel, goal.literals.as_ref());
     let mut found = vec![(plan.len(), literals(&kernel))];
     for (start, &operator) in plan.iter().enumerate().rev() {
-        let operator = &task.operators()[operator];
+        let operator = task.operator(operator);
         kernel.retain(|fact, wanted| {
-            let given = if *wanted { &operator.adds } else { &operator.deletes };
+            let given = if *wanted { operator.adds } else { operator.deletes };
             // Axioms and numbers decide anew after each step.
             given.binary_search(fact).is_err() && !task.facts()[*fact].derived
         });
-        require(&mut kernel, &operator.precondition);
+        require(&mut kernel, operator.precondition);
         found.push((start, literals(&kernel)));
     }
     found

@@ -95,7 +95,7 @@ impl<'a> Space<'a> {
             if self.job.meter.spend(price_of_state(self.next.len())) {
                 return None;
             }
-            let cost = self.cost + u64::from(task.operators[operator].cost);
+            let cost = self.cost + u64::from(task.operators.cost(operator));
             if cost >= self.job.bound.get() {
                 self.is_bounded = true;
                 continue;

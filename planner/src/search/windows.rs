@@ -174,13 +174,13 @@ impl Windows<'_> {
         let goal = &self.query.goal.literals;
         let (mut positive, mut negative) = (facts(&goal.positive), facts(&goal.negative));
         for &step in steps.iter().rev() {
-            let operator = &self.task.operators[step];
+            let operator = self.task.operator(step);
             self.meter.spend(operator.adds.len() + operator.deletes.len() + 16);
             // Axioms decide anew after each step.
             positive.retain(|f| !operator.adds.contains(f) && !self.task.facts[*f].derived);
             negative.retain(|f| !operator.deletes.contains(f) && !self.task.facts[*f].derived);
-            positive.extend(&operator.precondition.positive);
-            negative.extend(&operator.precondition.negative);
+            positive.extend(operator.precondition.positive);
+            negative.extend(operator.precondition.negative);
         }
         Literals { positive: positive.into_iter().collect(), negative: negative.into_iter().collect() }
     }

@@ -47,7 +47,7 @@ impl Task {
 
     /// Counts a step from `state`.
     pub(crate) fn count(&self, state: &State, operator: OperatorId, tally: &mut Tally) {
-        if let Some(effects) = &self.operators[operator].numeric {
+        if let Some(effects) = self.operator(operator).numeric {
             self.add_up(effects, state, tally);
         }
         if let Some(steps) = self.metric.as_ref().and_then(|m| m.steps) {

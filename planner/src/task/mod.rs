@@ -15,6 +15,7 @@ mod mutexes;
 mod names;
 mod numeric;
 mod operator;
+mod operators;
 mod packing;
 mod relaxation;
 mod repetition;
@@ -31,7 +32,9 @@ pub(crate) use mutexes::variables;
 pub use mutexes::{Mutexes, Variable};
 pub(crate) use names::Names;
 pub(crate) use numeric::{Fluent, Numeric, NumericEffects, Update, changed};
-pub use operator::{ConditionalEffect, Goal, Impossible, Literals, Operator};
+pub use operator::{ConditionalEffect, Goal, Impossible, Literals, LiteralsRef, Operator};
+pub(crate) use operators::NewOperator;
+pub use operators::{ConditionalEffects, Operators};
 pub(crate) use packing::Packing;
 pub(crate) use relaxation::{AXIOM, Relaxation};
 pub(crate) use repetition::{Way, Ways};
@@ -92,7 +95,7 @@ pub enum AtomStatus {
 #[derive(Clone, Debug)]
 pub struct Task {
     pub(crate) facts: IndexVec<FactId, Fact>,
-    pub(crate) operators: IndexVec<OperatorId, Operator>,
+    pub(crate) operators: Operators,
     pub(crate) axioms: AxiomProgram,
     pub(crate) initial: State,
     pub(crate) goal: Goal,
@@ -119,8 +122,13 @@ impl Task {
     }
 
     /// All operators.
-    pub fn operators(&self) -> &IndexVec<OperatorId, Operator> {
+    pub fn operators(&self) -> &Operators {
         &self.operators
+    }
+
+    /// One operator.
+    pub fn operator(&self, operator: OperatorId) -> Operator<'_> {
+        self.operators.get(operator)
     }
 
     /// All rules of axioms.
@@ -193,7 +201,7 @@ impl Task {
 
     /// Whether the operator's precondition holds.
     pub fn is_applicable(&self, state: &State, operator: OperatorId) -> bool {
-        self.operators[operator].precondition.hold_in(state.words())
+        self.operator(operator).precondition.hold_in(state.words())
     }
 
     /// The state after an operator; `None` where it may not be applied, or a number grows too long.
@@ -219,9 +227,9 @@ impl Task {
     /// is no state.
     #[must_use]
     pub(crate) fn apply(&self, operator: OperatorId, state: &[u64], next: &mut [u64]) -> bool {
-        let own = &self.operators[operator];
+        let own = self.operator(operator);
         own.apply(state, next);
-        if let Some(effects) = &own.numeric
+        if let Some(effects) = own.numeric
             && !self.numeric.apply(effects, state, next)
         {
             return false;
@@ -232,7 +240,7 @@ impl Task {
 
     /// Bytes that the task holds, about.
     pub fn memory_bytes(&self) -> usize {
-        let operators: usize = self.operators.iter().map(Operator::memory_bytes).sum();
+        let operators = self.operators.memory_bytes();
         // An operator's node in the successor tree and in the relaxation is about as large as itself.
         2 * operators + self.facts.len() * (size_of::<Fact>() + 32) + self.status.len() * 100
     }

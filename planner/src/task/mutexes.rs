@@ -8,10 +8,10 @@
 //!
 //! Source: Helmert, "Concise finite-domain representations for PDDL planning tasks", AIJ 2009, §5–6.
 
-use super::{Operator, Rows, State, contains};
-use crate::ids::{FactId, OperatorId, id32};
+use super::{Operator, Operators, Rows, State, contains};
+use crate::ids::{FactId, id32};
 use crate::watch::{Interrupted, Watch};
-use pddl::model::{Idx, IndexVec};
+use pddl::model::Idx;
 
 /// The groups.
 #[derive(Clone, Debug, Default)]
@@ -29,7 +29,7 @@ impl Mutexes {
     pub(crate) fn new(
         facts: usize,
         groups: &[Vec<u32>],
-        operators: &IndexVec<OperatorId, Operator>,
+        operators: &Operators,
         initial: &State,
         watch: &Watch<'_>,
     ) -> Result<Self, Interrupted> {
@@ -42,25 +42,25 @@ impl Mutexes {
         let one = |group: &Vec<u32>| group.iter().filter(|&&f| initial.contains(FactId(f))).count() == 1;
         let mut mutexes = Self { groups: rows, of, exact: groups.iter().map(one).collect() };
         if !groups.is_empty() {
-            for operator in operators {
+            for operator in operators.iter() {
                 let (deletes, adds) = (operator.deletes.len(), operator.adds.len());
                 watch.spend(16 + 8 * deletes * (1 + adds) + 16 * operator.conditional.len())?;
-                mutexes.leave(operator);
+                mutexes.leave(&operator);
             }
         }
         Ok(mutexes)
     }
 
     /// Notes the groups of which no fact may hold after the operator.
-    fn leave(&mut self, operator: &Operator) {
+    fn leave(&mut self, operator: &Operator<'_>) {
         let Self { of, exact, .. } = self;
         let covered = |g: u32| operator.adds.iter().any(|a| of.row(a.0).contains(&g));
-        for f in &operator.deletes {
+        for f in operator.deletes {
             for &g in of.row(f.0) {
                 exact[g as usize] = exact[g as usize] && covered(g);
             }
         }
-        for f in operator.conditional.iter().flat_map(|e| &e.deletes) {
+        for f in operator.conditional.iter().flat_map(|e| e.deletes) {
             of.row(f.0).iter().for_each(|&g| exact[g as usize] = false);
         }
     }

@@ -71,7 +71,7 @@ impl Names {
 impl Task {
     /// The operator as a line of a plan file, `(move a b)`.
     pub fn operator_name(&self, operator: OperatorId) -> String {
-        let Operator { action, arguments, .. } = &self.operators[operator];
+        let Operator { action, arguments, .. } = self.operator(operator);
         self.names.list(&self.names.actions[action.0 as usize], arguments)
     }
 

@@ -1,6 +1,6 @@
 //! Ground operators, conjunctions of literals, goals.
 
-use super::{GroundAtom, NumericEffects, contains, set, unset};
+use super::{ConditionalEffects, GroundAtom, NumericEffects, contains, set, unset};
 use crate::ids::FactId;
 use pddl::model::{ActionId, ObjectId};
 
@@ -28,72 +28,97 @@ impl Literals {
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
+
+    /// The same, borrowed as operators give theirs.
+    pub fn as_ref(&self) -> LiteralsRef<'_> {
+        LiteralsRef { positive: &self.positive, negative: &self.negative }
+    }
+}
+
+/// A conjunction that someone else holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LiteralsRef<'a> {
+    /// Facts that must hold, sorted.
+    pub positive: &'a [FactId],
+    /// Facts that must not hold, sorted.
+    pub negative: &'a [FactId],
+}
+
+impl LiteralsRef<'_> {
+    pub(crate) fn hold_in(self, words: &[u64]) -> bool {
+        self.positive.iter().all(|&f| contains(words, f))
+            && self.negative.iter().all(|&f| !contains(words, f))
+    }
+
+    /// How many literals.
+    pub fn len(self) -> usize {
+        self.positive.len() + self.negative.len()
+    }
+
+    /// Whether it holds everywhere.
+    pub fn is_empty(self) -> bool {
+        self.len() == 0
+    }
 }
 
 /// Effects under a condition on the state before.
-#[derive(Clone, Debug)]
-pub struct ConditionalEffect {
+#[derive(Clone, Copy, Debug)]
+pub struct ConditionalEffect<'a> {
     /// When.
-    pub condition: Literals,
+    pub condition: LiteralsRef<'a>,
     /// Facts that become true.
-    pub adds: Box<[FactId]>,
+    pub adds: &'a [FactId],
     /// Facts that become false unless something adds them.
-    pub deletes: Box<[FactId]>,
+    pub deletes: &'a [FactId],
 }
 
 /// A ground operator. Several may stand for one ground action: copies of a disjunctive or
 /// existential precondition.
-#[derive(Clone, Debug)]
-pub struct Operator {
+#[derive(Clone, Copy, Debug)]
+pub struct Operator<'a> {
     /// The schema.
     pub action: ActionId,
     /// The schema's parameters.
-    pub arguments: Box<[ObjectId]>,
+    pub arguments: &'a [ObjectId],
     /// When it may be applied.
-    pub precondition: Literals,
+    pub precondition: LiteralsRef<'a>,
     /// Facts that become true.
-    pub adds: Box<[FactId]>,
+    pub adds: &'a [FactId],
     /// Facts that become false (disjoint from `adds`).
-    pub deletes: Box<[FactId]>,
+    pub deletes: &'a [FactId],
     /// What else happens.
-    pub conditional: Box<[ConditionalEffect]>,
+    pub conditional: ConditionalEffects<'a>,
     /// What it does to numbers.
-    pub(crate) numeric: Option<Box<NumericEffects>>,
+    pub(crate) numeric: Option<&'a NumericEffects>,
     /// Its cost in units of `1 / Task::cost_scale`.
     pub cost: u32,
 }
 
-impl Operator {
+impl Operator<'_> {
     /// Whether it changes numbers that something reads.
     pub fn changes_numbers(&self) -> bool {
-        self.numeric.as_ref().is_some_and(|effects| !effects.updates.is_empty())
+        self.numeric.is_some_and(|effects| !effects.updates.is_empty())
     }
 
-    /// Bytes that it holds, about.
-    pub(crate) fn memory_bytes(&self) -> usize {
-        let facts = |c: &Literals| 4 * c.len();
-        let more = |e: &ConditionalEffect| 100 + facts(&e.condition) + 4 * (e.adds.len() + e.deletes.len());
-        let own =
-            4 * (self.arguments.len() + self.adds.len() + self.deletes.len()) + facts(&self.precondition);
-        let numbers = self.numeric.as_ref().map_or(0, |e| 200 * (1 + e.updates.len() + e.metric.len()));
-        // Four boxes of their own.
-        size_of::<Self>() + 64 + own + numbers + self.conditional.iter().map(more).sum::<usize>()
+    /// How many literals and changes, those under conditions left out.
+    pub(crate) fn size(&self) -> usize {
+        self.precondition.len() + self.adds.len() + self.deletes.len()
     }
 
     pub(crate) fn apply(&self, state: &[u64], next: &mut [u64]) {
-        for &f in &self.deletes {
+        for &f in self.deletes {
             unset(next, f);
         }
         for effect in self.conditional.iter().filter(|e| e.condition.hold_in(state)) {
-            for &f in &effect.deletes {
+            for &f in effect.deletes {
                 unset(next, f);
             }
         }
-        for &f in &self.adds {
+        for &f in self.adds {
             set(next, f);
         }
         for effect in self.conditional.iter().filter(|e| e.condition.hold_in(state)) {
-            for &f in &effect.adds {
+            for &f in effect.adds {
                 set(next, f);
             }
         }

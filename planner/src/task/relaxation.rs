@@ -11,8 +11,11 @@
 //! Source: Hoffmann & Nebel, "The FF planning system", JAIR 2001, §3; negations as in Helmert 2006.
 
 use super::cliques::cliques;
-use super::{AxiomProgram, Fact, Goal, Literals, Numeric, Operator, Rows, Way, Ways, contains, for_each_set};
-use crate::ids::{FactId, OperatorId, id32};
+use super::{
+    AxiomProgram, Fact, Goal, Literals, LiteralsRef, Numeric, Operators, Rows, Way, Ways, contains,
+    for_each_set,
+};
+use crate::ids::{FactId, id32};
 use crate::watch::{Interrupted, Watch, sort_by_count};
 use pddl::model::{Idx, IndexVec};
 use rustc_hash::FxHashMap;
@@ -56,7 +59,7 @@ pub(crate) struct Relaxation {
 impl Relaxation {
     pub(crate) fn new(
         facts: &IndexVec<FactId, Fact>,
-        operators: &IndexVec<OperatorId, Operator>,
+        operators: &Operators,
         axioms: &AxiomProgram,
         numeric: &Numeric,
         goal: &Goal,
@@ -64,13 +67,14 @@ impl Relaxation {
     ) -> Result<Self, Interrupted> {
         let mut graph = Self { facts: facts.len(), negation: vec![0; facts.len()], ..Self::default() };
         let conditions = operators.iter().flat_map(|o| {
-            let updates = o.numeric.iter().flat_map(|e| e.updates.iter());
-            let conditional = o.conditional.iter().map(|e| &e.condition);
-            std::iter::once(&o.precondition).chain(conditional).chain(updates.map(|u| &u.condition))
+            let updates = o.numeric.into_iter().flat_map(|e| e.updates.iter());
+            let conditional = o.conditional.iter().map(|e| e.condition);
+            std::iter::once(o.precondition).chain(conditional).chain(updates.map(|u| u.condition.as_ref()))
         });
-        for literals in conditions.chain(axioms.rules().iter().map(|r| &r.body)).chain([&goal.literals]) {
+        let bodies = axioms.rules().iter().map(|r| r.body.as_ref());
+        for literals in conditions.chain(bodies).chain([goal.literals.as_ref()]) {
             watch.spend(8 + literals.negative.len())?;
-            for &f in &literals.negative {
+            for &f in literals.negative {
                 if graph.negation[f.index()] == 0 {
                     let proposition = id32(graph.facts + graph.negated.len());
                     graph.negation[f.index()] = proposition;
@@ -85,16 +89,16 @@ impl Relaxation {
         let comparisons: FxHashMap<FactId, u32> =
             comparisons.map(|(c, position)| (c.fact, position)).collect();
         for (id, op) in operators.enumerate() {
-            graph.ways.set_takings(id.0, numeric.takings(op, &comparisons));
-            watch.spend(32 + 8 * (op.precondition.len() + op.adds.len() + op.deletes.len()))?;
-            graph.node(id.0, op.cost, &[&op.precondition], &op.adds, &op.deletes);
-            for influenced in op.numeric.iter().flat_map(|e| numeric.influences(e)) {
+            graph.ways.set_takings(id.0, numeric.takings(&op, &comparisons));
+            watch.spend(32 + 8 * op.size())?;
+            graph.node(id.0, op.cost, &[op.precondition], op.adds, op.deletes);
+            for influenced in op.numeric.into_iter().flat_map(|e| numeric.influences(e)) {
                 let (facts, ways): (Vec<FactId>, Vec<Way>) = influenced.holds.into_iter().unzip();
                 let before = graph.effects.items();
                 graph.node(
                     id.0,
                     op.cost,
-                    &[&op.precondition, influenced.condition],
+                    &[op.precondition, influenced.condition.as_ref()],
                     &facts,
                     &influenced.fails,
                 );
@@ -102,14 +106,14 @@ impl Relaxation {
                     graph.ways.set(before + i, fact.0, way);
                 }
             }
-            for e in &op.conditional {
+            for e in op.conditional.iter() {
                 watch.spend(32 + 8 * (op.precondition.len() + e.condition.len() + e.adds.len()))?;
-                graph.node(id.0, op.cost, &[&op.precondition, &e.condition], &e.adds, &e.deletes);
+                graph.node(id.0, op.cost, &[op.precondition, e.condition], e.adds, e.deletes);
             }
         }
         for rule in axioms.rules() {
             watch.spend(32 + 8 * rule.body.len())?;
-            graph.node(AXIOM, 0, &[&rule.body], &[rule.head], &[]);
+            graph.node(AXIOM, 0, &[rule.body.as_ref()], &[rule.head], &[]);
         }
         graph.first_move = id32(graph.nodes());
         graph.index(watch)?;
@@ -133,7 +137,7 @@ impl Relaxation {
         self.needed_by.row(proposition).split_at(self.moves_at[proposition as usize] as usize)
     }
 
-    fn node(&mut self, op: u32, cost: u32, needs: &[&Literals], adds: &[FactId], deletes: &[FactId]) {
+    fn node(&mut self, op: u32, cost: u32, needs: &[LiteralsRef<'_>], adds: &[FactId], deletes: &[FactId]) {
         let negation = &self.negation;
         let achieves = |f: &&FactId| negation[f.index()] != 0;
         if adds.is_empty() && !deletes.iter().any(|f| achieves(&f)) {

@@ -8,10 +8,10 @@
 //! Source: Helmert, "The Fast Downward planning system", JAIR 2006, §5.3.1. We branch on literals
 //! and not on variables with many values.
 
-use super::{Operator, contains};
+use super::{Operators, contains};
 use crate::ids::{FactId, OperatorId, id32};
 use crate::watch::{Interrupted, Spend, Watch};
-use pddl::model::{Idx, IndexVec};
+use pddl::model::Idx;
 
 #[derive(Clone, Debug)]
 struct Node {
@@ -126,20 +126,16 @@ pub(crate) struct SuccessorTree {
 }
 
 impl SuccessorTree {
-    pub(crate) fn new(
-        facts: usize,
-        operators: &IndexVec<OperatorId, Operator>,
-        watch: &Watch<'_>,
-    ) -> Result<Self, Interrupted> {
+    pub(crate) fn new(facts: usize, operators: &Operators, watch: &Watch<'_>) -> Result<Self, Interrupted> {
         let mut frequency = vec![0_u32; facts];
-        for op in operators {
+        for op in operators.iter() {
             watch.spend(8 + op.precondition.positive.len())?;
-            for f in &op.precondition.positive {
+            for f in op.precondition.positive {
                 frequency[f.index()] += 1;
             }
         }
         let mut keys = Keys::default();
-        for op in operators {
+        for op in operators.iter() {
             watch.spend(16 + 8 * op.precondition.len())?;
             let start = keys.literals.len();
             keys.literals.extend(op.precondition.positive.iter().map(|f| f.0 << 1));

@@ -53,7 +53,7 @@ impl<'a> LandmarkCount<'a> {
         let mut disjunctive = Vec::new();
         let before = preferred.len();
         for &operator in applicable {
-            let op = &self.task.operators[operator];
+            let op = self.task.operator(operator);
             let adds = op.adds.iter().chain(op.conditional.iter().flat_map(|e| e.adds.iter()));
             let (mut single, mut any) = (false, false);
             for fact in adds {

@@ -200,7 +200,7 @@ impl Builder<'_> {
         let mut union = Vec::new();
         for &p in propositions {
             for &node in self.achieved_by.row(p) {
-                if self.meter.spend(self.graph.preconditions.row(node).len() + 8) {
+                if self.meter.spend(64 + 8 * (self.graph.preconditions.row(node).len() + 4 * union.len())) {
                     return nodes;
                 }
                 if !self.labels.reaches(self.graph, node) {
@@ -400,17 +400,17 @@ impl Builder<'_> {
         let landmark_of: FxHashMap<u32, u32> =
             (0..id32(self.found.landmarks.len())).filter_map(|l| self.fact_of(l).map(|f| (f.0, l))).collect();
         let mut shared: FxHashMap<u32, Shared> = FxHashMap::default();
-        for operator in &self.task.operators {
-            if self.meter.spend(operator.adds.len() + 1) {
+        for operator in self.task.operators.iter() {
+            if self.meter.spend(32 + 16 * (operator.adds.len() + operator.deletes.len())) {
                 return FxHashMap::default();
             }
             let conditional =
                 operator.conditional.iter().flat_map(|e| e.adds.iter().map(move |f| (f, Some(e))));
             for (fact, when) in operator.adds.iter().map(|f| (f, None)).chain(conditional) {
                 let Some(&landmark) = landmark_of.get(&fact.0) else { continue };
-                let with = when.map_or(&[][..], |e| &e.deletes);
+                let with = when.map_or(&[][..], |e| e.deletes);
                 let deletes = || operator.deletes.iter().chain(with).copied();
-                let more = when.map_or(&[][..], |e| &e.adds);
+                let more = when.map_or(&[][..], |e| e.adds);
                 let adds = || operator.adds.iter().chain(more).copied();
                 match shared.entry(landmark) {
                     Entry::Vacant(entry) => {

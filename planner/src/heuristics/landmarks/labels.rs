@@ -85,7 +85,7 @@ impl Labels {
                     }
                 }
             }
-            if meter.spend(graph.effects.row(node).len() * (union.len() + 1)) || work > WORK {
+            if meter.spend(64 + (8 + graph.effects.row(node).len()) * (union.len() + 1)) || work > WORK {
                 return None;
             }
         }

@@ -1,0 +1,256 @@
+//! All operators of a task, behind each other in a few arrays.
+//!
+//! Problem: a million operators that own their parts are five million allocations, which take as long to
+//! make and to give back as grounding itself, and scatter what a search reads. Idea: the facts of all
+//! operators lie in one array, those of conditional effects in another, and each operator is where its
+//! parts end; [`Operators::get`] gives them as slices. Invariant: operators are only added, and parts lie
+//! in the order of operators. Cost: 28 bytes an operator beside its facts and arguments.
+
+use super::{ConditionalEffect, LiteralsRef, NumericEffects, Operator};
+use crate::ids::{FactId, OperatorId, id32};
+use pddl::model::{ActionId, Idx, ObjectId};
+
+/// Where the parts of a block end: what must hold, what must not, what is added, what is deleted.
+type Ends = [u32; 4];
+
+/// Blocks of four lists of facts.
+#[derive(Clone, Debug, Default)]
+struct Blocks {
+    ends: Vec<Ends>,
+    facts: Vec<FactId>,
+}
+
+/// A block's lists.
+#[derive(Clone, Copy)]
+struct Block<'a> {
+    condition: LiteralsRef<'a>,
+    adds: &'a [FactId],
+    deletes: &'a [FactId],
+}
+
+impl Blocks {
+    fn push(&mut self, lists: [&[FactId]; 4]) {
+        let ends = lists.map(|list| {
+            self.facts.extend_from_slice(list);
+            id32(self.facts.len())
+        });
+        self.ends.push(ends);
+    }
+
+    fn get(&self, i: usize) -> Block<'_> {
+        let start = if i == 0 { 0 } else { self.ends[i - 1][3] };
+        let [positive, negative, adds, deletes] = self.ends[i];
+        let part = |from: u32, to: u32| &self.facts[from as usize..to as usize];
+        Block {
+            condition: LiteralsRef { positive: part(start, positive), negative: part(positive, negative) },
+            adds: part(negative, adds),
+            deletes: part(adds, deletes),
+        }
+    }
+}
+
+/// An operator's effects under conditions.
+#[derive(Clone, Copy, Debug)]
+pub struct ConditionalEffects<'a> {
+    blocks: &'a Blocks,
+    first: usize,
+    end: usize,
+}
+
+impl<'a> ConditionalEffects<'a> {
+    /// Whether there are none.
+    pub fn is_empty(self) -> bool {
+        self.first == self.end
+    }
+
+    /// How many.
+    pub fn len(self) -> usize {
+        self.end - self.first
+    }
+
+    /// One after the other.
+    pub fn iter(self) -> impl ExactSizeIterator<Item = ConditionalEffect<'a>> + Clone {
+        (self.first..self.end).map(move |i| {
+            let Block { condition, adds, deletes } = self.blocks.get(i);
+            ConditionalEffect { condition, adds, deletes }
+        })
+    }
+}
+
+/// The parts of an operator that is added.
+pub(crate) struct NewOperator<'a> {
+    pub(crate) action: ActionId,
+    pub(crate) arguments: &'a [ObjectId],
+    /// What must hold, what must not, what is added, what is deleted: each sorted.
+    pub(crate) facts: [&'a [FactId]; 4],
+    pub(crate) numeric: Option<Box<NumericEffects>>,
+}
+
+/// All operators.
+#[derive(Clone, Debug, Default)]
+pub struct Operators {
+    actions: Vec<ActionId>,
+    costs: Vec<u32>,
+    argument_ends: Vec<u32>,
+    arguments: Vec<ObjectId>,
+    blocks: Blocks,
+    /// By operator, where its conditional effects end; empty where no operator has one.
+    conditional_ends: Vec<u32>,
+    conditional: Blocks,
+    /// Empty where no operator changes numbers.
+    numeric: Vec<Option<Box<NumericEffects>>>,
+}
+
+impl Operators {
+    /// Adds a conditional effect of the operator that is added next.
+    pub(crate) fn push_conditional(&mut self, facts: [&[FactId]; 4]) {
+        if self.conditional_ends.is_empty() {
+            self.conditional_ends.resize(self.len(), 0);
+        }
+        self.conditional.push(facts);
+    }
+
+    /// Adds an operator that costs 1.
+    pub(crate) fn push(&mut self, new: NewOperator<'_>) {
+        if new.numeric.is_some() && self.numeric.is_empty() {
+            self.numeric.resize_with(self.len(), || None);
+        }
+        if new.numeric.is_some() || !self.numeric.is_empty() {
+            self.numeric.push(new.numeric);
+        }
+        if !self.conditional.ends.is_empty() {
+            self.conditional_ends.push(id32(self.conditional.ends.len()));
+        }
+        self.arguments.extend_from_slice(new.arguments);
+        self.argument_ends.push(id32(self.arguments.len()));
+        self.blocks.push(new.facts);
+        self.actions.push(new.action);
+        self.costs.push(1);
+    }
+
+    pub(crate) fn set_cost(&mut self, operator: usize, cost: u32) {
+        self.costs[operator] = cost;
+    }
+
+    pub(crate) fn numeric_mut(&mut self) -> impl Iterator<Item = &mut NumericEffects> {
+        self.numeric.iter_mut().filter_map(Option::as_deref_mut)
+    }
+
+    /// How many.
+    pub fn len(&self) -> usize {
+        self.actions.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.actions.is_empty()
+    }
+
+    /// All ids, in order.
+    pub fn ids(&self) -> impl ExactSizeIterator<Item = OperatorId> + Clone + use<> {
+        (0..self.len()).map(OperatorId::from_index)
+    }
+
+    /// One operator.
+    pub fn get(&self, operator: OperatorId) -> Operator<'_> {
+        let i = operator.index();
+        let Block { condition, adds, deletes } = self.blocks.get(i);
+        let start = |ends: &[u32]| if i == 0 { 0 } else { ends[i - 1] as usize };
+        let conditional = match self.conditional_ends.get(i) {
+            None => ConditionalEffects { blocks: &self.conditional, first: 0, end: 0 },
+            Some(&end) => ConditionalEffects {
+                blocks: &self.conditional,
+                first: start(&self.conditional_ends),
+                end: end as usize,
+            },
+        };
+        Operator {
+            action: self.actions[i],
+            arguments: &self.arguments[start(&self.argument_ends)..self.argument_ends[i] as usize],
+            precondition: condition,
+            adds,
+            deletes,
+            conditional,
+            numeric: self.numeric.get(i).and_then(Option::as_deref),
+            cost: self.costs[i],
+        }
+    }
+
+    /// What an operator costs.
+    pub fn cost(&self, operator: OperatorId) -> u32 {
+        self.costs[operator.index()]
+    }
+
+    /// All of them, in order.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = Operator<'_>> + Clone {
+        self.ids().map(|id| self.get(id))
+    }
+
+    /// All of them with their ids.
+    pub fn enumerate(&self) -> impl ExactSizeIterator<Item = (OperatorId, Operator<'_>)> + Clone {
+        self.ids().map(|id| (id, self.get(id)))
+    }
+
+    /// Bytes that they hold.
+    pub(crate) fn memory_bytes(&self) -> usize {
+        let blocks = |b: &Blocks| b.ends.capacity() * size_of::<Ends>() + b.facts.capacity() * 4;
+        let numbers = |e: &NumericEffects| 200 * (1 + e.updates.len() + e.metric.len());
+        self.len() * 12
+            + self.arguments.capacity() * 4
+            + blocks(&self.blocks)
+            + blocks(&self.conditional)
+            + self.conditional_ends.capacity() * 4
+            + self.numeric.iter().flatten().map(|e| 8 + numbers(e)).sum::<usize>()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{NewOperator, Operators};
+    use crate::ids::FactId;
+    use pddl::model::{ActionId, ObjectId};
+    use proptest::prelude::*;
+
+    type Lists = [Vec<u32>; 4];
+
+    fn lists() -> impl Strategy<Value = Lists> {
+        prop::array::uniform4(prop::collection::vec(0..50_u32, 0..4))
+    }
+
+    proptest! {
+        #[test]
+        fn operators_come_back_as_they_were_added(
+            all in prop::collection::vec((lists(), prop::collection::vec(lists(), 0..3), 0..3_u32), 0..12),
+        ) {
+            let facts = |lists: &Lists| lists.clone().map(|l| l.into_iter().map(FactId).collect::<Vec<_>>());
+            let mut operators = Operators::default();
+            for (own, conditional, arguments) in &all {
+                for effect in conditional {
+                    let facts = facts(effect);
+                    operators.push_conditional([&facts[0], &facts[1], &facts[2], &facts[3]]);
+                }
+                let (facts, arguments) = (facts(own), (0..*arguments).map(ObjectId).collect::<Vec<_>>());
+                let facts = [&facts[0][..], &facts[1], &facts[2], &facts[3]];
+                let (action, arguments) = (ActionId(7), &arguments[..]);
+                operators.push(NewOperator { action, arguments, facts, numeric: None });
+            }
+            prop_assert_eq!(operators.len(), all.len());
+            for ((id, operator), (own, conditional, arguments)) in operators.enumerate().zip(&all) {
+                let same = |a: &[FactId], b: &[FactId]| a == b;
+                let wanted = facts(own);
+                prop_assert!(same(operator.precondition.positive, &wanted[0]));
+                prop_assert!(same(operator.precondition.negative, &wanted[1]));
+                prop_assert!(same(operator.adds, &wanted[2]) && same(operator.deletes, &wanted[3]));
+                prop_assert_eq!(operator.arguments.len(), *arguments as usize);
+                prop_assert_eq!(operator.conditional.len(), conditional.len());
+                for (effect, wanted) in operator.conditional.iter().zip(conditional) {
+                    let wanted = facts(wanted);
+                    prop_assert!(same(effect.condition.positive, &wanted[0]));
+                    prop_assert!(same(effect.condition.negative, &wanted[1]));
+                    prop_assert!(same(effect.adds, &wanted[2]) && same(effect.deletes, &wanted[3]));
+                }
+                prop_assert_eq!(operators.cost(id), 1);
+            }
+        }
+    }
+}
