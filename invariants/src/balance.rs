@@ -2,10 +2,11 @@
 //!
 //! Invariant: a candidate is said to hold only if every add of every happening is already true or
 //! goes with a delete of an atom of the same instance that was true, and no two adds of one happening
-//! can meet in one instance in which at most one atom held before. So it is a bound of one that is kept;
+//! can meet in one instance in which at most one atom held before (or, where that is asked for, they meet
+//! only where some terms are equal, and the candidate says so). So it is a bound of one that is kept;
 //! of larger numbers nothing is said.
 
-use super::{Change, Happening, Invariant, Member, changes};
+use super::{Change, Happening, Invariant, Member, Proviso, changes};
 use pddl::model::{Atom, Condition, ConditionKind, Domain, Term, TypeSet, VariableId, Variables};
 
 /// What surely holds: atoms, and terms that differ.
@@ -150,15 +151,17 @@ pub(super) enum Verdict {
     GivenUp,
 }
 
-/// Holds a candidate against all happenings that add one of its predicates.
+/// Holds a candidate against all happenings that add one of its predicates. Where `provisos` are taken,
+/// two adds that meet only where terms are equal add one, instead of breaking the candidate.
 pub(super) fn judge<'m, 'a: 'm>(
     domain: &Domain,
     candidate: &Invariant,
-    moves: impl Iterator<Item = &'m Moves<'a>>,
+    moves: impl Iterator<Item = (usize, &'m Moves<'a>)>,
+    mut provisos: Option<&mut Vec<Proviso>>,
     work: &mut usize,
     go_on: &mut dyn FnMut(usize) -> bool,
 ) -> Verdict {
-    for happening in moves {
+    for (number, happening) in moves {
         let cost = happening.adds.len() * (1 + happening.deletes.len());
         let Some(left) = work.checked_sub(cost).filter(|_| go_on(1 + cost)) else { return Verdict::GivenUp };
         *work = left;
@@ -175,8 +178,20 @@ pub(super) fn judge<'m, 'a: 'm>(
                         (other, &other_member.instance(&other.atom.arguments)),
                     )
             };
-            if add.several || adds[..i].iter().any(meets) {
+            if add.several {
                 return Verdict::Broken;
+            }
+            for (other, other_member) in adds[..i].iter().filter(|o| meets(o)) {
+                let other = other_member.instance(&other.atom.arguments);
+                let pairs = instance.iter().copied().zip(other);
+                let equal: Vec<(Term, Term)> = pairs.filter(|(a, b)| a != b).collect();
+                let Some(provisos) = provisos.as_deref_mut().filter(|_| !equal.is_empty()) else {
+                    return Verdict::Broken;
+                };
+                let proviso = Proviso { happening: number, equal };
+                if !provisos.contains(&proviso) {
+                    provisos.push(proviso);
+                }
             }
             let goes = |d: &&Move<'_>| {
                 let with = d.when.iter().all(|w| add.when.iter().any(|a| std::ptr::eq(*a, *w)));

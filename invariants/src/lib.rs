@@ -4,7 +4,8 @@
 //! relaxed reachability cannot see, and `planner`, for mutex groups and finite-domain variables. What
 //! changes the state is handed in as [`Happening`]s, since the two do not look at the same parts of
 //! the language; an [`Invariant`] says that the number of its atoms never becomes more than one, and
-//! [`Counts`] says where a problem lets it start.
+//! [`Counts`] says where a problem lets it start. Who knows which instances there are can ask for those that
+//! hold unless parameters are equal ([`conditional_invariants`]).
 //!
 //! ```
 //! use invariants::{Counts, Happening, invariants};
@@ -34,4 +35,4 @@ mod synthesis;
 pub use balance::{differ, literals};
 pub use changes::{Change, Context, changes};
 pub use counts::Counts;
-pub use synthesis::{Happening, Invariant, Member, invariants, invariants_while};
+pub use synthesis::{Happening, Invariant, Member, Proviso, conditional_invariants, invariants};

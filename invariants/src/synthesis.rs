@@ -11,11 +11,12 @@
 //!
 //! Source: Helmert, "Concise finite-domain representations for PDDL planning tasks", AIJ 2009, §5.
 //! Deviation: starts and ends of durative actions are happenings of their own, so that a number that
-//! falls at the start and grows back at the end is not found; a candidate that two adds of one
-//! happening may break is given up instead of being split by an inequality.
+//! falls at the start and grows back at the end is not found. Where two adds of one happening meet only if
+//! parameters are equal, Helmert splits the candidate by an inequality; we keep it under the proviso that
+//! no such instance is ever applied, and whoever knows the instances decides.
 
 use super::balance::{Moves, Verdict, judge};
-use pddl::model::{Action, Condition, Domain, Effect, PredicateId, Variables};
+use pddl::model::{Action, Condition, Domain, Effect, PredicateId, Term, Variables};
 use std::collections::VecDeque;
 
 /// Candidates that are looked at.
@@ -79,18 +80,38 @@ impl Invariant {
     }
 }
 
-/// All invariants that are found.
-pub fn invariants(domain: &Domain, happenings: &[Happening<'_>]) -> Vec<Invariant> {
-    invariants_while(domain, happenings, &mut |_| true)
+/// Instances of a happening that must not be applied for an invariant to hold: those in which all of
+/// these terms of its schema are equal.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Proviso {
+    /// The position of the happening among all.
+    pub happening: usize,
+    /// Terms that differ where nothing is said; never empty.
+    pub equal: Vec<(Term, Term)>,
 }
 
-/// What is found while `go_on` says so, which is told of the comparisons since it was last asked. Each of
-/// what was found is an invariant, whenever it ended.
-pub fn invariants_while(
+/// All invariants that are found.
+pub fn invariants(domain: &Domain, happenings: &[Happening<'_>]) -> Vec<Invariant> {
+    let found = search(domain, happenings, false, &mut |_| true);
+    found.into_iter().map(|(invariant, _)| invariant).collect()
+}
+
+/// Invariants, each under provisos, found while `go_on` says so, which is told of the comparisons since it
+/// was last asked. What was found stands, whenever that ended.
+pub fn conditional_invariants(
     domain: &Domain,
     happenings: &[Happening<'_>],
     go_on: &mut dyn FnMut(usize) -> bool,
-) -> Vec<Invariant> {
+) -> Vec<(Invariant, Vec<Proviso>)> {
+    search(domain, happenings, true, go_on)
+}
+
+fn search(
+    domain: &Domain,
+    happenings: &[Happening<'_>],
+    conditional: bool,
+    go_on: &mut dyn FnMut(usize) -> bool,
+) -> Vec<(Invariant, Vec<Proviso>)> {
     let moves: Vec<Moves<'_>> = happenings.iter().map(Moves::of).collect();
     // By predicate: what adds it.
     let mut adders: Vec<Vec<usize>> = vec![Vec::new(); domain.predicates.len()];
@@ -121,8 +142,10 @@ pub fn invariants_while(
             candidate.members.iter().flat_map(|m| &adders[m.predicate.0 as usize]).copied().collect();
         own.sort_unstable();
         own.dedup();
-        match judge(domain, &candidate, own.iter().map(|&i| &moves[i]), &mut work, go_on) {
-            Verdict::Holds => found.push(candidate),
+        let mut provisos = Vec::new();
+        let taken = conditional.then_some(&mut provisos);
+        match judge(domain, &candidate, own.iter().map(|&i| (i, &moves[i])), taken, &mut work, go_on) {
+            Verdict::Holds => found.push((candidate, provisos)),
             Verdict::Broken => {}
             Verdict::GivenUp => break,
             Verdict::Unbalanced(remedies) => {
@@ -186,6 +209,29 @@ mod tests {
               :effect (and (not (peg ?a)) (not (peg ?b)) (not (hole ?c)) (hole ?a) (hole ?b) (peg ?c))))",
         );
         assert!(all.contains(&"peg 0, hole 0".to_owned()), "{all:?}");
+    }
+
+    #[test]
+    fn what_breaks_only_where_parameters_are_equal_holds_under_that_proviso() {
+        let source = "(define (domain d) (:predicates (open ?x) (in ?x) (out ?x) (next ?x ?y))
+             (:action join :parameters (?p ?q) :precondition (and (open ?p) (open ?q) (next ?p ?q))
+              :effect (and (not (open ?p)) (not (open ?q)) (in ?p) (out ?q)))
+             (:action turn :parameters (?p) :precondition (in ?p)
+              :effect (and (not (in ?p)) (out ?p))))";
+        let domain = pddl::parse_domain(&pddl::Source::new("domain", source), &[]).model.expect("correct");
+        let happenings: Vec<Happening<'_>> = domain.actions.iter().map(Happening::of_action).collect();
+        let found = conditional_invariants(&domain, &happenings, &mut |_| true);
+        let whole = found.iter().find(|(i, _)| i.members.len() == 3).expect("open, in and out of one place");
+        let [proviso] = &whole.1[..] else { panic!("{:?}", whole.1) };
+        let variables: Vec<(Term, Term)> = proviso.equal.clone();
+        assert_eq!((proviso.happening, variables.len()), (0, 1));
+        assert!(invariants(&domain, &happenings).iter().all(|i| i.members.len() < 3));
+        let mut asked = 0;
+        let none = conditional_invariants(&domain, &happenings, &mut |_| {
+            asked += 1;
+            false
+        });
+        assert_eq!((none.len(), asked), (0, 1), "whoever wants no more is heard");
     }
 
     #[test]

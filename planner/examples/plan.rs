@@ -1,4 +1,4 @@
-//! `plan DOMAIN PROBLEM [SEARCH] [-o PLAN] [--timeout S]`: grounds and solves, for measuring;
+//! `plan DOMAIN PROBLEM [SEARCH] [-o PLAN] [--timeout S] [--memory MIB]`: grounds and solves, for measuring;
 //! with `--improve` goes on to better plans until the time is over. The command that users
 //! call is `pelea plan`.
 #![allow(clippy::print_stdout, clippy::print_stderr, missing_docs)]
@@ -12,6 +12,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let output = arguments.iter().position(|a| a == "-o").map(|i| arguments.drain(i..i + 2).nth(1));
     let timeout = arguments.iter().position(|a| a == "--timeout").map(|i| arguments.drain(i..i + 2).nth(1));
     let timeout = timeout.flatten().map_or(Ok(300.0), |text| text.parse())?;
+    let memory = arguments.iter().position(|a| a == "--memory").map(|i| arguments.drain(i..i + 2).nth(1));
+    let memory: usize = memory.flatten().map_or(Ok(4096), |text| text.parse())?;
     let improving = arguments.iter().position(|a| a == "--improve").map(|i| arguments.remove(i)).is_some();
     let [domain, problem, rest @ ..] = arguments.as_slice() else {
         return Err("DOMAIN PROBLEM [SEARCH]".into());
@@ -37,7 +39,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         task.axioms().len(),
         task.goal().literals.len()
     );
-    let budget = Budget { interrupted: &late, memory_bytes: Some(4 << 30), ..Budget::default() };
+    let memory = (memory << 20).saturating_sub(task.memory_bytes());
+    let budget = Budget { interrupted: &late, memory_bytes: Some(memory), ..Budget::default() };
     let report = if improving {
         let mut tell = |plan: &planner::Plan| {
             eprintln!(

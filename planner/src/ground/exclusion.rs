@@ -3,19 +3,22 @@
 //! Problem: relaxed reachability lets a robot be in two rooms, so that it finds instances that no
 //! state can apply. Idea: the domain's invariants, counted in the initial state, give groups of atoms
 //! of which at most one ever holds; a conjunction with two atoms of a group is impossible, and where
-//! one holds the others do not. Invariant: an invariant over a predicate that the outside changes gives
+//! one holds the others do not. What would not hold if two parameters of an action were equal is taken
+//! where no instance that was reached has them equal. Invariant: an invariant over a predicate that the outside changes gives
 //! no group, so what is left is kept by the operators alone. Cost: one hash look-up for each atom of
 //! each invariant, bounded; then a few array reads a literal.
 //!
 //! Source: Helmert, "Concise finite-domain representations for PDDL planning tasks", AIJ 2009, §5.
 
 use super::atoms::{AtomTable, Packing};
+use super::cost::resolve;
 use super::instantiate::Lit;
+use super::join::{Bindings, Reached};
 use super::values::ValuePredicates;
 use crate::ids::id32;
 use crate::watch::{Interrupted, Spend, Watch};
-use invariants::{Happening, Invariant, Member, invariants_while};
-use pddl::model::{Domain, PredicateId, Problem};
+use invariants::{Happening, Invariant, Member, Proviso, conditional_invariants};
+use pddl::model::{Domain, PredicateId, Problem, Term};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Atoms in groups, over all of them; invariants beyond that are left out.
@@ -38,7 +41,7 @@ impl Exclusions {
         problem: &Problem,
         values: &ValuePredicates,
         exogenous: &[PredicateId],
-        table: &AtomTable,
+        Reached { table, bindings }: &Reached,
         statics: u32,
         initial: &[u32],
         watch: &Watch<'_>,
@@ -48,8 +51,27 @@ impl Exclusions {
             return Ok(Self::default());
         }
         let happenings: Vec<Happening<'_>> = domain.actions.iter().map(Happening::of_action).collect();
-        let mut found = invariants_while(domain, &happenings, &mut |work| watch.spend(64 * work).is_ok());
+        let candidates =
+            conditional_invariants(domain, &happenings, &mut |work| watch.spend(64 * work).is_ok());
         watch.spend(0)?;
+        let mut known: FxHashMap<Proviso, bool> = FxHashMap::default();
+        let mut found = Vec::new();
+        for (invariant, provisos) in candidates {
+            let mut kept = true;
+            for proviso in provisos {
+                kept &= match known.get(&proviso) {
+                    Some(&known) => known,
+                    None => {
+                        let keeps = keeps(&proviso, domain, bindings, watch)?;
+                        known.insert(proviso, keeps);
+                        keeps
+                    }
+                };
+            }
+            if kept {
+                found.push(invariant);
+            }
+        }
         found.extend(of_values(domain, values));
         found.retain(|i| i.members.iter().all(|m| !exogenous.contains(&m.predicate)));
         if found.is_empty() {
@@ -107,6 +129,32 @@ impl Exclusions {
     pub(crate) fn len(&self) -> usize {
         self.count
     }
+}
+
+/// Whether no instance that was reached has all these terms equal.
+fn keeps(
+    proviso: &Proviso,
+    domain: &Domain,
+    bindings: &[Bindings],
+    watch: &Watch<'_>,
+) -> Result<bool, Interrupted> {
+    // The first schemas are the actions, in their order.
+    let Some(action) = domain.actions.iter().nth(proviso.happening) else { return Ok(false) };
+    let own = &bindings[proviso.happening];
+    let parameters = action.variables.parameters;
+    // Quantified variables are not in the row.
+    let is_bound = |t: &Term| !matches!(t, Term::Variable(v) if v.0 as usize >= parameters);
+    if !proviso.equal.iter().all(|(a, b)| is_bound(a) && is_bound(b)) {
+        return Ok(false);
+    }
+    for row in 0..own.rows {
+        watch.spend(16)?;
+        let row = &own.values[row * own.width..][..own.width];
+        if proviso.equal.iter().all(|&(a, b)| resolve(a, row) == resolve(b, row)) {
+            return Ok(false);
+        }
+    }
+    Ok(true)
 }
 
 /// An object fluent has one value: the compilation sees to it.

@@ -130,7 +130,7 @@ fn build(
     let slots = universe.slots(&problem.goal_variables);
     let exogenous = options.exogenous;
     let exclusions =
-        Exclusions::new(domain, problem, &values, exogenous, &reached.table, statics, &initial, watch)?;
+        Exclusions::new(domain, problem, &values, exogenous, &reached, statics, &initial, watch)?;
     let most = (0..schemas.len()).max_by_key(|&i| (reached.bindings[i].rows, Reverse(i)));
     let most = most.map(|i| schemas[i].name.clone());
     let models = (&costs, &fluents);

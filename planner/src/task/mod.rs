@@ -240,9 +240,12 @@ impl Task {
 
     /// Bytes that the task holds, about.
     pub fn memory_bytes(&self) -> usize {
-        let operators = self.operators.memory_bytes();
-        // An operator's node in the successor tree and in the relaxation is about as large as itself.
-        2 * operators + self.facts.len() * (size_of::<Fact>() + 32) + self.status.len() * 100
+        self.operators.memory_bytes()
+            + self.successors.memory_bytes()
+            + self.relaxation.memory_bytes()
+            + self.undominated.memory_bytes()
+            + self.facts.len() * (size_of::<Fact>() + 32)
+            + self.status.len() * 100
     }
 
     /// Bytes that the task holds for each copy of a state.

@@ -220,6 +220,13 @@ impl Relaxation {
         self.facts + self.negated.len()
     }
 
+    /// Bytes that it holds, about.
+    pub(crate) fn memory_bytes(&self) -> usize {
+        let rows = [&self.preconditions, &self.effects, &self.needed_by];
+        let lists = self.operator.capacity() + self.cost.capacity() + self.free.capacity() + self.facts;
+        rows.into_iter().map(Rows::memory_bytes).sum::<usize>() + lists * size_of::<u32>()
+    }
+
     /// How many nodes.
     pub(crate) fn nodes(&self) -> usize {
         self.operator.len()

@@ -63,6 +63,11 @@ impl Rows {
         self.items[position]
     }
 
+    /// Bytes that they hold.
+    pub(crate) fn memory_bytes(&self) -> usize {
+        (self.starts.capacity() + self.items.capacity()) * size_of::<u32>()
+    }
+
     /// How many items in all.
     pub(crate) fn items(&self) -> usize {
         self.items.len()

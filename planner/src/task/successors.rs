@@ -182,6 +182,11 @@ impl SuccessorTree {
         Ok(())
     }
 
+    /// Bytes that it holds.
+    pub(crate) fn memory_bytes(&self) -> usize {
+        self.nodes.capacity() * size_of::<Node>() + self.operators.capacity() * size_of::<OperatorId>()
+    }
+
     /// Appends every applicable operator to `found`.
     pub(crate) fn applicable(&self, words: &[u64], found: &mut Vec<OperatorId>) {
         found.extend_from_slice(&self.operators[..self.unconditional]);
