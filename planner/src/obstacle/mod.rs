@@ -144,7 +144,7 @@ fn out_of_range(oracle: &Oracle<'_>) -> Vec<OperatorId> {
     let never = |operator: &Operator| {
         let Action { variables, precondition, .. } = &domain.actions[operator.action];
         let mut binding = Binding::new(variables);
-        for (parameter, &object) in variables.parameter_ids().zip(&operator.arguments) {
+        for (parameter, &object) in variables.parameter_ids().zip(operator.arguments) {
             binding.set(parameter, Some(object));
         }
         let mut needs = Needs::default();

@@ -29,9 +29,9 @@ impl Distance {
     pub fn between(task: &Task, old: &[OperatorId], new: &[OperatorId]) -> Self {
         let mut numbers = FxHashMap::default();
         let mut number = |&operator: &OperatorId| {
-            let operator = &task.operators()[operator];
+            let operator = task.operator(operator);
             let next = numbers.len();
-            *numbers.entry((operator.action, &operator.arguments)).or_insert(next)
+            *numbers.entry((operator.action, operator.arguments)).or_insert(next)
         };
         let old: Vec<usize> = old.iter().map(&mut number).collect();
         let new: Vec<usize> = new.iter().map(&mut number).collect();
