@@ -1,14 +1,14 @@
 //! Eight writers and eight readers on one graph, beside a reader that keeps one snapshot for ever, a subscriber that
 //! never listens and one whose callback panics. `cargo xtask soak [SECONDS]`; ends with an error if an update was lost.
 //!
-//! Runs twice, without and with those that stall, and prints both: they should slow nobody. Times of single snapshots
+//! Runs three times, with nobody else, with those that stall, and with the one that panics, and prints each: who stalls
+//! should slow nobody, and a panic costs its committer the unwinding. Times of single snapshots
 //! are as the reader sees them, so the longest have the scheduler's slices in them wherever more threads run than there
 //! are cores; how often that happens is what the counts beyond 1 ms say. That a snapshot needs nothing that a writer
 //! has is a test's business (`graph.rs`); this one shows it under load.
 #![allow(clippy::print_stdout, reason = "an example that prints")]
 
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use dsr::{
@@ -59,10 +59,10 @@ impl World {
         snapshot.attribute(node, self.count).and_then(Value::as_number).unwrap_or(f64::NAN)
     }
 
-    /// Adds one to a node that all writers fight for and to one of the writer's own, until told to stop.
-    fn write(&self, thread: usize, stop: &AtomicBool) -> Result<u64, Failure> {
+    /// Adds one to a node that all writers fight for and to one of the writer's own, until the end.
+    fn write(&self, thread: usize, end: Instant) -> Result<u64, Failure> {
         let mut made = 0;
-        while !stop.load(Ordering::Relaxed) {
+        while Instant::now() < end {
             let step = usize::try_from(made).unwrap_or(0).wrapping_mul(2_654_435_761);
             let own = self.nodes[1 + thread + THREADS * (step % (NODES / THREADS - 1))];
             self.graph.update(AgentId::DSR, Time(made), |snapshot, tx| {
@@ -75,9 +75,9 @@ impl World {
     }
 
     /// Takes snapshots and looks at them, and counts how long taking one took.
-    fn read(&self, stop: &AtomicBool) -> Result<Times, Failure> {
+    fn read(&self, end: Instant) -> Result<Times, Failure> {
         let (mut times, mut last) = (Times::default(), (0, 0.0));
-        while !stop.load(Ordering::Relaxed) {
+        while Instant::now() < end {
             let start = Instant::now();
             let snapshot = self.graph.snapshot();
             times.add(start.elapsed());
@@ -137,26 +137,34 @@ impl Times {
     }
 }
 
-fn run(seconds: u64, stalled: bool) -> Result<(), Failure> {
+/// Who else is there.
+#[derive(Clone, Copy)]
+enum Beside {
+    Nobody,
+    Stalled,
+    Panicking,
+}
+
+fn run(seconds: u64, beside: Beside) -> Result<(), Failure> {
     let world = world()?;
     let dictionary = world.graph.dictionary();
     let mut pattern = PatternBuilder::new(&dictionary);
     let place = pattern.variable("place", dictionary.node_type("place").unwrap_or(dsr::TypeId::OBJECT));
     pattern.present(place, world.count);
     let pattern = pattern.build()?;
-    let beside = stalled.then(|| {
+    let stalled = matches!(beside, Beside::Stalled)
+        .then(|| (world.graph.snapshot(), world.graph.subscribe(pattern), world.graph.subscribe_deltas()));
+    let panicking = matches!(beside, Beside::Panicking).then(|| {
         let fragile = world.graph.subscribe_deltas();
         fragile.on_wake(|| std::panic::resume_unwind(Box::new("a subscriber's mistake")));
-        (world.graph.snapshot(), world.graph.subscribe(pattern), fragile)
+        fragile
     });
-    let stop = AtomicBool::new(false);
+    let end = Instant::now() + Duration::from_secs(seconds);
     let (made, times) = std::thread::scope(|scope| {
-        let (world, stop) = (&world, &stop);
+        let world = &world;
         let writers: Vec<_> =
-            (0..THREADS).map(|thread| scope.spawn(move || world.write(thread, stop))).collect();
-        let readers: Vec<_> = (0..THREADS).map(|_| scope.spawn(move || world.read(stop))).collect();
-        std::thread::sleep(Duration::from_secs(seconds));
-        stop.store(true, Ordering::Relaxed);
+            (0..THREADS).map(|thread| scope.spawn(move || world.write(thread, end))).collect();
+        let readers: Vec<_> = (0..THREADS).map(|_| scope.spawn(move || world.read(end))).collect();
         let made = writers
             .into_iter()
             .map(|w| w.join().expect("a writer does not panic"))
@@ -177,14 +185,18 @@ fn run(seconds: u64, stalled: bool) -> Result<(), Failure> {
             return Err(Failure::Lost { made, found });
         }
     }
-    if let Some((kept, ..)) = &beside
+    if let Some((kept, ..)) = &stalled
         && world.nodes.iter().any(|&node| world.count(kept, node) != 0.0)
     {
         return Err(Failure::Torn("an old snapshot change"));
     }
     println!(
         "{}: {} updates/s, none lost; {} snapshots/s, p50 < {:?}, p99.9 < {:?}, {} of {} beyond 1 ms, longest {:?}",
-        if stalled { "with a stalled reader and subscribers" } else { "nobody stalls" },
+        match beside {
+            Beside::Nobody => "nobody else",
+            Beside::Stalled => "a reader and two subscribers that stall",
+            Beside::Panicking => "a subscriber that panics",
+        },
         made / seconds,
         times.count() / seconds,
         times.share(500),
@@ -193,13 +205,15 @@ fn run(seconds: u64, stalled: bool) -> Result<(), Failure> {
         times.count(),
         times.longest,
     );
+    drop(panicking);
     Ok(())
 }
 
 fn main() -> ExitCode {
     let seconds = std::env::args().nth(1).and_then(|word| word.parse().ok()).unwrap_or(10);
     println!("{THREADS} writers, {THREADS} readers, {NODES} nodes, {seconds} s each");
-    match run(seconds, false).and_then(|()| run(seconds, true)) {
+    let all = [Beside::Nobody, Beside::Stalled, Beside::Panicking];
+    match all.into_iter().try_for_each(|beside| run(seconds, beside)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             println!("failed: {failure}");

@@ -3,7 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use planner::{
-    Budget, GroundOptions, Limit, Outcome, Query, SearchConfiguration, Task, UnsolvableReason, ground, solve,
+    Budget, GroundOptions, Limit, Outcome, Plan, Query, SearchConfiguration, Task, UnsolvableReason, ground,
+    improve, solve,
 };
 
 fn task(domain: &str, problem: &str) -> Task {
@@ -143,4 +144,26 @@ fn static_comparisons_filter_instances_as_they_are_joined() {
     // The product of all parameters would take a hundred times as much.
     let options = GroundOptions { memory_bytes: Some(1 << 20), ..GroundOptions::default() };
     assert_eq!(ground(&domain, &problem, &options).unwrap().operators().len(), 58);
+}
+
+/// What only the metric asks for is done: taking pictures, but not what merely costs fuel.
+#[test]
+fn a_metric_makes_relevant_what_improves_it() {
+    let task = task(
+        "(define (domain camera) (:requirements :numeric-fluents :negative-preconditions)
+           (:predicates (on) (taken ?v) (lit)) (:functions (pictures) (fuel))
+           (:action switch-on :parameters () :effect (on))
+           (:action take :parameters (?v) :precondition (and (on) (not (taken ?v)))
+             :effect (and (taken ?v) (increase (pictures) 2) (increase (fuel) 1)))
+           (:action roll :parameters () :effect (and (lit) (increase (fuel) 1))))",
+        "(define (problem p) (:domain camera) (:objects a b) (:init (= (pictures) 0) (= (fuel) 0)) (:goal (and))
+           (:metric maximize (- (pictures) (fuel))))",
+    );
+    assert_eq!(task.operators().len(), 3, "rolling the film only costs");
+    let mut qualities = Vec::new();
+    let mut note = |plan: &Plan| qualities.push(task.quality(task.initial_state(), &plan.operators).unwrap());
+    let budget = Budget { expansions: Some(1_000), ..Budget::default() };
+    let configuration = SearchConfiguration::default();
+    improve(&task, &Query::of(&task), &configuration, &budget, &mut note);
+    assert_eq!(qualities, [0.0, -1.0, -2.0].map(|value| planner::Number::from_f64(value).unwrap()));
 }

@@ -14,8 +14,8 @@ use super::raw::{Failure, RawOperator, RawOperators, RawTask, marked};
 use crate::ids::{FactId, id32};
 use crate::task::{
     AtomStatus, AxiomProgram, AxiomRule, Fact, Goal, GroundAtom, Impossible, Literals, Mutexes, Names,
-    NewOperator, NoProgram, Numeric, NumericEffects, ObjectValue, Operators, Packing, Relaxation, State,
-    SuccessorTree, Task, undominated, variables,
+    NewOperator, NoProgram, Numeric, ObjectValue, Operators, Packing, Relaxation, State, SuccessorTree, Task,
+    undominated, variables,
 };
 use crate::watch::{Interrupted, Spend, Watch};
 use pddl::model::{Domain, IndexVec, ObjectId, Problem};
@@ -90,14 +90,19 @@ pub(crate) fn finish(
             rules.push(AxiomRule { head: FactId(numbers[*head as usize]), body });
         }
     }
-    let chosen = Chosen::of(&raw, &pruned, fluents, &costs.measure);
+    let chosen = Chosen::of(&raw, &pruned, fluents);
     let (mut operators, mut amounts, mut parts) = (Operators::default(), Vec::new(), Parts::default());
     let raw_operators = std::mem::take(&mut raw.operators);
-    for own in raw_operators.iter() {
+    for (own, &improves) in raw_operators.iter().zip(&pruned.improves) {
         watch.spend(raw_operators.work(&own))?;
-        let Some(numeric) = view.operator(&raw_operators, &own, &chosen, &mut parts, &mut operators) else {
+        if pruned.is_refuted(own.precondition) {
             continue;
-        };
+        }
+        let numeric = chosen.effects(&own, &view);
+        let counts = improves || numeric.as_ref().is_some_and(|effects| !effects.updates.is_empty());
+        if !view.operator(&raw_operators, &own, counts, &mut parts, &mut operators) {
+            continue;
+        }
         amounts.push(if chosen.metric.is_some() { chosen.guess(numeric.as_deref()) } else { own.cost });
         let (action, arguments) = (own.action, &parts.arguments[..]);
         operators.push(NewOperator { action, arguments, facts: parts.facts(), numeric });
@@ -280,21 +285,19 @@ impl View<'_> {
         true
     }
 
-    /// The operator's parts and effects on numbers, unless it can never be applied or changes nothing that
-    /// is needed. Its conditional effects are added to `operators`.
+    /// Fills in the operator's parts, unless it changes no fact that is needed and its effects on numbers
+    /// do not count. Its conditional effects are added to `operators`. Answers
+    /// whether it is of use.
     fn operator(
         &self,
         all: &RawOperators,
         raw: &RawOperator<'_>,
-        chosen: &Chosen,
+        counts: bool,
         parts: &mut Parts,
         operators: &mut Operators,
-    ) -> Option<Option<Box<NumericEffects>>> {
+    ) -> bool {
         // What a useless operator reads was not kept.
         let Parts { arguments, positive, negative, adds, deletes, conditional } = parts;
-        if self.pruned.is_refuted(raw.precondition) {
-            return None;
-        }
         self.facts(raw.adds, adds);
         self.facts(raw.deletes, deletes);
         let mut effects = 0;
@@ -307,15 +310,13 @@ impl View<'_> {
                 effects += 1;
             }
         }
-        let numeric = chosen.effects(raw, self);
-        let counts = numeric.as_ref().is_some_and(|effects| !effects.updates.is_empty());
         if adds.is_empty() && deletes.is_empty() && effects == 0 && !counts {
-            return None;
+            return false;
         }
         self.condition(raw.precondition, positive, negative);
         arguments.clear();
         arguments.extend(raw.arguments.iter().map(|&o| ObjectId(o)));
-        Some(numeric)
+        true
     }
 }
 

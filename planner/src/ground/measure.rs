@@ -1,6 +1,5 @@
 //! The numeric part of the final task: fluents, comparisons, effects and the metric.
 
-use super::cost::Measure;
 use super::finish::View;
 use super::fluents::{Fluents, STEPS};
 use super::prune::Pruned;
@@ -19,7 +18,7 @@ pub(crate) struct Chosen {
 }
 
 impl Chosen {
-    pub(crate) fn of(raw: &RawTask, pruned: &Pruned, fluents: &Fluents, measure: &Measure) -> Self {
+    pub(crate) fn of(raw: &RawTask, pruned: &Pruned, fluents: &Fluents) -> Self {
         let mut chosen = Self {
             fluents: Vec::new(),
             stored: 0,
@@ -41,9 +40,9 @@ impl Chosen {
             steps = steps.or(is_steps.then_some(id));
             chosen.fluents.push(Fluent { application, initial });
         }
-        if let (Some(expression), Measure::Value(metric)) = (&raw.metric, measure) {
+        if let Some((objective, expression)) = &raw.metric {
             let expression = chosen.expression(expression);
-            chosen.metric = Some(Metric { objective: metric.objective, expression, steps });
+            chosen.metric = Some(Metric { objective: *objective, expression, steps });
         }
         chosen
     }

@@ -11,9 +11,10 @@ use super::instantiate::Lit;
 use super::numbers::{Comparison, RawChange};
 use super::raw::{RawEffects, RawTask};
 use crate::ids::id32;
-use crate::number::{Expression, Influence};
+use crate::number::{Expression, Influence, Relation};
 use crate::task::Rows;
 use crate::watch::{Interrupted, Spend, Watch};
+use pddl::model::Objective;
 
 /// What is known of each atom.
 pub(crate) struct Pruned {
@@ -27,6 +28,8 @@ pub(crate) struct Pruned {
     pub(crate) read: Vec<bool>,
     /// Numeric fluents that only the metric reads.
     pub(crate) measured: Vec<bool>,
+    /// By operator: whether it may make a metric better that is no sum of costs.
+    pub(crate) improves: Vec<bool>,
 }
 
 impl Pruned {
@@ -86,6 +89,7 @@ pub(crate) fn prune(
         needed: vec![false; n],
         read: vec![false; raw.numbers.keys.len()],
         measured: vec![false; raw.numbers.keys.len()],
+        improves: vec![false; raw.operators.len()],
     };
     always_derived(raw, &mut pruned, watch)?;
     relevance(raw, exogenous, &mut pruned, watch)?;
@@ -237,7 +241,8 @@ fn influenced(
     Ok(effects)
 }
 
-/// Marks what the metric reads, directly or through effects; gives the changes of that.
+/// Marks what the metric reads, directly or through effects, and the operators that may make it better;
+/// gives the changes of what it reads.
 fn measured<'r>(
     raw: &'r RawTask,
     changed_by: &Rows,
@@ -253,17 +258,31 @@ fn measured<'r>(
         });
     };
     let mut changes = Vec::new();
-    raw.metric.iter().for_each(|metric| mark(metric, pruned, &mut queue));
+    let Some((objective, metric)) = &raw.metric else { return Ok(changes) };
+    mark(metric, pruned, &mut queue);
     while let Some(fluent) = queue.pop() {
         for &i in changed_by.row(raw.atoms + fluent) {
             watch.spend(64)?;
             for change in raw.operators.get(i).numbers.iter().filter(|c| c.fluent == fluent) {
                 change.value.iter().for_each(|value| mark(value, pruned, &mut queue));
                 changes.push(change);
+                pruned.improves[i as usize] |= may_improve(*objective, metric, change);
             }
         }
     }
     Ok(changes)
+}
+
+/// Whether a change of what the metric reads, directly or through effects, may make it better. Where a sum
+/// moves by a constant the sign says so.
+fn may_improve(objective: Objective, metric: &Expression<u32>, change: &RawChange) -> bool {
+    let above = (Relation::Positive, metric);
+    let influence = Influence::of(above, &change.fluent, change.change, change.value.as_ref());
+    match (influence.step, objective) {
+        (Some(step), Objective::Maximize) => step.sign() > 0,
+        (Some(step), Objective::Minimize) => step.sign() < 0,
+        (None, _) => true,
+    }
 }
 
 /// By atom, and after the atoms by numeric fluent: the operators that change it and the rules that derive
@@ -323,6 +342,15 @@ fn relevance(
         need(id32(a) << 1, pruned, &mut queue);
     }
     let mut seen = vec![false; operators + raw.rules.len()];
+    for i in 0..operators {
+        let precondition = raw.operators.get(id32(i)).precondition;
+        watch.spend(8 + precondition.len())?;
+        pruned.improves[i] &= !pruned.is_refuted(precondition);
+        if pruned.improves[i] {
+            seen[i] = true;
+            precondition.iter().for_each(|&l| need(l, pruned, &mut queue));
+        }
+    }
     while let Some(atom) = queue.pop() {
         if let Some(comparison) = compared.get(atom as usize).copied().flatten() {
             read(&comparison.expression, pruned, &mut queue);

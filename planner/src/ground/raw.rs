@@ -20,7 +20,7 @@ use crate::ids::id32;
 use crate::number::Expression;
 use crate::task::Rows;
 use crate::watch::{Interrupted, Watch};
-use pddl::model::{ActionId, Name, VariableId};
+use pddl::model::{ActionId, Name, Objective, VariableId};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 
@@ -132,7 +132,7 @@ pub(crate) struct RawTask {
     /// Numeric fluents, and comparisons of them among the auxiliary atoms.
     pub(crate) numbers: Numbers,
     /// What plans are measured by, if that is no sum of costs.
-    pub(crate) metric: Option<Expression<u32>>,
+    pub(crate) metric: Option<(Objective, Expression<u32>)>,
 }
 
 /// Why there are no instances.
@@ -259,10 +259,10 @@ pub(crate) fn instantiate(
     }
     rules.append(&mut work.rules);
     let metric = match &costs.measure {
-        Measure::Value(metric) => fluents.fold(&metric.expression, &[]).ok(),
+        Measure::Value(metric) => fluents.fold(&metric.expression, &[]).ok().map(|e| (metric.objective, e)),
         Measure::Length | Measure::Sum { .. } => None,
     };
-    let metric = metric.map(|metric| work.numbers.expression(&metric));
+    let metric = metric.map(|(objective, metric)| (objective, work.numbers.expression(&metric)));
     let (atoms, numbers) = (work.atoms(), work.numbers);
     Ok(RawTask { operators, rules, goal: literals, refuted, exclusive, atoms, numbers, metric })
 }

@@ -59,7 +59,7 @@ impl Engine {
     /// is for tasks on which others have failed, and small tasks should not wait for it.
     pub(crate) fn joins_after(self) -> u64 {
         match self {
-            Self::BackEnd => 1 << 29,
+            Self::BackEnd => 1 << 32,
             _ => 0,
         }
     }

@@ -49,9 +49,18 @@ struct Member<'a> {
     engine: Engine,
     weight: u64,
     meter: &'a Meter<'a>,
+    /// The pace of the others when it joined them: it makes up for nothing that it missed.
+    head_start: u64,
     /// Built when its first turn comes.
     searcher: Option<Box<dyn Searcher + Send + 'a>>,
     expanded: u64,
+}
+
+impl Member<'_> {
+    /// Work for its weight, its head start included.
+    fn pace(&self) -> u64 {
+        self.head_start + self.meter.work() / self.weight
+    }
 }
 
 struct Pool<'a, 's> {
@@ -95,6 +104,7 @@ pub(crate) fn run(
         engine,
         weight: u64::from(weight.max(1)),
         meter,
+        head_start: 0,
         searcher: None,
         expanded: 0,
     });
@@ -174,10 +184,12 @@ impl<'a, 's> Portfolio<'a, 's> {
         }
         let done: u64 = self.meters.iter().map(Meter::work).sum();
         // Where only late members are idle, they join at once.
-        let next = (0..pool.idle.len()).min_by_key(|&i| {
-            let member = &pool.idle[i];
-            (done < member.engine.joins_after(), member.meter.work() / member.weight)
-        })?;
+        let waits = |member: &Member<'_>| done < member.engine.joins_after();
+        let slowest = pool.idle.iter().filter(|m| m.searcher.is_some()).map(Member::pace).min();
+        for member in pool.idle.iter_mut().filter(|m| m.searcher.is_none() && m.engine.joins_after() > 0) {
+            member.head_start = slowest.unwrap_or(0);
+        }
+        let next = (0..pool.idle.len()).min_by_key(|&i| (waits(&pool.idle[i]), pool.idle[i].pace()))?;
         let member = pool.idle.remove(next);
         let work = member.meter.work();
         let others: usize = self.meters.iter().map(Meter::held).sum::<usize>() - member.meter.held();
