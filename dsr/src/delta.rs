@@ -215,25 +215,35 @@ fn compare_joints(after: &mut State, child: NodeId, old: Option<&Joint>, changes
             }
         }
         (old, new) => {
-            if let Some(old) = old {
-                let (parent, old) = (old.parent, old.transform);
-                changes.push(Change::TransformRemoved { parent, child, old });
-            }
-            let Some(new) = new else { return };
-            let parent = new.parent;
-            let Some(track) = &new.track else {
-                changes.push(Change::TransformAdded { parent, child, new: new.transform, time: None });
-                return;
-            };
-            for (at, sample) in track.samples().enumerate() {
-                let (time, new) = (sample.time, sample.pose);
-                changes.push(if at == 0 {
-                    Change::TransformAdded { parent, child, new, time: Some(time) }
-                } else {
-                    Change::TransformSampled { parent, child, time, old: None, new }
-                });
-            }
+            replace_joint(child, old, new, changes);
         }
+    }
+}
+
+/// What it takes to go from one joint of a node to another, or none.
+pub(crate) fn replace_joint(
+    child: NodeId,
+    old: Option<&Joint>,
+    new: Option<&Joint>,
+    changes: &mut Vec<Change>,
+) {
+    if let Some(old) = old {
+        let (parent, old) = (old.parent, old.transform);
+        changes.push(Change::TransformRemoved { parent, child, old });
+    }
+    let Some(new) = new else { return };
+    let parent = new.parent;
+    let Some(track) = &new.track else {
+        changes.push(Change::TransformAdded { parent, child, new: new.transform, time: None });
+        return;
+    };
+    for (at, sample) in track.samples().enumerate() {
+        let (time, new) = (sample.time, sample.pose);
+        changes.push(if at == 0 {
+            Change::TransformAdded { parent, child, new, time: Some(time) }
+        } else {
+            Change::TransformSampled { parent, child, time, old: None, new }
+        });
     }
 }
 

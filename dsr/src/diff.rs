@@ -7,7 +7,7 @@
 //! states read from files, which share nothing, everything is compared.
 
 use crate::block::{Joint, NODES, Node};
-use crate::delta::Change;
+use crate::delta::{Change, replace_joint};
 use crate::id::{EdgeKey, Holder, NodeId};
 use crate::snapshot::Snapshot;
 use crate::state::{State, same_transform};
@@ -119,22 +119,5 @@ fn joints(old: Option<&Joint>, new: Option<&Joint>, child: NodeId, changes: &mut
         },
         _ => {}
     }
-    if let Some(old) = old {
-        let (parent, old) = (old.parent, old.transform);
-        changes.push(Change::TransformRemoved { parent, child, old });
-    }
-    let Some(new) = new else { return };
-    let parent = new.parent;
-    let Some(track) = &new.track else {
-        changes.push(Change::TransformAdded { parent, child, new: new.transform, time: None });
-        return;
-    };
-    for (at, sample) in track.samples().enumerate() {
-        let (time, new) = (sample.time, sample.pose);
-        changes.push(if at == 0 {
-            Change::TransformAdded { parent, child, new, time: Some(time) }
-        } else {
-            Change::TransformSampled { parent, child, time, old: None, new }
-        });
-    }
+    replace_joint(child, old, new, changes);
 }

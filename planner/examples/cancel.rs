@@ -4,6 +4,8 @@
 //! both are counted.
 #![allow(clippy::print_stdout, clippy::print_stderr, missing_docs)]
 
+mod files;
+
 use planner::{
     Budget, GroundOptions, Outcome, Preference, Query, SearchConfiguration, ground, improve, repair, solve,
 };
@@ -67,12 +69,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let rounds: usize = rest.first().map_or(Ok(50), |text| text.parse())?;
     let seconds = Duration::from_secs_f64(rest.get(1).map_or(Ok(2.0), |text| text.parse())?);
-    let read =
-        |path: &String| std::fs::read_to_string(path).map(|text| pddl::Source::new(path.clone(), text));
-    let domain = pddl::parse_domain(&read(domain)?, &[]);
-    let domain = domain.model.ok_or_else(|| format!("{:?}", domain.diagnostics))?;
-    let problem = pddl::parse_problem(&read(problem)?, &domain);
-    let problem = problem.model.ok_or_else(|| format!("{:?}", problem.diagnostics))?;
+    let (domain, problem) = files::read(domain, problem)?;
 
     let start = used();
     let task = ground(&domain, &problem, &GroundOptions::default())?;

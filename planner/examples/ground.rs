@@ -2,6 +2,8 @@
 //! measuring.
 #![allow(clippy::print_stdout, missing_docs)]
 
+mod files;
+
 use planner::{GroundOptions, ground};
 use std::time::{Duration, Instant};
 
@@ -14,13 +16,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         [mebibytes, ..] => Some(mebibytes.parse::<usize>()? << 20),
         [] => None,
     };
-    let read =
-        |path: &String| std::fs::read_to_string(path).map(|text| pddl::Source::new(path.clone(), text));
     let start = Instant::now();
-    let domain = pddl::parse_domain(&read(domain)?, &[]);
-    let domain = domain.model.ok_or_else(|| format!("{:?}", domain.diagnostics))?;
-    let problem = pddl::parse_problem(&read(problem)?, &domain);
-    let problem = problem.model.ok_or_else(|| format!("{:?}", problem.diagnostics))?;
+    let (domain, problem) = files::read(domain, problem)?;
     let parsed = start.elapsed();
     let late = move || start.elapsed() > Duration::from_secs(120);
     let start = Instant::now();

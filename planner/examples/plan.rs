@@ -3,6 +3,8 @@
 //! call is `pelea plan`.
 #![allow(clippy::print_stdout, clippy::print_stderr, missing_docs)]
 
+mod files;
+
 use planner::{Budget, GroundOptions, Outcome, Query, SearchConfiguration, ground, solve};
 use std::time::{Duration, Instant};
 
@@ -22,12 +24,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         [name, ..] => SearchConfiguration::named(name).ok_or("no such search")?,
         [] => SearchConfiguration::portfolio(),
     };
-    let read =
-        |path: &String| std::fs::read_to_string(path).map(|text| pddl::Source::new(path.clone(), text));
-    let domain = pddl::parse_domain(&read(domain)?, &[]);
-    let domain = domain.model.ok_or_else(|| format!("{:?}", domain.diagnostics))?;
-    let problem = pddl::parse_problem(&read(problem)?, &domain);
-    let problem = problem.model.ok_or_else(|| format!("{:?}", problem.diagnostics))?;
+    let (domain, problem) = files::read(domain, problem)?;
     eprintln!("parsed     {:9.3} s", start.elapsed().as_secs_f64());
     let late = move || start.elapsed() > Duration::from_secs_f64(timeout);
     let task = ground(&domain, &problem, &GroundOptions { interrupted: &late, ..GroundOptions::default() })?;

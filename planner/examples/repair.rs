@@ -5,6 +5,8 @@
 //! themselves. What does not break the plan is not counted.
 #![allow(clippy::print_stdout, missing_docs)]
 
+mod files;
+
 use planner::{
     Attempt, Budget, FactId, GroundOptions, OperatorId, Outcome, Query, Repair, SearchConfiguration, State,
     Task, ground, solve,
@@ -94,12 +96,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let rounds: usize = rest.first().map_or(Ok(100), |text| text.parse())?;
     let mut dice = Dice(rest.get(1).map_or(Ok(1), |text| text.parse())?);
-    let read =
-        |path: &String| std::fs::read_to_string(path).map(|text| pddl::Source::new(path.clone(), text));
-    let domain = pddl::parse_domain(&read(domain)?, &[]);
-    let domain = domain.model.ok_or_else(|| format!("{:?}", domain.diagnostics))?;
-    let problem = pddl::parse_problem(&read(problem)?, &domain);
-    let problem = problem.model.ok_or_else(|| format!("{:?}", problem.diagnostics))?;
+    let (domain, problem) = files::read(domain, problem)?;
     let names =
         rest.get(2).map_or_else(Vec::new, |list| list.split(',').map(pddl::model::Name::new).collect());
     let exogenous: Vec<_> = names.iter().filter_map(|name| domain.predicate(name)).collect();

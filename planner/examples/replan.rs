@@ -2,6 +2,8 @@
 //! again and again, and shows the distribution of the times: what a robot feels that replans.
 #![allow(clippy::print_stdout, clippy::print_stderr, missing_docs)]
 
+mod files;
+
 use planner::{Budget, GroundOptions, Outcome, Query, SearchConfiguration, ground, solve};
 use std::time::{Duration, Instant};
 
@@ -15,12 +17,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         [] => SearchConfiguration::default(),
     };
     let rounds: usize = rest.get(1).map_or(Ok(100), |text| text.parse())?;
-    let read =
-        |path: &String| std::fs::read_to_string(path).map(|text| pddl::Source::new(path.clone(), text));
-    let domain = pddl::parse_domain(&read(domain)?, &[]);
-    let domain = domain.model.ok_or_else(|| format!("{:?}", domain.diagnostics))?;
-    let problem = pddl::parse_problem(&read(problem)?, &domain);
-    let problem = problem.model.ok_or_else(|| format!("{:?}", problem.diagnostics))?;
+    let (domain, problem) = files::read(domain, problem)?;
     let start = Instant::now();
     let task = ground(&domain, &problem, &GroundOptions::default())?;
     println!(

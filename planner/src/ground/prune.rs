@@ -341,16 +341,14 @@ fn relevance(
         watch.spend(8)?;
         need(id32(a) << 1, pruned, &mut queue);
     }
-    let mut seen = vec![false; operators + raw.rules.len()];
-    for i in 0..operators {
-        let precondition = raw.operators.get(id32(i)).precondition;
-        watch.spend(8 + precondition.len())?;
-        pruned.improves[i] &= !pruned.is_refuted(precondition);
-        if pruned.improves[i] {
-            seen[i] = true;
-            precondition.iter().for_each(|&l| need(l, pruned, &mut queue));
+    let mut seen = pruned.improves.clone();
+    for (op, improves) in raw.operators.iter().zip(&seen) {
+        watch.spend(8 + op.precondition.len())?;
+        if *improves && !pruned.is_refuted(op.precondition) {
+            op.precondition.iter().for_each(|&l| need(l, pruned, &mut queue));
         }
     }
+    seen.resize(operators + raw.rules.len(), false);
     while let Some(atom) = queue.pop() {
         if let Some(comparison) = compared.get(atom as usize).copied().flatten() {
             read(&comparison.expression, pruned, &mut queue);
