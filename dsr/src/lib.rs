@@ -105,6 +105,7 @@ pub use pattern::{
     Binding, Comparison, HolderTerm, Metric, Operand, Pattern, PatternBuilder, PatternError,
     PatternTextError, Term, Threshold, Variable,
 };
+pub use quiver::{Arrows, Geometric, Quiver, Symbolic, TransformView};
 pub use reflex::{Bound, Keep, Reflex};
 pub use replay::ReplayError;
 pub use snapshot::{AttributeView, EdgeView, NodeView, Snapshot};

@@ -7,7 +7,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use dsr::{AgentId, ChainError, Graph, Isometry3, NodeId, Time};
 use nalgebra::Point3;
-use petgraph::visit::Dfs;
+use petgraph::visit::{Dfs, EdgeCount, NodeCount};
 use proptest::prelude::*;
 
 fn near(a: &Isometry3<f64>, b: &Isometry3<f64>) -> bool {
@@ -108,9 +108,9 @@ proptest! {
         // petgraph sees the same rooted tree.
         let quiver = now.geometric_quiver();
         prop_assert_eq!(quiver.edge_count() + 1, quiver.node_count());
-        let mut walk = Dfs::new(&quiver, now.root().unwrap());
+        let mut walk = Dfs::new(quiver, now.root().unwrap());
         let mut reached = 0;
-        while walk.next(&quiver).is_some() {
+        while walk.next(quiver).is_some() {
             reached += 1;
         }
         prop_assert_eq!(reached, nodes.len());
