@@ -211,13 +211,13 @@ fn the_planner_is_asked() {
         "[problem.two]\nsolvable = true\ntimeout = 0",
         &[],
         &expect![[r#"
-        pass tea/domain.pddl::check
-        pass tea/two.pddl::check
-        FAIL tea/two.pddl::solvable
-        tea/two.pddl:2:31: error[T0304]: no answer: grounding was interrupted in `boil`
-          tea/expected.toml:2:1: expected here
-          help: `timeout` allows for 0 s
-    "#]],
+            pass tea/domain.pddl::check
+            pass tea/two.pddl::check
+            FAIL tea/two.pddl::solvable
+            tea/two.pddl:2:31: error[T0304]: no answer: the time is over
+              tea/expected.toml:2:1: expected here
+              help: `timeout` allows for 0 s
+        "#]],
     );
 }
 

@@ -89,7 +89,7 @@ impl OldPlan {
         let mut known: HashMap<(ActionId, &[ObjectId]), Option<OperatorId>> =
             self.steps.iter().map(|step| ((step.action, step.arguments.as_slice()), None)).collect();
         for (id, operator) in task.operators().enumerate() {
-            if let Some(place) = known.get_mut(&(operator.action, &*operator.arguments)) {
+            if let Some(place) = known.get_mut(&(operator.action, operator.arguments)) {
                 place.get_or_insert(id);
             }
         }
