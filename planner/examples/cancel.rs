@@ -1,7 +1,7 @@
-//! `cancel DOMAIN PROBLEM [ROUNDS] [SECONDS]`: cancels grounding, and then searching, improving and
+//! `cancel DOMAIN PROBLEM [ROUNDS] [SECONDS] [wall]`: cancels grounding, and then searching, improving and
 //! repairing, at random instants, and shows how long each took to return from then on. Instants and delays
 //! are processor time of the whole process, so that other programs do not matter; where two threads run,
-//! both are counted.
+//! both are counted. With `wall` they are wall time, for a machine where nothing else runs.
 #![allow(clippy::print_stdout, clippy::print_stderr, missing_docs)]
 
 mod files;
@@ -12,9 +12,9 @@ use planner::{
 use rustix::time::{ClockId, clock_gettime};
 use std::time::Duration;
 
-/// Processor time that this process has used.
-fn used() -> Duration {
-    let time = clock_gettime(ClockId::ProcessCPUTime);
+/// What the clock shows.
+fn now(clock: ClockId) -> Duration {
+    let time = clock_gettime(clock);
     Duration::new(u64::try_from(time.tv_sec).unwrap_or(0), u32::try_from(time.tv_nsec).unwrap_or(0))
 }
 
@@ -23,12 +23,15 @@ fn budget(interrupted: &(dyn Fn() -> bool + Sync)) -> Budget<'_> {
 }
 
 /// Random enough: a linear congruence.
-struct Instants(u64);
+struct Instants {
+    seed: u64,
+    clock: ClockId,
+}
 
 impl Instants {
     fn below(&mut self, most: Duration) -> Duration {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        most.mul_f64(f64::from(u32::try_from(self.0 >> 32).unwrap_or(0)) / f64::from(u32::MAX))
+        self.seed = self.seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        most.mul_f64(f64::from(u32::try_from(self.seed >> 32).unwrap_or(0)) / f64::from(u32::MAX))
     }
 }
 
@@ -40,6 +43,8 @@ fn measure(
     instants: &mut Instants,
     mut work: impl FnMut(&(dyn Fn() -> bool + Sync)) -> bool,
 ) {
+    let clock = instants.clock;
+    let used = || now(clock);
     let mut delays = Vec::new();
     for _ in 0..rounds {
         let end = used() + instants.below(most);
@@ -65,17 +70,21 @@ fn measure(
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [domain, problem, rest @ ..] = arguments.as_slice() else {
-        return Err("DOMAIN PROBLEM [ROUNDS] [SECONDS]".into());
+        return Err("DOMAIN PROBLEM [ROUNDS] [SECONDS] [wall]".into());
     };
     let rounds: usize = rest.first().map_or(Ok(50), |text| text.parse())?;
     let seconds = Duration::from_secs_f64(rest.get(1).map_or(Ok(2.0), |text| text.parse())?);
     let (domain, problem) = files::read(domain, problem)?;
 
-    let start = used();
+    let clock = match rest.get(2).map(String::as_str) {
+        Some("wall") => ClockId::Monotonic,
+        _ => ClockId::ProcessCPUTime,
+    };
+    let start = now(clock);
     let task = ground(&domain, &problem, &GroundOptions::default())?;
-    let whole = used() - start;
+    let whole = now(clock) - start;
     println!("{} facts, {} operators", task.facts().len(), task.operators().len());
-    let mut instants = Instants(2009);
+    let mut instants = Instants { seed: 2009, clock };
     measure("ground", rounds, whole, &mut instants, |interrupted| {
         ground(&domain, &problem, &GroundOptions { interrupted, ..GroundOptions::default() }).is_err()
     });
@@ -93,8 +102,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let improved = improve(&task, &query, &searches[0], &budget(interrupted), &mut none);
         improved.quality != planner::Quality::Optimal
     });
-    let end = used() + 10 * seconds;
-    let found = solve(&task, &query, &searches[0], &budget(&move || used() >= end));
+    let end = now(clock) + 10 * seconds;
+    let found = solve(&task, &query, &searches[0], &budget(&move || now(clock) >= end));
     if let Outcome::Solved(plan) = found.outcome {
         let excluded = &plan.operators[plan.operators.len() / 2..][..1];
         let query = Query { excluded, ..query };
