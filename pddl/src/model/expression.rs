@@ -27,6 +27,18 @@ pub enum ArithmeticOperator {
     Divide,
 }
 
+impl ArithmeticOperator {
+    /// As it is written.
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Self::Add => "+",
+            Self::Subtract => "-",
+            Self::Multiply => "*",
+            Self::Divide => "/",
+        }
+    }
+}
+
 /// A numeric expression with its place.
 #[derive(Clone, Debug)]
 pub struct Expression {

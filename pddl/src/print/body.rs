@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use super::Printer;
 use crate::model::{
-    Application, ArithmeticOperator, AssignOperator, AssignedValue, Atom, Comparison, Condition,
-    ConditionKind, Effect, EffectKind, Expression, ExpressionKind, Term, TypeSet, VariableId, Variables,
+    Application, AssignOperator, AssignedValue, Atom, Comparison, Condition, ConditionKind, Effect,
+    EffectKind, Expression, ExpressionKind, Term, TypeSet, VariableId, Variables,
 };
 
 /// Words that mean something else in front of a list than a type of that name.
@@ -144,13 +144,8 @@ impl<'m> Printer<'m> {
             }
             ExpressionKind::Fluent(fluent) => self.application(v, fluent),
             ExpressionKind::Arithmetic(operator, operands) => {
-                let open = match operator {
-                    ArithmeticOperator::Add => "(+",
-                    ArithmeticOperator::Subtract => "(-",
-                    ArithmeticOperator::Multiply => "(*",
-                    ArithmeticOperator::Divide => "(/",
-                };
-                self.list(open, operands, |p, e| p.expression(v, e));
+                let open = format!("({}", operator.symbol());
+                self.list(&open, operands, |p, e| p.expression(v, e));
             }
             ExpressionKind::Duration => self.push("?duration"),
             ExpressionKind::TotalTime => self.push("(total-time)"),

@@ -12,9 +12,10 @@
 use super::needs::{Binding, Compared, Needs};
 use super::oracle::Oracle;
 use crate::number::Number;
+use invariants::{Context, changes};
 use pddl::model::{
-    Application, ArithmeticOperator, AssignOperator, AssignedValue, Comparison, Condition, Effect,
-    EffectKind, Expression, ExpressionKind, FluentValue, FunctionId, ObjectId, Term,
+    Application, ArithmeticOperator, AssignOperator, AssignedValue, Comparison, EffectKind, Expression,
+    ExpressionKind, FluentValue, FunctionId, ObjectId, Term,
 };
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -427,21 +428,23 @@ impl<'a> Ranges<'a> {
         let mut found = Vec::new();
         for action in &self.oracle.domain.actions {
             let binding = Binding::new(&action.variables);
-            let mut hits = Vec::new();
-            collect(&action.effect, &mut Vec::new(), false, &mut hits);
             let arguments: Vec<_> = fluent.1.iter().map(|&o| Ok(o)).collect();
-            let fits = |hit: &Hit<'_>| {
-                let same = hit.application.function == fluent.0;
-                let terms: &[Term] = &hit.application.arguments;
-                same.then(|| binding.unified_terms(terms, &arguments, self.oracle))?
-            };
-            let hits: Vec<_> = hits.iter().filter_map(|hit| Some((hit, fits(hit)?))).collect();
+            let mut hits = Vec::new();
+            changes(&action.effect, &mut |context, change| {
+                let &invariants::Change::Assign(operator, application, value) = change else { return };
+                if application.function == fluent.0
+                    && let Some(binding) =
+                        binding.unified_terms(&application.arguments, &arguments, self.oracle)
+                {
+                    hits.push((Hit { operator, application, value, context: context.clone() }, binding));
+                }
+            });
             // Several changes at once add up, and a guard speaks of the state before all of them.
-            let alone = hits.len() == 1 && !hits[0].0.repeated;
+            let alone = matches!(hits.as_slice(), [(hit, _)] if hit.context.forall.is_empty());
             for (hit, binding) in &hits {
                 let mut needs = Needs::default();
                 needs.add(&action.precondition, true, binding, self.oracle);
-                hit.conditions.iter().for_each(|c| needs.add(c, true, binding, self.oracle));
+                hit.context.when.iter().for_each(|c| needs.add(c, true, binding, self.oracle));
                 if needs.is_false || !needs.literals.iter().all(|wanted| self.oracle.may_be(wanted)) {
                     continue;
                 }
@@ -499,14 +502,8 @@ impl<'a> Ranges<'a> {
                 text + ")"
             }
             ExpressionKind::Arithmetic(operator, parts) => {
-                let head = match operator {
-                    ArithmeticOperator::Add => "+",
-                    ArithmeticOperator::Subtract => "-",
-                    ArithmeticOperator::Multiply => "*",
-                    ArithmeticOperator::Divide => "/",
-                };
                 let parts: Vec<String> = parts.iter().map(|part| self.text(part, binding)).collect();
-                format!("({head} {})", parts.join(" "))
+                format!("({} {})", operator.symbol(), parts.join(" "))
             }
             _ => "?".to_owned(),
         }
@@ -526,29 +523,6 @@ struct Hit<'e> {
     operator: AssignOperator,
     application: &'e Application,
     value: &'e AssignedValue,
-    conditions: Vec<&'e Condition>,
-    /// Whether it stands below a quantifier, and may happen several times at once.
-    repeated: bool,
-}
-
-fn collect<'e>(
-    effect: &'e Effect,
-    conditions: &mut Vec<&'e Condition>,
-    repeated: bool,
-    hits: &mut Vec<Hit<'e>>,
-) {
-    match &effect.kind {
-        EffectKind::And(parts) => parts.iter().for_each(|part| collect(part, conditions, repeated, hits)),
-        EffectKind::Forall(_, inner) => collect(inner, conditions, true, hits),
-        EffectKind::When(when, inner) => {
-            conditions.push(when);
-            collect(inner, conditions, repeated, hits);
-            conditions.pop();
-        }
-        EffectKind::Assign(operator, application, value) => {
-            let conditions = conditions.clone();
-            hits.push(Hit { operator: *operator, application, value, conditions, repeated });
-        }
-        EffectKind::Add(_) | EffectKind::Delete(_) => {}
-    }
+    /// Below a quantifier it may happen several times at once.
+    context: Context<'e>,
 }

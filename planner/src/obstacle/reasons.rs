@@ -11,7 +11,8 @@ use super::oracle::Oracle;
 use super::ranges::{NeverCompares, Ranges};
 use super::{Pattern, Wanted};
 use crate::ids::id32;
-use pddl::model::{Action, ActionId, Atom, Axiom, Condition, Effect, EffectKind, Name, ObjectId};
+use invariants::{Change, changes};
+use pddl::model::{Action, ActionId, Axiom, Condition, Name, ObjectId};
 
 /// Literals that are looked at.
 const REASONS: usize = 48;
@@ -172,10 +173,16 @@ impl<'a> Reasons<'a> {
         let mut found = Vec::new();
         for (id, action) in oracle.domain.actions.enumerate() {
             let Action { variables, precondition, effect, .. } = action;
-            each(effect, wanted.positive, &mut Vec::new(), &mut |atom, when| {
+            changes(effect, &mut |context, change| {
+                let atom = match change {
+                    Change::Add(atom) if wanted.positive => atom,
+                    Change::Delete(atom) if !wanted.positive => atom,
+                    _ => return,
+                };
                 let unified = Binding::new(variables).unified(atom, &wanted.pattern, oracle);
                 if let Some(binding) = unified {
-                    let conditions = std::iter::once(precondition).chain(when.iter().copied()).collect();
+                    let conditions =
+                        std::iter::once(precondition).chain(context.when.iter().copied()).collect();
                     found.push(Candidate { action: Some(id), binding, conditions });
                 }
             });
@@ -340,25 +347,4 @@ fn under(wanted: &Wanted, binding: &Binding<'_>) -> Wanted {
     };
     let arguments = wanted.pattern.arguments.iter().map(argument).collect();
     Wanted { pattern: Pattern { predicate: wanted.pattern.predicate, arguments }, positive: wanted.positive }
-}
-
-/// Every atom that an effect adds (or deletes), with the conditions above it.
-fn each<'e>(
-    effect: &'e Effect,
-    adds: bool,
-    when: &mut Vec<&'e Condition>,
-    visit: &mut dyn FnMut(&'e Atom, &[&'e Condition]),
-) {
-    match &effect.kind {
-        EffectKind::And(parts) => parts.iter().for_each(|part| each(part, adds, when, visit)),
-        EffectKind::Forall(_, inner) => each(inner, adds, when, visit),
-        EffectKind::When(condition, inner) => {
-            when.push(condition);
-            each(inner, adds, when, visit);
-            when.pop();
-        }
-        EffectKind::Add(atom) if adds => visit(atom, when),
-        EffectKind::Delete(atom) if !adds => visit(atom, when),
-        EffectKind::Add(_) | EffectKind::Delete(_) | EffectKind::Assign(..) => {}
-    }
 }
