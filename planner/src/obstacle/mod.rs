@@ -117,7 +117,7 @@ pub fn explain(
 ) -> Explanation {
     let first = Oracle::new(domain, problem, task, &[]);
     let excluded = out_of_range(&first);
-    let oracle = Oracle::new(domain, problem, task, &excluded);
+    let oracle = if excluded.is_empty() { first } else { Oracle::new(domain, problem, task, &excluded) };
     let ranges = Ranges::new(&oracle);
     let mut reasons = Reasons::new(&oracle, &ranges);
     let walk = Walk { oracle: &oracle, ranges: &ranges };
@@ -133,13 +133,16 @@ pub fn explain(
 /// Operators that need a comparison that never holds.
 fn out_of_range(oracle: &Oracle<'_>) -> Vec<OperatorId> {
     let (domain, task) = (oracle.domain, oracle.task);
-    let ranges = Ranges::new(oracle);
     let compares = |action: &Action| {
         let mut compares = false;
         action.precondition.each(&mut |part| compares |= matches!(part.kind, ConditionKind::Compare(..)));
         compares
     };
     let compares: Vec<bool> = domain.actions.iter().map(compares).collect();
+    if !compares.contains(&true) {
+        return Vec::new();
+    }
+    let ranges = Ranges::new(oracle);
     let candidates = task.operators().enumerate().filter(|(_, o)| compares[o.action.0 as usize]);
     let never = |operator: &Operator| {
         let Action { variables, precondition, .. } = &domain.actions[operator.action];

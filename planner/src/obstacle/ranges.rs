@@ -155,6 +155,10 @@ impl Sum {
         }
         Some(self)
     }
+
+    fn minus(&self, other: &Self) -> Option<Self> {
+        self.clone().plus(Number::integer(-1), other)
+    }
 }
 
 /// A difference that is above 0, not below it, or 0.
@@ -174,19 +178,23 @@ struct Change {
 pub(super) struct Ranges<'a> {
     oracle: &'a Oracle<'a>,
     initial: BTreeMap<Ground, Number>,
+    /// Whether no initial value is missing because it is too long for us.
+    is_exact: bool,
     changing: BTreeSet<FunctionId>,
     known: RefCell<BTreeMap<Ground, Option<Interval>>>,
 }
 
 impl<'a> Ranges<'a> {
     pub(super) fn new(oracle: &'a Oracle<'a>) -> Self {
-        let mut initial = BTreeMap::new();
+        let (mut initial, mut is_exact) = (BTreeMap::new(), true);
         for fluent in &oracle.problem.fluents {
-            if let FluentValue::Number(value) = fluent.value
-                && let Some(value) = Number::from_f64(value)
-            {
-                let application = &fluent.application;
-                initial.insert((application.function, application.arguments.clone()), value);
+            let FluentValue::Number(value) = fluent.value else { continue };
+            let application = &fluent.application;
+            match Number::from_f64(value) {
+                Some(value) => {
+                    initial.insert((application.function, application.arguments.clone()), value);
+                }
+                None => is_exact = false,
             }
         }
         let mut changing = BTreeSet::new();
@@ -197,16 +205,16 @@ impl<'a> Ranges<'a> {
                 }
             });
         }
-        Self { oracle, initial, changing, known: RefCell::default() }
+        Self { oracle, initial, is_exact, changing, known: RefCell::default() }
     }
 
     /// Why the comparison never holds; `None` if it may.
     pub(super) fn never(&self, compared: &Compared<'_>, binding: &Binding<'_>) -> Option<NeverCompares> {
-        // An initial value that is too long for us would be missing.
-        if self.initial.len() != self.numbers() {
+        if !self.is_exact {
             return None;
         }
-        let difference = self.difference(compared, binding)?;
+        let (left, right) = (self.sum(compared.left, binding)?, self.sum(compared.right, binding)?);
+        let difference = left.minus(&right)?;
         self.follow(&difference);
         let whole = self.interval(&difference);
         let zero = |open: bool| Some(End { value: Number::ZERO, open });
@@ -223,7 +231,6 @@ impl<'a> Ranges<'a> {
             return None;
         }
         // Told of the side that changes, where only one does.
-        let (left, right) = (self.sum(compared.left, binding)?, self.sum(compared.right, binding)?);
         let (left_text, right_text) = (self.text(compared.left, binding), self.text(compared.right, binding));
         let comparison = format!("({} {left_text} {right_text})", compared.comparison.symbol());
         let (left_range, right_range) = (self.interval(&left), self.interval(&right));
@@ -256,22 +263,6 @@ impl<'a> Ranges<'a> {
     /// Whether no action changes what is in it.
     fn is_fixed(&self, sum: &Sum) -> bool {
         !sum.terms.keys().any(|(function, _)| self.changing.contains(function))
-    }
-
-    fn numbers(&self) -> usize {
-        let fluents = self.oracle.problem.fluents.iter();
-        let mut keys: Vec<_> = fluents
-            .filter(|f| matches!(f.value, FluentValue::Number(_)))
-            .map(|f| (f.application.function, &f.application.arguments))
-            .collect();
-        keys.sort_unstable();
-        keys.dedup();
-        keys.len()
-    }
-
-    fn difference(&self, compared: &Compared<'_>, binding: &Binding<'_>) -> Option<Sum> {
-        let right = self.sum(compared.right, binding)?;
-        self.sum(compared.left, binding)?.plus(Number::integer(-1), &right)
     }
 
     /// An expression as a sum; `None` where it is none.
@@ -329,6 +320,9 @@ impl<'a> Ranges<'a> {
             let Ok(objects) = objects else { return Some(Interval::ALL) };
             let known = self.known.borrow();
             return known.get(&(key.0, objects)).copied().unwrap_or(Some(Interval::ALL));
+        }
+        if let Ok(objects) = objects {
+            return self.initial.get(&(key.0, objects)).map(|&value| Interval::point(value));
         }
         let fits = |arguments: &[ObjectId]| {
             arguments.iter().zip(&key.1).all(|(object, wanted)| wanted.is_err() || *wanted == Ok(*object))
@@ -467,8 +461,8 @@ impl<'a> Ranges<'a> {
             AssignOperator::ScaleUp | AssignOperator::ScaleDown => None,
         });
         let guard = |compared: &Compared<'_>| {
-            let sum = self.difference(compared, binding)?;
-            let negated = || Sum::constant(Number::ZERO).plus(Number::integer(-1), &sum);
+            let sum = self.sum(compared.left, binding)?.minus(&self.sum(compared.right, binding)?)?;
+            let negated = || Sum::constant(Number::ZERO).minus(&sum);
             let (sum, strict, equal) = match compared.comparison {
                 Comparison::Less => (negated()?, true, false),
                 Comparison::LessEqual => (negated()?, false, false),

@@ -62,7 +62,9 @@ pub(super) fn visit(task: &Task, budget: &Budget<'_>) -> Space {
     registry.insert(&here, None);
     let mut complete = true;
     while visited < known {
-        let is_over = visited % 256 == 0
+        // The first state is always looked at: it is the nearest, if no other is.
+        let is_over = visited > 0
+            && visited % 256 == 0
             && ((budget.interrupted)() || budget.memory_bytes.is_some_and(|most| registry.memory() > most));
         if visited >= STATES || is_over {
             complete = false;
