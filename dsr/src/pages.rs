@@ -1,78 +1,139 @@
 //! A sparse array of blocks that is written in place, unless somebody else still holds the path to the block.
 //!
 //! Problem: readers keep old states of a graph with 10^6 nodes while writers go on, and most of the time nobody
-//! keeps one. Idea: three levels behind `Arc` over blocks of plain cells. A copy is one reference count; a write
+//! keeps one. Idea: a radix tree behind `Arc` over blocks of plain cells. A copy is one reference count; a write
 //! asks at each level whether this copy is the only one, and copies that level only if it is not. The tables are
-//! narrow (32), because copying a table touches the count of each block below it, and those lie apart.
-//! Cost: get is four dependent loads; a write to an array that nobody else holds adds an atomic exchange per
-//! level; to a held one, 64 reference counts, the root and one block, once per block and copy.
+//! narrow (32), because copying a table touches the count of each block below it, and those lie apart. The tree is
+//! as high as its largest index needs: the few hundred nodes that a robot has are one table.
+//! Cost: get is a dependent load per level and one for the block, four at most; a write to an array that nobody else
+//! holds adds an atomic exchange per level; to a held one, 64 reference counts, the root and one block, once per
+//! block and copy.
 
 use std::sync::Arc;
 
 const BITS: u32 = 5;
 const FANOUT: usize = 1 << BITS;
 
-type Lower<B> = [Option<Arc<B>>; FANOUT];
-type Upper<B> = [Option<Arc<Lower<B>>>; FANOUT];
+type Table<T> = [Option<Arc<T>>; FANOUT];
+type Lower<B> = Table<B>;
+type Upper<B> = Table<Lower<B>>;
+
+/// The tree, by its height.
+#[derive(Debug)]
+enum Root<B> {
+    /// Up to 32 blocks.
+    Lower(Arc<Lower<B>>),
+    /// Up to 1,024.
+    Upper(Arc<Upper<B>>),
+    /// As many as one likes.
+    Top(Arc<[Option<Arc<Upper<B>>>]>),
+}
 
 #[derive(Debug)]
 pub(crate) struct Pages<B> {
-    root: Arc<[Option<Arc<Upper<B>>>]>,
+    root: Option<Root<B>>,
+}
+
+impl<B> Clone for Root<B> {
+    fn clone(&self) -> Self {
+        match self {
+            Self::Lower(table) => Self::Lower(Arc::clone(table)),
+            Self::Upper(table) => Self::Upper(Arc::clone(table)),
+            Self::Top(tables) => Self::Top(Arc::clone(tables)),
+        }
+    }
 }
 
 impl<B> Clone for Pages<B> {
     fn clone(&self) -> Self {
-        Self { root: Arc::clone(&self.root) }
+        Self { root: self.root.clone() }
     }
 }
 
 impl<B> Default for Pages<B> {
     fn default() -> Self {
-        Self { root: Arc::new([]) }
+        Self { root: None }
     }
 }
 
-/// A table, or an empty one.
-fn table<T>(table: Option<&[Option<Arc<T>>; FANOUT]>) -> &[Option<Arc<T>>] {
-    table.map_or(&[], |table| table.as_slice())
+fn empty<T>() -> Arc<Table<T>> {
+    Arc::new(std::array::from_fn(|_| None))
 }
 
-/// Where two tables do not hold the same.
-fn differing<T>(
-    one: &[Option<Arc<T>>],
-    two: &[Option<Arc<T>>],
-    mut look: impl FnMut(usize, Option<&T>, Option<&T>),
-) {
-    for at in 0..one.len().max(two.len()) {
-        let (one, two) = (one.get(at).and_then(Option::as_ref), two.get(at).and_then(Option::as_ref));
-        let same = match (one, two) {
-            (Some(one), Some(two)) => Arc::ptr_eq(one, two),
-            (one, two) => one.is_none() && two.is_none(),
-        };
-        if !same {
-            look(at, one.map(|one| &**one), two.map(|two| &**two));
-        }
-    }
+/// A table with one entry, the first.
+fn first<T>(entry: Arc<T>) -> Arc<Table<T>> {
+    let mut entry = Some(entry);
+    Arc::new(std::array::from_fn(|_| entry.take()))
 }
 
+/// The tables of the upper and of the lower level, and the place in the latter.
 const fn split(index: usize) -> (usize, usize, usize) {
     (index >> (2 * BITS), (index >> BITS) % FANOUT, index % FANOUT)
 }
 
-impl<B: Clone> Pages<B> {
-    pub(crate) fn get(&self, index: usize) -> Option<&B> {
-        let (top, middle, low) = split(index);
-        self.root.get(top)?.as_ref()?[middle].as_ref()?[low].as_deref()
+impl<B> Pages<B> {
+    /// The table of 32 blocks of that index.
+    fn lower(&self, index: usize) -> Option<&Arc<Lower<B>>> {
+        match self.root.as_ref()? {
+            Root::Lower(table) => (index == 0).then_some(table),
+            Root::Upper(table) => table.get(index)?.as_ref(),
+            Root::Top(tables) => tables.get(index / FANOUT)?.as_ref()?[index % FANOUT].as_ref(),
+        }
     }
 
+    /// One more than the largest index that `lower` may have something for.
+    fn width(&self) -> usize {
+        match &self.root {
+            None => 0,
+            Some(Root::Lower(_)) => 1,
+            Some(Root::Upper(_)) => FANOUT,
+            Some(Root::Top(tables)) => tables.len() * FANOUT,
+        }
+    }
+
+    pub(crate) fn get(&self, index: usize) -> Option<&B> {
+        self.lower(index / FANOUT)?[index % FANOUT].as_deref()
+    }
+
+    /// The indexes at which the two do not share a block.
+    pub(crate) fn differing(&self, other: &Self) -> Vec<usize> {
+        let block = |table: Option<&Arc<Lower<B>>>, at: usize| Some(Arc::as_ptr(table?[at].as_ref()?));
+        let mut found = Vec::new();
+        for table in 0..self.width().max(other.width()) {
+            let (one, two) = (self.lower(table), other.lower(table));
+            if one.map(Arc::as_ptr) != two.map(Arc::as_ptr) {
+                let differs = |at: &usize| block(one, *at) != block(two, *at);
+                found.extend((0..FANOUT).filter(differs).map(|at| table * FANOUT + at));
+            }
+        }
+        found
+    }
+
+    /// All present blocks with their index, in order.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (usize, &B)> {
+        let tables = (0..self.width()).filter_map(|at| Some((at, self.lower(at)?)));
+        tables.flat_map(|(table, blocks)| {
+            let blocks = blocks.iter().enumerate();
+            blocks.filter_map(move |(at, block)| Some((table * FANOUT + at, block.as_deref()?)))
+        })
+    }
+}
+
+impl<B: Clone> Pages<B> {
     /// The block for writing, alone in this copy.
     pub(crate) fn get_mut(&mut self, index: usize) -> Option<&mut B> {
         // An absent block must not cost a copy of the path to it.
         self.get(index)?;
         let (top, middle, low) = split(index);
-        let upper = Arc::make_mut(Arc::make_mut(&mut self.root).get_mut(top)?.as_mut()?);
-        let lower = Arc::make_mut(upper[middle].as_mut()?);
-        lower[low].as_mut().map(Arc::make_mut)
+        let lower = match self.root.as_mut()? {
+            Root::Lower(table) => table,
+            Root::Upper(table) => Arc::make_mut(table)[middle].as_mut()?,
+            Root::Top(tables) => {
+                let upper = Arc::make_mut(Arc::make_mut(tables).get_mut(top)?.as_mut()?);
+                upper[middle].as_mut()?
+            }
+        };
+        Arc::make_mut(lower)[low].as_mut().map(Arc::make_mut)
     }
 }
 
@@ -80,46 +141,40 @@ impl<B: Clone + Default> Pages<B> {
     /// The block for writing, made if it is not there.
     pub(crate) fn make(&mut self, index: usize) -> &mut B {
         let (top, middle, low) = split(index);
-        if self.root.len() <= top {
-            // A table more per 1,024 blocks: growing is rare enough to copy the root.
-            let more = std::iter::repeat_n(None, top + 1 - self.root.len());
-            self.root = self.root.iter().cloned().chain(more).collect();
-        }
-        let empty = || Arc::new(std::array::from_fn(|_| None));
-        let upper = Arc::make_mut(&mut self.root)[top].get_or_insert_with(empty);
-        let empty = || Arc::new(std::array::from_fn(|_| None));
-        let lower = Arc::make_mut(upper)[middle].get_or_insert_with(empty);
+        let root = self.root.get_or_insert_with(|| Root::Lower(empty()));
+        root.reach(top, middle);
+        let lower = match root {
+            Root::Lower(table) => table,
+            Root::Upper(table) => Arc::make_mut(table)[middle].get_or_insert_with(empty),
+            Root::Top(tables) => {
+                let upper = Arc::make_mut(tables)[top].get_or_insert_with(empty);
+                Arc::make_mut(upper)[middle].get_or_insert_with(empty)
+            }
+        };
         Arc::make_mut(Arc::make_mut(lower)[low].get_or_insert_with(Arc::default))
     }
 }
 
-impl<B> Pages<B> {
-    /// The indexes at which the two do not share a block.
-    pub(crate) fn differing(&self, other: &Self) -> Vec<usize> {
-        let mut found = Vec::new();
-        differing(&self.root, &other.root, |top, one, two| {
-            differing(table(one), table(two), |middle, one, two| {
-                differing(table(one), table(two), |low, _, _| {
-                    found.push(((top << BITS) + middle) * FANOUT + low);
-                });
-            });
-        });
-        found
-    }
-
-    /// All present blocks with their index, in order.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = (usize, &B)> {
-        let uppers = self.root.iter().enumerate();
-        let present = uppers.filter_map(|(at, upper)| Some((at, upper.as_ref()?)));
-        let lowers = present.flat_map(|(top, upper)| {
-            upper.iter().enumerate().filter_map(move |(at, lower)| Some((top * FANOUT + at, lower.as_ref()?)))
-        });
-        lowers.flat_map(|(at, lower)| {
-            lower
-                .iter()
-                .enumerate()
-                .filter_map(move |(low, block)| Some((at * FANOUT + low, block.as_deref()?)))
-        })
+impl<B> Root<B> {
+    /// Makes the tree as high and the root as wide as these tables need.
+    fn reach(&mut self, top: usize, middle: usize) {
+        if let Self::Lower(table) = self
+            && (top, middle) != (0, 0)
+        {
+            *self = Self::Upper(first(Arc::clone(table)));
+        }
+        if let Self::Upper(table) = self
+            && top > 0
+        {
+            *self = Self::Top(Arc::new([Some(Arc::clone(table))]));
+        }
+        if let Self::Top(tables) = self
+            && tables.len() <= top
+        {
+            // A table more per 1,024 blocks: growing is rare enough to copy the root.
+            let more = std::iter::repeat_n(None, top + 1 - tables.len());
+            *tables = tables.iter().cloned().chain(more).collect();
+        }
     }
 }
 
