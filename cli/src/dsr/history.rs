@@ -1,10 +1,10 @@
 //! `pelea dsr log`, `diff` and `query`: what happened, what differs, and where a pattern matches.
 
-use super::{Failed, Moment, open, seconds, state};
+use super::{Failed, Moment, open, seconds, state, writer};
 use crate::console::Console;
 use crate::exit::Exit;
 use clap::Args;
-use dsr::{Binding, Change, Delta, Mentions, Pattern, Played, Snapshot};
+use dsr::{Binding, Change, Delta, Mentions, Pattern, Played, Recording, Snapshot};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -54,7 +54,7 @@ enum Record<'a> {
     Commit { version: u64, time: f64, writer: &'a str, sentences: &'a [String], changes: &'a [Change] },
     Jump { from: u64, to: u64 },
     Difference { from: u64, to: u64, sentences: &'a [String], changes: &'a [Change] },
-    Match { version: u64, time: f64, holds: bool, bindings: BTreeMap<&'a str, &'a str> },
+    Match { version: u64, time: f64, holds: bool, bindings: &'a Names<'a> },
 }
 
 pub(super) fn log(arguments: &LogArguments, console: &mut Console<'_>) -> Result<Exit, Failed> {
@@ -69,13 +69,13 @@ pub(super) fn log(arguments: &LogArguments, console: &mut Console<'_>) -> Result
                 continue;
             }
         };
-        let snapshot = replay.snapshot();
-        let writer = recording.dictionary().agent_name(delta.writer).map_or("", |name| name);
-        let sentences = delta.sentences(&snapshot);
+        let writer = writer(&recording, &delta);
+        if arguments.by.as_ref().is_some_and(|by| by != writer) {
+            continue;
+        }
+        let sentences = delta.sentences(&replay.snapshot());
         let wanted = |text: &String| sentences.iter().any(|sentence| sentence.contains(text.as_str()));
-        if !arguments.about.as_ref().is_none_or(wanted)
-            || arguments.by.as_ref().is_some_and(|by| by != writer)
-        {
+        if !arguments.about.as_ref().is_none_or(wanted) {
             continue;
         }
         let (version, time) = (delta.version.0, seconds(delta.time));
@@ -108,70 +108,74 @@ pub(super) fn query(arguments: &QueryArguments, console: &mut Console<'_>) -> Re
     let (recording, exit) = open(&arguments.journal, console)?;
     let pattern = Pattern::parse(recording.dictionary(), &arguments.pattern)
         .map_err(|error| Failed(Exit::Unreadable, format!("the pattern cannot be read: {error}")))?;
-    let mut any = false;
-    if !arguments.history {
-        let snapshot = state(&recording, arguments.at)?;
-        for binding in pattern.matches(&snapshot) {
-            any = true;
-            tell(&pattern, &binding, &snapshot, true, "", console);
-        }
+    let any = if arguments.history {
+        history(&recording, &pattern, console)?
     } else {
-        let mut replay = recording.replay()?;
-        let mut before = replay.snapshot();
-        let mut held: BTreeSet<Binding> = BTreeSet::new();
-        let mut first = true;
-        loop {
-            let snapshot = replay.snapshot();
-            let now: BTreeSet<_> = pattern.matches(&snapshot).into_iter().collect();
-            any |= !now.is_empty();
-            let when = format!("{:>6} {:>10.3} s  ", snapshot.version().0, seconds(snapshot.time()));
-            for gone in held.difference(&now) {
-                // A node that went has its name in the state before.
-                tell(&pattern, gone, &before, false, &format!("{when}no longer: "), console);
-            }
-            for new in now.difference(&held) {
-                tell(
-                    &pattern,
-                    new,
-                    &snapshot,
-                    true,
-                    &format!("{when}{}", if first { "already: " } else { "" }),
-                    console,
-                );
-            }
-            (held, before, first) = (now, snapshot, false);
-            // What does not touch the pattern's tokens changes no match.
-            let touched = loop {
-                match replay.next().transpose()? {
-                    None => break false,
-                    Some(Played::Jump { .. }) => break true,
-                    Some(Played::Commit(delta)) if Mentions::of(&delta).intersects(pattern.mentions()) => {
-                        break true;
-                    }
-                    Some(Played::Commit(_)) => before = replay.snapshot(),
-                }
-            };
-            if !touched {
-                break;
-            }
+        let snapshot = state(&recording, arguments.at)?;
+        let matches = pattern.matches(&snapshot);
+        for binding in &matches {
+            tell(&snapshot, &named(&pattern, binding, &snapshot), true, "", console);
         }
-    }
+        !matches.is_empty()
+    };
     Ok(exit.and(if any { Exit::Yes } else { Exit::No }))
 }
 
-fn tell(
-    pattern: &Pattern,
-    binding: &Binding,
-    snapshot: &Snapshot,
-    holds: bool,
-    before: &str,
-    console: &mut Console<'_>,
-) {
-    let names = pattern.variables().zip(binding.iter());
-    let bindings: BTreeMap<_, _> =
-        names.map(|((variable, _), id)| (variable, snapshot.name(*id).unwrap_or("?"))).collect();
+/// Tells of every match the version in which it appeared and the one in which it was gone; whether there is any.
+///
+/// No snapshot is kept while the replay goes on: it would make it copy the state.
+fn history(recording: &Recording, pattern: &Pattern, console: &mut Console<'_>) -> Result<bool, Failed> {
+    let mut replay = recording.replay()?;
+    // With the names that the nodes have: one that is gone has none any more.
+    let mut held: BTreeMap<Binding, Names<'_>> = BTreeMap::new();
+    let (mut any, mut first) = (false, true);
+    loop {
+        {
+            let snapshot = replay.snapshot();
+            let now: BTreeSet<Binding> = pattern.matches(&snapshot).into_iter().collect();
+            any |= !now.is_empty();
+            let when = format!("{:>6} {:>10.3} s  ", snapshot.version().0, seconds(snapshot.time()));
+            held.retain(|binding, names| {
+                let stays = now.contains(binding);
+                if !stays {
+                    tell(&snapshot, names, false, &format!("{when}no longer: "), console);
+                }
+                stays
+            });
+            for new in now {
+                held.entry(new).or_insert_with_key(|new| {
+                    let names = named(pattern, new, &snapshot);
+                    let before = format!("{when}{}", if first { "already: " } else { "" });
+                    tell(&snapshot, &names, true, &before, console);
+                    names
+                });
+            }
+            first = false;
+        }
+        // What does not touch the pattern's tokens changes no match.
+        loop {
+            match replay.next().transpose()? {
+                None => return Ok(any),
+                Some(Played::Jump { .. }) => break,
+                Some(Played::Commit(delta)) if Mentions::of(&delta).intersects(pattern.mentions()) => break,
+                Some(Played::Commit(_)) => {}
+            }
+        }
+    }
+}
+
+/// The nodes of a match by their variables.
+type Names<'p> = BTreeMap<&'p str, String>;
+
+fn named<'p>(pattern: &'p Pattern, binding: &Binding, snapshot: &Snapshot) -> Names<'p> {
+    let nodes = pattern.variables().zip(binding.iter());
+    nodes.map(|((variable, _), id)| (variable, snapshot.name(*id).unwrap_or("?").to_owned())).collect()
+}
+
+/// Tells of a match that holds at `at`, or no longer does.
+fn tell(at: &Snapshot, bindings: &Names<'_>, holds: bool, before: &str, console: &mut Console<'_>) {
     let said: Vec<_> = bindings.iter().map(|(variable, name)| format!("?{variable} = {name}")).collect();
     console.result(&format!("{before}{}", if said.is_empty() { "yes".to_owned() } else { said.join(", ") }));
-    let (version, time) = (snapshot.version().0, seconds(snapshot.time()));
+    let (version, time) = (at.version().0, seconds(at.time()));
     console.record(&Record::Match { version, time, holds, bindings });
 }

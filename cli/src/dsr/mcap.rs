@@ -90,7 +90,7 @@ fn write(recording: &Recording, path: &Path) -> Result<u64, Failed> {
                 let commit = Commit {
                     version: delta.version.0,
                     time: seconds(delta.time),
-                    writer: recording.dictionary().agent_name(delta.writer).map_or("", |name| name),
+                    writer: super::writer(recording, &delta),
                     sentences: delta.sentences(&snapshot),
                     changes: &delta.changes,
                 };

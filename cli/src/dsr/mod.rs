@@ -14,7 +14,9 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::render::Message;
 use clap::Subcommand;
-use dsr::{Damage, Recording, RecordingError, Snapshot, Time, Version};
+use dsr::{
+    Damage, Delta, Folder, Graph, Journal, Recording, RecordingError, Settings, Snapshot, Time, Version,
+};
 use std::path::Path;
 use std::str::FromStr;
 
@@ -44,15 +46,19 @@ pub(crate) fn run(command: &Command, console: &mut Console<'_>) -> Exit {
         Command::Export(arguments) => mcap::run(arguments, console),
         Command::Import(arguments) => world::run(arguments, console),
     };
-    done.unwrap_or_else(|Failed(exit, message)| {
-        Message::error(message).show(console);
-        exit
-    })
+    done.unwrap_or_else(|failed| failed.show(console))
 }
 
 /// Why a command has no result.
 #[derive(Debug)]
-struct Failed(Exit, String);
+pub(crate) struct Failed(Exit, String);
+
+impl Failed {
+    pub(crate) fn show(self, console: &mut Console<'_>) -> Exit {
+        Message::error(self.1).show(console);
+        self.0
+    }
+}
 
 impl From<RecordingError> for Failed {
     fn from(error: RecordingError) -> Self {
@@ -115,6 +121,25 @@ fn open(path: &Path, console: &mut Console<'_>) -> Result<(Recording, Exit), Fai
         }
     }
     Ok((recording, exit))
+}
+
+/// Who committed; nobody if the journal's dictionary does not know it.
+fn writer<'r>(recording: &'r Recording, delta: &Delta) -> &'r str {
+    recording.dictionary().agent_name(delta.writer).map_or("", |name| name)
+}
+
+/// Begins a journal of `graph` in a folder that holds none. A folder that cannot take it is a result that cannot be
+/// written, whatever the reason.
+pub(crate) fn begin(folder: &Path, graph: &Graph) -> Result<Journal, Failed> {
+    let store = Folder::new(folder).map_err(|error| unwritable(folder, &error))?;
+    if !store.is_fresh() {
+        return Err(unwritable(folder, &"there is one already"));
+    }
+    graph.journal(store, Settings::default()).map_err(|error| unwritable(folder, &error))
+}
+
+fn unwritable(folder: &Path, why: &dyn std::fmt::Display) -> Failed {
+    Failed(Exit::Unwritable, format!("cannot write a journal to `{}`: {why}", folder.display()))
 }
 
 /// Nanoseconds as seconds, to the millisecond.

@@ -1,11 +1,11 @@
 //! `pelea dsr import`: a world of RoboComp's cortex as a journal with one state.
 
-use super::Failed;
+use super::{Failed, begin, unwritable};
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::files;
 use clap::{Args, ValueEnum};
-use dsr::{CortexUnit, CortexWorld, Folder, Settings};
+use dsr::{CortexUnit, CortexWorld};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -47,16 +47,8 @@ pub(super) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Result<Ex
     let imported = world
         .import(unit)
         .map_err(|error| Failed(Exit::Unreadable, format!("`{name}` cannot be taken over: {error}")))?;
-    let unwritable = |error: &dyn std::fmt::Display| {
-        let folder = arguments.output.display();
-        Failed(Exit::Unwritable, format!("cannot write a journal to `{folder}`: {error}"))
-    };
-    let store = Folder::new(&arguments.output).map_err(|error| unwritable(&error))?;
-    if !store.is_fresh() {
-        return Err(unwritable(&"it holds one"));
-    }
-    let journal = imported.graph.journal(store, Settings::default()).map_err(|error| unwritable(&error))?;
-    journal.close().map_err(|error| unwritable(&error))?;
+    let journal = begin(&arguments.output, &imported.graph)?;
+    journal.close().map_err(|error| unwritable(&arguments.output, &error))?;
     let snapshot = imported.graph.snapshot();
     imported.notes.iter().for_each(|note| console.note(&format!("note: {note}")));
     let (nodes, edges) = (snapshot.nodes().count(), snapshot.edges().count());

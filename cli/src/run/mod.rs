@@ -20,13 +20,13 @@ use crate::render::Message;
 use crate::scenario::{self, Staged};
 use clap::{Args, ValueEnum};
 use content::Content;
-use dsr::{AgentId, Folder, Graph, Journal, Settings};
+use dsr::{AgentId, Graph, Journal};
 use executive::{Ending, Narration, Shell, Step, Wheel};
 use hal::sim::{ClinicianScript, PatientScript, SimRoom};
 use judge::Record;
 use mission::scenario::Scenario;
 use serde::Serialize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 use story::{Entry, Story, What, seconds};
@@ -121,13 +121,10 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         console.complain("error: the system gives no threads or timers\n");
         return Exit::Limit;
     };
-    let journal = match arguments.journal.as_deref().map(|folder| begin_journal(folder, &assembly.graph)) {
-        Some(Err(exit)) => {
-            exit.1.show(console);
-            return exit.0;
-        }
-        Some(Ok(journal)) => Some(journal),
-        None => None,
+    let begun = arguments.journal.as_deref().map(|folder| crate::dsr::begin(folder, &assembly.graph));
+    let journal = match begun.transpose() {
+        Ok(journal) => journal,
+        Err(failed) => return failed.show(console),
     };
     let play = Play {
         content: Content { mission: Arc::new(mission), language },
@@ -150,22 +147,6 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         }
         _ => exit,
     }
-}
-
-/// A journal in a folder that has none.
-fn begin_journal(folder: &Path, graph: &Graph) -> Result<Journal, (Exit, Message<'static>)> {
-    let unwritable = |error| {
-        (
-            Exit::Unwritable,
-            Message::error(format!("cannot write a journal to `{}`: {error}", folder.display())),
-        )
-    };
-    let store = Folder::new(folder).map_err(unwritable)?;
-    if !store.is_fresh() {
-        let message = format!("`{}` holds the journal of another run", folder.display());
-        return Err((Exit::Unreadable, Message::error(message)));
-    }
-    graph.journal(store, Settings::default()).map_err(unwritable)
 }
 
 /// A mission about to be played.
