@@ -1,8 +1,6 @@
 //! Reading and writing files.
 //!
-//! Old benchmark files are Latin-1; a file that is not UTF-8 is read as that, so that names come out as
-//! they were written. A result is written beside its place and then renamed into it: whoever waits for
-//! the file never sees half of it.
+//! A result is written beside its place and then renamed into it: whoever waits for the file never sees half of it.
 
 use pddl::Source;
 use std::fs::{self, File, OpenOptions};
@@ -58,22 +56,11 @@ pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
 pub(crate) fn source(path: &Path, bytes: Vec<u8>) -> Result<Source, FileError> {
     let name =
         if path == Path::new("-") { "<standard input>".to_owned() } else { path.display().to_string() };
-    let text = decode(bytes);
+    let text = Source::decode(bytes);
     if text.len() > Source::MAX_BYTES {
         return Err(FileError::TooLarge { path: path.to_owned() });
     }
     Ok(Source::new(name, text))
-}
-
-fn decode(bytes: Vec<u8>) -> String {
-    let text = match String::from_utf8(bytes) {
-        Ok(text) => text,
-        Err(error) => error.as_bytes().iter().map(|&byte| char::from(byte)).collect(),
-    };
-    match text.strip_prefix('\u{feff}') {
-        Some(rest) => rest.to_owned(),
-        None => text,
-    }
 }
 
 /// Writes all of `text`, or nothing.
@@ -110,14 +97,7 @@ pub(crate) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
 
 #[cfg(test)]
 mod tests {
-    use super::{decode, write};
-
-    #[test]
-    fn latin_1_is_read() {
-        assert_eq!(decode(b"(at caf\xe9)".to_vec()), "(at café)");
-        assert_eq!(decode("(at café)".as_bytes().to_vec()), "(at café)");
-        assert_eq!(decode(b"\xef\xbb\xbf(a)".to_vec()), "(a)");
-    }
+    use super::write;
 
     #[test]
     fn writing_replaces_the_whole_file() {

@@ -22,6 +22,11 @@ use std::ops::Range;
 /// More than this for one file would only scroll the first ones away.
 pub(crate) const MOST_PER_FILE: usize = 50;
 
+/// `1 error`, `2 errors`.
+pub(crate) fn counted(count: usize, one: &str, more: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { more })
+}
+
 /// A span with its source.
 #[derive(Clone, Copy)]
 pub(crate) struct At<'a> {

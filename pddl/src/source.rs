@@ -65,14 +65,23 @@ impl Source {
         Self { name: name.into(), text, line_starts }
     }
 
-    /// Reads bytes as UTF-8 or, where they are not, as Latin-1, which old competition files are in.
+    /// Reads bytes as [`Source::decode`] does.
     ///
     /// # Panics
     /// Like [`Source::new`].
     pub fn from_bytes(name: impl Into<String>, bytes: Vec<u8>) -> Self {
-        let text =
+        Self::new(name, Self::decode(bytes))
+    }
+
+    /// Bytes as UTF-8 or, where they are not, as Latin-1, which old competition files are in, so that names come out as
+    /// they were written. A byte order mark is no part of the text.
+    pub fn decode(bytes: Vec<u8>) -> String {
+        let mut text =
             String::from_utf8(bytes).unwrap_or_else(|e| e.into_bytes().into_iter().map(char::from).collect());
-        Self::new(name, text)
+        if text.starts_with('\u{feff}') {
+            text.drain(..'\u{feff}'.len_utf8());
+        }
+        text
     }
 
     /// What to call it.
@@ -107,5 +116,17 @@ impl Source {
         let column = self.text.get(start..end).map_or(0, |t| t.chars().count());
         let from_one = |n: usize| u32::try_from(n + 1).unwrap_or(u32::MAX);
         LineColumn { line: from_one(line), column: from_one(column) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Source;
+
+    #[test]
+    fn latin_1_is_read() {
+        assert_eq!(Source::decode(b"(at caf\xe9)".to_vec()), "(at café)");
+        assert_eq!(Source::decode("(at café)".as_bytes().to_vec()), "(at café)");
+        assert_eq!(Source::decode(b"\xef\xbb\xbf(a)".to_vec()), "(a)");
     }
 }

@@ -29,10 +29,13 @@ impl FileKind {
 
     /// Whether a file of that path belongs into a project at all: a plan, `*.pddl` or `*.hddl`.
     pub fn is_source(path: &str) -> bool {
+        Self::is_definition(path) || Self::is_plan(path)
+    }
+
+    /// Whether a file of that path holds a domain or a problem: `*.pddl` or `*.hddl`.
+    pub fn is_definition(path: &str) -> bool {
         let extension = path.rsplit_once('.').map_or("", |(_, extension)| extension);
-        extension.eq_ignore_ascii_case("pddl")
-            || extension.eq_ignore_ascii_case("hddl")
-            || Self::is_plan(path)
+        extension.eq_ignore_ascii_case("pddl") || extension.eq_ignore_ascii_case("hddl")
     }
 }
 

@@ -38,6 +38,7 @@ fn said(project: &Project, path: &str) -> String {
 fn a_plan_is_known_by_its_name() {
     for plan in ["a.plan", "A.SOLN", "x/plan", "sas_plan", "x/sas_plan.12"] {
         assert!(FileKind::is_plan(plan) && FileKind::is_source(plan), "{plan}");
+        assert!(!FileKind::is_definition(plan), "{plan}");
     }
     for other in ["plan.pddl", "plan.hddl", "a.txt", "plans", "my_plan", "plan/x"] {
         assert!(!FileKind::is_plan(other), "{other}");

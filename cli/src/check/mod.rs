@@ -16,7 +16,7 @@ mod summary;
 use crate::console::{Console, Form};
 use crate::disk::show;
 use crate::exit::Exit;
-use crate::render::{MOST_PER_FILE, Message};
+use crate::render::{MOST_PER_FILE, Message, counted};
 use crate::task::read_source;
 use clap::Args;
 use lints::Level;
@@ -144,8 +144,9 @@ fn sources_below(folder: &Path, found: &mut Vec<PathBuf>, missions: &mut Vec<Pat
     }
 }
 
+/// Whether a file is checked and formatted where its folder is given; plans are where they are named.
 pub(crate) fn is_source(path: &Path) -> bool {
-    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("pddl") || e.eq_ignore_ascii_case("hddl"))
+    FileKind::is_definition(&path.to_string_lossy())
 }
 
 /// What is in a folder, in order; nothing if it cannot be read.
@@ -248,11 +249,6 @@ impl Tally {
             .collect();
         if parts.is_empty() { "no errors".to_owned() } else { parts.join(", ") }
     }
-}
-
-/// `1 error`, `2 errors`.
-fn counted(count: usize, one: &str, more: &str) -> String {
-    format!("{count} {}", if count == 1 { one } else { more })
 }
 
 /// Everything that is wrong with the files, those first that others need.

@@ -15,7 +15,7 @@
 //! What is needed and is no literal is `{"comparison": "(>= (fuel a) 10)", "measured": "(fuel a)", "extent": "at most",
 //! "bound": 7}` or, of the goal, `{"condition": {…}}`, a place.
 
-use crate::render::{At, PlaceRecord};
+use crate::render::{At, PlaceRecord, counted};
 use crate::task::TaskFiles;
 use planner::{
     Budget, Explanation, Extent, FactId, Giver, Hindrance, Need, Never, NeverCompares, Number, Reason,
@@ -107,10 +107,10 @@ impl<'a> Unsolvable<'a> {
     fn space(&self, space: &Space, lines: &mut Vec<String>) {
         let names =
             |goals: &[(FactId, bool)]| first(&goals.iter().map(|&goal| self.goal(goal)).collect::<Vec<_>>());
-        let states = counted(space.states as usize, "state");
+        let states = counted(space.states as usize, "state", "states");
         let steps = match space.nearest.steps.len() {
             0 => "the initial one".to_owned(),
-            n => format!("after {}", counted(n, "step")),
+            n => format!("after {}", counted(n, "step", "steps")),
         };
         let missing = names(&space.nearest.missing);
         lines.push(if space.complete {
@@ -332,10 +332,6 @@ fn listed(all: &[String], last: &str) -> String {
 fn first(all: &[String]) -> String {
     let shown = all.iter().take(NAMES).cloned().collect::<Vec<_>>().join(", ");
     if all.len() > NAMES { format!("{shown} and {} more", all.len() - NAMES) } else { shown }
-}
-
-fn counted(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
 fn number(never: &NeverCompares) -> NeverRecord {
