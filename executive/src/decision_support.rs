@@ -13,7 +13,7 @@
 
 use crate::{Model, Step};
 use planner::{
-    Attempt, Budget, Impossible, OperatorId, Outcome, Preference, Query, Repaired, Report,
+    Attempt, Budget, Distance, Impossible, OperatorId, Outcome, Preference, Query, Repaired, Report,
     SearchConfiguration, State, UnsolvableReason, Way, repair, solve,
 };
 use serde::Serialize;
@@ -63,21 +63,11 @@ pub enum Decision {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Repair {
     /// Which of them was chosen.
-    pub by: By,
+    pub by: Way,
     /// What reuse of the old plan came to; `None` where it found nothing.
     pub reused: Option<Figures>,
     /// What planning from scratch came to; `None` where it found nothing.
     pub scratch: Option<Figures>,
-}
-
-/// Where a plan came from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum By {
-    /// The old plan was reused.
-    Reuse,
-    /// It was planned from scratch.
-    Scratch,
 }
 
 /// A plan's effort and its distance from the old one.
@@ -97,33 +87,34 @@ pub struct Figures {
 
 impl Figures {
     fn of(attempt: &Attempt) -> Option<Self> {
-        let (plan, distance) = attempt.plan()?;
-        Some(Self {
-            steps: plan.operators.len(),
-            expanded: attempt.report.statistics.expanded,
-            removed: distance.removed,
-            added: distance.added,
-            moved: distance.moved,
-        })
+        let (plan, Distance { removed, added, moved }) = attempt.plan()?;
+        let expanded = attempt.report.statistics.expanded;
+        Some(Self { steps: plan.operators.len(), expanded, removed, added, moved })
     }
 }
 
 impl Repair {
     fn of(repaired: &Repaired) -> Option<Self> {
-        let by = match repaired.way? {
-            Way::Reuse => By::Reuse,
-            Way::Scratch => By::Scratch,
-        };
         let scratch = repaired.fresh.as_ref().and_then(Figures::of);
-        Some(Self { by, reused: Figures::of(&repaired.reused), scratch })
+        Some(Self { by: repaired.way?, reused: Figures::of(&repaired.reused), scratch })
     }
 
     /// The figures of the plan that was chosen.
     pub fn chosen(&self) -> Option<Figures> {
         match self.by {
-            By::Reuse => self.reused,
-            By::Scratch => self.scratch,
+            Way::Reuse => self.reused,
+            Way::Scratch => self.scratch,
         }
+    }
+
+    /// The same where the steps of the plan that was chosen are in another order, at this distance.
+    fn reordered(mut self, Distance { removed, added, moved }: Distance) -> Self {
+        let chosen = match self.by {
+            Way::Reuse => &mut self.reused,
+            Way::Scratch => &mut self.scratch,
+        };
+        *chosen = chosen.map(|figures| Figures { removed, added, moved, ..figures });
+        self
     }
 }
 
@@ -148,6 +139,8 @@ pub fn decide(model: &Model, request: &Request) -> Decision {
     match outcome {
         Outcome::Solved(plan) => {
             let operators = going_on(model, &query, plan.operators, request.running);
+            let distance = || Distance::between(task, &request.broken, &operators);
+            let repair = repair.map(|repair: Repair| repair.reordered(distance()));
             match objection(model, &request.state, &operators) {
                 None => Decision::Plan { operators, expanded: statistics.expanded, repair },
                 Some(why) => Decision::Rejected(why),
@@ -171,11 +164,9 @@ fn going_on(
     let Some(at) = running.and_then(|running| plan.iter().position(|&o| o == running)) else { return plan };
     let mut other = plan.clone();
     other[..=at].rotate_right(1);
-    let mut state = Some(query.state.clone());
-    for &operator in &other {
-        state = state.and_then(|state| model.task().successor(&state, operator));
-    }
-    if state.is_some_and(|state| model.task().satisfies(&state, query.goal)) { other } else { plan }
+    let task = model.task();
+    let reaches = task.after(query.state, &other).is_some_and(|end| task.satisfies(&end, query.goal));
+    if reaches { other } else { plan }
 }
 
 /// What the validator, which shares nothing with the planner, says against the plan.

@@ -39,7 +39,7 @@ mod narration;
 mod shell;
 mod wheel;
 
-pub use decision_support::{By, Decision, Figures, Repair, Request, RequestId, decide};
+pub use decision_support::{Decision, Figures, Repair, Request, RequestId, decide};
 pub use model::{Model, ModelError, Step};
 pub use monitoring::{BrokenLiteral, Deviation, Monitor};
 pub use narration::Narration;

@@ -61,12 +61,7 @@ fn plan(model: &Model) -> Vec<OperatorId> {
 /// Whether the plan can be carried out from here and reaches the goal.
 fn reaches(model: &Model, plan: &[OperatorId], state: &State) -> bool {
     let task = model.task();
-    let mut state = state.clone();
-    for &operator in plan {
-        let Some(next) = task.successor(&state, operator) else { return false };
-        state = next;
-    }
-    task.satisfies(&state, task.goal())
+    task.after(state, plan).is_some_and(|end| task.satisfies(&end, task.goal()))
 }
 
 /// By definition: the last suffix that does.
@@ -77,10 +72,8 @@ fn furthest(model: &Model, plan: &[OperatorId], state: &State) -> Option<usize> 
 /// A state on or beside the plan's way: after `steps` of it, with some facts turned round.
 fn beside(model: &Model, plan: &[OperatorId], steps: usize, flips: &[usize]) -> State {
     let task = model.task();
-    let mut state = task.initial_state().clone();
-    for &operator in &plan[..steps.min(plan.len())] {
-        state = task.successor(&state, operator).expect("it is the plan");
-    }
+    let start = &plan[..steps.min(plan.len())];
+    let state = task.after(task.initial_state(), start).expect("it is the plan");
     let all: Vec<FactId> = task.facts().ids().collect();
     let flipped: Vec<FactId> = flips.iter().map(|&i| all[i % all.len()]).collect();
     let holds = |f: &FactId| state.contains(*f) != flipped.contains(f);

@@ -2,11 +2,11 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use executive::{By, Decision, Model, Request, RequestId, Step, decide};
+use executive::{Decision, Model, Request, RequestId, Step, decide};
 use low_to_high::Fact;
 use pddl::model::Name;
 use pddl::{Source, parse_domain, parse_problem};
-use planner::OperatorId;
+use planner::{OperatorId, Way};
 
 const DOMAIN: &str = "(define (domain lamps) (:requirements :typing :negative-preconditions) (:types lamp)
     (:predicates (on ?l - lamp) (dead ?l - lamp) (open))
@@ -62,9 +62,21 @@ fn what_is_left_of_a_plan_is_kept() {
     );
     let Decision::Plan { repair: Some(repair), .. } = &decision else { panic!("{decision:?}") };
     let reused = repair.reused.unwrap();
-    assert_eq!((repair.by, reused.added, reused.removed), (By::Reuse, 1, 0));
+    assert_eq!((repair.by, reused.added, reused.removed), (Way::Reuse, 1, 0));
     assert_eq!(repair.scratch.unwrap().steps, 3);
     assert_eq!(format!("{decision:?}"), format!("{:?}", decide(&model, &request)), "the same each time");
+}
+
+#[test]
+fn figures_are_those_of_the_plan_that_is_carried_out() {
+    let model = model();
+    let seen = &["on b", "open", "dead c"];
+    let request = request(&model, seen, &["(light c)", "(light a)"], Some("(light a)"));
+    let decision = decide(&model, &request);
+    assert_eq!(names(&model, &decision), ["(light a)", "(replace c)", "(light c)"]);
+    let Decision::Plan { repair: Some(repair), .. } = &decision else { panic!("{decision:?}") };
+    let chosen = repair.chosen().unwrap();
+    assert_eq!((chosen.added, chosen.removed, chosen.moved), (1, 0, 1));
 }
 
 #[test]

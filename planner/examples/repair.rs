@@ -6,10 +6,11 @@
 #![allow(clippy::print_stdout, missing_docs)]
 
 mod files;
+mod states;
 
 use planner::{
-    Attempt, Budget, FactId, GroundOptions, OperatorId, Outcome, Query, Repair, SearchConfiguration, State,
-    Task, ground, solve,
+    Attempt, Budget, FactId, GroundOptions, Outcome, Query, Repair, SearchConfiguration, State, Task, ground,
+    solve,
 };
 use std::time::{Duration, Instant};
 
@@ -84,11 +85,6 @@ fn disrupt(task: &Task, state: &State, flips: &[FactId], dice: &mut Dice) -> Opt
     Some(state)
 }
 
-fn reaches(task: &Task, from: &State, steps: &[OperatorId]) -> bool {
-    let end = steps.iter().try_fold(from.clone(), |state, &step| task.successor(&state, step));
-    end.is_some_and(|end| task.satisfies(&end, task.goal()))
-}
-
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [domain, problem, rest @ ..] = arguments.as_slice() else {
@@ -107,11 +103,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let configuration = SearchConfiguration::default();
     let report = solve(&task, &Query::of(&task), &configuration, &Budget::default());
     let Outcome::Solved(plan) = report.outcome else { return Err(format!("{report:?}").into()) };
-    let mut states = vec![task.initial_state().clone()];
-    for &operator in &plan.operators {
-        let last = states.last().ok_or("one is there")?;
-        states.push(task.successor(last, operator).ok_or("the plan cannot be carried out")?);
-    }
+    let states = states::along(&task, &plan)?;
     let (mut reuse, mut scratch) = (Column::default(), Column::default());
     let (mut whole, mut hopeless, mut nearer, mut farther) = (0, 0, 0, 0);
     let mut log_ratio = 0.0;
@@ -119,7 +111,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let at = dice.below(plan.operators.len());
         let broken = &plan.operators[at..];
         let Some(state) = disrupt(&task, &states[at], &flips, &mut dice) else { continue };
-        if reaches(&task, &state, broken) {
+        if task.after(&state, broken).is_some_and(|end| task.satisfies(&end, task.goal())) {
             whole += 1;
             continue;
         }

@@ -3,6 +3,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, missing_docs)]
 
 mod files;
+mod states;
 
 use planner::{Budget, GroundOptions, Outcome, Query, SearchConfiguration, ground, solve};
 use std::time::{Duration, Instant};
@@ -28,11 +29,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     );
     let report = solve(&task, &Query::of(&task), &configuration, &Budget::default());
     let Outcome::Solved(plan) = report.outcome else { return Err(format!("{report:?}").into()) };
-    let mut states = vec![task.initial_state().clone()];
-    for &operator in &plan.operators {
-        let last = states.last().ok_or("one is there")?;
-        states.push(task.successor(last, operator).ok_or("the plan cannot be carried out")?);
-    }
+    let states = states::along(&task, &plan)?;
     let mut times: Vec<Duration> = Vec::new();
     for _ in 0..rounds {
         for state in &states {

@@ -7,10 +7,11 @@ use super::script::questions;
 use super::story::{Commit, Entry, What};
 use crate::scenario::Staged;
 use dsr::Snapshot;
-use executive::{By, Narration};
+use executive::Narration;
 use mission::Mission;
 use mission::scenario::{Outcome, Replan, Violation};
 use pddl::model::{Condition, ConditionKind, Domain, Name};
+use planner::Way;
 use serde::Serialize;
 use std::collections::BTreeSet;
 
@@ -86,8 +87,8 @@ impl<'a> Record<'a> {
                 self.plans += 1;
                 if let Some((by, figures)) = repair.and_then(|r| Some((r.by, r.chosen()?))) {
                     match by {
-                        By::Reuse => self.repairs.reuse += 1,
-                        By::Scratch => self.repairs.scratch += 1,
+                        Way::Reuse => self.repairs.reuse += 1,
+                        Way::Scratch => self.repairs.scratch += 1,
                     }
                     self.repairs.removed += figures.removed;
                     self.repairs.added += figures.added;

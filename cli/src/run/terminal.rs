@@ -4,8 +4,9 @@
 //! is changed), and the rest is cut, a line a thing. In a pipe every line is whole, for whoever searches it.
 
 use super::story::{Commit, Entry, What};
-use executive::{By, Ending, Figures, Narration, Repair};
+use executive::{Ending, Figures, Narration, Repair};
 use hal::sim::RoomEvent;
+use planner::Way;
 
 /// Turns entries into lines.
 pub(super) struct Terminal {
@@ -212,8 +213,8 @@ fn repaired(repair: &Repair) -> String {
     };
     let (reused, scratch) = (figures(repair.reused), figures(repair.scratch));
     match repair.by {
-        By::Reuse => format!("the plan goes on ({reused}); from scratch {scratch}"),
-        By::Scratch => format!("a new plan ({scratch}); repaired {reused}"),
+        Way::Reuse => format!("the plan goes on ({reused}); from scratch {scratch}"),
+        Way::Scratch => format!("a new plan ({scratch}); repaired {reused}"),
     }
 }
 

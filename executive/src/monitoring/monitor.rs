@@ -58,12 +58,7 @@ impl Monitor {
     }
 
     fn reaches_goal(&self, task: &Task, state: &State, start: usize) -> bool {
-        let mut state = state.clone();
-        for &operator in &self.plan[start..] {
-            let Some(next) = task.successor(&state, operator) else { return false };
-            state = next;
-        }
-        task.satisfies(&state, &self.goal)
+        task.after(state, &self.plan[start..]).is_some_and(|end| task.satisfies(&end, &self.goal))
     }
 
     /// Why the suffix that starts at `current` does not reach the goal from `state`.

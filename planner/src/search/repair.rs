@@ -51,7 +51,8 @@ impl Attempt {
 }
 
 /// Where a plan came from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Way {
     /// The old plan was reused.
     Reuse,

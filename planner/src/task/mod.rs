@@ -206,9 +206,16 @@ impl Task {
 
     /// The state after an operator; `None` where it may not be applied, or a number grows too long.
     pub fn successor(&self, state: &State, operator: OperatorId) -> Option<State> {
+        if !self.is_applicable(state, operator) {
+            return None;
+        }
         let mut next = state.clone();
-        let applies = self.is_applicable(state, operator);
-        (applies && self.apply(operator, state.words(), next.words_mut())).then_some(next)
+        self.apply(operator, state.words(), next.words_mut()).then_some(next)
+    }
+
+    /// The state after operators, one after the other; `None` where [`Task::successor`] of one of them is.
+    pub fn after(&self, state: &State, operators: &[OperatorId]) -> Option<State> {
+        operators.iter().try_fold(state.clone(), |state, &operator| self.successor(&state, operator))
     }
 
     /// All operators that are applicable, in a fixed order.
