@@ -9,9 +9,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use nalgebra::Isometry3;
-
 use crate::id::{AttributeId, Holder, LabelId, NodeId, Time, TypeId, Version};
+use crate::pose::Pose;
 use crate::track::Track;
 use crate::value::Value;
 
@@ -236,9 +235,9 @@ impl<'a> Node<'a> {
 #[derive(Debug, Clone)]
 pub(crate) struct Joint {
     pub(crate) parent: NodeId,
-    pub(crate) transform: Isometry3<f64>,
+    pub(crate) pose: Pose,
     pub(crate) since: Version,
-    /// The stamped poses, of which `transform` is the newest; `None` for a pose that stands until it is changed.
+    /// The stamped poses, of which `pose` is the newest; `None` for a pose that stands until it is changed.
     pub(crate) track: Option<Arc<Track>>,
     /// The time of the newest of them.
     pub(crate) newest: Time,

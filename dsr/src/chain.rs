@@ -24,6 +24,7 @@ use smallvec::SmallVec;
 use crate::block::{Frames, Joint, place};
 use crate::dictionary::Nature;
 use crate::id::{NodeId, Time};
+use crate::pose::{Pose, Uncertain};
 use crate::state::State;
 
 /// Why there is no chain.
@@ -103,7 +104,7 @@ struct Between<'a> {
 impl State {
     /// The newest poses.
     pub(crate) fn transform(&self, from: NodeId, to: NodeId) -> Result<Isometry3<f64>, ChainError> {
-        self.chain(from, to, |_, joint| Ok(joint.transform))
+        self.chain(from, to, |_, joint| Ok(joint.pose.transform))
     }
 
     /// The poses at a time.
@@ -114,15 +115,44 @@ impl State {
         time: Time,
     ) -> Result<Isometry3<f64>, ChainError> {
         self.chain(from, to, |child, joint| match &joint.track {
-            None => Ok(joint.transform),
-            Some(track) => track.at(time).map_err(|(first, last)| ChainError::Extrapolation {
-                parent: self.name(joint.parent),
-                child: self.name(child),
-                asked: time,
-                first,
-                last,
-            }),
+            None => Ok(joint.pose.transform),
+            Some(track) => track.at(time).map_err(|known| self.outside(child, joint, time, known)),
         })
+    }
+
+    fn outside(&self, child: NodeId, joint: &Joint, asked: Time, (first, last): (Time, Time)) -> ChainError {
+        let (parent, child) = (self.name(joint.parent), self.name(child));
+        ChainError::Extrapolation { parent, child, asked, first, last }
+    }
+
+    /// The newest pose, with what is known of its error.
+    pub(crate) fn pose(&self, from: NodeId, to: NodeId) -> Result<Pose, ChainError> {
+        self.uncertain(from, to, |_, joint| Ok(Uncertain::of(&joint.pose, joint.track.is_some())))
+    }
+
+    /// The pose at a time, with what is known of its error.
+    pub(crate) fn pose_at(&self, from: NodeId, to: NodeId, time: Time) -> Result<Pose, ChainError> {
+        self.uncertain(from, to, |child, joint| match &joint.track {
+            None => Ok(Uncertain::of(&joint.pose, false)),
+            Some(track) => {
+                let pose = track.pose_at(time).map_err(|known| self.outside(child, joint, time, known))?;
+                Ok(Uncertain::of(&pose, true))
+            }
+        })
+    }
+
+    fn uncertain(
+        &self,
+        from: NodeId,
+        to: NodeId,
+        pose: impl Fn(NodeId, &Joint) -> Result<Uncertain, ChainError>,
+    ) -> Result<Pose, ChainError> {
+        let Between { up, down } = self.between(from, to)?;
+        let along = |path: Path<'_>| {
+            path.into_iter()
+                .try_fold(Uncertain::identity(), |below, (child, joint)| Ok(pose(child, joint)? * below))
+        };
+        Ok((along(up)?.inverse() * along(down)?).pose())
     }
 
     /// The poses at the newest common time. Mostly that is the newest time of all: then they are the newest poses.
@@ -133,7 +163,7 @@ impl State {
                 oldest.set(oldest.get().min(joint.newest));
                 newest.set(newest.get().max(joint.newest));
             }
-            Ok(joint.transform)
+            Ok(joint.pose.transform)
         })?;
         // Edges above the common ancestor may have been looked at too: then this is decided the long way.
         if oldest.get() >= newest.get() {

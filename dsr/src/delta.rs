@@ -8,13 +8,13 @@
 
 use std::sync::Arc;
 
-use nalgebra::Isometry3;
 use rustc_hash::FxHashSet;
 use serde::{Deserialize, Serialize};
 
 use crate::block::Joint;
 use crate::id::{AgentId, AttributeId, EdgeKey, Holder, LabelId, NodeId, ReflexId, Time, TypeId, Version};
-use crate::state::{Kept, State, same_transform};
+use crate::pose::Pose;
+use crate::state::{Kept, State};
 use crate::undo::Undo;
 use crate::value::Value;
 
@@ -28,7 +28,7 @@ pub enum Change {
     /// An edge went.
     EdgeRemoved { edge: EdgeKey },
     /// A child was taken off its parent.
-    TransformRemoved { parent: NodeId, child: NodeId, old: Isometry3<f64> },
+    TransformRemoved { parent: NodeId, child: NodeId, old: Pose },
     /// A node went.
     NodeRemoved { node: NodeId, name: Arc<str>, node_type: TypeId },
     /// A node came.
@@ -37,21 +37,15 @@ pub enum Change {
     TransformAdded {
         parent: NodeId,
         child: NodeId,
-        new: Isometry3<f64>,
+        new: Pose,
         /// When it was there; `None` for a pose that stands until it is changed.
         #[serde(default)]
         time: Option<Time>,
     },
     /// A child moved relative to its parent.
-    TransformChanged { parent: NodeId, child: NodeId, old: Isometry3<f64>, new: Isometry3<f64> },
+    TransformChanged { parent: NodeId, child: NodeId, old: Pose, new: Pose },
     /// A child was elsewhere relative to its parent at that time.
-    TransformSampled {
-        parent: NodeId,
-        child: NodeId,
-        time: Time,
-        old: Option<Isometry3<f64>>,
-        new: Isometry3<f64>,
-    },
+    TransformSampled { parent: NodeId, child: NodeId, time: Time, old: Option<Pose>, new: Pose },
     /// An edge came.
     EdgeAdded { edge: EdgeKey },
     /// An attribute was given a value.
@@ -193,12 +187,12 @@ fn compare(after: &mut State, first: &Undo, changes: &mut Vec<Change>) {
             let Some(joint) = after.joint(*child) else { return };
             let Some(track) = &joint.track else { return };
             let Some(new) = track.sample(*time) else { return };
-            let same = old.as_ref().is_some_and(|old| same_transform(old, new));
-            if same && *time == track.newest() && same_transform(&joint.transform, newest) {
+            let same = old.as_ref().is_some_and(|old| old.same(new));
+            if same && *time == track.newest() && joint.pose.same(newest) {
                 after.keep_since(Kept::Joint(*child), *since);
             } else if !same && *time >= track.horizon() {
-                let (parent, new) = (joint.parent, *new);
-                changes.push(Change::TransformSampled { parent, child: *child, time: *time, old: *old, new });
+                let (parent, old, new) = (joint.parent, old.clone(), new.clone());
+                changes.push(Change::TransformSampled { parent, child: *child, time: *time, old, new });
             }
         }
     }
@@ -207,10 +201,10 @@ fn compare(after: &mut State, first: &Undo, changes: &mut Vec<Change>) {
 fn compare_joints(after: &mut State, child: NodeId, old: Option<&Joint>, changes: &mut Vec<Change>) {
     match (old, after.joint(child)) {
         (Some(old), Some(new)) if old.parent == new.parent && old.track.is_none() && new.track.is_none() => {
-            if same_transform(&old.transform, &new.transform) {
+            if old.pose.same(&new.pose) {
                 after.keep_since(Kept::Joint(child), old.since);
             } else {
-                let (old, parent, new) = (old.transform, new.parent, new.transform);
+                let (old, parent, new) = (old.pose.clone(), new.parent, new.pose.clone());
                 changes.push(Change::TransformChanged { parent, child, old, new });
             }
         }
@@ -228,17 +222,17 @@ pub(crate) fn replace_joint(
     changes: &mut Vec<Change>,
 ) {
     if let Some(old) = old {
-        let (parent, old) = (old.parent, old.transform);
+        let (parent, old) = (old.parent, old.pose.clone());
         changes.push(Change::TransformRemoved { parent, child, old });
     }
     let Some(new) = new else { return };
     let parent = new.parent;
     let Some(track) = &new.track else {
-        changes.push(Change::TransformAdded { parent, child, new: new.transform, time: None });
+        changes.push(Change::TransformAdded { parent, child, new: new.pose.clone(), time: None });
         return;
     };
     for (at, sample) in track.samples().enumerate() {
-        let (time, new) = (sample.time, sample.pose);
+        let (time, new) = (sample.time, sample.pose.clone());
         changes.push(if at == 0 {
             Change::TransformAdded { parent, child, new, time: Some(time) }
         } else {

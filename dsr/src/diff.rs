@@ -10,7 +10,7 @@ use crate::block::{Joint, NODES, Node};
 use crate::delta::{Change, replace_joint};
 use crate::id::{EdgeKey, Holder, NodeId};
 use crate::snapshot::Snapshot;
-use crate::state::{State, same_transform};
+use crate::state::State;
 
 impl Snapshot {
     /// The changes that lead from this state to a later or earlier one of the same graph.
@@ -95,9 +95,9 @@ fn cells(state: &State, holder: Holder) -> Vec<&crate::block::Cell> {
 fn joints(old: Option<&Joint>, new: Option<&Joint>, child: NodeId, changes: &mut Vec<Change>) {
     match (old, new) {
         (Some(old), Some(new)) if old.parent == new.parent => match (&old.track, &new.track) {
-            (None, None) if same_transform(&old.transform, &new.transform) => return,
+            (None, None) if old.pose.same(&new.pose) => return,
             (None, None) => {
-                let (parent, old, new) = (new.parent, old.transform, new.transform);
+                let (parent, old, new) = (new.parent, old.pose.clone(), new.pose.clone());
                 changes.push(Change::TransformChanged { parent, child, old, new });
                 return;
             }
@@ -106,9 +106,9 @@ fn joints(old: Option<&Joint>, new: Option<&Joint>, child: NodeId, changes: &mut
                 let lost = |time| time >= after.horizon() && after.sample(time).is_none();
                 if !before.samples().any(|sample| lost(sample.time)) {
                     for sample in after.samples() {
-                        let (parent, time, new) = (new.parent, sample.time, sample.pose);
-                        let old = before.sample(time).copied();
-                        if old.is_none_or(|old| !same_transform(&old, &new)) {
+                        let (parent, time, new) = (new.parent, sample.time, sample.pose.clone());
+                        let old = before.sample(time).cloned();
+                        if old.as_ref().is_none_or(|old| !old.same(&new)) {
                             changes.push(Change::TransformSampled { parent, child, time, old, new });
                         }
                     }

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::block::Node;
 use crate::dictionary::{Dictionary, Nature};
 use crate::id::{AttributeId, EdgeKey, Holder, LabelId, NodeId, Time, Version};
+use crate::pose::{Covariance, Pose};
 use crate::snapshot::{AttributeView, Snapshot};
 use crate::state::State;
 use crate::transaction::TransactionError;
@@ -99,6 +100,9 @@ pub struct ExportedTransform {
     pub translation: [f64; 3],
     /// The unit quaternion i, j, k, w.
     pub rotation: [f64; 4],
+    /// The covariance of the pose, if it is known: six rows of x, y, z in metres and the rotation about them in radians.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub covariance: Option<Arc<Covariance>>,
     /// The version that wrote it.
     pub since: Version,
     /// The stamped poses of an edge that moves, the one above the newest of them; none for one that stands.
@@ -115,6 +119,9 @@ pub struct ExportedSample {
     pub translation: [f64; 3],
     /// The unit quaternion i, j, k, w.
     pub rotation: [f64; 4],
+    /// The covariance of the pose, if it is known: six rows of x, y, z in metres and the rotation about them in radians.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub covariance: Option<Arc<Covariance>>,
 }
 
 impl Snapshot {
@@ -159,13 +166,14 @@ impl Snapshot {
             let (translation, rotation) = numbers_of(pose);
             let samples = node.poses().map(|(time, pose)| {
                 let (translation, rotation) = numbers_of(pose);
-                ExportedSample { time, translation, rotation }
+                ExportedSample { time, translation, rotation, covariance: pose.covariance.clone() }
             });
             Some(ExportedTransform {
                 parent: self.state().name(parent),
                 child: node.name().into(),
                 translation,
                 rotation,
+                covariance: pose.covariance.clone(),
                 since,
                 samples: samples.collect(),
             })
@@ -186,16 +194,21 @@ impl Snapshot {
     }
 }
 
-fn numbers_of(pose: &Isometry3<f64>) -> ([f64; 3], [f64; 4]) {
-    let (t, q) = (&pose.translation.vector, &pose.rotation.coords);
+fn numbers_of(pose: &Pose) -> ([f64; 3], [f64; 4]) {
+    let (t, q) = (&pose.transform.translation.vector, &pose.transform.rotation.coords);
     ([t.x, t.y, t.z], [q.x, q.y, q.z, q.w])
 }
 
 /// The pose of these numbers, if they are one. Not normalised again: the bits must come back as they were.
-fn pose_of([x, y, z]: [f64; 3], [i, j, k, w]: [f64; 4]) -> Option<Isometry3<f64>> {
+fn pose_of(
+    [x, y, z]: [f64; 3],
+    [i, j, k, w]: [f64; 4],
+    covariance: Option<&Arc<Covariance>>,
+) -> Option<Pose> {
     let rotation = Quaternion::new(w, i, j, k);
     let rigid = [x, y, z].iter().all(|c| c.is_finite()) && (rotation.norm() - 1.0).abs() < 1e-3;
-    rigid.then(|| Isometry3::from_parts(Translation3::new(x, y, z), Unit::new_unchecked(rotation)))
+    let transform = Isometry3::from_parts(Translation3::new(x, y, z), Unit::new_unchecked(rotation));
+    rigid.then(|| Pose { transform, covariance: covariance.cloned() })
 }
 
 /// Why plain data is no state of this dictionary.
@@ -358,12 +371,14 @@ fn restore_transform(state: &mut State, exported: &ExportedTransform) -> Result<
     if !geometric(parent) || !geometric(child) || has_parent || parent == child {
         return Err(wrong());
     }
-    let pose = pose_of(exported.translation, exported.rotation).ok_or_else(wrong)?;
+    let pose =
+        pose_of(exported.translation, exported.rotation, exported.covariance.as_ref()).ok_or_else(wrong)?;
     if exported.samples.is_empty() {
         state.insert_transform(parent, child, pose, exported.since);
     }
     for sample in &exported.samples {
-        let pose = pose_of(sample.translation, sample.rotation).ok_or_else(wrong)?;
+        let pose =
+            pose_of(sample.translation, sample.rotation, sample.covariance.as_ref()).ok_or_else(wrong)?;
         state.insert_sample(parent, child, sample.time, pose, exported.since);
     }
     Ok(())

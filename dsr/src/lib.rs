@@ -41,7 +41,7 @@
 //! ```
 //!
 //! Map, from the ground up: `id`, `unit`, `value` → `dictionary` → `pages`, `block`, `names`, `members`, `state` (what a snapshot
-//! is), `track`, `undo` → `transaction` (edits, leases, the tree of transforms), `delta`, `replay`, `export` → `chain`, `pattern`,
+//! is), `pose`, `track`, `undo` → `transaction` (edits, leases, the tree of transforms), `delta`, `replay`, `export` → `chain`, `pattern`,
 //! `reflex` → `snapshot`, `diff`, `past`, `sentence`, `view`, `quiver` → `subscription`,
 //! `routes`, `kernel` (how readers and writers keep out of each other's way), `graph`, `attendance` → `journal`,
 //! `cortex` (worlds of others).
@@ -64,6 +64,7 @@ mod names;
 mod pages;
 mod past;
 mod pattern;
+mod pose;
 mod quiver;
 mod reflex;
 mod replay;
@@ -100,11 +101,12 @@ pub use journal::{
     Replay, Settings, Store,
 };
 pub use mentions::Mentions;
-pub use nalgebra::Isometry3;
+pub use nalgebra::{Isometry3, Matrix6};
 pub use pattern::{
     Binding, Comparison, HolderTerm, Metric, Operand, Pattern, PatternBuilder, PatternError,
     PatternTextError, Term, Threshold, Variable,
 };
+pub use pose::{Covariance, CovarianceError, Pose};
 pub use quiver::{Arrows, Geometric, Quiver, Symbolic, TransformView};
 pub use reflex::{Bound, Keep, Reflex};
 pub use replay::ReplayError;

@@ -174,7 +174,7 @@ impl EdgeRef for TransformView<'_> {
 impl Geometric {
     fn above(snapshot: &Snapshot, child: NodeId) -> Option<TransformView<'_>> {
         let (parent, pose, _) = snapshot.get(child)?.parent()?;
-        Some(TransformView { parent, child, pose })
+        Some(TransformView { parent, child, pose: &pose.transform })
     }
 }
 

@@ -3,12 +3,10 @@
 //! Invariant: replaying what a graph published gives its export, byte for byte. A delta that cannot have come
 //! after the state it is applied to is an error that names the version, never a panic.
 
-use nalgebra::Isometry3;
-
 use crate::block::Cell;
 use crate::delta::{Change, Delta};
 use crate::id::{EdgeKey, Holder, NodeId, Version};
-use crate::state::{State, same_transform};
+use crate::state::State;
 use crate::value::{Kind, Value};
 
 /// Why deltas do not continue a state.
@@ -115,13 +113,13 @@ fn redo(state: &mut State, change: &Change, since: Version) -> Option<()> {
             state.insert_node(*node, name.clone(), *node_type, since);
         }
         Change::TransformSampled { parent, child, time, new, .. } => {
-            fits(is_finite(new))?;
+            fits(new.is_finite())?;
             let joint = state.joint(*child)?;
             fits(joint.parent == *parent && joint.track.is_some())?;
-            state.insert_sample(*parent, *child, *time, *new, since);
+            state.insert_sample(*parent, *child, *time, new.clone(), since);
         }
         Change::TransformAdded { parent, child, new, time } => {
-            fits(is_finite(new))?;
+            fits(new.is_finite())?;
             fits(
                 state.node(*parent).is_some()
                     && state.node(*child).is_some()
@@ -129,14 +127,14 @@ fn redo(state: &mut State, change: &Change, since: Version) -> Option<()> {
                     && parent != child,
             )?;
             match time {
-                Some(time) => state.insert_sample(*parent, *child, *time, *new, since),
-                None => state.insert_transform(*parent, *child, *new, since),
+                Some(time) => state.insert_sample(*parent, *child, *time, new.clone(), since),
+                None => state.insert_transform(*parent, *child, new.clone(), since),
             }
         }
         Change::TransformChanged { parent, child, old, new } => {
             let joint = state.joint(*child)?;
-            fits(joint.parent == *parent && same_transform(&joint.transform, old) && is_finite(new))?;
-            state.insert_transform(*parent, *child, *new, since);
+            fits(joint.parent == *parent && joint.pose.same(old) && new.is_finite())?;
+            state.insert_transform(*parent, *child, new.clone(), since);
         }
         Change::EdgeAdded { edge } => {
             let EdgeKey { from, label, to } = *edge;
@@ -154,11 +152,6 @@ fn redo(state: &mut State, change: &Change, since: Version) -> Option<()> {
         }
     }
     Some(())
-}
-
-/// Whether a pose may stand in the graph: read from a file, it need not be one.
-fn is_finite(pose: &Isometry3<f64>) -> bool {
-    pose.translation.vector.iter().chain(pose.rotation.coords.iter()).all(|c| c.is_finite())
 }
 
 fn write(

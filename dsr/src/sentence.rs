@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::delta::{Change, Delta};
 use crate::dictionary::Dictionary;
 use crate::id::{EdgeKey, Holder, NodeId};
+use crate::pose::Pose;
 use crate::snapshot::{AttributeView, Snapshot};
 use crate::value::Value;
 
@@ -107,8 +108,8 @@ impl Teller<'_> {
         }
     }
 
-    fn place(&self, parent: NodeId, child: NodeId, pose: &nalgebra::Isometry3<f64>) -> String {
-        let at = pose.translation.vector;
+    fn place(&self, parent: NodeId, child: NodeId, pose: &Pose) -> String {
+        let at = pose.transform.translation.vector;
         format!("{} at ({:.3}, {:.3}, {:.3}) in {}", self.node(child), at.x, at.y, at.z, self.node(parent))
     }
 

@@ -10,6 +10,7 @@ use crate::block::{Cell, EdgeCell, Node};
 use crate::chain::ChainError;
 use crate::dictionary::Dictionary;
 use crate::id::{AgentId, AttributeId, EdgeKey, Holder, LabelId, NodeId, ResourceId, Time, TypeId, Version};
+use crate::pose::Pose;
 use crate::state::State;
 use crate::transaction::{Lease, Waiting};
 use crate::value::Value;
@@ -99,12 +100,12 @@ impl<'a> NodeView<'a> {
     }
 
     /// What it hangs below in the geometric quiver, its pose there, and the version that gave it.
-    pub fn parent(&self) -> Option<(NodeId, &'a Isometry3<f64>, Version)> {
-        self.state.joint(self.id).map(|joint| (joint.parent, &joint.transform, joint.since))
+    pub fn parent(&self) -> Option<(NodeId, &'a Pose, Version)> {
+        self.state.joint(self.id).map(|joint| (joint.parent, &joint.pose, joint.since))
     }
 
     /// The stamped poses that the edge from its parent remembers, in order of time; none of one that stands.
-    pub fn poses(&self) -> impl Iterator<Item = (Time, &'a Isometry3<f64>)> + use<'a> {
+    pub fn poses(&self) -> impl Iterator<Item = (Time, &'a Pose)> + use<'a> {
         let track = self.state.joint(self.id).and_then(|joint| joint.track.as_ref());
         track.into_iter().flat_map(|track| track.samples()).map(|sample| (sample.time, &sample.pose))
     }
@@ -227,6 +228,17 @@ impl Snapshot {
     /// The pose of frame `to` in frame `from` at their newest common time.
     pub fn transform_together(&self, from: NodeId, to: NodeId) -> Result<Isometry3<f64>, ChainError> {
         self.state.transform_together(from, to)
+    }
+
+    /// The newest pose of frame `to` in frame `from` with its covariance, to first order; none if no edge between them has
+    /// one, or if one that moves has none. See [`Covariance`](crate::Covariance).
+    pub fn pose(&self, from: NodeId, to: NodeId) -> Result<Pose, ChainError> {
+        self.state.pose(from, to)
+    }
+
+    /// The same at a time.
+    pub fn pose_at(&self, from: NodeId, to: NodeId, time: Time) -> Result<Pose, ChainError> {
+        self.state.pose_at(from, to, time)
     }
 
     /// The distance between the origins of two frames.

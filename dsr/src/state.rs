@@ -10,14 +10,13 @@
 
 use std::sync::Arc;
 
-use nalgebra::Isometry3;
-
 use crate::block::{Block, Cell, Edge, EdgeCell, Frames, Joint, NODES, Node, place};
 use crate::dictionary::Dictionary;
 use crate::id::{AgentId, AttributeId, EdgeKey, Holder, NodeId, Time, TypeId, Version};
 use crate::members::Members;
 use crate::names::Names;
 use crate::pages::Pages;
+use crate::pose::Pose;
 use crate::reflex::Registry;
 use crate::track::Track;
 use crate::undo::{Log, Undo};
@@ -235,21 +234,12 @@ impl State {
     }
 
     /// Hangs `child` below `parent`; the child must have no other parent.
-    pub(crate) fn insert_transform(
-        &mut self,
-        parent: NodeId,
-        child: NodeId,
-        transform: Isometry3<f64>,
-        since: Version,
-    ) {
-        let same = |joint: &Joint| {
-            joint.parent == parent && joint.track.is_none() && same_transform(&joint.transform, &transform)
-        };
+    pub(crate) fn insert_transform(&mut self, parent: NodeId, child: NodeId, pose: Pose, since: Version) {
+        let same = |joint: &Joint| joint.parent == parent && joint.track.is_none() && joint.pose.same(&pose);
         if self.joint(child).is_some_and(same) {
             return;
         }
-        let old =
-            self.put_joint(child, Some(Joint { parent, transform, since, track: None, newest: Time(0) }));
+        let old = self.put_joint(child, Some(Joint { parent, pose, since, track: None, newest: Time(0) }));
         self.log.entries.push(Undo::Joint { child, old });
         self.log.mentions.add_transforms();
     }
@@ -261,28 +251,27 @@ impl State {
         parent: NodeId,
         child: NodeId,
         time: Time,
-        pose: Isometry3<f64>,
+        pose: Pose,
         since: Version,
     ) {
         self.log.mentions.add_transforms();
         let Some(track) = self.joint(child).and_then(|joint| joint.track.as_ref()) else {
-            let track = Some(Arc::new(Track::new(time, pose)));
-            let old =
-                self.put_joint(child, Some(Joint { parent, transform: pose, since, track, newest: time }));
+            let track = Some(Arc::new(Track::new(time, pose.clone())));
+            let old = self.put_joint(child, Some(Joint { parent, pose, since, track, newest: time }));
             self.log.entries.push(Undo::Joint { child, old });
             return;
         };
-        if time < track.horizon() || track.sample(time).is_some_and(|old| same_transform(old, &pose)) {
+        if time < track.horizon() || track.sample(time).is_some_and(|old| old.same(&pose)) {
             return;
         }
         if let Some(joint) = self.joint_mut(child)
             && let Some(track) = &mut joint.track
         {
             let newer = time >= track.newest();
-            let old = Arc::make_mut(track).put(time, pose);
-            let entry = Undo::Sample { child, time, old, newest: joint.transform, since: joint.since };
+            let old = Arc::make_mut(track).put(time, pose.clone());
+            let entry = Undo::Sample { child, time, old, newest: joint.pose.clone(), since: joint.since };
             if newer {
-                (joint.transform, joint.since, joint.newest) = (pose, since, time);
+                (joint.pose, joint.since, joint.newest) = (pose, since, time);
             }
             self.log.entries.push(entry);
         }
@@ -292,8 +281,8 @@ impl State {
         &mut self,
         child: NodeId,
         time: Time,
-        old: Option<Isometry3<f64>>,
-        newest: Isometry3<f64>,
+        old: Option<Pose>,
+        newest: Pose,
         since: Version,
     ) {
         if let Some(joint) = self.joint_mut(child)
@@ -303,7 +292,7 @@ impl State {
                 Some(pose) => _ = Arc::make_mut(track).put(time, pose),
                 None => Arc::make_mut(track).take(time),
             }
-            (joint.transform, joint.since, joint.newest) = (newest, since, track.newest());
+            (joint.pose, joint.since, joint.newest) = (newest, since, track.newest());
         }
     }
 
@@ -502,13 +491,4 @@ pub(crate) enum Kept {
     Edge(EdgeKey),
     Cell(Holder, AttributeId),
     Joint(NodeId),
-}
-
-/// Same to the bit.
-pub(crate) fn same_transform(a: &Isometry3<f64>, b: &Isometry3<f64>) -> bool {
-    let bits = |iso: &Isometry3<f64>| {
-        let (t, q) = (&iso.translation.vector, &iso.rotation.coords);
-        [t.x, t.y, t.z, q.x, q.y, q.z, q.w].map(f64::to_bits)
-    };
-    bits(a) == bits(b)
 }

@@ -16,6 +16,7 @@ use std::sync::Arc;
 use nalgebra::{Isometry3, Quaternion, Translation3, Unit, UnitQuaternion};
 
 use crate::id::Time;
+use crate::pose::Pose;
 
 /// How far back the poses of an edge reach from its newest: ten seconds.
 pub const HORIZON: Time = Time(10_000_000_000);
@@ -26,7 +27,7 @@ const CHUNK: usize = 32;
 #[derive(Debug, Clone)]
 pub(crate) struct Sample {
     pub(crate) time: Time,
-    pub(crate) pose: Isometry3<f64>,
+    pub(crate) pose: Pose,
 }
 
 /// Chunks with the time of their first sample, ascending; never empty.
@@ -37,7 +38,7 @@ pub(crate) struct Track {
 }
 
 impl Track {
-    pub(crate) fn new(time: Time, pose: Isometry3<f64>) -> Self {
+    pub(crate) fn new(time: Time, pose: Pose) -> Self {
         Self { chunks: vec![(time, Arc::new(vec![Sample { time, pose }]))], newest: time }
     }
 
@@ -58,7 +59,7 @@ impl Track {
     }
 
     /// The sample of exactly this time.
-    pub(crate) fn sample(&self, time: Time) -> Option<&Isometry3<f64>> {
+    pub(crate) fn sample(&self, time: Time) -> Option<&Pose> {
         let chunk = &self.chunks[self.chunk_of(time)].1;
         chunk.binary_search_by_key(&time, |sample| sample.time).ok().map(|at| &chunk[at].pose)
     }
@@ -68,7 +69,7 @@ impl Track {
     }
 
     /// Puts a sample in its place; gives the one of the same time that was there.
-    pub(crate) fn put(&mut self, time: Time, pose: Isometry3<f64>) -> Option<Isometry3<f64>> {
+    pub(crate) fn put(&mut self, time: Time, pose: Pose) -> Option<Pose> {
         let at = self.chunk_of(time);
         self.newest = self.newest.max(time);
         let is_last = at + 1 == self.chunks.len();
@@ -134,6 +135,25 @@ impl Track {
 
     /// The pose at a time, or the first and the last time of the buffer.
     pub(crate) fn at(&self, time: Time) -> Result<Isometry3<f64>, (Time, Time)> {
+        Ok(match self.around(time)? {
+            Around::Exactly(pose) => pose.transform,
+            Around::Between(a, b, part) => between(&a.transform, &b.transform, part),
+        })
+    }
+
+    /// The same, with its covariance: of a time between two, the mean of theirs as near as it lies to each.
+    pub(crate) fn pose_at(&self, time: Time) -> Result<Pose, (Time, Time)> {
+        Ok(match self.around(time)? {
+            Around::Exactly(pose) => pose.clone(),
+            Around::Between(a, b, part) => {
+                let transform = between(&a.transform, &b.transform, part);
+                let known = a.covariance.as_ref().zip(b.covariance.as_ref());
+                Pose { transform, covariance: known.map(|(a, b)| Arc::new(a.towards(b, part))) }
+            }
+        })
+    }
+
+    fn around(&self, time: Time) -> Result<Around<'_>, (Time, Time)> {
         let outside = || (self.samples().next().map_or(self.newest, |first| first.time), self.newest);
         if time > self.newest || time < self.horizon() {
             return Err(outside());
@@ -143,7 +163,7 @@ impl Track {
         let after = self.after(index, time);
         let Some(before) = after.checked_sub(1).map(|at| &chunk[at]) else { return Err(outside()) };
         if before.time == time {
-            return Ok(before.pose);
+            return Ok(Around::Exactly(&before.pose));
         }
         let next = chunk.get(after).or_else(|| self.chunks.get(index + 1)?.1.first());
         match next {
@@ -151,11 +171,18 @@ impl Track {
             Some(next) if before.time >= self.horizon() => {
                 #[expect(clippy::cast_precision_loss, reason = "two samples lie at most ten seconds apart")]
                 let part = (time.0 - before.time.0) as f64 / (next.time.0 - before.time.0) as f64;
-                Ok(between(&before.pose, &next.pose, part))
+                Ok(Around::Between(&before.pose, &next.pose, part))
             }
             _ => Err(outside()),
         }
     }
+}
+
+/// The poses that a time lies between.
+enum Around<'t> {
+    Exactly(&'t Pose),
+    /// How far from the one to the other.
+    Between(&'t Pose, &'t Pose, f64),
 }
 
 /// The pose at `part` of the way from `a` to `b`.
@@ -202,10 +229,10 @@ mod tests {
 
     use super::*;
 
-    fn pose(at: u64) -> Isometry3<f64> {
+    fn pose(at: u64) -> Pose {
         #[expect(clippy::cast_precision_loss, reason = "small")]
         let at = at as f64;
-        Isometry3::new(Vector3::new(at, 0.0, -at), Vector3::new(0.0, at / 7.0, 0.3))
+        Isometry3::new(Vector3::new(at, 0.0, -at), Vector3::new(0.0, at / 7.0, 0.3)).into()
     }
 
     proptest! {
@@ -224,8 +251,8 @@ mod tests {
                     model.remove(&time);
                 }
                 track.evict();
-                let seen: Vec<_> = track.samples().map(|s| (s.time.0, s.pose)).collect();
-                prop_assert_eq!(&seen, &model.iter().map(|(t, p)| (*t, *p)).collect::<Vec<_>>());
+                let seen: Vec<_> = track.samples().map(|s| (s.time.0, s.pose.clone())).collect();
+                prop_assert_eq!(&seen, &model.iter().map(|(t, p)| (*t, p.clone())).collect::<Vec<_>>());
                 let (start, end) = (*model.keys().next().unwrap(), *model.keys().last().unwrap());
                 prop_assert_eq!(track.newest(), Time(end));
                 for asked in [time, start, end, (start + end) / 2] {
@@ -236,7 +263,7 @@ mod tests {
                             let found = track.at(Time(asked)).unwrap();
                             #[expect(clippy::cast_precision_loss, reason = "small")]
                             let part = if t0 == t1 { 0.0 } else { (asked - t0) as f64 / (t1 - t0) as f64 };
-                            let wanted = a.lerp_slerp(b, part);
+                            let wanted = a.transform.lerp_slerp(&b.transform, part);
                             prop_assert!((found.translation.vector - wanted.translation.vector).norm() < 1e-9);
                             prop_assert!(found.rotation.angle_to(&wanted.rotation) < 1e-7);
                             prop_assert!((found.rotation.norm() - 1.0).abs() < 1e-12);
@@ -270,6 +297,6 @@ mod tests {
         assert_eq!(track.samples().count(), 1_001);
         assert!(track.chunks.len() <= 1_001 / CHUNK + 2, "chunks are let go of");
         assert_eq!(track.at(Time(9_999_999_999)), Err((Time(10_000_000_000), Time(20_000_000_000))));
-        assert_eq!(track.at(Time(10_000_000_000)), Ok(pose(1_000)));
+        assert_eq!(track.at(Time(10_000_000_000)), Ok(pose(1_000).transform));
     }
 }

@@ -11,12 +11,12 @@ mod tree;
 
 use std::sync::Arc;
 
-use nalgebra::Isometry3;
 use serde::{Deserialize, Serialize};
 
 pub use self::error::TransactionError;
 pub use self::lease::{Lease, Preemption, Priority, Waiting};
 use crate::id::{AgentId, AttributeId, LabelId, ReflexId, ResourceId, Time, TypeId, Version};
+use crate::pose::Pose;
 use crate::reflex::Reflex;
 use crate::value::{NewValue, NodeRef};
 
@@ -76,10 +76,10 @@ pub enum Edit {
     /// Takes an attribute away; no change if it, or the edge that would hold it, is not there.
     ClearAttribute { holder: HolderRef, attribute: AttributeId },
     /// Gives the pose of `child` in the frame of `parent`, which holds at all times until it is changed.
-    SetTransform { parent: NodeRef, child: NodeRef, transform: Isometry3<f64> },
+    SetTransform { parent: NodeRef, child: NodeRef, pose: Pose },
     /// Says where `child` was in the frame of `parent` at a time, and that it moves: the edge keeps the poses of the
     /// last ten seconds before its newest. No change if the time lies further back.
-    SampleTransform { parent: NodeRef, child: NodeRef, time: Time, transform: Isometry3<f64> },
+    SampleTransform { parent: NodeRef, child: NodeRef, time: Time, pose: Pose },
     /// Takes `child` off `parent`; no change if it does not hang there.
     RemoveTransform { parent: NodeRef, child: NodeRef },
     /// Takes a lease for the writer, from a holder of lower priority if that one yields.
@@ -195,9 +195,9 @@ impl Transaction {
         &mut self,
         parent: impl Into<NodeRef>,
         child: impl Into<NodeRef>,
-        transform: Isometry3<f64>,
+        pose: impl Into<Pose>,
     ) -> &mut Self {
-        self.push(Edit::SetTransform { parent: parent.into(), child: child.into(), transform })
+        self.push(Edit::SetTransform { parent: parent.into(), child: child.into(), pose: pose.into() })
     }
 
     /// Says where `child` was in the frame of `parent` at a time.
@@ -206,9 +206,14 @@ impl Transaction {
         parent: impl Into<NodeRef>,
         child: impl Into<NodeRef>,
         time: Time,
-        transform: Isometry3<f64>,
+        pose: impl Into<Pose>,
     ) -> &mut Self {
-        self.push(Edit::SampleTransform { parent: parent.into(), child: child.into(), time, transform })
+        self.push(Edit::SampleTransform {
+            parent: parent.into(),
+            child: child.into(),
+            time,
+            pose: pose.into(),
+        })
     }
 
     /// Takes `child` off `parent`.

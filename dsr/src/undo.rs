@@ -5,11 +5,10 @@
 //! (what is). Invariant: the log is empty in every published state, and after a roll-back the state is the one of
 //! the mark, to the byte. A reflex that cannot write goes back to its own mark, not to the start.
 
-use nalgebra::Isometry3;
-
 use crate::block::{Cell, Joint};
 use crate::id::{AttributeId, EdgeKey, Holder, NodeId, Time, TypeId, Version};
 use crate::mentions::Mentions;
+use crate::pose::Pose;
 use crate::reflex::Registry;
 use crate::state::State;
 use crate::value::Value;
@@ -30,7 +29,7 @@ pub(crate) enum Undo {
     /// The node hung there.
     Joint { child: NodeId, old: Option<Joint> },
     /// The buffer had this at that time, and the newest pose was this.
-    Sample { child: NodeId, time: Time, old: Option<Isometry3<f64>>, newest: Isometry3<f64>, since: Version },
+    Sample { child: NodeId, time: Time, old: Option<Pose>, newest: Pose, since: Version },
 }
 
 /// Where the state was when a transaction or a reflex began.

@@ -183,7 +183,8 @@ impl<'s> View<'s> {
             open(&mut body, parent, child);
             data(&mut body, "edge", "label", "RT");
             if let Some((_, pose, _)) = self.snapshot.get(child).and_then(|node| node.parent()) {
-                let numbers = pose.translation.vector.iter().chain(pose.rotation.coords.iter());
+                let numbers =
+                    pose.transform.translation.vector.iter().chain(pose.transform.rotation.coords.iter());
                 let numbers: Vec<_> = numbers.map(ToString::to_string).collect();
                 data(&mut body, "edge", "pose", &numbers.join(" "));
             }

@@ -93,7 +93,7 @@ proptest! {
         let from_root = |mut id| {
             let mut pose = Isometry3::identity();
             while let Some((parent, step, _)) = now.get(id).unwrap().parent() {
-                pose = step * pose;
+                pose = step.transform * pose;
                 id = parent;
             }
             pose
@@ -198,4 +198,38 @@ fn reparenting_is_atomic_and_begins_anew() {
     assert_eq!(now.get(camera).unwrap().poses().map(|(time, _)| time.0).collect::<Vec<_>>(), [3, 5]);
     assert!(near(&now.transform(world, camera).unwrap(), &world::pose([7.0, 0.0, 0.0, 0.0])));
     assert!(near(&now.transform_at(world, camera, Time(4)).unwrap(), &world::pose([6.0, 0.0, 0.0, 0.0])));
+}
+
+/// A mounting without a covariance is exact; what moves without one makes the error unknown; a time between two samples
+/// lies between their covariances.
+#[test]
+fn a_chain_tells_its_error_if_it_is_known() {
+    let graph = world::ward();
+    let pose = |time: Option<u64>| {
+        let now = graph.snapshot();
+        let id = |name| now.node(name).unwrap();
+        let (from, to) = (id("world"), id("camera"));
+        match time {
+            None => now.pose(from, to).unwrap(),
+            Some(time) => now.pose_at(from, to, Time(time)).unwrap(),
+        }
+    };
+    let variance = |pose: &dsr::Pose| pose.covariance.as_ref().map(|known| known.matrix()[(0, 0)]);
+    assert_eq!(variance(&pose(None)), None, "nobody has told");
+    world::commit(&graph, "dsr", "no-transform world clarc\nsample world clarc 0 1 0").unwrap();
+    assert_eq!(variance(&pose(None)), None, "it moves, and nobody has told");
+    let moved = "sample world clarc 100 1 0 0.01\nsample world clarc 200 2 0 0.03";
+    world::commit(&graph, "dsr", moved).unwrap();
+    // The camera stands above the robot: an error in how that leans moves it too.
+    let now = graph.snapshot();
+    let up = now.transform(now.node("clarc").unwrap(), now.node("camera").unwrap()).unwrap().translation.z;
+    let lever = |variance: f64| variance * (1.0 + up * up);
+    assert!((variance(&pose(None)).unwrap() - lever(0.03)).abs() < 1e-12);
+    assert!((variance(&pose(Some(150))).unwrap() - lever(0.02)).abs() < 1e-12);
+    assert_eq!(variance(&pose(Some(50))), None, "one of the two is not known");
+    let (from, to) = (now.node("world").unwrap(), now.node("camera").unwrap());
+    assert!(near(&pose(Some(150)).transform, &now.transform_at(from, to, Time(150)).unwrap()));
+    assert!(matches!(now.pose_at(from, to, Time(201)), Err(ChainError::Extrapolation { .. })));
+    let restored = Graph::restore(graph.dictionary(), &now.export()).unwrap();
+    assert_eq!(restored.snapshot().pose(from, to), now.pose(from, to));
 }

@@ -6,10 +6,11 @@ mod world;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::num::NonZeroUsize;
+use std::sync::Arc;
 
 use dsr::{
-    Comparison, Delivery, Dictionary, Event, Graph, HolderTerm, NodeId, Operand, Pattern, PatternBuilder,
-    Snapshot, Term,
+    Comparison, Covariance, Delivery, Dictionary, Event, Graph, HolderTerm, NodeId, Operand, Pattern,
+    PatternBuilder, Snapshot, Term,
 };
 use proptest::prelude::*;
 
@@ -127,12 +128,15 @@ impl Model {
                     && self.typed(parent, "place")
                     && self.typed(child, "place")
             }
-            ["sample", parent, child, time, x, y] => {
+            ["sample", parent, child, time, x, y, ref variance @ ..] => {
                 let old = self.transforms.insert(child.into(), (parent.into(), "moves".into()));
                 if old.as_ref().is_none_or(|(_, place)| place != "moves") {
                     self.samples.retain(|(moving, _), _| moving != child);
                 }
-                self.samples.insert((child.into(), time.parse().unwrap()), format!("{x} {y} 0 0"));
+                self.samples.insert(
+                    (child.into(), time.parse().unwrap()),
+                    [&[x, y, "0", "0"], variance].concat().join(" "),
+                );
                 parent != child
                     && old.is_none_or(|(other, _)| other == parent)
                     && self.typed(parent, "place")
@@ -189,14 +193,21 @@ impl Model {
             model.edges.insert(key);
         }
         for t in &export.transforms {
-            let place = |[x, y, _]: [f64; 3]| format!("{x} {y} 0 0");
+            let place = |[x, y, _]: [f64; 3], covariance: &Option<Arc<Covariance>>| {
+                let variance = covariance.as_ref().map(|known| format!(" {}", known.matrix()[(0, 0)]));
+                format!("{x} {y} 0 0{}", variance.unwrap_or_default())
+            };
             for sample in &t.samples {
-                model.samples.insert((t.child.to_string(), sample.time.0), place(sample.translation));
+                model.samples.insert(
+                    (t.child.to_string(), sample.time.0),
+                    place(sample.translation, &sample.covariance),
+                );
             }
             if let Some(newest) = t.samples.last() {
                 assert_eq!(newest.translation, t.translation, "the newest pose is the pose");
             }
-            let kind = if t.samples.is_empty() { place(t.translation) } else { "moves".into() };
+            let kind =
+                if t.samples.is_empty() { place(t.translation, &t.covariance) } else { "moves".into() };
             model.transforms.insert(t.child.to_string(), (t.parent.to_string(), kind));
         }
         model
@@ -250,6 +261,8 @@ fn line() -> impl Strategy<Value = String> {
         1 => prop::sample::select(&["score", "patient"][..]).prop_map(|a| format!("clear barthel {a}")),
         4 => (place(), place(), 0..3, 0..3).prop_map(|(a, b, x, y)| format!("transform {a} {b} {x} {y} 0 0")),
         4 => (place(), place(), 0..6, 0..3).prop_map(|(a, b, t, x)| format!("sample {a} {b} {t} {x} 0")),
+        1 => (place(), place(), 0..3, 0..2).prop_map(|(a, b, x, v)| format!("transform {a} {b} {x} 0 0 0 {v}")),
+        2 => (place(), place(), 0..6, 0..2).prop_map(|(a, b, t, v)| format!("sample {a} {b} {t} 1 0 {v}")),
         2 => (place(), place()).prop_map(|(a, b)| format!("no-transform {a} {b}")),
     ]
 }

@@ -116,7 +116,11 @@ fn edits(world: &World, snapshot: &Snapshot, random: &Random) -> Vec<Edit> {
         Random::Move { body, x } => {
             let mut transform = Isometry3::identity();
             transform.translation.vector.x = f64::from(*x);
-            vec![Edit::SetTransform { parent: "hall".into(), child: of("body", *body), transform }]
+            vec![Edit::SetTransform {
+                parent: "hall".into(),
+                child: of("body", *body),
+                pose: transform.into(),
+            }]
         }
         Random::Node { name, of } => {
             let name = format!("new-{name}");

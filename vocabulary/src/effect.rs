@@ -130,8 +130,8 @@ impl Writing<'_> {
                 deletes.push(Edit::RemoveEdge { from: self.node(from)?, label: *label, to: self.node(to)? });
             }
             Change::SetTransform { parent, child, pose } => {
-                let (parent, child, transform) = (self.node(parent)?, self.node(child)?, self.pose(*pose)?);
-                adds.push(Edit::SetTransform { parent, child, transform });
+                let (parent, child, pose) = (self.node(parent)?, self.node(child)?, self.pose(*pose)?.into());
+                adds.push(Edit::SetTransform { parent, child, pose });
             }
             Change::RemoveTransform { parent, child } => {
                 deletes.push(Edit::RemoveTransform { parent: self.node(parent)?, child: self.node(child)? });
@@ -225,7 +225,7 @@ pub fn is_redundant(snapshot: &Snapshot, edit: &Edit) -> bool {
         Some(snapshot.attribute(holder, attribute).cloned())
     };
     let parent =
-        |child: &NodeRef| Some(snapshot.get(node(child)?)?.parent().map(|(id, pose, _)| (id, *pose)));
+        |child: &NodeRef| Some(snapshot.get(node(child)?)?.parent().map(|(id, pose, _)| (id, pose.clone())));
     match edit {
         Edit::AddEdge { from, label, to } => edge(from, *label, to) == Some(true),
         Edit::RemoveEdge { from, label, to } => edge(from, *label, to) == Some(false),
@@ -235,8 +235,8 @@ pub fn is_redundant(snapshot: &Snapshot, edit: &Edit) -> bool {
             _ => false,
         },
         Edit::ClearAttribute { holder, attribute } => value(holder, *attribute) == Some(None),
-        Edit::SetTransform { parent: on, child, transform } => {
-            parent(child) == Some(node(on).map(|on| (on, *transform)))
+        Edit::SetTransform { parent: on, child, pose } => {
+            parent(child) == Some(node(on).map(|on| (on, pose.clone())))
         }
         Edit::RemoveTransform { parent: on, child } => {
             parent(child).is_some_and(|found| found.is_none_or(|(id, _)| Some(id) != node(on)))

@@ -106,8 +106,8 @@ impl Vocabulary {
         let Populating { mut edits, errors, poses, .. } = populating;
         for ((parent, child), (problem, span, numbers)) in poses {
             let (parent, child) = (node(&parent), node(&child));
-            let transform = numbers.isometry();
-            edits.push((problem, span, Edit::SetTransform { parent, child, transform }));
+            let pose = numbers.isometry().into();
+            edits.push((problem, span, Edit::SetTransform { parent, child, pose }));
         }
         if errors.is_empty() { Ok(edits) } else { Err(errors) }
     }

@@ -13,10 +13,11 @@ use crate::export::{
     Export, ExportedAttribute, ExportedEdge, ExportedNode, ExportedSample, ExportedTransform,
 };
 use crate::id::{NodeId, Time, Version};
+use crate::pose::Covariance;
 use crate::snapshot::Snapshot;
 
 /// The number of the format. Another one is refused.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 /// A part of a state. The types of the export leave empty lists out, which only formats with names can do.
 #[derive(Serialize, Deserialize)]
@@ -24,9 +25,12 @@ enum Part {
     Head(Version, Time, NodeId),
     Node(NodeId, Arc<str>, Arc<str>, Version, Vec<ExportedAttribute>),
     Edge(Arc<str>, Arc<str>, Arc<str>, Version, Vec<ExportedAttribute>),
-    Transform(Arc<str>, Arc<str>, [f64; 3], [f64; 4], Version, Vec<ExportedSample>),
+    Transform(Arc<str>, Arc<str>, Placed, Version, Vec<(Time, Placed)>),
     End,
 }
+
+/// Translation, rotation and covariance.
+type Placed = ([f64; 3], [f64; 4], Option<Arc<Covariance>>);
 
 /// Why bytes with the right checksum are not what they should be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,7 +76,9 @@ pub(super) fn put_state<E>(
         full(bytes)?;
     }
     for t in snapshot.exported_transforms() {
-        put(&Part::Transform(t.parent, t.child, t.translation, t.rotation, t.since, t.samples), bytes);
+        let samples = t.samples.into_iter().map(|s| (s.time, (s.translation, s.rotation, s.covariance)));
+        let placed = (t.translation, t.rotation, t.covariance);
+        put(&Part::Transform(t.parent, t.child, placed, t.since, samples.collect()), bytes);
         full(bytes)?;
     }
     put(&Part::End, bytes);
@@ -112,14 +118,19 @@ impl Gathered {
             (Part::Edge(from, label, to, since, attributes), Some(export)) => {
                 export.edges.push(ExportedEdge { from, label, to, since, attributes });
             }
-            (Part::Transform(parent, child, translation, rotation, since, samples), Some(export)) => {
+            (Part::Transform(parent, child, placed, since, samples), Some(export)) => {
+                let (translation, rotation, covariance) = placed;
+                let samples = samples.into_iter().map(|(time, (translation, rotation, covariance))| {
+                    ExportedSample { time, translation, rotation, covariance }
+                });
                 export.transforms.push(ExportedTransform {
                     parent,
                     child,
                     translation,
                     rotation,
+                    covariance,
                     since,
-                    samples,
+                    samples: samples.collect(),
                 });
             }
             (Part::End, Some(_)) => self.ended = true,

@@ -7,14 +7,13 @@
 
 use std::sync::Arc;
 
-use nalgebra::Isometry3;
-
 use super::error::TransactionError;
 use super::{Edit, HolderRef, Transaction, tree};
 use crate::block::Node;
 use crate::delta::{self, Change, Delta};
 use crate::dictionary::{Dictionary, HolderType, Nature, Token};
 use crate::id::{AgentId, AttributeId, EdgeKey, Holder, LabelId, NodeId, ReflexId, Time, TypeId, Version};
+use crate::pose::Pose;
 use crate::state::{Side, State};
 use crate::undo::Mark;
 use crate::value::{Kind, NewValue, NodeRef, Value};
@@ -156,14 +155,14 @@ pub(crate) fn apply(
             state.remove_attribute(holder, *attribute);
             Ok(())
         }
-        Edit::SetTransform { parent, child, transform } => {
-            let (parent, child) = joint_to_write(state, writer, parent, child, transform)?;
-            state.insert_transform(parent, child, *transform, since);
+        Edit::SetTransform { parent, child, pose } => {
+            let (parent, child) = joint_to_write(state, writer, parent, child, pose)?;
+            state.insert_transform(parent, child, pose.clone(), since);
             Ok(())
         }
-        Edit::SampleTransform { parent, child, time, transform } => {
-            let (parent, child) = joint_to_write(state, writer, parent, child, transform)?;
-            state.insert_sample(parent, child, *time, *transform, since);
+        Edit::SampleTransform { parent, child, time, pose } => {
+            let (parent, child) = joint_to_write(state, writer, parent, child, pose)?;
+            state.insert_sample(parent, child, *time, pose.clone(), since);
             Ok(())
         }
         Edit::RemoveTransform { parent, child } => {
@@ -359,11 +358,10 @@ fn joint_to_write(
     writer: AgentId,
     parent: &NodeRef,
     child: &NodeRef,
-    transform: &Isometry3<f64>,
+    pose: &Pose,
 ) -> Result<(NodeId, NodeId), TransactionError> {
     let (parent, child) = transform_to_write(state, writer, parent, child)?;
-    let numbers = transform.translation.vector.iter().chain(transform.rotation.coords.iter());
-    if !numbers.copied().all(f64::is_finite) {
+    if !pose.is_finite() {
         return Err(TransactionError::NotFinite { token: "a transform".into() });
     }
     if parent == child {

@@ -7,8 +7,8 @@
 use std::sync::Arc;
 
 use dsr::{
-    AgentId, Dictionary, DictionaryBuilder, End, Graph, HolderRef, Isometry3, Kind, Nature, NewValue,
-    NodeRef, Permission, Preemption, Priority, Time, Token, Transaction, TypeId,
+    AgentId, Covariance, Dictionary, DictionaryBuilder, End, Graph, HolderRef, Isometry3, Kind, Matrix6,
+    Nature, NewValue, NodeRef, Permission, Pose, Preemption, Priority, Time, Token, Transaction, TypeId,
 };
 
 /// Types: `place` > (`robot`, `person`, `part`), `activity`, `test`. Agents: `speech` may say what is and what
@@ -104,11 +104,12 @@ pub(crate) fn edit(dictionary: &Dictionary, transaction: &mut Transaction, line:
         ["clear-edge", from, l, to, a] => {
             transaction.clear_attribute(HolderRef::edge(from, label(l), to), attribute(a))
         }
-        ["transform", parent, child, x, y, z, yaw] => {
-            transaction.set_transform(parent, child, pose([x, y, z, yaw].map(number)))
+        ["transform", parent, child, x, y, z, yaw, ref variance @ ..] => {
+            let pose = pose([x, y, z, yaw].map(number));
+            transaction.set_transform(parent, child, known(pose, variance))
         }
-        ["sample", parent, child, time, x, y] => {
-            let pose = pose([number(x), number(y), 0.0, 0.0]);
+        ["sample", parent, child, time, x, y, ref variance @ ..] => {
+            let pose = known(pose([number(x), number(y), 0.0, 0.0]), variance);
             transaction.sample_transform(parent, child, Time(time.parse().unwrap()), pose)
         }
         ["no-transform", parent, child] => transaction.remove_transform(parent, child),
@@ -135,6 +136,17 @@ fn new_value(words: &[&str]) -> NewValue {
 
 pub(crate) fn pose([x, y, z, yaw]: [f64; 4]) -> Isometry3<f64> {
     Isometry3::new([x, y, z].into(), [0.0, 0.0, yaw].into())
+}
+
+/// With that variance along each axis, if one is given.
+fn known(transform: Isometry3<f64>, variance: &[&str]) -> Pose {
+    match variance {
+        [variance] => {
+            let variance: f64 = variance.parse().unwrap();
+            Pose::new(transform, Covariance::new(Matrix6::identity() * variance).unwrap())
+        }
+        _ => transform.into(),
+    }
 }
 
 pub(crate) fn bytes(graph: &Graph) -> String {
