@@ -16,7 +16,7 @@ use crate::delta::Delta;
 use crate::dictionary::Dictionary;
 use crate::export::{self, Export, RestoreError};
 use crate::id::{AgentId, ReflexId, Time, Version};
-use crate::journal::feed::Feed;
+use crate::journal::feed::{Feed, Rest};
 use crate::kernel::{Kernel, Twin};
 use crate::past::Past;
 use crate::pattern::Pattern;
@@ -99,7 +99,7 @@ pub(crate) struct Observed(Weak<Shared>);
 
 impl Observed {
     /// What waits in the feed and the state right after it, so that nothing falls between the two.
-    pub(crate) fn restart(&self, feed: &Feed) -> Option<(Vec<Arc<Delta>>, Snapshot)> {
+    pub(crate) fn restart(&self, feed: &Feed) -> Option<(Rest, Snapshot)> {
         let shared = self.0.upgrade()?;
         let writing = shared.kernel.write();
         let found = (feed.restart(), Snapshot::new(writing.present()));

@@ -49,7 +49,8 @@ pub struct Settings {
     pub durability: Durability,
     /// Bytes of deltas after which a segment is closed and one begun with the state of then.
     pub segment_bytes: u64,
-    /// How many segments are kept; all of them, if `None`.
+    /// How many segments are kept, the newest ones, however many journals wrote them to the same place; all, if `None`. A
+    /// robot that is restarted every day needs no more room than one that is not.
     pub segments: Option<NonZeroU64>,
     /// How many bytes of deltas may wait for the disk (texts, which the graph shares, not counted). When it stalls for
     /// longer, commits are left out, and the journal goes on with a whole state in a new segment.
@@ -75,17 +76,17 @@ pub struct Progress {
     pub written: Version,
     /// The newest version that would outlive a loss of power.
     pub durable: Version,
-    /// How often commits were left out because the store was too slow.
+    /// How often commits were left out, because the store was too slow or one was larger than a gibibyte.
     pub gaps: u64,
 }
 
-/// The store failed: what was durable is, and nothing more will be written.
+/// The store failed or panicked: what was durable is, and nothing more will be written.
 #[derive(Debug, Clone, thiserror::Error)]
 #[error("the journal ends at version {}: {error}", durable.0)]
 pub struct JournalError {
     /// The newest version that would outlive a loss of power.
     pub durable: Version,
-    /// What the store said.
+    /// What the store said, or that it panicked.
     pub error: Arc<io::Error>,
 }
 

@@ -4,13 +4,10 @@
 mod world;
 
 use std::collections::BTreeMap;
-use std::io;
 use std::num::NonZeroU64;
-use std::sync::mpsc;
 
 use dsr::{
-    AgentId, Damage, Dictionary, Durability, Folder, Graph, Memory, Played, Recording, RecordingError,
-    Settings, Snapshot, Store, Time, Version,
+    Damage, Dictionary, Durability, Memory, Played, Recording, RecordingError, Settings, Snapshot, Version,
 };
 use proptest::prelude::*;
 
@@ -206,118 +203,4 @@ fn a_segment_that_is_missing_is_a_jump() {
     assert_eq!(jumps, 1);
     let lost = versions.keys().filter(|&&v| recording.at(Version(v)).is_err()).count();
     assert!((1..=2).contains(&lost), "{lost}");
-}
-
-/// A store that stands still until it is told to go on.
-struct Stalled {
-    memory: Memory,
-    go_on: mpsc::Receiver<()>,
-}
-
-impl Store for Stalled {
-    fn begin(&mut self, number: u64) -> io::Result<()> {
-        self.memory.begin(number)
-    }
-
-    fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.memory.append(bytes)
-    }
-
-    fn sync(&mut self) -> io::Result<()> {
-        let _ = self.go_on.recv();
-        Ok(())
-    }
-
-    fn forget(&mut self, before: u64) -> io::Result<()> {
-        self.memory.forget(before)
-    }
-}
-
-#[test]
-fn a_stalled_disk_slows_no_writer_and_leaves_a_gap() {
-    let graph = world::ward();
-    let memory = Memory::default();
-    let (go_on, gate) = mpsc::channel();
-    let store = Stalled { memory: memory.clone(), go_on: gate };
-    let journal = graph.journal(store, Settings { waiting_bytes: 2_000, ..settings() }).unwrap();
-    let before = graph.snapshot().version();
-    for round in 0..1_000 {
-        world::commit(&graph, "dsr", &format!("set barthel score number {round}")).unwrap();
-    }
-    drop(go_on);
-    let last = graph.snapshot();
-    let progress = journal.wait(last.version()).unwrap();
-    assert_eq!((progress.gaps, progress.durable), (1, last.version()));
-    world::commit(&graph, "dsr", "set barthel score number -1").unwrap();
-    journal.close().unwrap();
-    let recording = Recording::read(memory.segments()).unwrap();
-    assert_eq!(bytes(&recording.at(last.version()).unwrap()), bytes(&last));
-    assert_eq!(recording.last().0.0, last.version().0 + 1);
-    assert_eq!(recording.first().0, before);
-    let lost = recording.at(Version(last.version().0 - 1)).unwrap_err();
-    assert!(matches!(lost, RecordingError::NotRecorded { .. }), "{lost}");
-}
-
-/// A store that is full after some bytes.
-struct Full(usize);
-
-impl Store for Full {
-    fn begin(&mut self, _: u64) -> io::Result<()> {
-        Ok(())
-    }
-
-    fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.0 = self.0.checked_sub(bytes.len()).ok_or(io::ErrorKind::StorageFull)?;
-        Ok(())
-    }
-
-    fn sync(&mut self) -> io::Result<()> {
-        Ok(())
-    }
-
-    fn forget(&mut self, _: u64) -> io::Result<()> {
-        Ok(())
-    }
-}
-
-#[test]
-fn a_full_disk_is_told_and_the_graph_goes_on() {
-    let graph = world::ward();
-    let journal = graph.journal(Full(5_000), settings()).unwrap();
-    let mut failed = None;
-    for round in 0..1_000 {
-        let commit = world::commit(&graph, "dsr", &format!("set barthel score number {round}")).unwrap();
-        failed = failed.or(journal.wait(commit.version).err());
-    }
-    let failed = failed.unwrap();
-    assert_eq!(failed.error.kind(), io::ErrorKind::StorageFull);
-    assert!(failed.durable < graph.snapshot().version());
-    assert!(journal.close().is_err());
-}
-
-#[test]
-fn a_journal_goes_on_behind_the_one_before_and_outlives_its_graph() {
-    let folder = tempfile::tempdir().unwrap();
-    let graph = world::ward();
-    let journal = graph.journal(Folder::new(folder.path()).unwrap(), Settings::default()).unwrap();
-    world::commit(&graph, "dsr", "set barthel score number 1").unwrap();
-    let before = bytes(&graph.snapshot());
-    // Nobody holds the graph any more; what was committed is written all the same.
-    drop(graph);
-    journal.close().unwrap();
-
-    let recording = Recording::open(folder.path()).unwrap();
-    let graph: Graph = recording.resume().unwrap();
-    assert_eq!(bytes(&graph.snapshot()), before);
-    let store = Folder::new(folder.path()).unwrap();
-    assert!(!store.is_fresh());
-    let journal = graph.journal(store, Settings::default()).unwrap();
-    let score = graph.dictionary().attribute("score").unwrap();
-    graph.edit(AgentId::DSR, Time(9), |tx| _ = tx.set_attribute("barthel", score, 2.0)).unwrap();
-    journal.close().unwrap();
-
-    let recording = Recording::open(folder.path()).unwrap();
-    assert_eq!(recording.replay().unwrap().filter_map(Result::ok).count(), 2);
-    assert_eq!(bytes(&recording.at(recording.last().0).unwrap()), bytes(&graph.snapshot()));
-    assert!(matches!(Recording::open(folder.path().join("none")), Err(RecordingError::Unreadable { .. })));
 }

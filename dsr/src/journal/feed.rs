@@ -70,6 +70,14 @@ pub(super) struct Work {
     pub(super) last: Option<Last>,
 }
 
+/// What still waited when the thread began anew.
+#[derive(Debug)]
+pub(crate) struct Rest {
+    pub(super) deltas: Vec<Arc<Delta>>,
+    /// Commits were left out between these and the state of now. It may have come to that since the thread looked last.
+    pub(super) overflowed: bool,
+}
+
 /// Nothing more will come.
 #[derive(Debug)]
 pub(super) struct Last {
@@ -156,12 +164,13 @@ impl Feed {
     }
 
     /// What still waits; from here on everything is taken in again. Called under the commit lock.
-    pub(crate) fn restart(&self) -> Vec<Arc<Delta>> {
+    pub(crate) fn restart(&self) -> Rest {
         let mut waiting = self.lock();
         waiting.bytes = 0;
-        // After an overflow what waits ends before the state that the caller takes.
-        waiting.overflowed = false;
-        std::mem::take(&mut waiting.deltas)
+        Rest {
+            deltas: std::mem::take(&mut waiting.deltas),
+            overflowed: std::mem::take(&mut waiting.overflowed),
+        }
     }
 
     /// Says how far the thread is.

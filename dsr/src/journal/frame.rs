@@ -11,8 +11,8 @@
 const MARKER: [u8; 4] = [0xd5, b'D', b'S', b'R'];
 /// Bytes of a header.
 pub(super) const HEADER: usize = 28;
-/// The most bytes of a payload: a longer one is a lie.
-const LONGEST: u32 = 1 << 30;
+/// The most bytes of a payload: none longer is written, so one in a header is a lie.
+pub(super) const LONGEST: u32 = 1 << 30;
 
 /// What a frame holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,7 +75,7 @@ pub(super) enum Flaw {
 /// The header for a payload, in a segment of which `synced` bytes are on the disk.
 pub(super) fn header(kind: Kind, payload: &[u8], synced: u64) -> [u8; HEADER] {
     let mut header = [0; HEADER];
-    let length = u32::try_from(payload.len()).expect("frames are cut at a megabyte");
+    let length = u32::try_from(payload.len()).expect("the writer refuses what is longer than LONGEST");
     header[..4].copy_from_slice(&MARKER);
     header[4..8].copy_from_slice(&kind.number().to_le_bytes());
     header[8..12].copy_from_slice(&length.to_le_bytes());

@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::io::{self, Write as _};
+use std::num::NonZeroU64;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -13,26 +14,36 @@ pub trait Store: Send + 'static {
     fn append(&mut self, bytes: &[u8]) -> io::Result<()>;
     /// Returns when everything that was appended would outlive a loss of power.
     fn sync(&mut self) -> io::Result<()>;
-    /// Lets go of the segments with smaller numbers.
-    fn forget(&mut self, before: u64) -> io::Result<()>;
+    /// Lets go of the oldest segments until there are only so many, those of earlier journals in the same place included.
+    /// Called when the state with which the newest one begins is on the disk.
+    fn keep(&mut self, newest: NonZeroU64) -> io::Result<()>;
 }
 
 /// The name of a segment in a folder.
-const SUFFIX: &str = "dsr";
+fn name(number: u64) -> String {
+    format!("{number:08}.dsr")
+}
 
-/// The segments in a folder, by number.
+/// The segments in a folder, by number. Other files are none, whatever they hold: `0.dsr` is somebody's copy.
 pub(super) fn segments(folder: &Path) -> io::Result<Vec<(u64, PathBuf)>> {
     let mut found = Vec::new();
     for entry in std::fs::read_dir(folder)? {
         let path = entry?.path();
-        let stem = path.file_stem().and_then(|stem| stem.to_str());
-        let number = stem.filter(|_| path.extension().is_some_and(|e| e == SUFFIX));
-        if let Some(number) = number.and_then(|number| number.parse().ok()) {
+        let number = path.file_stem().and_then(|stem| stem.to_str()?.parse().ok());
+        if let Some(number) = number.filter(|&number| path.file_name().is_some_and(|n| *n == *name(number))) {
             found.push((number, path));
         }
     }
     found.sort();
     Ok(found)
+}
+
+/// Syncs the names in a folder, which must outlive a loss of power, too. Not every system can.
+fn sync_names(folder: &Path) {
+    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    if let Ok(folder) = File::open(here) {
+        let _ = folder.sync_all();
+    }
 }
 
 /// A folder with a file for each segment: `00000000.dsr` and so on.
@@ -45,10 +56,14 @@ pub struct Folder {
 }
 
 impl Folder {
-    /// A folder, made if it is not there. Files of an earlier journal in it stay; this one writes behind them.
+    /// A folder, made if it is not there. Files of an earlier journal in it stay, unless there come to be more than
+    /// [`Settings::segments`](super::Settings::segments); this one writes behind them.
     pub fn new(path: impl Into<PathBuf>) -> io::Result<Self> {
         let path = path.into();
+        let made = path.ancestors().take_while(|folder| !folder.as_os_str().is_empty() && !folder.exists());
+        let made = made.map(Path::to_owned).collect::<Vec<_>>();
         std::fs::create_dir_all(&path)?;
+        made.iter().filter_map(|folder| folder.parent()).for_each(sync_names);
         let offset = segments(&path)?.last().map_or(0, |(number, _)| number.saturating_add(1));
         Ok(Self { path, offset, file: None })
     }
@@ -65,12 +80,9 @@ impl Folder {
 
 impl Store for Folder {
     fn begin(&mut self, number: u64) -> io::Result<()> {
-        let name = format!("{:08}.{SUFFIX}", self.offset + number);
-        self.file = Some(File::create_new(self.path.join(name))?);
-        // The name of the file must outlive a loss of power, too. Not every system can sync a folder.
-        if let Ok(folder) = File::open(&self.path) {
-            let _ = folder.sync_all();
-        }
+        let number = self.offset.checked_add(number).ok_or(io::ErrorKind::FileTooLarge)?;
+        self.file = Some(File::create_new(self.path.join(name(number)))?);
+        sync_names(&self.path);
         Ok(())
     }
 
@@ -82,11 +94,21 @@ impl Store for Folder {
         self.current()?.sync_data()
     }
 
-    fn forget(&mut self, before: u64) -> io::Result<()> {
-        let before = self.offset + before;
-        let mut old = segments(&self.path)?.into_iter().filter(|&(number, _)| number < before);
-        old.try_for_each(|(_, path)| std::fs::remove_file(path))
+    fn keep(&mut self, newest: NonZeroU64) -> io::Result<()> {
+        let segments = segments(&self.path)?;
+        for (_, path) in &segments[..surplus(segments.len(), newest)] {
+            match std::fs::remove_file(path) {
+                Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+                _ => {}
+            }
+        }
+        Ok(())
     }
+}
+
+/// How many of so many are too many.
+fn surplus(segments: usize, kept: NonZeroU64) -> usize {
+    segments.saturating_sub(usize::try_from(kept.get()).unwrap_or(usize::MAX))
 }
 
 /// Segments in memory: for tests, and for whoever sends them elsewhere. Clones are the same store.
@@ -119,9 +141,10 @@ impl Store for Memory {
         Ok(())
     }
 
-    fn forget(&mut self, before: u64) -> io::Result<()> {
+    fn keep(&mut self, newest: NonZeroU64) -> io::Result<()> {
         let mut segments = self.segments.lock().unwrap_or_else(PoisonError::into_inner);
-        segments.iter_mut().enumerate().filter(|(at, _)| (*at as u64) < before).for_each(|(_, s)| s.clear());
+        let surplus = surplus(segments.len(), newest);
+        segments[..surplus].iter_mut().for_each(|segment| *segment = Vec::new());
         Ok(())
     }
 }

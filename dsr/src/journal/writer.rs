@@ -26,6 +26,12 @@ pub(super) struct Writer<S> {
     due: Option<Instant>,
     progress: Progress,
     buffer: Vec<u8>,
+    /// The most bytes of a record, so that it fits into a frame with those before it.
+    longest: usize,
+    /// A commit could not be written, so that none after it can be before a whole state is.
+    broken: bool,
+    /// It ended as it should, or said why not.
+    ended: bool,
 }
 
 /// The segment being written.
@@ -40,11 +46,15 @@ struct Segment {
     deltas: u64,
 }
 
-/// However the thread ends, commits leave nothing for it any more, and nobody waits for it.
+/// However the thread ends, by a panic of the store too, commits leave nothing for it any more, nobody waits for it, and
+/// what was not written is not told as written.
 impl<S> Drop for Writer<S> {
     fn drop(&mut self) {
         self.feed.end();
         self.feed.restart();
+        if !self.ended {
+            self.progress.error = Some(Arc::new(io::Error::other("the thread that writes it panicked")));
+        }
         self.progress.over = true;
         self.feed.report(&self.progress);
     }
@@ -61,6 +71,9 @@ impl<S: Store> Writer<S> {
             due: None,
             progress: Progress::default(),
             buffer: Vec::new(),
+            longest: frame::LONGEST as usize - FRAME,
+            broken: false,
+            ended: false,
         }
     }
 
@@ -69,6 +82,7 @@ impl<S: Store> Writer<S> {
         if let Err(error) = self.work(first) {
             self.progress.error = Some(Arc::new(error));
         }
+        self.ended = true;
     }
 
     fn work(&mut self, first: Snapshot) -> io::Result<()> {
@@ -84,8 +98,8 @@ impl<S: Store> Writer<S> {
             if let Some(last) = last {
                 return self.finish(overflowed, last);
             }
-            if overflowed || self.segment.deltas >= self.settings.segment_bytes {
-                self.rotate(overflowed)?;
+            if overflowed || self.broken || self.segment.deltas >= self.settings.segment_bytes {
+                self.rotate()?;
             }
             let urgent = wanted > self.progress.durable;
             if urgent || self.due.is_some_and(|due| due <= Instant::now()) {
@@ -96,20 +110,22 @@ impl<S: Store> Writer<S> {
     }
 
     /// Begins a segment with the state of now, after what led there.
-    fn rotate(&mut self, overflowed: bool) -> io::Result<()> {
+    fn rotate(&mut self) -> io::Result<()> {
         let Some((rest, state)) = self.graph.restart(&self.feed) else { return Ok(()) };
-        if overflowed {
+        self.deltas(&rest.deltas)?;
+        if rest.overflowed || self.broken {
             self.progress.gaps += 1;
         }
-        self.deltas(&rest)?;
         self.begin(&state)
     }
 
     fn finish(&mut self, overflowed: bool, last: Last) -> io::Result<()> {
-        let state = last.state.or_else(|| self.graph.restart(&self.feed).map(|(_, state)| state));
-        if let Some(state) = state.filter(|_| overflowed) {
+        if overflowed || self.broken {
+            let state = last.state.or_else(|| self.graph.restart(&self.feed).map(|(_, state)| state));
             self.progress.gaps += 1;
-            self.begin(&state)?;
+            if let Some(state) = state {
+                self.begin(&state)?;
+            }
         }
         self.sync()
     }
@@ -119,6 +135,7 @@ impl<S: Store> Writer<S> {
             self.sync()?;
         }
         self.store.begin(self.segment.begun)?;
+        self.broken = false;
         self.segment = Segment { begun: self.segment.begun + 1, ..Segment::default() };
         let mut buffer = std::mem::take(&mut self.buffer);
         buffer.clear();
@@ -132,7 +149,7 @@ impl<S: Store> Writer<S> {
         self.progress.written = state.version();
         self.sync()?;
         match self.settings.segments {
-            Some(kept) => self.store.forget(self.segment.begun.saturating_sub(kept.get())),
+            Some(kept) => self.store.keep(kept),
             None => Ok(()),
         }
     }
@@ -145,7 +162,13 @@ impl<S: Store> Writer<S> {
             if delta.version <= self.progress.written {
                 continue;
             }
+            let before = buffer.len();
             record::put_delta(delta, &mut buffer);
+            self.broken |= buffer.len() - before > self.longest;
+            if self.broken {
+                buffer.truncate(before);
+                break;
+            }
             self.progress.written = delta.version;
             if buffer.len() >= FRAME {
                 self.segment.deltas += buffer.len() as u64;
@@ -158,15 +181,22 @@ impl<S: Store> Writer<S> {
         }
         self.buffer = buffer;
         if self.due.is_none() && self.progress.durable < self.progress.written {
-            self.due = Some(match self.settings.durability {
-                Durability::Each => Instant::now(),
-                Durability::Every(time) => Instant::now() + time,
-            });
+            self.due = match self.settings.durability {
+                Durability::Each => Some(Instant::now()),
+                // None, which is never, where it lies beyond what there is of time.
+                Durability::Every(time) => Instant::now().checked_add(time),
+            };
         }
         Ok(())
     }
 
     fn frame(&mut self, kind: Kind, payload: &mut Vec<u8>) -> io::Result<()> {
+        if payload.len() > self.longest + FRAME {
+            return Err(io::Error::new(
+                io::ErrorKind::FileTooLarge,
+                "a node with more than a frame can hold",
+            ));
+        }
         let header = frame::header(kind, payload, self.segment.synced);
         self.store.append(&header)?;
         self.store.append(payload)?;
@@ -183,5 +213,55 @@ impl<S: Store> Writer<S> {
         }
         self.progress.durable = self.progress.written;
         Ok(())
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test that fails says where")]
+mod tests {
+    use super::*;
+    use crate::dictionary::{DictionaryBuilder, Nature};
+    use crate::graph::Graph;
+    use crate::id::{AgentId, Time, Version};
+    use crate::journal::{Memory, Recording};
+
+    /// A commit that no frame can hold is a gap, and what comes after it is there; so is a node an error.
+    #[test]
+    fn what_is_too_long_for_a_frame_is_left_out_and_told() {
+        let mut builder = DictionaryBuilder::new();
+        let thing = builder.node_type("thing", None, Nature::Symbolic).unwrap();
+        let graph = Graph::new(builder.build());
+        let add = |names: std::ops::Range<u64>| {
+            let named = |tx: &mut crate::Transaction| {
+                names.clone().for_each(|name| _ = tx.add_node(format!("thing {name}").as_str(), thing));
+            };
+            graph.edit(AgentId::DSR, Time(0), named).unwrap().version
+        };
+        let (memory, feed) = (Memory::default(), Arc::new(Feed::new(1 << 30)));
+        let settings = Settings { durability: Durability::Each, ..Settings::default() };
+        let first = graph.attach(&feed);
+        let mut writer = Writer::new(memory.clone(), settings.clone(), Arc::clone(&feed), graph.observed());
+        writer.longest = 2_000;
+        add(0..3);
+        let long = add(3..1_000);
+        add(1_000..1_003);
+        feed.end();
+        writer.run(first);
+        let done = feed.progress();
+        assert!(done.error.is_none());
+        assert_eq!((done.gaps, done.durable), (1, graph.snapshot().version()));
+        let recording = Recording::read(memory.segments()).unwrap();
+        assert_eq!(recording.at(done.durable).unwrap().export(), graph.snapshot().export());
+        assert!(recording.at(long).is_err() && recording.at(Version(long.0 - 1)).is_ok());
+
+        let feed = Arc::new(Feed::new(1 << 30));
+        graph
+            .edit(AgentId::DSR, Time(0), |tx| _ = tx.add_node("x".repeat(FRAME + 2_001).as_str(), thing))
+            .unwrap();
+        let first = graph.attach(&feed);
+        let mut writer = Writer::new(Memory::default(), settings, Arc::clone(&feed), graph.observed());
+        writer.longest = 2_000;
+        writer.run(first);
+        assert_eq!(feed.progress().error.unwrap().kind(), io::ErrorKind::FileTooLarge);
     }
 }
