@@ -10,36 +10,51 @@ const BITS: usize = WORDS * 64;
 
 type Set = Pages<[u64; WORDS]>;
 
+/// The nodes of exactly one type, and how many they are.
+#[derive(Debug, Clone, Default)]
+struct Kind {
+    set: Set,
+    count: usize,
+}
+
 /// Per type, the nodes of exactly that type.
 #[derive(Debug, Clone)]
 pub(crate) struct Members {
-    types: Arc<[Set]>,
+    types: Arc<[Kind]>,
 }
 
 impl Members {
     pub(crate) fn new(types: usize) -> Self {
-        Self { types: std::iter::repeat_with(Set::default).take(types).collect() }
+        Self { types: std::iter::repeat_with(Kind::default).take(types).collect() }
     }
 
     pub(crate) fn insert(&mut self, node_type: TypeId, id: NodeId) {
-        if let Some(set) = Arc::make_mut(&mut self.types).get_mut(node_type.index()) {
+        if let Some(kind) = Arc::make_mut(&mut self.types).get_mut(node_type.index()) {
             let at = id.index() % BITS;
-            set.make(id.index() / BITS)[at / 64] |= 1 << (at % 64);
+            let word = &mut kind.set.make(id.index() / BITS)[at / 64];
+            kind.count += usize::from(*word >> (at % 64) & 1 == 0);
+            *word |= 1 << (at % 64);
         }
     }
 
     pub(crate) fn remove(&mut self, node_type: TypeId, id: NodeId) {
-        if let Some(set) = Arc::make_mut(&mut self.types).get_mut(node_type.index())
+        if let Some(Kind { set, count }) = Arc::make_mut(&mut self.types).get_mut(node_type.index())
             && let Some(words) = set.get_mut(id.index() / BITS)
         {
             let at = id.index() % BITS;
+            *count -= usize::from(words[at / 64] >> (at % 64) & 1 == 1);
             words[at / 64] &= !(1 << (at % 64));
         }
     }
 
+    /// How many there are.
+    pub(crate) fn count(&self, node_type: TypeId) -> usize {
+        self.types.get(node_type.index()).map_or(0, |kind| kind.count)
+    }
+
     /// Ascending.
     pub(crate) fn of(&self, node_type: TypeId) -> impl Iterator<Item = NodeId> + '_ {
-        let blocks = self.types.get(node_type.index()).into_iter().flat_map(Pages::iter);
+        let blocks = self.types.get(node_type.index()).into_iter().flat_map(|kind| kind.set.iter());
         let words = blocks.flat_map(|(block, words)| {
             words.iter().enumerate().map(move |(word, bits)| (block * BITS + word * 64, *bits))
         });

@@ -15,6 +15,7 @@ mod check;
 mod clue;
 mod matcher;
 mod plan;
+mod rigid;
 mod seed;
 mod text;
 
@@ -27,6 +28,8 @@ pub use self::builder::PatternBuilder;
 pub use self::check::PatternError;
 pub(crate) use self::clue::{Clue, Ordered, Tip, ValueKey, Way};
 use self::plan::{Mask, Step};
+use self::rigid::End;
+pub(crate) use self::rigid::moved;
 use self::seed::Seed;
 pub(crate) use self::seed::{Fixed, Route, Slices};
 pub use self::text::PatternTextError;
@@ -173,13 +176,15 @@ pub enum Metric {
     Bearing,
 }
 
-/// A number that a metric is held against. With hysteresis, a match that is held stays until the metric has passed a
-/// second number, so that somebody who stands at the limit does not come and go with each measurement.
+/// A number that a metric is held against. With hysteresis there are two, so that somebody who stands at the limit does
+/// not come and go with each measurement: in the band between them a match stays what it was, there or not; without a
+/// history it is not there. In a negated part this is so for the match of the pattern around it: "nobody near" appears
+/// when everybody has passed the second number, and stays until somebody has passed the first.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Threshold {
-    /// A match appears when the comparison holds with this.
+    /// What is measured begins to compare so when the comparison holds with this.
     pub appears: f64,
-    /// It disappears when the comparison no longer holds with this, which is no stricter.
+    /// It has ceased to when the comparison no longer holds with this, which is no stricter.
     pub disappears: f64,
 }
 
@@ -197,11 +202,21 @@ enum Limit {
     Attribute(AttributeId),
 }
 
-/// Which of the two numbers of a threshold counts.
+/// Which of the two numbers of a threshold counts: what it takes for a match to appear, or to stay. Under a negation it
+/// is the other way round, since what is hard to find there is easy to be without.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Strictness {
     Appears,
     Stays,
+}
+
+impl Strictness {
+    fn negated(self) -> Self {
+        match self {
+            Self::Appears => Self::Stays,
+            Self::Stays => Self::Appears,
+        }
+    }
 }
 
 /// A part of a conjunction. Terms are slots once compiled.
@@ -260,8 +275,12 @@ pub struct Pattern {
     body: Conjunction<Slot>,
     /// Where joins begin when something changes.
     seeds: Vec<(Seed, Clue)>,
+    /// The ends of each metric, where joins begin when something moves.
+    measured: Vec<[End; 2]>,
     /// The join order when no variable is fixed.
     plan: Vec<Step>,
+    /// The join order when all variables are.
+    judgement: Vec<Step>,
     mentions: Mentions,
     /// Whether some threshold has hysteresis.
     remembers: bool,

@@ -75,6 +75,7 @@ impl Routes {
                 anew.extend(self.by_name.get(name).into_iter().flatten().copied());
             }
         }
+        self.index.find_moved(delta, state, |found| seats.extend_from_slice(found));
         seats.extend(anew.iter().copied());
         seats.sort_unstable();
         seats.dedup();

@@ -146,6 +146,11 @@ impl State {
         self.members.of(node_type)
     }
 
+    /// How many nodes are exactly of this type.
+    pub(crate) fn count_exactly(&self, node_type: TypeId) -> usize {
+        self.members.count(node_type)
+    }
+
     pub(crate) fn insert_node(&mut self, id: NodeId, name: Arc<str>, node_type: TypeId, since: Version) {
         self.log.entries.push(Undo::NodeAdded(id));
         self.log.mentions.add_type(node_type);

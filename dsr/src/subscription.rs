@@ -10,6 +10,7 @@
 //! variable, anything else (an async task) by a callback; both after the commit's lock and the queue's are given back,
 //! so that who wakes finds neither taken. What an emptied queue held is freed then too.
 
+use std::cell::Cell;
 use std::collections::{BTreeSet, VecDeque};
 use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -311,13 +312,16 @@ pub struct Matches {
     /// Per variable, what is held by its node.
     by_node: Vec<FxHashMap<NodeId, BTreeSet<Binding>>>,
     plans: Plans,
+    /// How much there was to look at when all matches were looked at last.
+    whole: usize,
     start: Option<Snapshot>,
 }
 
 impl Matches {
     pub(crate) fn new(queue: Arc<Queue>, pattern: Arc<Pattern>, start: Snapshot) -> Self {
         let by_node = pattern.variables().map(|_| FxHashMap::default()).collect();
-        Self { queue, pattern, held: BTreeSet::new(), by_node, plans: Plans::default(), start: Some(start) }
+        let (held, plans, start) = (BTreeSet::new(), Plans::default(), Some(start));
+        Self { queue, pattern, held, by_node, plans, whole: 0, start }
     }
 
     /// The pattern.
@@ -378,16 +382,11 @@ impl Matches {
             }
             Told::Commits(deltas, snapshot) => {
                 // What several commits concern is what each of them does, looked at once, in the last one's state.
-                let mut slices = Slices::default();
-                deltas.iter().for_each(|delta| self.pattern.slices(delta, snapshot.state(), &mut slices));
-                match slices {
+                let deltas = deltas.iter().map(|delta| &**delta);
+                match self.pattern.slices(deltas, snapshot.state(), self.whole) {
                     Slices::All => self.match_all(&snapshot, &mut appeared, &mut disappeared),
                     Slices::These(slices) => {
-                        for fixed in &slices {
-                            self.match_slice(fixed, &snapshot, &mut appeared, &mut disappeared);
-                        }
-                        appeared.sort_unstable();
-                        disappeared.sort_unstable();
+                        self.match_slices(&slices, &snapshot, &mut appeared, &mut disappeared);
                     }
                 }
                 (snapshot, 0)
@@ -405,12 +404,40 @@ impl Matches {
         appeared: &mut Vec<Binding>,
         disappeared: &mut Vec<Binding>,
     ) {
-        let mut now: BTreeSet<_> = self.pattern.matches(snapshot).into_iter().collect();
+        let looked = Cell::new(1 + self.held.len());
+        let found = self.pattern.matches_counted(snapshot.state(), &[], &looked);
+        self.whole = looked.get() + found.len();
+        let mut now: BTreeSet<_> = found.into_iter().collect();
         now.extend(self.held.iter().filter(|held| self.pattern.keeps(snapshot.state(), held)).cloned());
-        appeared.extend(now.difference(&self.held).cloned());
-        disappeared.extend(self.held.difference(&now).cloned());
-        disappeared.iter().for_each(|binding| self.lose(binding));
-        appeared.iter().for_each(|binding| self.find(binding));
+        let gone: Vec<_> = self.held.difference(&now).cloned().collect();
+        let new: Vec<_> = now.difference(&self.held).cloned().collect();
+        gone.iter().for_each(|binding| self.lose(binding));
+        new.iter().for_each(|binding| self.find(binding));
+        appeared.extend(new);
+        disappeared.extend(gone);
+    }
+
+    /// Looks at slices one by one, as long as that is less than looking at all matches was when it was last done: so
+    /// it never costs twice as much as the better of the two, by that measure.
+    fn match_slices(
+        &mut self,
+        slices: &[Fixed],
+        snapshot: &Snapshot,
+        appeared: &mut Vec<Binding>,
+        disappeared: &mut Vec<Binding>,
+    ) {
+        let looked = Cell::new(0);
+        for (at, fixed) in slices.iter().enumerate() {
+            // A slice is at least one look.
+            if at > 0 && looked.get() + (slices.len() - at) > self.whole {
+                self.match_all(snapshot, appeared, disappeared);
+                break;
+            }
+            looked.set(looked.get() + 1);
+            self.match_slice(fixed, snapshot, &looked, appeared, disappeared);
+        }
+        appeared.sort_unstable();
+        disappeared.sort_unstable();
     }
 
     /// Holds the matches with these nodes against those held with these nodes.
@@ -418,10 +445,11 @@ impl Matches {
         &mut self,
         fixed: &Fixed,
         snapshot: &Snapshot,
+        looked: &Cell<usize>,
         appeared: &mut Vec<Binding>,
         disappeared: &mut Vec<Binding>,
     ) {
-        let now = self.pattern.matches_of(snapshot.state(), fixed, &mut self.plans);
+        let now = self.pattern.matches_of(snapshot.state(), fixed, &mut self.plans, looked);
         let held_with = |(at, node): &(usize, NodeId)| self.by_node[*at].get(node);
         // The smallest of the sets that all of them are in; one that is empty says that there are none.
         let sets = fixed.iter().map(held_with).min_by_key(|set| set.map_or(0, BTreeSet::len)).flatten();

@@ -103,6 +103,28 @@ fn a_threshold_with_hysteresis_does_not_flutter() {
     assert!(!holds(&mut slow) && !holds(&mut close), "who is gone is not close");
 }
 
+/// Nobody close: not before one and a half metres, and until one.
+#[test]
+fn a_negated_threshold_does_not_flutter_either() {
+    let graph = room();
+    let near = Threshold { appears: 1.0, disappears: 1.5 };
+    let negated = |p: &mut PatternBuilder<'_>| {
+        p.without(|p| _ = p.distance("robot", "person", Comparison::LessOrEqual, near));
+    };
+    let twice = |p: &mut PatternBuilder<'_>| p.without(negated);
+    let (mut alone, mut close) = (watch(&graph, negated), watch(&graph, twice));
+    let (mut steady, mut twofold, mut asked) = (String::new(), String::new(), String::new());
+    let sign = |holds| if holds { "#" } else { "." };
+    for x in [5.0, 1.2, 1.0, 1.2, 1.49, 1.0, 1.5, 1.51, 1.2, 0.9] {
+        walk(&graph, x, 0.0);
+        steady += sign(holds(&mut alone));
+        twofold += sign(holds(&mut close));
+        asked += sign(alone.pattern().holds(&graph.snapshot()));
+    }
+    assert_eq!((&*steady, &*twofold), ("##.....##.", "..#####..#"));
+    assert_eq!(asked, "#......#..", "without a history, what is in the band does not hold");
+}
+
 #[test]
 fn bearing_and_reach_follow_frames_and_attributes() {
     let graph = room();
@@ -152,10 +174,6 @@ fn a_threshold_that_makes_no_sense_is_refused() {
         let refused = build(comparison, appears, disappears);
         assert!(matches!(refused, Err(PatternError::WrongThreshold { .. })), "{comparison:?}");
     }
-    let mut pattern = PatternBuilder::new(&dictionary);
-    let band = Threshold { appears: 1.0, disappears: 2.0 };
-    pattern.without(|p| _ = p.distance("robot", "person", Comparison::Less, band));
-    assert!(matches!(pattern.build(), Err(PatternError::WrongThreshold { .. })));
     let mut pattern = PatternBuilder::new(&dictionary);
     pattern.reachable("robot", "person", dictionary.attribute("name").unwrap());
     assert!(matches!(pattern.build(), Err(PatternError::WrongKind { .. })));

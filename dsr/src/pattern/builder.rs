@@ -90,8 +90,7 @@ impl<'d> PatternBuilder<'d> {
     }
 
     /// The metric between the two frames must compare so. With hysteresis, subscriptions remember which matches they
-    /// have; whoever asks once has no history, and gets those that would appear. Not in a negated part, which has no
-    /// matches to remember.
+    /// have; whoever asks once has no history, and gets those that would appear. See [`Threshold`] for negated parts.
     pub fn metric(
         &mut self,
         metric: Metric,

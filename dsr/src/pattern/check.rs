@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::plan::{Mask, plan};
 use super::{
     Atom, Carrier, Comparison, Conjunction, Constant, Limit, Pattern, Right, SLOTS, Scope, Slot, Term,
-    Threshold, Variable, seed,
+    Threshold, Variable, rigid, seed,
 };
 use crate::dictionary::{Dictionary, HolderType, Nature};
 use crate::id::{AttributeId, LabelId, NodeId, TypeId};
@@ -43,7 +43,7 @@ pub enum PatternError {
     /// The two sides can never be compared so.
     #[error("attribute '{attribute}' is a {kind}, it cannot be compared so")]
     WrongKind { attribute: Name, kind: Kind },
-    /// A number that is none, one that matches leave before they come, or hysteresis in a negated part.
+    /// A number that is none, or one that is passed on the way out before the other on the way in.
     #[error("no threshold: appears at {}, disappears at {}", threshold.appears, threshold.disappears)]
     WrongThreshold { threshold: Threshold },
     /// A distance to something without a place.
@@ -74,7 +74,6 @@ pub(super) fn compile(
         constants: Vec::new(),
         visible: Mask::default(),
         mentions,
-        negations: 0,
         remembers: false,
     };
     let body = checker.conjunction(body)?;
@@ -89,10 +88,25 @@ pub(super) fn compile(
     }
     let mut bound = Mask::default();
     (types.len()..count).for_each(|slot| bound.insert(slot_at(slot)));
-    let plan = plan(&body, bound);
-    let mut seeds = Vec::new();
+    let order = plan(&body, bound);
+    (0..variables.len()).for_each(|slot| bound.insert(slot_at(slot)));
+    let judgement = plan(&body, bound);
+    let (mut seeds, mut measured) = (Vec::new(), Vec::new());
     seed::seeds(&[&body], &mut seeds);
-    Ok(Pattern { variables, locals, constants, body, seeds, plan, mentions, remembers })
+    let type_of = |slot: Slot| types.get(usize::from(slot.0)).copied();
+    rigid::measured(&body, &type_of, dictionary, &mut measured);
+    Ok(Pattern {
+        variables,
+        locals,
+        constants,
+        body,
+        seeds,
+        measured,
+        plan: order,
+        judgement,
+        mentions,
+        remembers,
+    })
 }
 
 fn slot_at(index: usize) -> Slot {
@@ -108,8 +122,6 @@ struct Checker<'d> {
     /// The variables that may be used here.
     visible: Mask,
     mentions: Mentions,
-    /// How many negated parts are open.
-    negations: u32,
     remembers: bool,
 }
 
@@ -157,12 +169,7 @@ impl Checker<'_> {
                 self.mentions.add_transforms();
                 Atom::Metric { metric: *metric, from, to, comparison: *comparison, limit: *limit }
             }
-            Atom::Without(part) => {
-                self.negations += 1;
-                let part = self.conjunction(part)?;
-                self.negations -= 1;
-                Atom::Without(part)
-            }
+            Atom::Without(part) => Atom::Without(self.conjunction(part)?),
         })
     }
 
@@ -177,12 +184,8 @@ impl Checker<'_> {
                     Comparison::Equal | Comparison::NotEqual => appears == disappears,
                 };
                 // Of the same numbers nothing is to be remembered.
-                let remembers = appears != disappears;
-                self.remembers |= remembers;
-                if !ordered || (remembers && self.negations > 0) {
-                    return Err(PatternError::WrongThreshold { threshold });
-                }
-                Ok(())
+                self.remembers |= appears != disappears;
+                if ordered { Ok(()) } else { Err(PatternError::WrongThreshold { threshold }) }
             }
             Limit::Attribute(attribute) => {
                 self.carrier(&Carrier::Node(from.clone()), attribute)?;

@@ -2,6 +2,7 @@
 //!
 //! Cost: the product of the fan-outs along the walks; a scan costs the nodes of the variable's type.
 
+use std::cell::Cell;
 use std::ops::ControlFlow;
 
 use super::plan::{Mask, Step, plan};
@@ -22,9 +23,19 @@ impl Pattern {
 
     /// All matches that give these variables these nodes, in order. Local variables cannot be fixed.
     pub fn matches_with(&self, snapshot: &Snapshot, fixed: &[(Variable, NodeId)]) -> Vec<Binding> {
+        self.matches_counted(snapshot.state(), fixed, &Cell::new(0))
+    }
+
+    /// The same; counts what is looked at.
+    pub(crate) fn matches_counted(
+        &self,
+        state: &State,
+        fixed: &[(Variable, NodeId)],
+        looked: &Cell<usize>,
+    ) -> Vec<Binding> {
         let mut found = Vec::new();
         let count = self.variables.len();
-        let _ = self.run_all(snapshot.state(), fixed, &mut |slots| {
+        let _ = self.run_all(state, fixed, looked, &mut |slots| {
             found.push(Binding(slots[..count].to_vec()));
             ControlFlow::Continue(())
         });
@@ -33,10 +44,17 @@ impl Pattern {
     }
 
     /// The matches that give these variables these nodes, in order, by a join order that is kept for the next time.
-    pub(crate) fn matches_of(&self, state: &State, fixed: &Fixed, plans: &mut Plans) -> Vec<Binding> {
+    /// Counts what is looked at.
+    pub(crate) fn matches_of(
+        &self,
+        state: &State,
+        fixed: &Fixed,
+        plans: &mut Plans,
+        looked: &Cell<usize>,
+    ) -> Vec<Binding> {
         let mut slots = [NodeId::NOWHERE; SLOTS];
         let mut bound = self.bind_constants(state, &mut slots);
-        let run = Run { pattern: self, state, strictness: Strictness::Appears };
+        let run = Run { pattern: self, state, strictness: Strictness::Appears, looked };
         for &(at, node) in fixed {
             if (bound.contains(slot(at)) && slots[at] != node) || !run.admits(slot(at), node) {
                 return Vec::new();
@@ -64,16 +82,16 @@ impl Pattern {
             return false;
         }
         let mut slots = [NodeId::NOWHERE; SLOTS];
-        let mut bound = self.bind_constants(state, &mut slots);
-        let run = Run { pattern: self, state, strictness: Strictness::Stays };
+        self.bind_constants(state, &mut slots);
+        let looked = Cell::new(0);
+        let run = Run { pattern: self, state, strictness: Strictness::Stays, looked: &looked };
         for (at, &node) in held.iter().enumerate() {
             if !run.admits(slot(at), node) {
                 return false;
             }
             slots[at] = node;
-            bound.insert(slot(at));
         }
-        run.steps(&plan(&self.body, bound), &mut slots, &mut |_| ControlFlow::Break(())).is_break()
+        run.steps(&self.judgement, &mut slots, &mut |_| ControlFlow::Break(())).is_break()
     }
 
     fn bind_constants(&self, state: &State, slots: &mut Slots) -> Mask {
@@ -97,13 +115,19 @@ impl Pattern {
     }
 
     pub(crate) fn holds_in(&self, state: &State, fixed: &[(Variable, NodeId)]) -> bool {
-        self.run_all(state, fixed, &mut |_| ControlFlow::Break(())).is_break()
+        self.run_all(state, fixed, &Cell::new(0), &mut |_| ControlFlow::Break(())).is_break()
     }
 
-    fn run_all(&self, state: &State, fixed: &[(Variable, NodeId)], emit: Emit<'_>) -> ControlFlow<()> {
+    fn run_all(
+        &self,
+        state: &State,
+        fixed: &[(Variable, NodeId)],
+        looked: &Cell<usize>,
+        emit: Emit<'_>,
+    ) -> ControlFlow<()> {
         let mut slots = [NodeId::NOWHERE; SLOTS];
         let mut bound = self.bind_constants(state, &mut slots);
-        let run = Run { pattern: self, state, strictness: Strictness::Appears };
+        let run = Run { pattern: self, state, strictness: Strictness::Appears, looked };
         let mut any = false;
         for &(variable, node) in fixed {
             let Some(at) = variable.position().filter(|&at| at < self.variables.len()) else { continue };
@@ -143,6 +167,8 @@ struct Run<'a> {
     pattern: &'a Pattern,
     state: &'a State,
     strictness: Strictness,
+    /// How many nodes have been tried for a variable.
+    looked: &'a Cell<usize>,
 }
 
 impl Run<'_> {
@@ -155,8 +181,9 @@ impl Run<'_> {
                 }
             }
             Step::Without(inner) => {
+                let negated = Run { strictness: self.strictness.negated(), ..*self };
                 // Locals bound inside are not read outside, so the slots can be shared.
-                if self.steps(inner, slots, &mut |_| ControlFlow::Break(())).is_continue() {
+                if negated.steps(inner, slots, &mut |_| ControlFlow::Break(())).is_continue() {
                     self.steps(rest, slots, emit)?;
                 }
             }
@@ -182,6 +209,7 @@ impl Run<'_> {
                 let Some(wanted) = self.pattern.type_of(*slot) else { return ControlFlow::Continue(()) };
                 for sub in dictionary.types().filter(|&sub| dictionary.is_a(sub, wanted)) {
                     for node in self.state.nodes_exactly(sub) {
+                        self.looked.set(self.looked.get() + 1);
                         slots[usize::from(slot.0)] = node;
                         self.steps(rest, slots, emit)?;
                     }
@@ -199,6 +227,7 @@ impl Run<'_> {
         slots: &mut Slots,
         emit: Emit<'_>,
     ) -> ControlFlow<()> {
+        self.looked.set(self.looked.get() + 1);
         if !self.admits(slot, node) {
             return ControlFlow::Continue(());
         }

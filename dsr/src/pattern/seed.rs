@@ -6,8 +6,8 @@
 //! atom of a negated part gives nodes to those of its variables that the pattern has outside.
 //!
 //! Invariant: matches outside the slices of a delta are the same before and after it. Where a change gives no
-//! variable a node (a constant comes or goes, a distance may have changed, a negated part shares no variable with
-//! the atom), all matches are looked at again. A variable that an edge or an attribute binds needs no seed of its
+//! variable a node (a constant comes or goes, a negated part shares no variable with the atom), all matches are
+//! looked at again. Which frames a metric begins at is a matter of its own (`rigid`). A variable that an edge or an attribute binds needs no seed of its
 //! own for nodes that come and go, because their edges and attributes come and go with them.
 //!
 //! Source: the semi-naive evaluation of Datalog (Bancilhon and Ramakrishnan, SIGMOD 1986), with single changes as
@@ -17,6 +17,7 @@ use smallvec::SmallVec;
 
 use super::clue::{self, Clue, Ordered, ValueKey};
 use super::plan::Mask;
+use super::rigid::moved;
 use super::{Atom, Carrier, Comparison, Conjunction, Constant, Limit, Pattern, Right, Slot};
 use crate::delta::{Change, Delta};
 use crate::id::{AttributeId, Holder, LabelId, NodeId, TypeId};
@@ -42,7 +43,6 @@ pub(super) enum Seed {
     },
     /// A variable that nothing but its type binds.
     Loose(Slot),
-    Transforms,
 }
 
 /// The seeds of the last of these conjunctions, which stand within each other, and of the negated parts in it.
@@ -72,7 +72,6 @@ pub(super) fn seeds(around: &[&Conjunction<Slot>], into: &mut Vec<(Seed, Clue)>)
                 }
             }
             Atom::Metric { from, limit, .. } => {
-                into.push((Seed::Transforms, Clue::Any));
                 if let Limit::Attribute(attribute) = limit {
                     into.push((Seed::NodeAttribute { attribute: *attribute, node: *from }, Clue::Any));
                 }
@@ -115,12 +114,6 @@ pub(crate) enum Slices {
     These(SmallVec<[Fixed; 4]>),
 }
 
-impl Default for Slices {
-    fn default() -> Self {
-        Self::These(SmallVec::new())
-    }
-}
-
 /// What a change must touch to concern a pattern.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Route {
@@ -138,12 +131,16 @@ pub(crate) enum Route {
     Type(TypeId),
     /// The coming and going of a node.
     Node(NodeId),
+    /// Where a frame of exactly this type is, or that frame.
+    MovedType(TypeId),
+    Moved(NodeId),
+    /// Where any frame is.
     Transforms,
 }
 
 impl Pattern {
     /// What stands for a slot in a state, if it is a constant.
-    fn constant(&self, slot: Slot, state: &State) -> Option<NodeId> {
+    pub(super) fn constant(&self, slot: Slot, state: &State) -> Option<NodeId> {
         let at = usize::from(slot.0).checked_sub(self.variables.len() + self.locals.len())?;
         self.constants.get(at).map(|constant| match constant {
             Constant::Node(id) => *id,
@@ -196,8 +193,16 @@ impl Pattern {
                         .filter(|&sub| wanted.is_some_and(|wanted| state.dictionary.is_a(sub, wanted)));
                     routes.extend(subtypes.map(Route::Type));
                 }
-                Seed::Transforms => routes.push(Route::Transforms),
             }
+        }
+        for end in self.measured.iter().flatten() {
+            match self.constant(end.slot, state) {
+                Some(frame) => routes.push(Route::Moved(frame)),
+                None => routes.extend(end.types.iter().map(|exact| Route::MovedType(*exact))),
+            }
+        }
+        if !self.measured.is_empty() {
+            routes.push(Route::Transforms);
         }
         routes.extend(self.constants.iter().filter_map(|constant| match constant {
             Constant::Node(id) => Some(Route::Node(*id)),
@@ -206,27 +211,37 @@ impl Pattern {
         routes
     }
 
-    /// Adds the matches that a delta may concern; the state is the one after it, or a later one if the deltas up to
-    /// that are added too.
-    pub(crate) fn slices(&self, delta: &Delta, state: &State, into: &mut Slices) {
-        let Slices::These(slices) = into else { return };
-        for change in &delta.changes {
+    /// The matches that deltas may concern; the state is the one after the last of them. Finding them costs no more than
+    /// the budget beside what the deltas are long.
+    pub(crate) fn slices<'d>(
+        &self,
+        deltas: impl IntoIterator<Item = &'d Delta>,
+        state: &State,
+        budget: usize,
+    ) -> Slices {
+        let (mut slices, mut frames) = (SmallVec::<[Fixed; 4]>::new(), SmallVec::new());
+        for change in deltas.into_iter().flat_map(|delta| &delta.changes) {
             if self.concerns_constant(change) {
-                *into = Slices::All;
-                return;
+                return Slices::All;
             }
             for (seed, _) in &self.seeds {
                 match self.grow(*seed, change, state) {
                     Growth::Nothing => {}
-                    Growth::Slice(fixed) if fixed.is_empty() => {
-                        *into = Slices::All;
-                        return;
-                    }
-                    Growth::Slice(fixed) if slices.contains(&fixed) => {}
+                    Growth::Slice(fixed) if fixed.is_empty() => return Slices::All,
                     Growth::Slice(fixed) => slices.push(fixed),
                 }
             }
+            if !self.measured.is_empty() {
+                frames.extend(moved(change, state));
+            }
         }
+        let mut found = Slices::These(slices);
+        self.apart(frames, state, budget, &mut found);
+        if let Slices::These(slices) = &mut found {
+            slices.sort_unstable();
+            slices.dedup();
+        }
+        found
     }
 
     /// Whether a node that the pattern speaks of comes or goes.
@@ -269,13 +284,6 @@ impl Pattern {
             ) if self.type_of(slot).is_some_and(|wanted| state.dictionary.is_a(*node_type, wanted)) => {
                 self.fix(&[(slot, *node)], state)
             }
-            (
-                Seed::Transforms,
-                Change::TransformAdded { .. }
-                | Change::TransformChanged { .. }
-                | Change::TransformSampled { .. }
-                | Change::TransformRemoved { .. },
-            ) => Growth::Slice(Fixed::new()),
             _ => Growth::Nothing,
         }
     }

@@ -11,14 +11,20 @@ use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
 use super::Seat;
+use crate::block::Node;
 use crate::delta::{Change, Delta};
 use crate::dictionary::Dictionary;
-use crate::id::{AttributeId, EdgeKey, Holder, LabelId, TypeId};
-use crate::pattern::{Clue, Ordered, Route, Tip, ValueKey, Way};
+use crate::id::{AttributeId, EdgeKey, Holder, LabelId, NodeId, TypeId};
+use crate::pattern::{Clue, Ordered, Route, Tip, ValueKey, Way, moved};
 use crate::state::State;
 use crate::value::Value;
 
 type Seats = SmallVec<[Seat; 2]>;
+
+/// How many frames a commit walks for each subscriber that it may thereby leave alone: as many as take the time of waking
+/// a parked one. Measured at a load of 8: a commit that wakes one takes 5.8 µs, one that tells nobody 1.3, and a thousand
+/// frames take 7.6.
+const FRAMES: usize = 512;
 
 /// The types of the two ends of an edge.
 type Ends = (TypeId, TypeId);
@@ -130,7 +136,8 @@ impl Index {
         }
     }
 
-    /// Tells the seats that a change of a delta may concern; the state is the one after it. Some more than once.
+    /// Tells the seats that a change of a delta may concern; the state is the one after it. Some more than once. For what
+    /// moves see [`Index::find_moved`].
     pub(super) fn find(
         &mut self,
         change: &Change,
@@ -162,7 +169,34 @@ impl Index {
             Change::TransformAdded { .. }
             | Change::TransformChanged { .. }
             | Change::TransformSampled { .. }
-            | Change::TransformRemoved { .. } => self.plain(Route::Transforms, &mut tell),
+            | Change::TransformRemoved { .. } => {}
+        }
+    }
+
+    /// Tells the seats that the moves of a delta may concern: who measures something that hangs below one of the changed
+    /// edges, as one end of each metric that they change does. Where more hangs there than is worth walking, all who
+    /// measure are told.
+    pub(super) fn find_moved(&self, delta: &Delta, state: &State, mut tell: impl FnMut(&[Seat])) {
+        let Some(all) = self.plain.get(&Route::Transforms) else { return };
+        let mut frames: SmallVec<[NodeId; 16]> =
+            delta.changes.iter().filter_map(|change| moved(change, state)).collect();
+        frames.sort_unstable();
+        frames.dedup();
+        let mut told = SmallVec::<[TypeId; 8]>::new();
+        let mut left = all.len() * FRAMES;
+        let mut below = frames.clone();
+        while let Some(frame) = below.pop() {
+            let Some(rest) = left.checked_sub(1) else { return tell(all) };
+            left = rest;
+            self.plain(Route::Moved(frame), &mut tell);
+            if let Some(exact) = state.node(frame).map(Node::node_type)
+                && !told.contains(&exact)
+            {
+                told.push(exact);
+                self.plain(Route::MovedType(exact), &mut tell);
+            }
+            let children = state.children(frame).iter().copied();
+            below.extend(children.filter(|child| frames.binary_search(child).is_err()));
         }
     }
 

@@ -1,0 +1,283 @@
+//! Which distances may have changed: the tree of frames falls into rigid groups.
+//!
+//! Problem: when an edge of the kinematic tree changes, matching every pattern with a distance again costs what the graph
+//! is large, although a person who takes a step changes one distance in a thousand. Idea: label each frame with the lowest
+//! changed edge at or above it, or none. What lies between two frames is their two ways up without what these share, so it
+//! has a changed edge if and only if their labels differ. Frames with one label are a rigid group: whatever is measured
+//! inside of it is what it was, and only pairs across two groups are looked at again. A join begins at the frames of all
+//! groups but one, since each such pair has an end there; the one left out is the largest. So a person who moves is one
+//! beginning, and a floor that moves with all that stand on it is none for those who measure between these.
+//!
+//! Invariant: labels in the state after the changes are enough. A frame without a label has the same edges above it as
+//! before; two with the same label have the same edges up to it. This holds over several deltas, with the frames of all.
+//!
+//! Cost: no more than a full match, which the caller gives as a budget, and no more than the frames that the pattern
+//! measures. Mostly the frames below the changed edges are few, and are walked; where they are more than the frames that
+//! could be measured, the labels of those are looked up from below instead; where these are too many as well, all matches
+//! are looked at. No history of distances is kept, so a frame that moves without crossing anything costs the same.
+
+use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
+
+use super::{Atom, Conjunction, Fixed, Pattern, Slices, Slot};
+use crate::delta::Change;
+use crate::dictionary::{Dictionary, Nature};
+use crate::id::{NodeId, TypeId};
+use crate::state::State;
+
+/// One of the two ends of a metric.
+#[derive(Debug, Clone)]
+pub(super) struct End {
+    pub(super) slot: Slot,
+    /// The types of the frames that a variable may be; none for a constant.
+    pub(super) types: Box<[TypeId]>,
+}
+
+impl End {
+    pub(super) fn new(slot: Slot, wanted: Option<TypeId>, dictionary: &Dictionary) -> Self {
+        let fits = |sub: &TypeId| {
+            wanted.is_some_and(|wanted| dictionary.is_a(*sub, wanted))
+                && dictionary.nature(*sub) == Some(Nature::Geometric)
+        };
+        Self { slot, types: dictionary.types().filter(fits).collect() }
+    }
+}
+
+/// The ends of each metric in a conjunction and in its negated parts. A frame is always as far from itself.
+pub(super) fn measured(
+    part: &Conjunction<Slot>,
+    type_of: &impl Fn(Slot) -> Option<TypeId>,
+    dictionary: &Dictionary,
+    into: &mut Vec<[End; 2]>,
+) {
+    for atom in &part.atoms {
+        match atom {
+            Atom::Metric { from, to, .. } if from != to => {
+                into.push([*from, *to].map(|slot| End::new(slot, type_of(slot), dictionary)));
+            }
+            Atom::Without(part) => measured(part, type_of, dictionary, into),
+            _ => {}
+        }
+    }
+}
+
+/// The frame whose edge to its parent a change gives, takes or moves, if any and if it is still there. What is told of
+/// earlier times moves nothing now.
+pub(crate) fn moved(change: &Change, state: &State) -> Option<NodeId> {
+    let child = match *change {
+        Change::TransformAdded { child, .. }
+        | Change::TransformChanged { child, .. }
+        | Change::TransformRemoved { child, .. } => child,
+        Change::TransformSampled { child, time, .. } => {
+            state.joint(child).is_some_and(|joint| time >= joint.newest).then_some(child)?
+        }
+        _ => return None,
+    };
+    state.node(child).map(|_| child)
+}
+
+/// The lowest changed edge at or above a frame, by the frame below it.
+type Label = Option<NodeId>;
+
+/// The frames of some ends, by group.
+type Tally = FxHashMap<Label, [usize; 2]>;
+
+pub(super) struct Groups<'s> {
+    state: &'s State,
+    /// The frames whose edge to their parent has changed, ascending.
+    moved: SmallVec<[NodeId; 4]>,
+    labels: FxHashMap<NodeId, Label>,
+    /// Whether each frame that has a label is in `labels`.
+    complete: bool,
+}
+
+impl<'s> Groups<'s> {
+    /// Walks down from the changed edges, to at most so many frames.
+    pub(super) fn new(mut moved: SmallVec<[NodeId; 4]>, state: &'s State, most: usize) -> Self {
+        moved.sort_unstable();
+        moved.dedup();
+        let mut below: SmallVec<[(NodeId, NodeId); 16]> = moved.iter().map(|&frame| (frame, frame)).collect();
+        let (mut labels, mut complete) = (FxHashMap::default(), true);
+        while let Some((frame, label)) = below.pop() {
+            if labels.len() >= most {
+                complete = false;
+                break;
+            }
+            labels.insert(frame, Some(label));
+            let children = state.children(frame).iter();
+            // Those that have moved themselves begin groups of their own.
+            below.extend(children.filter(|child| moved.binary_search(child).is_err()).map(|&c| (c, label)));
+        }
+        Self { state, moved, labels, complete }
+    }
+
+    fn of(&mut self, frame: NodeId) -> Label {
+        if self.complete {
+            return self.labels.get(&frame).copied().flatten();
+        }
+        let (mut path, mut at) = (SmallVec::<[NodeId; 32]>::new(), frame);
+        let label = loop {
+            if let Some(label) = self.labels.get(&at) {
+                break *label;
+            }
+            path.push(at);
+            if self.moved.binary_search(&at).is_ok() {
+                break Some(at);
+            }
+            match self.state.joint(at) {
+                Some(joint) => at = joint.parent,
+                None => break None,
+            }
+        };
+        self.labels.extend(path.into_iter().map(|frame| (frame, label)));
+        label
+    }
+}
+
+/// The frames that may stand at an end.
+enum Domain<'e> {
+    Constant(NodeId),
+    Types(&'e [TypeId]),
+}
+
+impl Domain<'_> {
+    fn count(&self, state: &State) -> usize {
+        match self {
+            Self::Constant(_) => 1,
+            Self::Types(types) => types.iter().map(|&exact| state.count_exactly(exact)).sum(),
+        }
+    }
+
+    fn each<'s>(&'s self, state: &'s State) -> impl Iterator<Item = NodeId> + 's {
+        let (constant, types) = match self {
+            Self::Constant(node) => (Some(*node), &[][..]),
+            Self::Types(types) => (None, *types),
+        };
+        constant.into_iter().chain(types.iter().flat_map(|&exact| state.nodes_exactly(exact)))
+    }
+
+    fn has(&self, node: NodeId, state: &State) -> bool {
+        match self {
+            Self::Constant(constant) => *constant == node,
+            Self::Types(types) => state.node(node).is_some_and(|node| types.contains(&node.node_type())),
+        }
+    }
+}
+
+impl Pattern {
+    fn domain<'p>(&self, end: &'p End, state: &State) -> Domain<'p> {
+        self.constant(end.slot, state).map_or(Domain::Types(&end.types), Domain::Constant)
+    }
+
+    /// Adds the matches that changed edges above these frames may concern. No more are added than the budget allows:
+    /// beyond it, all are.
+    pub(super) fn apart(
+        &self,
+        moved: SmallVec<[NodeId; 4]>,
+        state: &State,
+        budget: usize,
+        into: &mut Slices,
+    ) {
+        let frames = |ends: &[End; 2]| -> usize {
+            ends.iter().map(|end| self.domain(end, state).count(state)).fold(0, usize::saturating_add)
+        };
+        let most = self.measured.iter().map(frames).max().unwrap_or(0);
+        if moved.is_empty() || most == 0 {
+            return;
+        }
+        let mut groups = Groups::new(moved, state, most.min(budget));
+        for ends in &self.measured {
+            let Slices::These(slices) = into else { return };
+            if self.across(ends, &mut groups, budget, slices) == Reach::All {
+                *into = Slices::All;
+            }
+        }
+    }
+
+    /// The beginnings of joins for one metric.
+    fn across(
+        &self,
+        ends: &[End; 2],
+        groups: &mut Groups<'_>,
+        budget: usize,
+        slices: &mut SmallVec<[Fixed; 4]>,
+    ) -> Reach {
+        let state = groups.state;
+        let domains = [0, 1].map(|side| self.domain(&ends[side], state));
+        let totals = [0, 1].map(|side| domains[side].count(state));
+        if totals.contains(&0) {
+            return Reach::These;
+        }
+        let tally = if groups.complete {
+            below(&domains, totals, groups)
+        } else if totals[0].saturating_add(totals[1]) <= budget {
+            above(&domains, groups)
+        } else {
+            return Reach::All;
+        };
+        // Where an end is no variable of the pattern itself, a beginning there says nothing about the match.
+        let speaks = [0, 1].map(|side| usize::from(ends[side].slot.0) < self.variables.len());
+        let outside = |inside: &[usize; 2], side: usize| totals[side] - inside[side];
+        let useful =
+            |inside: &&[usize; 2]| [0, 1].iter().all(|&side| speaks[side] || outside(inside, side) == 0);
+        let cost = |inside: &[usize; 2]| outside(inside, 0) + outside(inside, 1);
+        // The cheapest; among equals the frames that have not moved, which need not be looked for.
+        let best = tally
+            .iter()
+            .filter(|(_, inside)| useful(inside))
+            .map(|(label, inside)| (cost(inside), *label))
+            .min_by_key(|(cost, label)| (*cost, *label));
+        let Some((cost, left_out)) = best else { return Reach::All };
+        let scanned = if left_out.is_some() { totals[0].saturating_add(totals[1]) } else { cost };
+        if cost == 0 {
+            return Reach::These;
+        }
+        if scanned > budget {
+            return Reach::All;
+        }
+        // Where an end says nothing, the group left out has all that may stand there.
+        for (side, domain) in domains.iter().enumerate().filter(|(side, _)| speaks[*side]) {
+            let at = usize::from(ends[side].slot.0);
+            let mut begin = |node| slices.push(Fixed::from_slice(&[(at, node)]));
+            if groups.complete && left_out.is_none() {
+                groups.labels.keys().filter(|node| domain.has(**node, state)).for_each(|&node| begin(node));
+            } else {
+                domain.each(state).filter(|&node| groups.of(node) != left_out).for_each(&mut begin);
+            }
+        }
+        Reach::These
+    }
+}
+
+#[derive(PartialEq)]
+enum Reach {
+    These,
+    All,
+}
+
+/// Counts what is in each group where all that moved is known.
+fn below(domains: &[Domain<'_>; 2], totals: [usize; 2], groups: &Groups<'_>) -> Tally {
+    let mut tally = Tally::default();
+    let mut rest = totals;
+    for (frame, label) in &groups.labels {
+        for (side, domain) in domains.iter().enumerate() {
+            if domain.has(*frame, groups.state) {
+                tally.entry(*label).or_default()[side] += 1;
+                rest[side] -= 1;
+            }
+        }
+    }
+    tally.insert(None, rest);
+    tally
+}
+
+/// Counts what is in each group by looking at every frame that may be measured.
+fn above(domains: &[Domain<'_>; 2], groups: &mut Groups<'_>) -> Tally {
+    let mut tally = Tally::default();
+    for (side, domain) in domains.iter().enumerate() {
+        for frame in domain.each(groups.state) {
+            tally.entry(groups.of(frame)).or_default()[side] += 1;
+        }
+    }
+    tally
+}
