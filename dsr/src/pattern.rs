@@ -226,6 +226,7 @@ enum Atom<T> {
     Present { holder: Carrier<T>, attribute: AttributeId },
     Guard { holder: Carrier<T>, attribute: AttributeId, comparison: Comparison, operand: Right<T> },
     Distinct(T, T),
+    IsA(T, TypeId),
     Metric { metric: Metric, from: T, to: T, comparison: Comparison, limit: Limit },
     Without(Conjunction<T>),
 }

@@ -125,6 +125,17 @@ fn patterns_are_text() {
     assert_eq!(ask("(= (says ?t ?part) \"hello\")"), ["barthel feeding"]);
     assert_eq!(ask("(and (< (distance ?a clarc) 2.1) (person ?a))"), ["carlos"]);
     assert_eq!(ask("(and)"), [""]);
+    // What is said of a type inside a `not` is a part of it, and of two types the narrower counts.
+    assert_eq!(ask("(and (is_with ?x ?r) (not (robot ?x)))"), ["carlos clarc", "anna clarc"]);
+    assert_eq!(ask("(and (place ?x) (is ?x ?a) (not (person ?x)))"), ["clarc speaking"]);
+    assert_eq!(
+        ask("(and (place ?x) (not (and (robot ?x) (is ?x speaking))) (not (person ?x)))"),
+        ["world", "camera"]
+    );
+    assert_eq!(ask("(and (robot ?x) (object ?x))"), ["clarc"]);
+    assert_eq!(ask("(and (object ?x) (robot ?x))"), ["clarc"]);
+    assert_eq!(ask("(not (and (robot ?x) (test ?y)))"), Vec::<String>::new());
+    assert_eq!(ask("(and (person carlos) (not (robot carlos)) (not (person nobody)))"), [""]);
     assert_eq!(ask("(and (robot ?r) (not (and (is_with ?x ?r) (is ?x listening))))"), ["clarc"]);
 }
 
@@ -147,6 +158,9 @@ fn what_is_no_pattern_is_told_with_its_place() {
         "(and (robot ?r) (test ?t) (is_with ?t ?r))",
         "(< (distance ?a ?b) far)",
         "((is_with ?a ?b))",
+        "(and (robot ?r) (person ?r))",
+        "(and (robot ?r) (not (person ?r)))",
+        "(person)",
     ] {
         let error: PatternTextError = Pattern::parse(&dictionary, text).unwrap_err();
         told += &format!("{text}\n    {error}\n");
@@ -182,6 +196,12 @@ fn what_is_no_pattern_is_told_with_its_place() {
             byte 20: a number of metres belongs here
         ((is_with ?a ?b))
             byte 0: a part such as `(LABEL a b)` belongs here
+        (and (robot ?r) (person ?r))
+            byte 24: `?r` is a `robot` and so never a `person`
+        (and (robot ?r) (not (person ?r)))
+            byte 29: `?r` is a `robot` and so never a `person`
+        (person)
+            byte 0: `person` takes one node
     "#]]
     .assert_eq(&told);
 }

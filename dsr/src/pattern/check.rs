@@ -46,6 +46,9 @@ pub enum PatternError {
     /// A number that is none, or one that is passed on the way out before the other on the way in.
     #[error("no threshold: appears at {}, disappears at {}", threshold.appears, threshold.disappears)]
     WrongThreshold { threshold: Threshold },
+    /// A node of two types of which none is below the other.
+    #[error("a '{first}' is never a '{second}'")]
+    Disjoint { first: Name, second: Name },
     /// A distance to something without a place.
     #[error("a '{node_type}' is never geometric")]
     NotGeometric { node_type: Name },
@@ -136,7 +139,8 @@ impl Checker<'_> {
                 variables.push(slot);
             }
         }
-        let atoms = part.atoms.iter().map(|atom| self.atom(atom)).collect::<Result<_, _>>()?;
+        let mut atoms = part.atoms.iter().map(|atom| self.atom(atom)).collect::<Result<Vec<_>, _>>()?;
+        atoms.retain(|atom| !self.says_nothing(atom));
         self.visible = outside;
         Ok(Conjunction { variables, atoms })
     }
@@ -156,6 +160,17 @@ impl Checker<'_> {
                 Atom::Guard { holder, attribute: *attribute, comparison: *comparison, operand }
             }
             Atom::Distinct(a, b) => Atom::Distinct(self.term(a)?, self.term(b)?),
+            Atom::IsA(node, id) => {
+                // A node has one type as long as it is there, so the types of the variables, and all types where there
+                // are constants, mention already what can change this.
+                self.dictionary.type_name(*id).ok_or(PatternError::UnknownType { id: *id })?;
+                let slot = self.term(node)?;
+                if let Some(declared) = self.type_of(slot).filter(|_| !self.may_be(slot, *id)) {
+                    let (first, second) = (self.type_name(declared), self.type_name(*id));
+                    return Err(PatternError::Disjoint { first, second });
+                }
+                Atom::IsA(slot, *id)
+            }
             Atom::Metric { metric, from, to, comparison, limit } => {
                 self.limit(from, *comparison, *limit)?;
                 let (from, to) = (self.term(from)?, self.term(to)?);
@@ -171,6 +186,11 @@ impl Checker<'_> {
             }
             Atom::Without(part) => Atom::Without(self.conjunction(part)?),
         })
+    }
+
+    /// Whether it gives a variable a type that it has anyway.
+    fn says_nothing(&self, atom: &Atom<Slot>) -> bool {
+        matches!(*atom, Atom::IsA(slot, id) if self.type_of(slot).is_some_and(|own| self.dictionary.is_a(own, id)))
     }
 
     /// Whether a metric can be held against this.

@@ -267,6 +267,10 @@ impl Run<'_> {
                 let there = |slot| self.state.node(get(slots, slot)).is_some();
                 get(slots, *a) != get(slots, *b) && there(*a) && there(*b)
             }
+            Atom::IsA(slot, wanted) => {
+                let found = self.state.node(get(slots, *slot));
+                found.is_some_and(|node| self.state.dictionary.is_a(node.node_type(), *wanted))
+            }
             Atom::Metric { metric, from, to, comparison, limit } => {
                 let (from, to) = (get(slots, *from), get(slots, *to));
                 let number = match limit {

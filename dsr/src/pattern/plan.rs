@@ -114,6 +114,7 @@ fn free(atom: &Atom<Slot>) -> Mask {
         Atom::Edge { from, to, .. } | Atom::Distinct(from, to) | Atom::Metric { from, to, .. } => {
             pair(*from, *to)
         }
+        Atom::IsA(node, _) => pair(*node, *node),
         Atom::Present { holder, .. } => carried(holder),
         Atom::Guard { holder, operand, .. } => carried(holder).union(match operand {
             Right::Value(_) => Mask::default(),

@@ -77,7 +77,8 @@ pub(super) fn seeds(around: &[&Conjunction<Slot>], into: &mut Vec<(Seed, Clue)>)
                 }
             }
             Atom::Without(inner) => seeds(&[around, &[inner]].concat(), into),
-            Atom::Distinct(..) => {}
+            // A node is of its type from when it comes to when it goes, which is what `Loose` is for.
+            Atom::Distinct(..) | Atom::IsA(..) => {}
         }
     }
     let loose = part.variables.iter().filter(|slot| !bound.contains(**slot));

@@ -1,8 +1,8 @@
 //! Patterns as text, for people who ask: `(and (is_with ?who clarc) (not (is clarc speaking)) (> (score ?test) 3))`.
 //!
-//! A word with `?` is a variable, any other names a node. `(LABEL a b)` is an edge, `(TYPE ?x)` gives a variable its type
-//! (otherwise it may be anything), `(ATTRIBUTE a)` or `(ATTRIBUTE a b)` says that an attribute of a node or of an edge
-//! has a value, `(= (ATTRIBUTE a) VALUE)` and `!=`, `<`, `<=`, `>`, `>=` compare it with a number, `true`, `false`, a
+//! A word with `?` is a variable, any other names a node. `(LABEL a b)` is an edge, `(TYPE a)` says what a node is (a
+//! variable of which nothing is said may be anything; of two types that overlap the narrower counts), `(ATTRIBUTE a)` or
+//! `(ATTRIBUTE a b)` says that an attribute of a node or of an edge has a value, `(= (ATTRIBUTE a) VALUE)` and `!=`, `<`, `<=`, `>`, `>=` compare it with a number, `true`, `false`, a
 //! `"text"`, a node or another attribute; `(< (distance a b) 1.5)` compares metres, `(distinct a b)` two nodes. `(and …)`
 //! and `(not …)` nest; a variable that stands only inside a `not` is local to it.
 
@@ -34,6 +34,9 @@ pub enum PatternTextError {
     /// Something else belongs there.
     #[error("byte {at}: {wanted} belongs here")]
     Expected { at: usize, wanted: &'static str },
+    /// A node of two types of which none is below the other.
+    #[error("byte {at}: `{word}` is a `{first}` and so never a `{second}`")]
+    Disjoint { at: usize, word: String, first: String, second: String },
     /// It says what the dictionary never allows.
     #[error(transparent)]
     Wrong(#[from] PatternError),
@@ -127,7 +130,8 @@ impl<'t> Reader<'t> {
 
 struct Writer<'d, 't> {
     dictionary: &'d Dictionary,
-    known: BTreeMap<&'t str, Variable>,
+    /// The variables that may stand here, with their types.
+    known: BTreeMap<&'t str, (Variable, TypeId)>,
 }
 
 /// The word that begins a list, and what is behind it.
@@ -142,26 +146,30 @@ fn split<'f, 't>(form: &'f Form<'t>) -> Result<(usize, &'t str, &'f [Form<'t>]),
     }
 }
 
-/// The variables that stand in forms outside of any `not`, and the types that they are given there.
-fn variables<'t>(forms: &[Form<'t>], dictionary: &Dictionary, found: &mut Vec<(&'t str, Option<TypeId>)>) {
+/// The type and the node of `(TYPE a)`. Where a word names several things, a label and an attribute come first.
+fn typed<'f, 't>(forms: &'f [Form<'t>], dictionary: &Dictionary) -> Option<(TypeId, &'f Form<'t>)> {
+    let [Form::Word(_, head), node] = forms else { return None };
+    let is_other = dictionary.label(head).is_some() || dictionary.attribute(head).is_some();
+    let node_type = dictionary.node_type(head).filter(|_| !is_other)?;
+    Some((node_type, node))
+}
+
+/// The variables that stand in forms outside of any `not`, and the narrowest type that each is given there.
+fn variables<'t>(forms: &[Form<'t>], dictionary: &Dictionary, found: &mut Vec<(&'t str, TypeId)>) {
     for form in forms {
         match form {
             Form::Word(_, word) if word.starts_with('?') && !found.iter().any(|(known, _)| known == word) => {
-                found.push((word, None));
+                found.push((word, TypeId::OBJECT));
             }
-            Form::List(_, forms) => match &forms[..] {
-                [Form::Word(_, "not"), ..] => {}
-                [Form::Word(_, head), Form::Word(_, variable)]
-                    if variable.starts_with('?') && dictionary.node_type(head).is_some() =>
+            Form::List(_, forms) if !matches!(&forms[..], [Form::Word(_, "not"), ..]) => {
+                variables(forms, dictionary, found);
+                if let Some((narrow, Form::Word(_, word))) = typed(forms, dictionary)
+                    && let Some((_, known)) = found.iter_mut().find(|(known, _)| known == word)
+                    && dictionary.is_a(narrow, *known)
                 {
-                    let node_type = dictionary.node_type(head);
-                    match found.iter_mut().find(|(known, _)| known == variable) {
-                        Some((_, known)) => *known = node_type,
-                        None => found.push((variable, node_type)),
-                    }
+                    *known = narrow;
                 }
-                forms => variables(forms, dictionary, found),
-            },
+            }
             _ => {}
         }
     }
@@ -178,8 +186,8 @@ impl<'d, 't> Writer<'d, 't> {
         here.retain(|(word, _)| !self.known.contains_key(word));
         for (word, node_type) in &here {
             let name = word.trim_start_matches('?');
-            let variable = builder.variable(name, node_type.unwrap_or(TypeId::OBJECT));
-            self.known.insert(word, variable);
+            let variable = builder.variable(name, *node_type);
+            self.known.insert(word, (variable, *node_type));
         }
         forms.iter().try_for_each(|form| self.part(builder, form))?;
         for (word, _) in here {
@@ -221,11 +229,29 @@ impl<'d, 't> Writer<'d, 't> {
         }
         match (self.dictionary.label(head), self.dictionary.node_type(head), rest) {
             (Some(_), _, _) => Err(arity("two nodes")),
-            // The variable has been declared with it.
-            (None, Some(_), [Form::Word(_, word)]) if word.starts_with('?') => Ok(()),
-            (None, Some(_), _) => Err(arity("a variable")),
+            (None, Some(node_type), [node]) => self.is_a(builder, node, node_type),
+            (None, Some(_), _) => Err(arity("one node")),
             _ => Err(PatternTextError::Unknown { at, word: head.to_owned() }),
         }
+    }
+
+    fn is_a(
+        &self,
+        builder: &mut PatternBuilder<'d>,
+        node: &Form<'t>,
+        node_type: TypeId,
+    ) -> Result<(), PatternTextError> {
+        let term = self.term(node)?;
+        if let Form::Word(at, word) = node
+            && let Some((_, known)) = self.known.get(word)
+            && !self.dictionary.overlap(*known, node_type)
+        {
+            let name = |id| self.dictionary.type_name(id).map_or_else(String::new, ToString::to_string);
+            let (word, first, second) = ((*word).to_owned(), name(*known), name(node_type));
+            return Err(PatternTextError::Disjoint { at: *at, word, first, second });
+        }
+        builder.is_a(term, node_type);
+        Ok(())
     }
 
     fn comparison(
@@ -301,7 +327,7 @@ impl<'d, 't> Writer<'d, 't> {
             Form::Word(at, word) if word.starts_with('?') => self
                 .known
                 .get(word)
-                .map(|variable| Term::Variable(*variable))
+                .map(|(variable, _)| Term::Variable(*variable))
                 .ok_or(PatternTextError::Expected { at: *at, wanted: "a variable that is declared" }),
             Form::Word(_, word) | Form::Text(_, word) => Ok(Term::from(*word)),
             Form::List(at, _) => Err(PatternTextError::Expected { at: *at, wanted: "a node or a variable" }),
