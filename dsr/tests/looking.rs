@@ -3,7 +3,9 @@
 
 mod world;
 
-use dsr::{AgentId, Delta, Export, Graph, Pattern, PatternTextError, Snapshot, Time, Version};
+use dsr::{
+    AgentId, Delta, Export, Graph, Pattern, PatternBuilder, PatternTextError, Snapshot, Time, Version,
+};
 use expect_test::expect;
 use proptest::prelude::*;
 
@@ -137,6 +139,31 @@ fn patterns_are_text() {
     assert_eq!(ask("(not (and (robot ?x) (test ?y)))"), Vec::<String>::new());
     assert_eq!(ask("(and (person carlos) (not (robot carlos)) (not (person nobody)))"), [""]);
     assert_eq!(ask("(and (robot ?r) (not (and (is_with ?x ?r) (is ?x listening))))"), ["clarc"]);
+}
+
+#[test]
+fn only_the_variables_of_a_pattern_are_fixed() {
+    let graph = world::ward();
+    let (snapshot, dictionary) = (graph.snapshot(), graph.dictionary());
+    let (person, is) = (dictionary.node_type("person").unwrap(), dictionary.label("is").unwrap());
+    let mut builder = PatternBuilder::new(&dictionary);
+    let who = builder.variable("who", person);
+    let local = builder.without(|builder| {
+        let what = builder.variable("what", dictionary.node_type("activity").unwrap());
+        builder.edge(who, is, what);
+        what
+    });
+    let pattern = builder.build().unwrap();
+    let mut larger = PatternBuilder::new(&dictionary);
+    let foreign = ["a", "b"].map(|name| larger.variable(name, person))[1];
+    let carlos = snapshot.node("carlos").unwrap();
+    assert!(pattern.holds_with(&snapshot, &[(who, carlos)]));
+    // Not as if nothing were fixed: a debug build stops, any other finds nothing.
+    for (variable, node) in [(local, snapshot.node("speaking").unwrap()), (foreign, carlos)] {
+        let found = std::panic::catch_unwind(|| pattern.matches_with(&snapshot, &[(variable, node)]));
+        assert_eq!(found.is_err(), cfg!(debug_assertions));
+        assert_eq!(found.unwrap_or_default(), []);
+    }
 }
 
 #[test]

@@ -21,7 +21,8 @@ impl Pattern {
         self.matches_with(snapshot, &[])
     }
 
-    /// All matches that give these variables these nodes, in order. Local variables cannot be fixed.
+    /// All matches that give these variables these nodes, in order. None gives a node to a local variable or to one that
+    /// only a larger pattern has; to fix these is a mistake of the caller, and stops a debug build.
     pub fn matches_with(&self, snapshot: &Snapshot, fixed: &[(Variable, NodeId)]) -> Vec<Binding> {
         self.matches_counted(snapshot.state(), fixed, &Cell::new(0))
     }
@@ -109,7 +110,7 @@ impl Pattern {
         self.holds_in(snapshot.state(), &[])
     }
 
-    /// Whether there is a match that gives these variables these nodes.
+    /// Whether there is a match that gives these variables these nodes, as [`Pattern::matches_with`] has them.
     pub fn holds_with(&self, snapshot: &Snapshot, fixed: &[(Variable, NodeId)]) -> bool {
         self.holds_in(snapshot.state(), fixed)
     }
@@ -130,7 +131,9 @@ impl Pattern {
         let run = Run { pattern: self, state, strictness: Strictness::Appears, looked };
         let mut any = false;
         for &(variable, node) in fixed {
-            let Some(at) = variable.position().filter(|&at| at < self.variables.len()) else { continue };
+            let own = variable.position().filter(|&at| at < self.variables.len());
+            debug_assert!(own.is_some(), "a local variable, or one of another pattern, cannot be fixed");
+            let Some(at) = own else { return ControlFlow::Continue(()) };
             // Fixed twice to different nodes, or to a node of another type: no match.
             if (bound.contains(slot(at)) && slots[at] != node) || !run.admits(slot(at), node) {
                 return ControlFlow::Continue(());
