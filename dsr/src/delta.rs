@@ -257,14 +257,25 @@ fn compare_cells(
             after.keep_since(Kept::Cell(holder, attribute), since);
         }
         (Some((old, _)), Some(new)) => {
-            // The attribute went with the node that it named and came back with another value: said so, because a
-            // change is applied after the nodes have gone.
-            if old.as_node().is_some_and(|target| after.node(target).is_none()) {
-                changes.push(Change::AttributeRemoved { holder, attribute, old });
-                changes.push(Change::AttributeAdded { holder, attribute, new });
-            } else {
-                changes.push(Change::AttributeChanged { holder, attribute, old, new });
-            }
+            let target_gone = old.as_node().is_some_and(|target| after.node(target).is_none());
+            replace_value(holder, attribute, (old, new), target_gone, changes);
         }
+    }
+}
+
+/// What it takes to go from one value of an attribute to another. It goes with the node that it names, and changes are
+/// applied after nodes have gone: then it went and came back.
+pub(crate) fn replace_value(
+    holder: Holder,
+    attribute: AttributeId,
+    (old, new): (Value, Value),
+    target_gone: bool,
+    changes: &mut Vec<Change>,
+) {
+    if target_gone {
+        changes.push(Change::AttributeRemoved { holder, attribute, old });
+        changes.push(Change::AttributeAdded { holder, attribute, new });
+    } else {
+        changes.push(Change::AttributeChanged { holder, attribute, old, new });
     }
 }

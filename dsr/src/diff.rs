@@ -7,7 +7,7 @@
 //! states read from files, which share nothing, everything is compared.
 
 use crate::block::{Joint, NODES, Node};
-use crate::delta::{Change, replace_joint};
+use crate::delta::{Change, replace_joint, replace_value};
 use crate::id::{EdgeKey, Holder, NodeId};
 use crate::snapshot::Snapshot;
 use crate::state::State;
@@ -54,8 +54,8 @@ fn nodes(before: &State, after: &State, id: NodeId, changes: &mut Vec<Change>) {
             match after.cell(holder, attribute) {
                 None => changes.push(Change::AttributeRemoved { holder, attribute, old }),
                 Some(new) if !new.value.same(&old) => {
-                    let new = new.value.clone();
-                    changes.push(Change::AttributeChanged { holder, attribute, old, new });
+                    let target_gone = old.as_node().is_some_and(|target| after.node(target).is_none());
+                    replace_value(holder, attribute, (old, new.value.clone()), target_gone, changes);
                 }
                 Some(_) => {}
             }

@@ -8,14 +8,13 @@ use std::sync::Arc;
 use nalgebra::{Isometry3, Quaternion, Translation3, Unit};
 use serde::{Deserialize, Serialize};
 
-use crate::block::Node;
-use crate::dictionary::{Dictionary, Nature};
-use crate::id::{AttributeId, EdgeKey, Holder, LabelId, NodeId, Time, Version};
+use crate::dictionary::Dictionary;
+use crate::id::{AttributeId, EdgeKey, Holder, NodeId, Time, Version};
 use crate::pose::{Covariance, Pose};
 use crate::snapshot::{AttributeView, Snapshot};
 use crate::state::State;
 use crate::transaction::TransactionError;
-use crate::value::{Kind, Value};
+use crate::value::Value;
 
 /// A state as plain data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -199,16 +198,10 @@ fn numbers_of(pose: &Pose) -> ([f64; 3], [f64; 4]) {
     ([t.x, t.y, t.z], [q.x, q.y, q.z, q.w])
 }
 
-/// The pose of these numbers, if they are one. Not normalised again: the bits must come back as they were.
-fn pose_of(
-    [x, y, z]: [f64; 3],
-    [i, j, k, w]: [f64; 4],
-    covariance: Option<&Arc<Covariance>>,
-) -> Option<Pose> {
-    let rotation = Quaternion::new(w, i, j, k);
-    let rigid = [x, y, z].iter().all(|c| c.is_finite()) && (rotation.norm() - 1.0).abs() < 1e-3;
-    let transform = Isometry3::from_parts(Translation3::new(x, y, z), Unit::new_unchecked(rotation));
-    rigid.then(|| Pose { transform, covariance: covariance.cloned() })
+/// The pose of these numbers. Not normalised: the bits must come back as they were.
+fn pose_of([x, y, z]: [f64; 3], [i, j, k, w]: [f64; 4], covariance: Option<Arc<Covariance>>) -> Pose {
+    let rotation = Unit::new_unchecked(Quaternion::new(w, i, j, k));
+    Pose { transform: Isometry3::from_parts(Translation3::new(x, y, z), rotation), covariance }
 }
 
 /// Why plain data is no state of this dictionary.
@@ -236,13 +229,25 @@ pub enum RestoreError {
     /// A transform that is no rigid one, or between nodes that are not geometric, or to a second parent.
     #[error("no rigid transform from '{parent}' to '{child}'")]
     WrongTransform { parent: Arc<str>, child: Arc<str> },
+    /// Two hold a resource, or one waits for what nobody has, for two, or in a circle.
+    #[error("leases and waits that no graph would have")]
+    WrongLeases,
+    /// More commits than a graph can see.
+    #[error("no version {}", found.0)]
+    NoVersion { found: Version },
     /// The transforms are no rooted tree.
     #[error(transparent)]
     NoTree(#[from] TransactionError),
 }
 
+/// The last version that a number of a lease can tell from the next; a commit a nanosecond takes a hundred days to it.
+const LAST: u64 = 1 << 53;
+
 /// Rebuilds a state, checking that it is one.
 pub(crate) fn restore(dictionary: Arc<Dictionary>, export: &Export) -> Result<State, RestoreError> {
+    if export.version.0 > LAST {
+        return Err(RestoreError::NoVersion { found: export.version });
+    }
     let mut state = State::empty(dictionary);
     let dictionary = Arc::clone(&state.dictionary);
     for node in &export.nodes {
@@ -275,6 +280,9 @@ pub(crate) fn restore(dictionary: Arc<Dictionary>, export: &Export) -> Result<St
         restore_transform(&mut state, transform)?;
     }
     crate::transaction::apply::judge(&mut state, mark)?;
+    if !state.leases_are_sound() {
+        return Err(RestoreError::WrongLeases);
+    }
     (state.version, state.time, state.next) = (export.version, export.time, export.next);
     state.log.clear();
     Ok(state)
@@ -299,20 +307,16 @@ fn check_built_in(dictionary: &Dictionary, state: &State) -> Result<(), RestoreE
 }
 
 fn edge_key(state: &State, edge: &ExportedEdge) -> Result<EdgeKey, RestoreError> {
-    let dictionary = &state.dictionary;
-    let label = dictionary
+    let label = state
+        .dictionary
         .label(&edge.label)
         .ok_or_else(|| RestoreError::UnknownToken { name: edge.label.clone() })?;
-    let (from, to) = (find(state, &edge.from)?, find(state, &edge.to)?);
-    let types = |id| state.node(id).map(Node::node_type);
-    let fits = matches!((types(from), types(to)), (Some(a), Some(b)) if dictionary.allows(label, a, b));
-    let taken =
-        label == LabelId::HOLDS && dictionary.resource_of(to).and_then(|id| state.lease(id)).is_some();
-    if from == to || !fits || taken || state.edge(EdgeKey { from, label, to }).is_some() {
+    let key = EdgeKey { from: find(state, &edge.from)?, label, to: find(state, &edge.to)? };
+    if !state.edge_fits(key) {
         let (from, label, to) = (edge.from.clone(), edge.label.clone(), edge.to.clone());
         return Err(RestoreError::WrongEdge { from, label, to });
     }
-    Ok(EdgeKey { from, label, to })
+    Ok(key)
 }
 
 fn restore_attribute(
@@ -320,39 +324,18 @@ fn restore_attribute(
     holder: Holder,
     exported: &ExportedAttribute,
 ) -> Result<(), RestoreError> {
-    let dictionary = Arc::clone(&state.dictionary);
-    let wrong = || RestoreError::WrongAttribute { attribute: exported.name.clone() };
-    let attribute: AttributeId = dictionary
+    let attribute: AttributeId = state
+        .dictionary
         .attribute(&exported.name)
         .ok_or_else(|| RestoreError::UnknownToken { name: exported.name.clone() })?;
-    let types = |id| state.node(id).map(Node::node_type);
-    let fits = match (holder, dictionary.holder(attribute)) {
-        (Holder::Node(id), Some(crate::HolderType::Node(on))) => {
-            types(id).is_some_and(|id| dictionary.is_a(id, on))
-        }
-        (Holder::Edge(key), Some(crate::HolderType::Edge { label, signature })) => {
-            let ends = (types(key.from), types(key.to));
-            label == key.label
-                && matches!(ends, (Some(from), Some(to))
-                    if dictionary.is_a(from, signature.from) && dictionary.is_a(to, signature.to))
-        }
-        _ => false,
+    let value = match &exported.value {
+        ExportedValue::Number(number) => Value::Number(*number),
+        ExportedValue::Text(text) => Value::Text(text.clone()),
+        ExportedValue::Bool(truth) => Value::Bool(*truth),
+        ExportedValue::Node(name) => Value::Node(find(state, name)?),
     };
-    let value = match (dictionary.kind(attribute), &exported.value) {
-        (Some(Kind::Number), ExportedValue::Number(number)) if number.is_finite() => Value::Number(*number),
-        (Some(Kind::Text), ExportedValue::Text(text)) => Value::Text(text.clone()),
-        (Some(Kind::Bool), ExportedValue::Bool(truth)) => Value::Bool(*truth),
-        (Some(Kind::Node(target)), ExportedValue::Node(name)) => {
-            let id = find(state, name)?;
-            if !types(id).is_some_and(|id| dictionary.is_a(id, target)) {
-                return Err(wrong());
-            }
-            Value::Node(id)
-        }
-        _ => return Err(wrong()),
-    };
-    if !fits || state.cell(holder, attribute).is_some() {
-        return Err(wrong());
+    if !state.value_fits(holder, attribute, &value) || state.cell(holder, attribute).is_some() {
+        return Err(RestoreError::WrongAttribute { attribute: exported.name.clone() });
     }
     state.insert_attribute(holder, attribute, value, exported.since);
     Ok(())
@@ -362,24 +345,22 @@ fn restore_transform(state: &mut State, exported: &ExportedTransform) -> Result<
     let (parent, child) = (find(state, &exported.parent)?, find(state, &exported.child)?);
     let wrong =
         || RestoreError::WrongTransform { parent: exported.parent.clone(), child: exported.child.clone() };
-    let geometric = |id: NodeId| {
-        state
-            .node(id)
-            .is_some_and(|node| state.dictionary.nature(node.node_type()) == Some(Nature::Geometric))
+    let pose = |translation, rotation, covariance: &Option<_>| {
+        let pose = pose_of(translation, rotation, covariance.clone());
+        if state.pose_fits(parent, child, &pose) { Ok(pose) } else { Err(wrong()) }
     };
-    let has_parent = state.joint(child).is_some();
-    if !geometric(parent) || !geometric(child) || has_parent || parent == child {
+    if state.joint(child).is_some() {
         return Err(wrong());
     }
-    let pose =
-        pose_of(exported.translation, exported.rotation, exported.covariance.as_ref()).ok_or_else(wrong)?;
-    if exported.samples.is_empty() {
-        state.insert_transform(parent, child, pose, exported.since);
+    let newest = pose(exported.translation, exported.rotation, &exported.covariance)?;
+    let samples =
+        exported.samples.iter().map(|s| Ok((s.time, pose(s.translation, s.rotation, &s.covariance)?)));
+    let samples = samples.collect::<Result<Vec<_>, RestoreError>>()?;
+    if samples.is_empty() {
+        state.insert_transform(parent, child, newest, exported.since);
     }
-    for sample in &exported.samples {
-        let pose =
-            pose_of(sample.translation, sample.rotation, sample.covariance.as_ref()).ok_or_else(wrong)?;
-        state.insert_sample(parent, child, sample.time, pose, exported.since);
+    for (time, pose) in samples {
+        state.insert_sample(parent, child, time, pose, exported.since);
     }
     Ok(())
 }

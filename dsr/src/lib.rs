@@ -41,7 +41,7 @@
 //! ```
 //!
 //! Map, from the ground up: `id`, `unit`, `value` → `dictionary` → `pages`, `block`, `names`, `members`, `state` (what a snapshot
-//! is), `pose`, `track`, `undo` → `transaction` (edits, leases, the tree of transforms), `delta`, `replay`, `export` → `chain`, `pattern`,
+//! is), `pose`, `track`, `undo` → `transaction` (edits, leases, the tree of transforms), `delta`, `fits`, `replay`, `export` → `chain`, `pattern`,
 //! `reflex` → `snapshot`, `diff`, `past`, `sentence`, `view`, `quiver` → `subscription`,
 //! `routes`, `kernel` (how readers and writers keep out of each other's way), `graph`, `attendance` → `journal`,
 //! `cortex` (worlds of others).
@@ -54,6 +54,7 @@ mod delta;
 mod dictionary;
 mod diff;
 mod export;
+mod fits;
 mod graph;
 mod id;
 mod journal;

@@ -44,7 +44,7 @@ impl Past {
             return None;
         }
         ring.versions.push_back(snapshot.clone());
-        if ring.versions.len() > ring.count + 1 { ring.versions.pop_front() } else { None }
+        if ring.versions.len() - 1 > ring.count { ring.versions.pop_front() } else { None }
     }
 
     pub(crate) fn at(&self, version: Version) -> Option<Snapshot> {

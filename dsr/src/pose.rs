@@ -115,6 +115,12 @@ impl Pose {
         translation.vector.iter().chain(rotation.coords.iter()).all(|number| number.is_finite())
     }
 
+    /// Whether it is a pose at all. A rotation that was read or made without a check need not be one, and is not made one
+    /// here: the bits of what was written come back.
+    pub(crate) fn is_rigid(&self) -> bool {
+        self.is_finite() && (self.transform.rotation.coords.norm() - 1.0).abs() < 1e-3
+    }
+
     /// Same to the bit.
     pub(crate) fn same(&self, other: &Self) -> bool {
         let bits = |pose: &Self| {

@@ -20,7 +20,7 @@ use crate::id::{AgentId, LabelId, NodeId, ReflexId, ResourceId, Version};
 use crate::mentions::Mentions;
 use crate::pattern::{Pattern, Variable};
 use crate::state::State;
-use crate::transaction::apply::{apply, judge};
+use crate::transaction::apply::{apply, judge, resource_name};
 use crate::transaction::{Edit, TransactionError};
 
 /// A pattern with some of its variables fixed.
@@ -59,7 +59,7 @@ pub struct Reflex {
     /// What must keep holding, all of it.
     pub keep: Vec<Keep>,
     /// What to write when it no longer does. An edit that names a node that is gone is left out; if another
-    /// cannot be made, none is.
+    /// cannot be made, none is. It takes no lease and waits for none.
     pub on_break: Vec<Edit>,
     /// Leases that the activity needs. Losing one breaks the reflex; firing or dismissing gives them back.
     pub leases: Vec<ResourceId>,
@@ -109,6 +109,14 @@ impl State {
         let owner = || self.agent_name(reflex.owner);
         if reflex.owner != writer {
             return Err(TransactionError::NotOwner { writer: self.agent_name(writer), owner: owner() });
+        }
+        let claims = reflex.on_break.iter().find_map(|edit| match edit {
+            Edit::Claim { resource, .. } | Edit::Await { resource, .. } => Some(*resource),
+            _ => None,
+        });
+        if let Some(resource) = claims {
+            let resource = resource_name(self, resource);
+            return Err(TransactionError::ReflexClaims { owner: owner(), resource });
         }
         if let Some(keep) = reflex.keep.iter().position(|keep| !keep.holds(self)) {
             return Err(TransactionError::KeepBroken { owner: owner(), keep });

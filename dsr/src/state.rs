@@ -303,7 +303,9 @@ impl State {
 
     /// Lets go of the poses of an edge that nobody can see any more.
     pub(crate) fn evict(&mut self, child: NodeId) {
-        if let Some(track) = self.joint_mut(child).and_then(|joint| joint.track.as_mut()) {
+        if let Some(track) = self.joint_mut(child).and_then(|joint| joint.track.as_mut())
+            && track.has_invisible()
+        {
             Arc::make_mut(track).evict();
         }
     }

@@ -118,10 +118,20 @@ impl Track {
         self.chunks.drain(..gone);
     }
 
+    #[cfg(test)]
+    pub(crate) fn chunks(&self) -> usize {
+        self.chunks.len()
+    }
+
+    /// Whether there are chunks to let go of.
+    pub(crate) fn has_invisible(&self) -> bool {
+        self.chunks.get(1).is_some_and(|(first, _)| *first <= self.horizon())
+    }
+
     /// The first sample of a chunk after a time. Sensors are regular: look first where it would be if this one were.
     fn after(&self, index: usize, time: Time) -> usize {
         let (first, chunk) = &self.chunks[index];
-        let end = self.chunks.get(index + 1).map_or(self.newest.0 + 1, |(next, _)| next.0);
+        let end = self.chunks.get(index + 1).map_or(self.newest.0.saturating_add(1), |(next, _)| next.0);
         let (span, into) = (end.saturating_sub(first.0).max(1), time.0.saturating_sub(first.0));
         let guess = usize::try_from(into.saturating_mul(chunk.len() as u64) / span).unwrap_or(0);
         let after = |at: usize| chunk.get(at).is_none_or(|sample| sample.time > time);

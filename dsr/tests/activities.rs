@@ -174,3 +174,21 @@ fn reflexes_break_one_another_to_the_end() {
         barthel is in feeding"#]]
     .assert_eq(&lost.snapshot.sentences().join("\n"));
 }
+
+/// It would fire when its owner is dead, and the dead hold nothing.
+#[test]
+fn a_reflex_takes_no_lease() {
+    let graph = ward();
+    let dictionary = graph.dictionary();
+    let (speech, speaker) = (agent(&dictionary, "speech"), dictionary.resource("speaker").unwrap());
+    let (priority, preemption) = (Priority(1), Preemption::Yields);
+    for edit in [
+        Edit::Claim { resource: speaker, priority, preemption },
+        Edit::Await { resource: speaker, priority, preemption },
+    ] {
+        let mut tx = Transaction::new(speech);
+        tx.guard(Reflex { owner: speech, keep: Vec::new(), on_break: vec![edit], leases: Vec::new() });
+        let refused = TransactionError::ReflexClaims { owner: "speech".into(), resource: "speaker".into() };
+        assert_eq!(graph.commit(&tx, Time(9)).unwrap_err(), refused);
+    }
+}

@@ -9,7 +9,7 @@ use dsr::{
 use expect_test::expect;
 use proptest::prelude::*;
 
-const EDITS: [&str; 22] = [
+const EDITS: [&str; 24] = [
     "node anna person",
     "no-node anna",
     "node bob person",
@@ -24,6 +24,8 @@ const EDITS: [&str; 22] = [
     "set barthel score number 2",
     "clear barthel score",
     "set barthel patient node anna",
+    "set barthel patient node carlos",
+    "no-node carlos",
     "transform clarc anna 1 2 3 0.5",
     "transform world bob 0 0 0 0",
     "no-transform clarc anna",

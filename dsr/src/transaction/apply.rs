@@ -364,6 +364,9 @@ fn joint_to_write(
     if !pose.is_finite() {
         return Err(TransactionError::NotFinite { token: "a transform".into() });
     }
+    if !pose.is_rigid() {
+        return Err(TransactionError::NotRigid { parent: state.name(parent), child: state.name(child) });
+    }
     if parent == child {
         return Err(TransactionError::Cycle { parent: state.name(parent), child: state.name(child) });
     }
@@ -465,6 +468,6 @@ fn label_name(state: &State, id: LabelId) -> Arc<str> {
     state.dictionary.label_name(id).cloned().unwrap_or_else(|| id.to_string().into())
 }
 
-pub(super) fn resource_name(state: &State, id: crate::id::ResourceId) -> Arc<str> {
+pub(crate) fn resource_name(state: &State, id: crate::id::ResourceId) -> Arc<str> {
     state.dictionary.resource_name(id).cloned().unwrap_or_else(|| id.to_string().into())
 }

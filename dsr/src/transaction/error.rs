@@ -67,6 +67,9 @@ pub enum TransactionError {
     /// A number or a transform that is infinite or not a number.
     #[error("{token} is not finite")]
     NotFinite { token: Name },
+    /// A rotation that is no unit quaternion.
+    #[error("the pose of '{child}' in '{parent}' has a rotation that is no unit quaternion")]
+    NotRigid { parent: Name, child: Name },
     /// The writer does not own the token there.
     #[error("'{writer}' may not write {token} at '{from}'{}", to.as_ref().map(|to| format!(", '{to}'")).unwrap_or_default())]
     Forbidden { writer: Name, token: Name, from: Name, to: Option<Name> },
@@ -109,6 +112,9 @@ pub enum TransactionError {
     /// A new reflex names a lease that its owner does not hold.
     #[error("'{owner}' does not hold '{resource}'")]
     NotHeld { owner: Name, resource: Name },
+    /// A new reflex would take a lease or wait for one; it fires where its owner is dead, and the dead hold nothing.
+    #[error("a reflex of '{owner}' would take '{resource}'")]
+    ReflexClaims { owner: Name, resource: Name },
     /// What a new reflex would do could not be done.
     #[error("a reflex of '{owner}' could not fire: {error}")]
     ReflexRefused { owner: Name, error: Box<TransactionError> },

@@ -120,6 +120,31 @@ impl State {
         held.flat_map(|resource| self.waits(resource, depth + 1)).map(|w| w.inherited).max()
     }
 
+    /// Whether leases and waits are as the edits of this module leave them: read from a file, they need not be.
+    pub(crate) fn leases_are_sound(&self) -> bool {
+        let held_once = self.dictionary.resources().all(|resource| {
+            let node = self.dictionary.resource_node(resource).and_then(|id| self.node(id));
+            node.is_none_or(|node| node.sources(LabelId::HOLDS).len() <= 1)
+        });
+        let waits = |agent| {
+            let node = self.dictionary.agent_node(agent).and_then(|id| self.node(id));
+            node.map_or(0, |node| node.edges(LabelId::AWAITS).len())
+        };
+        let is_blocked_by_another = |agent| {
+            let Some(awaited) = self.wait_of(agent) else { return waits(agent) == 0 };
+            waits(agent) == 1
+                && self.holder_of(awaited).is_some()
+                && self.refuse_circle(agent, awaited).is_ok()
+        };
+        held_once && self.dictionary.agents().all(is_blocked_by_another)
+    }
+
+    fn holder_of(&self, resource: ResourceId) -> Option<AgentId> {
+        let node = self.node(self.dictionary.resource_node(resource)?)?;
+        let &(_, from) = node.sources(LabelId::HOLDS).first()?;
+        self.dictionary.agent_of(from)
+    }
+
     /// What an agent waits for.
     pub(crate) fn wait_of(&self, agent: AgentId) -> Option<ResourceId> {
         let node = self.node(self.dictionary.agent_node(agent)?)?;
@@ -308,7 +333,7 @@ impl State {
         let (mut circle, mut awaited) = (Vec::new(), resource);
         // As many steps as there are agents: a longer walk has met one twice, and then not this one.
         for _ in self.dictionary.agents() {
-            let Some(holder) = self.lease(awaited).map(|lease| lease.holder) else { return Ok(()) };
+            let Some(holder) = self.holder_of(awaited) else { return Ok(()) };
             circle.push((resource_name(self, awaited), self.agent_name(holder)));
             if holder == agent {
                 return Err(TransactionError::Deadlock { writer: self.agent_name(agent), circle });

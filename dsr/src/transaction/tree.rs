@@ -3,9 +3,11 @@
 //! Source: Marfil et al., §3.1: acyclic, one geometric edge per pair, one simple path between any two geometric
 //! nodes. Second parents are refused edit by edit; what is left is cycles (walk up from every child that moved)
 //! and roots (a node with children and no parent; there may be one). A node without transforms takes no part.
-//! Cost: the depth of each moved child.
+//! Cost: the nodes above the moved children.
 
 use std::sync::Arc;
+
+use rustc_hash::FxHashSet;
 
 use super::error::TransactionError;
 use crate::id::NodeId;
@@ -37,10 +39,11 @@ pub(super) fn check(state: &State, mark: Mark) -> Result<Option<NodeId>, Transac
     };
 
     // The edit that closed a cycle is the last one on it.
+    let mut fine = FxHashSet::default();
     for &id in touched.iter().rev() {
         if let Some(parent) = parent_now(id)
             && parent_before(id) != Some(parent)
-            && closes_cycle(state, id)
+            && closes_cycle(state, id, &mut fine)
         {
             return Err(TransactionError::Cycle { parent: state.name(parent), child: state.name(id) });
         }
@@ -74,16 +77,27 @@ fn name_before(state: &State, entries: &[Undo], id: NodeId) -> Arc<str> {
     entries.iter().find_map(removed).unwrap_or_else(|| state.name(id))
 }
 
-/// Whether going up from `start` comes back to it. A cycle that `start` only leads into is found from the moved
-/// child that lies on it, so the walk may give up after as many steps as there are ids.
-fn closes_cycle(state: &State, start: NodeId) -> bool {
-    let mut at = start;
-    for _ in 0..=state.next.0 {
-        match state.joint(at) {
-            None => return false,
-            Some(joint) if joint.parent == start => return true,
-            Some(joint) => at = joint.parent,
+/// Whether going up from `start` comes back to it. A cycle that `start` only leads into is found from the moved child
+/// that lies on it; such a walk ends when it meets a node twice (Brent 1980). What leads to a root is kept in `fine`, so
+/// that all walks together see each node a few times at most.
+fn closes_cycle(state: &State, start: NodeId, fine: &mut FxHashSet<NodeId>) -> bool {
+    let mut path = vec![start];
+    let mut mark = start;
+    while let Some(parent) = path.last().and_then(|&at| state.joint(at)).map(|joint| joint.parent) {
+        if parent == start {
+            return true;
+        }
+        if fine.contains(&parent) {
+            break;
+        }
+        if parent == mark {
+            return false;
+        }
+        path.push(parent);
+        if path.len().is_power_of_two() {
+            mark = parent;
         }
     }
+    fine.extend(path);
     false
 }

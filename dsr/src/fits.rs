@@ -1,0 +1,61 @@
+//! What may stand in a state, whoever says that it did: a restored export, a replayed delta.
+//!
+//! A transaction is checked edit by edit, and told what is wrong with it. What was read from a file is held against the
+//! same rules here, part by part, and only whether it fits is told, because a graph never wrote what does not.
+//! What concerns the graph as a whole is judged when all parts are there: the tree of transforms by
+//! `transaction::tree`, leases and waits by `transaction::lease`.
+
+use crate::block::Node;
+use crate::dictionary::{HolderType, Nature};
+use crate::id::{AttributeId, EdgeKey, Holder, NodeId, TypeId};
+use crate::pose::Pose;
+use crate::state::State;
+use crate::value::{Kind, Value};
+
+impl State {
+    fn type_of(&self, id: NodeId) -> Option<TypeId> {
+        self.node(id).map(Node::node_type)
+    }
+
+    /// Whether an edge may come. Leases and waits are edges like others here.
+    pub(crate) fn edge_fits(&self, key: EdgeKey) -> bool {
+        let EdgeKey { from, label, to } = key;
+        let types = self.type_of(from).zip(self.type_of(to));
+        let allowed = types.is_some_and(|(start, end)| self.dictionary.allows(label, start, end));
+        from != to && allowed && self.edge(key).is_none()
+    }
+
+    /// Whether an attribute may have this value there.
+    pub(crate) fn value_fits(&self, holder: Holder, attribute: AttributeId, value: &Value) -> bool {
+        let dictionary = &self.dictionary;
+        let sits = match (holder, dictionary.holder(attribute)) {
+            (Holder::Node(node), Some(HolderType::Node(on))) => {
+                self.type_of(node).is_some_and(|found| dictionary.is_a(found, on))
+            }
+            (Holder::Edge(key), Some(HolderType::Edge { label, signature })) => {
+                let ends = self.type_of(key.from).zip(self.type_of(key.to));
+                let fit =
+                    |(from, to)| dictionary.is_a(from, signature.from) && dictionary.is_a(to, signature.to);
+                label == key.label && self.edge(key).is_some() && ends.is_some_and(fit)
+            }
+            _ => false,
+        };
+        sits && match (dictionary.kind(attribute), value) {
+            (Some(Kind::Number), Value::Number(number)) => number.is_finite(),
+            (Some(Kind::Text), Value::Text(_)) | (Some(Kind::Bool), Value::Bool(_)) => true,
+            (Some(Kind::Node(target)), Value::Node(node)) => {
+                self.type_of(*node).is_some_and(|found| dictionary.is_a(found, target))
+            }
+            _ => false,
+        }
+    }
+
+    /// Whether a pose may be given between these two, if no other parent is in the way.
+    pub(crate) fn pose_fits(&self, parent: NodeId, child: NodeId, pose: &Pose) -> bool {
+        let geometric = |id| {
+            let nature = self.type_of(id).and_then(|found| self.dictionary.nature(found));
+            nature == Some(Nature::Geometric)
+        };
+        parent != child && geometric(parent) && geometric(child) && pose.is_rigid()
+    }
+}
