@@ -14,8 +14,10 @@
 
 pub(crate) mod feed;
 mod frame;
+mod playback;
 mod record;
 mod recording;
+mod segment;
 mod store;
 mod writer;
 
@@ -26,7 +28,8 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use self::feed::Feed;
-pub use self::recording::{Damage, Played, Recording, RecordingError, Replay};
+pub use self::playback::{Played, Replay};
+pub use self::recording::{Damage, Recording, RecordingError};
 pub use self::store::{Folder, Memory, Store};
 use self::writer::Writer;
 use crate::graph::Graph;

@@ -7,7 +7,8 @@ use std::collections::BTreeMap;
 use std::num::NonZeroU64;
 
 use dsr::{
-    Damage, Dictionary, Durability, Memory, Played, Recording, RecordingError, Settings, Snapshot, Version,
+    Damage, Dictionary, Durability, Graph, Memory, Played, Recording, RecordingError, Settings, Snapshot,
+    Version,
 };
 use proptest::prelude::*;
 
@@ -58,6 +59,13 @@ fn recorded(history: &[Vec<usize>], settings: Settings) -> (BTreeMap<u64, String
     for edits in history {
         let lines: Vec<_> = edits.iter().map(|&at| EDITS[at]).collect();
         if let Ok(commit) = world::commit(&graph, "dsr", &lines.join("\n")) {
+            // What goes on from an export is the same as what was exported, and so is what its journal begins with.
+            let restored = Graph::restore(graph.dictionary(), &commit.snapshot.export()).unwrap();
+            assert_eq!(bytes(&restored.snapshot()), bytes(&commit.snapshot));
+            let begun = Memory::default();
+            restored.journal(begun.clone(), Settings::default()).unwrap().close().unwrap();
+            let read = Recording::read(begun.segments()).unwrap().resume().unwrap();
+            assert_eq!(bytes(&read.snapshot()), bytes(&commit.snapshot));
             versions.insert(commit.version.0, bytes(&commit.snapshot));
             journal.wait(commit.version).unwrap();
         }

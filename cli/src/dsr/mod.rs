@@ -113,8 +113,11 @@ fn open(path: &Path, console: &mut Console<'_>) -> Result<(Recording, Exit), Fai
     let mut exit = Exit::Yes;
     for damage in recording.damage() {
         match damage {
-            Damage::Torn { .. } => console.note(&format!("note: {damage}")),
-            Damage::Corrupt { .. } => {
+            Damage::Torn { .. }
+            | Damage::Unfinished { .. }
+            | Damage::OtherDictionary { .. }
+            | Damage::OtherHistory { .. } => console.note(&format!("note: {damage}")),
+            Damage::Corrupt { .. } | Damage::Format { .. } | Damage::Unreadable { .. } => {
                 Message::error(damage.to_string()).show(console);
                 exit = Exit::Unreadable;
             }

@@ -153,13 +153,18 @@ pub(super) fn head(payload: &[u8]) -> Result<(Version, Time), Malformed> {
     }
 }
 
-/// Whether the last frame of a state is its end.
-pub(super) fn ends(mut payload: &[u8]) -> bool {
-    let mut ended = false;
-    while let Ok((part, rest)) = postcard::take_from_bytes::<Part>(payload) {
-        (ended, payload) = (matches!(part, Part::End), rest);
+/// Whether a state ends with this frame, which is its first one or not.
+pub(super) fn ends(mut payload: &[u8], is_first: bool) -> Result<bool, Malformed> {
+    let (mut begun, mut ended) = (!is_first, false);
+    while !payload.is_empty() {
+        let (part, rest) = postcard::take_from_bytes::<Part>(payload).map_err(|_| Malformed::Bytes)?;
+        let is_head = matches!(part, Part::Head(..));
+        if ended || is_head == begun {
+            return Err(Malformed::Bytes);
+        }
+        (begun, ended, payload) = (true, matches!(part, Part::End), rest);
     }
-    ended && payload.is_empty()
+    Ok(ended)
 }
 
 /// The first delta of the bytes, and what is behind it.

@@ -1,0 +1,174 @@
+//! Going through a recording, version by version.
+//!
+//! Invariant: a replay gives what was recorded or an error, whatever the bytes; it holds one segment's bytes and one state.
+//! Cost: a state, and each delta once.
+
+use std::borrow::Cow;
+use std::slice;
+use std::sync::Arc;
+
+use super::frame::Kind;
+use super::record::{self, Gathered};
+use super::recording::RecordingError;
+use super::segment::Segment;
+use crate::delta::Delta;
+use crate::export;
+use crate::id::{Time, Version};
+use crate::replay;
+use crate::snapshot::Snapshot;
+use crate::state::State;
+
+/// What a replay met.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Played {
+    /// A commit.
+    Commit(Delta),
+    /// Versions after the first up to the second that were not recorded.
+    Jump {
+        /// The version before.
+        from: Version,
+        /// The version after.
+        to: Version,
+    },
+}
+
+/// Goes through a recording, version by version.
+#[derive(Debug)]
+pub struct Replay<'r> {
+    segments: &'r [Segment],
+    segment: usize,
+    bytes: Cow<'r, [u8]>,
+    /// The next frame.
+    frame: usize,
+    /// What is left of the present one.
+    rest: std::ops::Range<usize>,
+    state: Arc<State>,
+}
+
+impl<'r> Replay<'r> {
+    pub(super) fn new(segments: &'r [Segment], segment: usize) -> Result<Self, RecordingError> {
+        let found = segments.get(segment).ok_or(RecordingError::Empty)?;
+        let bytes = found.bytes()?;
+        let changed = || RecordingError::Changed { segment: found.name.clone() };
+        if found.frames.last().is_some_and(|frame| frame.end() > bytes.len()) {
+            return Err(changed());
+        }
+        let mut gathered = Gathered::default();
+        let mut frame = 1;
+        while let Some(next) = found.frames.get(frame).filter(|frame| frame.kind == Kind::State) {
+            gathered.take(next.payload(&bytes)).map_err(|_| changed())?;
+            frame += 1;
+        }
+        let offset = found.frames.get(1).map_or(0, |frame| frame.offset);
+        let export = gathered.whole().ok_or_else(changed)?;
+        let state = export::restore(Arc::clone(&found.dictionary), &export).map_err(|error| {
+            RecordingError::Misfit { segment: found.name.clone(), offset, error: error.into() }
+        })?;
+        Ok(Self { segments, segment, bytes, frame, rest: 0..0, state: Arc::new(state) })
+    }
+
+    /// The version where it is.
+    pub fn version(&self) -> Version {
+        self.state.version
+    }
+
+    /// The state where it is.
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot::new(Arc::clone(&self.state))
+    }
+
+    /// Goes to the next frame if the present one is through; whether the segment has another delta.
+    fn fill(&mut self) -> bool {
+        let frames = self.segments.get(self.segment).map_or(&[][..], |s| &s.frames);
+        while self.rest.is_empty() {
+            let Some(frame) = frames.get(self.frame) else { return false };
+            self.rest = frame.content();
+            self.frame += 1;
+        }
+        true
+    }
+
+    /// Goes on until it is at a version, or to the first one after it that there is; false if there is none.
+    pub(super) fn advance(&mut self, version: Version) -> Result<bool, RecordingError> {
+        while self.version() < version {
+            match self.step()? {
+                Some(_) => {}
+                None => return Ok(false),
+            }
+        }
+        Ok(true)
+    }
+
+    /// The newest version of a frame of this segment that is not later than a time.
+    pub(super) fn newest(&self, frame: usize, time: Time) -> Result<Option<Version>, RecordingError> {
+        let Some(segment) = self.segments.get(self.segment) else { return Ok(None) };
+        let Some(frame) = segment.frames.get(frame) else { return Ok(None) };
+        if frame.kind != Kind::Deltas {
+            return Ok((segment.first.1 <= time).then_some(segment.first.0));
+        }
+        let (mut rest, mut newest) = (self.bytes.get(frame.content()).unwrap_or(&[]), None);
+        while !rest.is_empty() {
+            let changed = |_| RecordingError::Changed { segment: segment.name.clone() };
+            let (delta, after) = record::delta(rest).map_err(changed)?;
+            if delta.time <= time {
+                newest = Some(delta.version);
+            }
+            rest = after;
+        }
+        Ok(newest)
+    }
+
+    /// The delta at the beginning of the rest, and where the one after it begins.
+    fn delta(&self) -> Result<(Delta, usize), RecordingError> {
+        let rest = self.bytes.get(self.rest.clone()).unwrap_or(&[]);
+        let (delta, after) = record::delta(rest)
+            .map_err(|_| RecordingError::Changed { segment: self.segments[self.segment].name.clone() })?;
+        Ok((delta, self.rest.end - after.len()))
+    }
+
+    fn step(&mut self) -> Result<Option<Played>, RecordingError> {
+        if self.fill() {
+            let (delta, next) = self.delta()?;
+            let offset = self.rest.start;
+            self.rest.start = next;
+            return match replay::apply(Arc::make_mut(&mut self.state), &delta) {
+                Ok(()) => Ok(Some(Played::Commit(delta))),
+                Err(error) => {
+                    let segment = self.segments[self.segment].name.clone();
+                    Err(RecordingError::Misfit { segment, offset, error })
+                }
+            };
+        }
+        let from = self.version();
+        if self.segment + 1 >= self.segments.len() {
+            return Ok(None);
+        }
+        *self = Self::new(self.segments, self.segment + 1)?;
+        let to = self.version();
+        if from == to { self.step() } else { Ok(Some(Played::Jump { from, to })) }
+    }
+}
+
+/// Whether a segment ends with the state with which another one begins.
+pub(super) fn leads_to(before: &Segment, after: &Segment) -> Result<bool, RecordingError> {
+    if before.last.0 != after.first.0 {
+        return Ok(false);
+    }
+    let (mut before, after) =
+        (Replay::new(slice::from_ref(before), 0)?, Replay::new(slice::from_ref(after), 0)?);
+    before.advance(after.version())?;
+    Ok(before.snapshot().export() == after.snapshot().export())
+}
+
+/// After an error there is nothing more.
+impl Iterator for Replay<'_> {
+    type Item = Result<Played, RecordingError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let played = self.step().transpose();
+        if matches!(played, Some(Err(_))) {
+            (self.segment, self.rest) = (self.segments.len(), 0..0);
+        }
+        played
+    }
+}

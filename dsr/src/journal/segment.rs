@@ -1,0 +1,199 @@
+//! One segment as it is found: what of it can be read, checked once, and where its frames are.
+//!
+//! Problem: a file may be torn, damaged, from another program or another graph, and what else was recorded must stay
+//! readable. Idea: whatever is wrong with a segment is a [`Damage`] of that segment. Invariant: a segment that is kept
+//! begins with a dictionary and a whole state, and the versions of its deltas follow each other. Cost: one pass over the
+//! bytes, after which each frame is known with the earliest time in it.
+
+use std::borrow::Cow;
+use std::io;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::frame::{self, Flaw, Frame, Kind};
+use super::playback;
+use super::record::{self, Malformed};
+use super::recording::{Damage, RecordingError};
+use crate::dictionary::Dictionary;
+use crate::id::{Time, Version};
+
+/// Where the bytes of a segment are.
+#[derive(Debug)]
+pub(super) enum Source {
+    Bytes(Vec<u8>),
+    File(PathBuf),
+}
+
+/// A segment of which at least the state can be read.
+#[derive(Debug)]
+pub(super) struct Segment {
+    pub(super) name: Arc<str>,
+    source: Source,
+    pub(super) dictionary: Arc<Dictionary>,
+    pub(super) frames: Vec<Frame>,
+    /// For each frame the earliest time of a version in it; none in the first.
+    pub(super) earliest: Vec<Option<Time>>,
+    /// Version and time of its state.
+    pub(super) first: (Version, Time),
+    /// Version and time of its last delta.
+    pub(super) last: (Version, Time),
+}
+
+impl Segment {
+    pub(super) fn bytes(&self) -> Result<Cow<'_, [u8]>, RecordingError> {
+        match &self.source {
+            Source::Bytes(bytes) => Ok(bytes.into()),
+            Source::File(path) => match std::fs::read(path) {
+                Ok(bytes) => Ok(bytes.into()),
+                Err(error) => Err(RecordingError::Unreadable { path: path.clone(), error }),
+            },
+        }
+    }
+}
+
+/// Gathers segments, and what is wrong with them.
+#[derive(Default)]
+pub(super) struct Reader {
+    /// The dictionaries so far, as bytes and read; mostly one.
+    dictionaries: Vec<(Vec<u8>, Arc<Dictionary>)>,
+    segments: Vec<Segment>,
+    damage: Vec<Damage>,
+}
+
+impl Reader {
+    /// A file that the system does not give.
+    pub(super) fn unreadable(&mut self, name: &str, error: &io::Error) {
+        self.damage.push(Damage::Unreadable { segment: name.into(), error: error.kind() });
+    }
+
+    /// Takes the bytes of a segment.
+    pub(super) fn segment(&mut self, name: &str, bytes: &[u8], source: impl FnOnce() -> Source) {
+        let name: Arc<str> = name.into();
+        let before = self.damage.len();
+        if let Some(segment) = self.check(&name, bytes, source) {
+            self.segments.push(segment);
+        } else if self.damage.len() == before {
+            self.damage.push(Damage::Unfinished { segment: name });
+        }
+    }
+
+    fn check(&mut self, name: &Arc<str>, bytes: &[u8], source: impl FnOnce() -> Source) -> Option<Segment> {
+        let corrupt = |offset| Damage::Corrupt { segment: name.clone(), offset };
+        let (mut frames, flaw) = frame::scan(bytes);
+        match flaw {
+            Some(Flaw::Torn(offset)) => {
+                let (segment, bytes) = (name.clone(), bytes.len() - offset);
+                self.damage.push(Damage::Torn { segment, offset, bytes });
+            }
+            Some(Flaw::Corrupt(offset)) => self.damage.push(corrupt(offset)),
+            None => {}
+        }
+        let start = frames.first()?;
+        if start.kind != Kind::Start {
+            self.damage.push(corrupt(start.offset));
+            return None;
+        }
+        let dictionary = match self.dictionary(start.payload(bytes)) {
+            Ok(dictionary) => dictionary,
+            Err(Malformed::Format(format)) => {
+                self.damage.push(Damage::Format { segment: name.clone(), format });
+                return None;
+            }
+            Err(Malformed::Bytes) => {
+                self.damage.push(corrupt(start.offset));
+                return None;
+            }
+        };
+        let mut earliest = vec![None];
+        let mut at = Place::default();
+        for frame in &frames[1..] {
+            let Some(time) = at.pass(frame, bytes) else {
+                self.damage.push(corrupt(frame.offset));
+                break;
+            };
+            earliest.push(Some(time));
+        }
+        frames.truncate(earliest.len());
+        let (first, last) = (at.first?, at.last?);
+        let source = at.whole.then(source)?;
+        Some(Segment { name: name.clone(), source, dictionary, frames, earliest, first, last })
+    }
+
+    fn dictionary(&mut self, payload: &[u8]) -> Result<Arc<Dictionary>, Malformed> {
+        if let Some((_, known)) = self.dictionaries.iter().find(|(bytes, _)| bytes == payload) {
+            return Ok(Arc::clone(known));
+        }
+        let dictionary = Arc::new(record::start(payload)?);
+        self.dictionaries.push((payload.to_vec(), Arc::clone(&dictionary)));
+        Ok(dictionary)
+    }
+
+    /// The segments of the history that the newest one goes on with, and what is wrong with all of them.
+    pub(super) fn done(mut self) -> (Vec<Segment>, Vec<Damage>) {
+        let mut kept: Vec<Segment> = Vec::new();
+        let mut is_next = true;
+        for segment in self.segments.into_iter().rev() {
+            let name = segment.name.clone();
+            if let Some(next) = kept.last() {
+                let (last, first) = (segment.last.0, next.first.0);
+                if !Arc::ptr_eq(&next.dictionary, &segment.dictionary) {
+                    self.damage.push(Damage::OtherDictionary { segment: name });
+                    continue;
+                }
+                // Behind another history versions may meet by chance, so the states have to.
+                is_next =
+                    if is_next { last <= first } else { playback::leads_to(&segment, next).unwrap_or(false) };
+                if !is_next {
+                    self.damage.push(Damage::OtherHistory { segment: name, last, next: first });
+                    continue;
+                }
+            }
+            kept.push(segment);
+        }
+        kept.reverse();
+        (kept, self.damage)
+    }
+}
+
+/// How far a segment is read: a whole state, then deltas.
+#[derive(Default)]
+struct Place {
+    first: Option<(Version, Time)>,
+    last: Option<(Version, Time)>,
+    /// The state has come to its end.
+    whole: bool,
+}
+
+impl Place {
+    /// Goes past a frame that can follow; gives the earliest time in it.
+    fn pass(&mut self, frame: &Frame, bytes: &[u8]) -> Option<Time> {
+        let payload = frame.payload(bytes);
+        match frame.kind {
+            Kind::State if !self.whole => {
+                let is_first = self.first.is_none();
+                if is_first {
+                    self.first = Some(record::head(payload).ok()?);
+                    self.last = self.first;
+                }
+                self.whole = record::ends(payload, is_first).ok()?;
+                Some(self.first?.1)
+            }
+            Kind::Deltas if self.whole => {
+                let (mut version, mut time) = self.last?;
+                let mut earliest = None;
+                let mut rest = payload;
+                while !rest.is_empty() {
+                    let (delta, after) = record::delta(rest).ok()?;
+                    if Some(delta.version.0) != version.0.checked_add(1) {
+                        return None;
+                    }
+                    (version, time, rest) = (delta.version, delta.time, after);
+                    earliest = Some(earliest.map_or(time, |earliest: Time| earliest.min(time)));
+                }
+                self.last = Some((version, time));
+                earliest
+            }
+            _ => None,
+        }
+    }
+}
