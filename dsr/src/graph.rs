@@ -12,6 +12,8 @@
 use std::num::NonZeroUsize;
 use std::sync::{Arc, Weak};
 
+use smallvec::SmallVec;
+
 use crate::delta::Delta;
 use crate::dictionary::Dictionary;
 use crate::export::{self, Export, RestoreError};
@@ -174,6 +176,9 @@ impl Graph {
     /// Applies a transaction, as a whole or not at all.
     pub fn commit(&self, transaction: &Transaction, time: Time) -> Result<Commit, TransactionError> {
         let (mut wakes, mut forgotten) = (Vec::new(), None);
+        // A subscriber that goes meanwhile leaves its queue to us, with a callback and states that are not ours to free
+        // under the lock.
+        let mut queues = SmallVec::<[Arc<Queue>; 8]>::new();
         let mut writing = self.shared.kernel.write();
         transaction.stale_at(writing.own().version)?;
         if let Some(state) = writing.ahead() {
@@ -200,14 +205,17 @@ impl Graph {
             forgotten = self.shared.past.push(&snapshot);
             if !writers.queues.is_empty() {
                 let committed = Committed { delta: Arc::clone(&delta), snapshot: snapshot.clone() };
-                let tell = |queue: &Arc<Queue>| wakes.extend(queue.push(&committed));
+                let tell = |queue: Arc<Queue>| {
+                    wakes.extend(queue.push(&committed));
+                    queues.push(queue);
+                };
                 writers.queues.concerned(&delta, snapshot.state(), tell);
             }
         }
         drop(writing);
         wakes.into_iter().for_each(Wake::call);
         // Freeing may take a while, so it is done neither under the lock nor before others can go on.
-        drop((before, forgotten));
+        drop((before, forgotten, queues));
         Ok(Commit { version: delta.version, delta, snapshot, guards: outcome.guards })
     }
 
@@ -260,8 +268,8 @@ impl Graph {
     pub fn subscribe_with(&self, pattern: impl Into<Arc<Pattern>>, mailbox: impl Into<Mailbox>) -> Matches {
         let pattern = pattern.into();
         let queue = Queue::new(mailbox.into());
-        let start = self.register(&queue, Some(Arc::clone(&pattern)));
-        Matches::new(queue, pattern, start)
+        self.register(&queue, Some(Arc::clone(&pattern)));
+        Matches::new(queue, pattern)
     }
 
     /// Tells every commit from now on.
@@ -272,16 +280,16 @@ impl Graph {
     /// The same, with a queue of this capacity.
     pub fn subscribe_deltas_with(&self, capacity: NonZeroUsize) -> Deltas {
         let queue = Queue::new(capacity.into());
-        let start = self.register(&queue, None);
-        Deltas { queue, start }
+        self.register(&queue, None);
+        Deltas { queue }
     }
 
     /// Under the commit lock, so that no commit falls between the snapshot and the first event.
-    fn register(&self, queue: &Arc<Queue>, pattern: Option<Arc<Pattern>>) -> Snapshot {
+    fn register(&self, queue: &Arc<Queue>, pattern: Option<Arc<Pattern>>) {
         let mut writing = self.shared.kernel.write();
         let present = writing.present();
         writing.own().queues.add(queue, pattern, &present);
-        Snapshot::new(present)
+        queue.begin(Snapshot::new(present));
     }
 
     /// Hands every commit from now on to a feed, which begins with the state of now.

@@ -13,7 +13,7 @@ use std::sync::{Arc, Weak};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
-use self::index::Index;
+use self::index::{Gone, Index};
 use crate::delta::{Change, Delta};
 use crate::pattern::{Pattern, Route};
 use crate::state::State;
@@ -66,11 +66,12 @@ impl Routes {
     }
 
     /// Calls `tell` for each subscriber that a delta may concern, once; the state is the one after it.
-    pub(crate) fn concerned(&mut self, delta: &Delta, state: &State, mut tell: impl FnMut(&Arc<Queue>)) {
+    pub(crate) fn concerned(&mut self, delta: &Delta, state: &State, mut tell: impl FnMut(Arc<Queue>)) {
         let mut seats: SmallVec<[Seat; 16]> = self.every.iter().copied().collect();
         let mut anew: SmallVec<[Seat; 2]> = SmallVec::new();
+        let gone = Gone::of(delta);
         for change in &delta.changes {
-            self.index.find(change, delta, state, |found| seats.extend_from_slice(found));
+            self.index.find(change, &gone, state, |found| seats.extend_from_slice(found));
             if let Change::NodeAdded { name, .. } | Change::NodeRemoved { name, .. } = change {
                 anew.extend(self.by_name.get(name).into_iter().flatten().copied());
             }
@@ -85,7 +86,7 @@ impl Routes {
         for seat in seats {
             let queue = self.subscribers[seat].as_ref().map(|subscriber| subscriber.queue.upgrade());
             match queue {
-                Some(Some(queue)) => tell(&queue),
+                Some(Some(queue)) => tell(queue),
                 Some(None) => self.remove(seat),
                 None => {}
             }

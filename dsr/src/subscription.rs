@@ -111,6 +111,8 @@ pub(crate) struct Queue {
 struct Content {
     /// With the state after each, or only the last one's.
     commits: VecDeque<(Arc<Delta>, Option<Snapshot>)>,
+    /// The state before the first of them, until that is taken or missed.
+    start: Option<Snapshot>,
     missed: u64,
     closed: bool,
     /// How many threads wait in `recv`.
@@ -118,11 +120,14 @@ struct Content {
     waker: Option<Waker>,
 }
 
+/// What a queue let go of: to be freed when no lock is held any more.
+type Freed = (VecDeque<(Arc<Delta>, Option<Snapshot>)>, Option<Snapshot>);
+
 /// What is left to do for a queue when no lock is held any more.
 pub(crate) struct Wake {
     sleeper: Option<Arc<Queue>>,
     waker: Option<Waker>,
-    _freed: VecDeque<(Arc<Delta>, Option<Snapshot>)>,
+    _freed: Freed,
 }
 
 impl Wake {
@@ -152,17 +157,30 @@ impl Queue {
         Arc::new(Self { content: Mutex::default(), ready: Condvar::new(), mailbox })
     }
 
+    /// Begins with a state. Under the commit lock, before the first commit is told.
+    pub(crate) fn begin(&self, start: Snapshot) {
+        self.content().start = Some(start);
+    }
+
+    fn start(&self) -> Option<Snapshot> {
+        self.content().start.clone()
+    }
+
+    fn take_start(&self) -> Option<Snapshot> {
+        self.content().start.take()
+    }
+
     /// Takes note of a commit; gives what to do later.
     pub(crate) fn push(self: &Arc<Self>, committed: &Committed) -> Option<Wake> {
         let mut content = self.content();
-        let mut freed = VecDeque::new();
+        let mut freed = Freed::default();
         if content.missed > 0 || content.commits.len() >= self.mailbox.capacity.get() {
             content.missed += content.commits.len() as u64;
-            freed = std::mem::take(&mut content.commits);
+            freed = (std::mem::take(&mut content.commits), content.start.take());
         } else if self.mailbox.delivery == Delivery::Newest
             && let Some((delta, before)) = content.commits.back_mut()
         {
-            freed.push_back((Arc::clone(delta), before.take()));
+            freed.0.push_back((Arc::clone(delta), before.take()));
         }
         content.commits.push_back((Arc::clone(&committed.delta), Some(committed.snapshot.clone())));
         self.wake(&content, freed)
@@ -171,17 +189,13 @@ impl Queue {
     pub(crate) fn close(self: &Arc<Self>) -> Option<Wake> {
         let mut content = self.content();
         content.closed = true;
-        self.wake(&content, VecDeque::new())
+        self.wake(&content, Freed::default())
     }
 
-    fn wake(
-        self: &Arc<Self>,
-        content: &Content,
-        freed: VecDeque<(Arc<Delta>, Option<Snapshot>)>,
-    ) -> Option<Wake> {
+    fn wake(self: &Arc<Self>, content: &Content, freed: Freed) -> Option<Wake> {
         let sleeper = (content.asleep > 0).then(|| Arc::clone(self));
         let waker = content.waker.clone();
-        let nothing = sleeper.is_none() && waker.is_none() && freed.is_empty();
+        let nothing = sleeper.is_none() && waker.is_none() && freed.0.is_empty() && freed.1.is_none();
         (!nothing).then_some(Wake { sleeper, waker, _freed: freed })
     }
 
@@ -191,6 +205,9 @@ impl Queue {
     }
 
     fn pop(&self, content: &mut Content) -> Option<Told> {
+        if !content.commits.is_empty() {
+            content.start = None;
+        }
         let missed = std::mem::take(&mut content.missed);
         let mut deltas = SmallVec::new();
         // The last state of what is told; in between there may be none.
@@ -227,11 +244,14 @@ impl Queue {
     }
 
     fn on_wake(&self, waker: &Waker) {
-        let pending = {
+        let (pending, before) = {
             let mut content = self.content();
-            content.waker = Some(Arc::clone(waker));
-            !content.commits.is_empty() || content.closed
+            let before = content.waker.replace(Arc::clone(waker));
+            let pending = !content.commits.is_empty() || content.closed;
+            (pending, before)
         };
+        // What a callback owns may commit when it goes: no lock is held here.
+        drop(before);
         if pending {
             waker();
         }
@@ -259,13 +279,13 @@ impl Told {
 /// Every commit from the one after [`Deltas::start`] on.
 pub struct Deltas {
     pub(crate) queue: Arc<Queue>,
-    pub(crate) start: Snapshot,
 }
 
 impl Deltas {
-    /// The state on which the first event follows.
-    pub fn start(&self) -> &Snapshot {
-        &self.start
+    /// The state on which the first event follows. `None` when that has been taken, or when so many commits wait that
+    /// they will be told as missed: nobody keeps an old state who does not look at it.
+    pub fn start(&self) -> Option<Snapshot> {
+        self.queue.start()
     }
 
     /// The next event, if there is one.
@@ -314,14 +334,15 @@ pub struct Matches {
     plans: Plans,
     /// How much there was to look at when all matches were looked at last.
     whole: usize,
-    start: Option<Snapshot>,
+    /// Whether anything was looked at yet.
+    begun: bool,
 }
 
 impl Matches {
-    pub(crate) fn new(queue: Arc<Queue>, pattern: Arc<Pattern>, start: Snapshot) -> Self {
+    pub(crate) fn new(queue: Arc<Queue>, pattern: Arc<Pattern>) -> Self {
         let by_node = pattern.variables().map(|_| FxHashMap::default()).collect();
-        let (held, plans, start) = (BTreeSet::new(), Plans::default(), Some(start));
-        Self { queue, pattern, held, by_node, plans, whole: 0, start }
+        let (held, plans) = (BTreeSet::new(), Plans::default());
+        Self { queue, pattern, held, by_node, plans, whole: 0, begun: false }
     }
 
     /// The pattern.
@@ -337,8 +358,8 @@ impl Matches {
     /// The next change, if there is one. Commits that change no match are passed over.
     pub fn try_recv(&mut self) -> Option<MatchChange> {
         loop {
-            let told = match self.start.take() {
-                Some(snapshot) => Told::Lagged { missed: 0, snapshot },
+            let told = match self.begin() {
+                Some(told) => told,
                 None => self.queue.try_recv()?,
             };
             if let Some(change) = self.look(told) {
@@ -350,8 +371,8 @@ impl Matches {
     /// Waits for the next change; `None` when all handles of the graph are gone.
     pub fn recv(&mut self) -> Option<MatchChange> {
         loop {
-            let told = match self.start.take() {
-                Some(snapshot) => Told::Lagged { missed: 0, snapshot },
+            let told = match self.begin() {
+                Some(told) => told,
                 None => self.queue.recv()?,
             };
             if let Some(change) = self.look(told) {
@@ -360,9 +381,17 @@ impl Matches {
         }
     }
 
+    /// The state of the beginning, once; the first commit that is told may be the beginning instead.
+    fn begin(&mut self) -> Option<Told> {
+        if std::mem::replace(&mut self.begun, true) {
+            return None;
+        }
+        self.queue.take_start().map(|snapshot| Told::Lagged { missed: 0, snapshot })
+    }
+
     /// Calls `wake` whenever there may be something to receive, and now if there is.
     pub fn on_wake(&self, wake: impl Fn() + Send + Sync + 'static) {
-        if self.start.is_some() {
+        if !self.begun {
             wake();
         }
         self.queue.on_wake(&(Arc::new(wake) as Waker));
@@ -370,7 +399,7 @@ impl Matches {
 
     /// Whether nothing will ever come again.
     pub fn is_closed(&self) -> bool {
-        self.start.is_none() && self.queue.is_closed()
+        self.begun && self.queue.is_closed()
     }
 
     fn look(&mut self, told: Told) -> Option<MatchChange> {

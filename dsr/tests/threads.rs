@@ -6,7 +6,7 @@ mod world;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use dsr::{AgentId, Comparison, Event, NodeRef, PatternBuilder, Time};
+use dsr::{AgentId, Comparison, Event, Graph, NodeRef, PatternBuilder, Time};
 
 #[test]
 fn no_increment_is_lost_and_every_commit_is_told_in_order() {
@@ -120,4 +120,36 @@ fn an_overflowing_queue_lags_and_goes_on_from_the_newest_state() {
     assert!(feed.try_recv().is_none() && !feed.is_closed());
     world::commit(&graph, "dsr", "edge clarc is speaking").unwrap();
     assert!(matches!(feed.try_recv(), Some(Event::Committed(_))));
+}
+
+/// Would wait for ever if a callback went while its queue is locked.
+#[test]
+fn a_callback_that_commits_when_it_goes_may_be_replaced() {
+    struct Last(Graph);
+    impl Drop for Last {
+        fn drop(&mut self) {
+            world::commit(&self.0, "dsr", "no-edge carlos is_with clarc").unwrap();
+        }
+    }
+    let graph = world::ward();
+    let feed = graph.subscribe_deltas();
+    let last = Last(graph.clone());
+    feed.on_wake(move || _ = &last);
+    feed.on_wake(|| {});
+    assert!(feed.try_recv().is_some(), "it has committed");
+}
+
+/// Who never listens keeps no old state: after so many commits that they are told as missed, not even the first.
+#[test]
+fn the_first_state_goes_when_it_is_of_no_use() {
+    let graph = world::ward();
+    let two = std::num::NonZeroUsize::new(2).unwrap();
+    let (diligent, idle) = (graph.subscribe_deltas(), graph.subscribe_deltas_with(two));
+    let first = graph.snapshot().version();
+    assert_eq!(diligent.start().map(|start| start.version()), Some(first));
+    for at in 0..3 {
+        world::commit(&graph, "dsr", &format!("node n{at} part")).unwrap();
+    }
+    assert!(diligent.start().is_some() && diligent.try_recv().is_some());
+    assert!(diligent.start().is_none() && idle.start().is_none());
 }

@@ -34,7 +34,7 @@ impl<Tell: FnMut(Time, Narration)> Shell<Tell> {
         let wake = news.clone();
         let deltas = self.graph.subscribe_deltas();
         deltas.on_wake(move || wake.notify_one());
-        let mut events = VecDeque::from([Event::Seen(deltas.start().clone())]);
+        let mut events = VecDeque::from_iter(deltas.start().map(Event::Seen));
         let mut alarm: Option<Instant> = None;
         let mut planning: Option<(RequestId, JoinHandle<Decision>)> = None;
         loop {

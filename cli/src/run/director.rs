@@ -54,7 +54,7 @@ async fn appears(condition: &Watch, occurrence: u32, graph: &Graph) {
         held = holds;
         left == 0
     };
-    if look(deltas.start()) {
+    if deltas.start().is_some_and(|start| look(&start)) {
         return;
     }
     loop {

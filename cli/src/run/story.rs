@@ -65,7 +65,7 @@ struct Telling {
 impl Story {
     /// A story of the graph whose changes `deltas` are.
     pub(super) fn new(deltas: Deltas, reader: UnboundedSender<Entry>) -> Self {
-        let version = deltas.start().version().0;
+        let version = deltas.start().map_or(0, |start| start.version().0);
         Self(Arc::new(Mutex::new(Telling { deltas, version, reader })))
     }
 

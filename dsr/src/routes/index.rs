@@ -26,6 +26,30 @@ type Seats = SmallVec<[Seat; 2]>;
 /// frames take 7.6.
 const FRAMES: usize = 512;
 
+/// The edges that a delta takes away, by node: looked for once, however many edges it changes.
+pub(super) struct Gone(Vec<(NodeId, LabelId, Way)>);
+
+impl Gone {
+    pub(super) fn of(delta: &Delta) -> Self {
+        let edges = delta.changes.iter().filter_map(|change| match change {
+            Change::EdgeRemoved { edge } => Some(edge),
+            _ => None,
+        });
+        let ends = |edge: &EdgeKey| [(edge.from, edge.label, Way::Out), (edge.to, edge.label, Way::In)];
+        let mut ends: Vec<_> = edges.flat_map(ends).collect();
+        ends.sort_unstable_by_key(|(node, ..)| *node);
+        Self(ends)
+    }
+
+    fn at(&self, node: NodeId) -> impl Iterator<Item = (LabelId, Way)> + '_ {
+        let start = self.0.partition_point(|(other, ..)| *other < node);
+        self.0[start..]
+            .iter()
+            .take_while(move |(other, ..)| *other == node)
+            .map(|(_, label, way)| (*label, *way))
+    }
+}
+
 /// The types of the two ends of an edge.
 type Ends = (TypeId, TypeId);
 
@@ -141,7 +165,7 @@ impl Index {
     pub(super) fn find(
         &mut self,
         change: &Change,
-        delta: &Delta,
+        gone: &Gone,
         state: &State,
         mut tell: impl FnMut(&[Seat]),
     ) {
@@ -150,7 +174,7 @@ impl Index {
                 self.plain(Route::LabelFrom(edge.label, edge.from), &mut tell);
                 self.plain(Route::LabelTo(edge.label, edge.to), &mut tell);
                 if let Some(fan) = self.labels.get_mut(&edge.label) {
-                    fan.find(*edge, delta, state, &mut tell);
+                    fan.find(*edge, gone, state, &mut tell);
                 }
             }
             Change::AttributeAdded { holder, attribute, new } => {
@@ -238,7 +262,7 @@ impl Index {
 }
 
 impl Fan {
-    fn find(&mut self, edge: EdgeKey, delta: &Delta, state: &State, tell: &mut impl FnMut(&[Seat])) {
+    fn find(&mut self, edge: EdgeKey, gone: &Gone, state: &State, tell: &mut impl FnMut(&[Seat])) {
         let (Some(from), Some(to)) = (state.node(edge.from), state.node(edge.to)) else {
             // A node that went has no type any more: all are told.
             for class in self.classes.values() {
@@ -277,13 +301,7 @@ impl Fan {
                         incoming = &incoming[incoming.partition_point(|(other, _)| other == label)..];
                     }
                     // An edge that went in the same delta is not there any more, but counts.
-                    for change in &delta.changes {
-                        match change {
-                            Change::EdgeRemoved { edge } if edge.from == id => look(edge.label, Way::Out),
-                            Change::EdgeRemoved { edge } if edge.to == id => look(edge.label, Way::In),
-                            _ => {}
-                        }
-                    }
+                    gone.at(id).for_each(|(label, way)| look(label, way));
                 }
             }
         }
