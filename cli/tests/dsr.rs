@@ -1,6 +1,7 @@
 //! A run is journaled, and `pelea dsr` looks at it: states, history, differences, questions, MCAP, torn and damaged files.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+use dsr::{AgentId, DictionaryBuilder, Graph, Isometry3, Nature, Reflex, Time, Transaction};
 use pelea::{Console, Exit};
 use std::path::Path;
 
@@ -82,13 +83,15 @@ fn a_run_can_be_looked_at_afterwards() {
     assert_eq!(pelea(&["dsr", "query", &journal, "(and (agent ?a) (not (agent ?a)))"]).0, Exit::No);
 
     let (exit, _, err) = pelea(&["dsr", "export", &journal, "-o", &at("run.mcap")]);
-    assert!(exit == Exit::Yes && err.starts_with(&format!("{} messages", versions.len() + 1)), "{err}");
+    assert_eq!(exit, Exit::Yes, "{err}");
     let mcap = std::fs::read(at("run.mcap")).unwrap();
     assert!(mcap.starts_with(b"\x89MCAP0\r\n") && mcap.ends_with(b"\x89MCAP0\r\n"));
     let read = mcap::MessageStream::new(&mcap).unwrap().map(|message| message.unwrap());
     let topics: Vec<_> = read.map(|message| message.channel.topic.clone()).collect();
-    assert_eq!(topics.len(), versions.len() + 1);
-    assert_eq!((topics[0].as_str(), topics[1].as_str()), ("/dsr/state", "/dsr/commit"));
+    assert!(err.starts_with(&format!("{} messages", topics.len())), "{err}");
+    let count = |topic: &str| topics.iter().filter(|other| *other == topic).count();
+    assert_eq!((topics[0].as_str(), count("/dsr/state")), ("/dsr/state", 1));
+    assert_eq!((count("/dsr/commit"), count("/dsr/log")), (versions.len(), versions.len()));
 
     let bytes = std::fs::read(folder.path().join("run/00000000.dsr")).unwrap();
     std::fs::write(at("torn.dsr"), &bytes[..bytes.len() - 3]).unwrap();
@@ -116,4 +119,94 @@ fn a_world_of_cortex_is_taken_over() {
     assert_eq!(pelea(&["dsr", "import", &world, "-o", &output]).0, Exit::Unwritable);
     let (exit, _, err) = pelea(&["dsr", "import", file!(), "-o", &output]);
     assert_eq!(exit, Exit::Unreadable, "{err}");
+}
+
+#[test]
+fn what_no_change_shows_is_told_and_foxglove_gets_what_it_knows() {
+    let mut builder = DictionaryBuilder::new();
+    let place = builder.node_type("place", None, Nature::Geometric).unwrap();
+    let speech = builder.agent("speech").unwrap();
+    let graph = Graph::new(builder.build());
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let store = dsr::Folder::new(folder.path().join("run")).unwrap();
+    let journal = graph.journal(store, dsr::Settings::default()).unwrap();
+    let moved = |x: f64| Isometry3::translation(x, 0.0, 0.0);
+    let mut tx = Transaction::new(AgentId::DSR);
+    tx.add_node("room", place).add_node("robot", place).add_node("cup", place);
+    tx.set_transform("room", "robot", moved(1.0)).sample_transform(
+        "robot",
+        "cup",
+        Time(1_500_000_000),
+        moved(0.1),
+    );
+    graph.commit(&tx, Time(2_000_000_000)).unwrap();
+    let mut tx = Transaction::new(AgentId::DSR);
+    tx.set_transform("room", "robot", moved(3.0)).sample_transform(
+        "robot",
+        "cup",
+        Time(2_500_000_000),
+        moved(0.2),
+    );
+    graph.commit(&tx, Time(3_000_000_000)).unwrap();
+    let mut tx = Transaction::new(speech);
+    let reflex = Reflex { owner: speech, keep: Vec::new(), on_break: Vec::new(), leases: Vec::new() };
+    let reflex = graph.commit(tx.guard(reflex), Time(4_000_000_000)).unwrap().guards[0];
+    let mut tx = Transaction::new(AgentId::DSR);
+    tx.push(dsr::Edit::Expire { agent: speech });
+    let fired = graph.commit(&tx, Time(5_000_000_000)).unwrap().delta;
+    assert!(fired.changes.is_empty() && fired.reflexes == [reflex]);
+    journal.close().unwrap();
+
+    // A commit in which nothing changed but a reflex fired.
+    let told = format!("dsr: reflex {} fired", reflex.0);
+    let (_, log, _) = pelea(&["dsr", "log", &at("run"), "--about", "fired"]);
+    assert!(log.lines().count() == 1 && log.trim_end().ends_with(&told), "{log}");
+    let (_, log, _) = pelea(&["dsr", "log", &at("run"), "--json"]);
+    let last: serde_json::Value = serde_json::from_str(log.lines().last().unwrap()).unwrap();
+    assert_eq!(last["reflexes"], serde_json::json!([reflex.0]));
+
+    let (exit, _, err) = pelea(&["dsr", "export", &at("run"), "-o", &at("run.mcap")]);
+    assert_eq!(exit, Exit::Yes, "{err}");
+    let mcap = std::fs::read(at("run.mcap")).unwrap();
+    let mut frames = Vec::new();
+    for message in mcap::MessageStream::new(&mcap).unwrap().map(|message| message.unwrap()) {
+        let schema = message.channel.schema.clone().unwrap();
+        let data: serde_json::Value = serde_json::from_slice(&message.data).unwrap();
+        match (message.channel.topic.as_str(), schema.name.as_str()) {
+            ("/dsr/commit", "dsr.Commit") if data["version"] == fired.version.0 => {
+                assert_eq!(data["reflexes"], serde_json::json!([reflex.0]));
+            }
+            ("/dsr/log", "foxglove.Log") if data["timestamp"]["sec"] == 5 => {
+                assert_eq!((data["level"].as_u64(), data["name"].as_str()), (Some(3), Some("dsr")));
+                assert_eq!(data["message"], format!("reflex {} fired", reflex.0));
+            }
+            ("/tf", "foxglove.FrameTransforms") => {
+                for frame in data["transforms"].as_array().unwrap() {
+                    assert_eq!(
+                        frame["rotation"],
+                        serde_json::json!({"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0})
+                    );
+                    let stamp = &frame["timestamp"];
+                    let time =
+                        stamp["sec"].as_u64().unwrap() * 1_000_000_000 + stamp["nsec"].as_u64().unwrap();
+                    let name = |key: &str| frame[key].as_str().unwrap().to_owned();
+                    let x = frame["translation"]["x"].as_f64().unwrap();
+                    frames.push((time, name("parent_frame_id"), name("child_frame_id"), x));
+                }
+            }
+            ("/dsr/state", "dsr.State") | ("/dsr/commit", "dsr.Commit") | ("/dsr/log", "foxglove.Log") => {}
+            other => panic!("{other:?}"),
+        }
+    }
+    // What moves at once does not glide: where it was is told once more. What is sampled has the times of its samples.
+    let frame = |time, parent: &str, child: &str, x| (time, parent.to_owned(), child.to_owned(), x);
+    let wanted = [
+        frame(2_000_000_000, "room", "robot", 1.0),
+        frame(1_500_000_000, "robot", "cup", 0.1),
+        frame(2_999_999_999, "room", "robot", 1.0),
+        frame(3_000_000_000, "room", "robot", 3.0),
+        frame(2_500_000_000, "robot", "cup", 0.2),
+    ];
+    assert_eq!(frames, wanted);
 }

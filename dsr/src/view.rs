@@ -3,9 +3,10 @@
 //! Everything is text that is made from a snapshot and nothing else; the same state gives the same bytes. No program
 //! such as graphviz is needed for the SVG: see [`svg`].
 
+mod layers;
 mod svg;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 use crate::export::Export;
@@ -151,13 +152,16 @@ impl<'s> View<'s> {
         dot
     }
 
-    /// As GraphML, with every attribute as a string and poses as seven numbers: translation x y z, quaternion i j k w.
+    /// As GraphML, with every attribute as a string and poses as seven numbers: translation x y z, quaternion i j k w; a
+    /// covariance is six rows of six.
     pub fn graphml(&self) -> String {
-        let mut keys = BTreeSet::new();
+        // Names of attributes may be anything, ids of keys not.
+        let mut keys: BTreeMap<(&'static str, String), usize> = BTreeMap::new();
         let mut body = String::new();
         let mut data = |body: &mut String, on: &'static str, name: &str, value: &str| {
-            keys.insert((on, name.to_owned()));
-            let _ = writeln!(body, "      <data key=\"{on}_{}\">{}</data>", escaped(name), escaped(value));
+            let next = keys.len();
+            let key = *keys.entry((on, name.to_owned())).or_insert(next);
+            let _ = writeln!(body, "      <data key=\"k{key}\">{}</data>", escaped(value));
         };
         for node in self.nodes() {
             let _ = writeln!(body, "    <node id=\"n{}\">", node.id.index());
@@ -183,20 +187,23 @@ impl<'s> View<'s> {
             open(&mut body, parent, child);
             data(&mut body, "edge", "label", "RT");
             if let Some((_, pose, _)) = self.snapshot.get(child).and_then(|node| node.parent()) {
-                let numbers =
-                    pose.transform.translation.vector.iter().chain(pose.transform.rotation.coords.iter());
-                let numbers: Vec<_> = numbers.map(ToString::to_string).collect();
-                data(&mut body, "edge", "pose", &numbers.join(" "));
+                let (place, turn) = (&pose.transform.translation.vector, &pose.transform.rotation.coords);
+                data(&mut body, "edge", "pose", &numbers(place.iter().chain(turn)));
+                if let Some(covariance) = &pose.covariance {
+                    let rows = covariance.matrix().row_iter();
+                    let rows: Vec<_> = rows.map(|row| numbers(row.iter())).collect();
+                    data(&mut body, "edge", "covariance", &rows.join(" "));
+                }
             }
             body.push_str("    </edge>\n");
         }
         let mut xml = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
         xml.push_str("<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n");
-        for (on, name) in keys {
+        for ((on, name), key) in keys {
             let name = escaped(&name);
             let _ = writeln!(
                 xml,
-                "  <key id=\"{on}_{name}\" for=\"{on}\" attr.name=\"{name}\" attr.type=\"string\"/>"
+                "  <key id=\"k{key}\" for=\"{on}\" attr.name=\"{name}\" attr.type=\"string\"/>"
             );
         }
         let _ = writeln!(xml, "  <graph id=\"dsr\" edgedefault=\"directed\">\n{body}  </graph>\n</graphml>");
@@ -209,6 +216,10 @@ impl<'s> View<'s> {
     }
 }
 
+fn numbers<'n>(numbers: impl Iterator<Item = &'n f64>) -> String {
+    numbers.map(ToString::to_string).collect::<Vec<_>>().join(" ")
+}
+
 /// Text in XML.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
@@ -218,8 +229,11 @@ fn escaped(text: &str) -> String {
             '<' => escaped.push_str("&lt;"),
             '>' => escaped.push_str("&gt;"),
             '"' => escaped.push_str("&quot;"),
-            // XML 1.0 has no way to write these.
-            c if c < ' ' && !"\t\n\r".contains(c) => escaped.push('\u{fffd}'),
+            // Readers take these for blanks, or for ends of lines of their own.
+            '\t' | '\n' | '\r' => _ = write!(escaped, "&#{};", u32::from(c)),
+            // XML 1.0 has no way to write these. Source: "Extensible Markup Language (XML) 1.0", W3C, 2008, §2.2.
+            '\u{fffe}' | '\u{ffff}' => escaped.push('\u{fffd}'),
+            c if c < ' ' => escaped.push('\u{fffd}'),
             c => escaped.push(c),
         }
     }

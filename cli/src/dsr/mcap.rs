@@ -1,15 +1,17 @@
 //! `pelea dsr export`: the whole history as MCAP, with JSON messages and their schemas.
 //!
-//! Two channels: `/dsr/state` has the state with which the journal begins and the one after each gap, `/dsr/commit` every
-//! commit with its sentences and changes. Log times are those of the commits.
+//! `/dsr/state` has the state with which the journal begins and the one after each gap, `/dsr/commit` every commit with its
+//! sentences, changes and reflexes. `/tf` has the poses and `/dsr/log` the sentences once more, as Foxglove shows them
+//! (`foxglove`). Log times are those of the commits.
 
-use super::{Failed, open, seconds};
+use super::foxglove::{LOG, Log, TRANSFORMS, Transforms};
+use super::{Failed, open, said, seconds, writer};
 use crate::console::Console;
 use crate::exit::Exit;
 use ::mcap::records::MessageHeader;
 use ::mcap::{WriteOptions, Writer};
 use clap::Args;
-use dsr::{Change, Played, Recording, Snapshot};
+use dsr::{Change, Delta, Played, Recording, ReflexId, Snapshot, Time};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -32,15 +34,19 @@ struct Commit<'a> {
     version: u64,
     time: f64,
     writer: &'a str,
-    sentences: Vec<String>,
+    sentences: &'a [String],
     changes: &'a [Change],
+    /// The reflexes that fired.
+    reflexes: &'a [ReflexId],
 }
 
-const COMMIT: &str = r#"{"title": "dsr.Commit", "type": "object", "required": ["version", "time", "writer", "sentences", "changes"],
+const COMMIT: &str = r#"{"title": "dsr.Commit", "type": "object",
+ "required": ["version", "time", "writer", "sentences", "changes", "reflexes"],
  "properties": {
   "version": {"type": "integer"}, "time": {"type": "number", "description": "seconds"}, "writer": {"type": "string"},
   "sentences": {"type": "array", "items": {"type": "string"}},
-  "changes": {"type": "array", "items": {"type": "object"}}}}"#;
+  "changes": {"type": "array", "items": {"type": "object"}},
+  "reflexes": {"type": "array", "items": {"type": "integer"}, "description": "those that fired"}}}"#;
 
 const STATE: &str = r#"{"title": "dsr.State", "type": "object", "required": ["version", "time", "nodes", "edges", "transforms"],
  "properties": {
@@ -69,52 +75,73 @@ fn write(recording: &Recording, path: &Path) -> Result<u64, Failed> {
     let failed = |error: ::mcap::McapError| {
         Failed(Exit::Unwritable, format!("cannot write `{}`: {error}", path.display()))
     };
-    let file = File::create(path).map_err(|error| failed(error.into()))?;
-    let options = WriteOptions::new().compression(None).profile("").library("pelea");
-    let mut writer = options.create(BufWriter::new(file)).map_err(failed)?;
-    let mut channel = |name: &str, topic: &str, schema: &str| {
-        let schema = writer.add_schema(name, "jsonschema", schema.as_bytes())?;
-        writer.add_channel(schema, topic, "json", &BTreeMap::new())
-    };
-    let states = channel("dsr.State", "/dsr/state", STATE).map_err(failed)?;
-    let commits = channel("dsr.Commit", "/dsr/commit", COMMIT).map_err(failed)?;
-
-    let mut count = 0;
+    let mut output = File::create(path).map_err(Into::into).and_then(Output::new).map_err(failed)?;
     let mut replay = recording.replay()?;
-    put(&mut writer, states, &replay.snapshot(), &replay.snapshot().export(), &mut count).map_err(failed)?;
+    output.state(&replay.snapshot()).map_err(failed)?;
     while let Some(played) = replay.next() {
         let snapshot = replay.snapshot();
         match played? {
-            Played::Jump { .. } => put(&mut writer, states, &snapshot, &snapshot.export(), &mut count),
-            Played::Commit(delta) => {
-                let commit = Commit {
-                    version: delta.version.0,
-                    time: seconds(delta.time),
-                    writer: super::writer(recording, &delta),
-                    sentences: delta.sentences(&snapshot),
-                    changes: &delta.changes,
-                };
-                put(&mut writer, commits, &snapshot, &commit, &mut count)
-            }
+            Played::Jump { .. } => output.state(&snapshot),
+            Played::Commit(delta) => output.commit(&delta, writer(recording, &delta), &snapshot),
         }
         .map_err(failed)?;
     }
-    writer.finish().map_err(failed)?;
-    Ok(count)
+    output.writer.finish().map_err(failed)?;
+    Ok(output.count)
 }
 
-fn put(
-    writer: &mut Writer<BufWriter<File>>,
-    channel_id: u16,
-    snapshot: &Snapshot,
-    message: &impl Serialize,
-    count: &mut u64,
-) -> ::mcap::McapResult<()> {
-    let time = snapshot.time().0;
-    // The format's counter wraps, too.
-    let sequence = u32::try_from(*count % (1 << 32)).unwrap_or_default();
-    let header = MessageHeader { channel_id, sequence, log_time: time, publish_time: time };
-    *count += 1;
-    let bytes = serde_json::to_vec(message).map_err(std::io::Error::from)?;
-    writer.write_to_known_channel(&header, &bytes)
+/// The file, with its channels.
+struct Output {
+    writer: Writer<BufWriter<File>>,
+    states: u16,
+    commits: u16,
+    frames: u16,
+    logs: u16,
+    count: u64,
+}
+
+impl Output {
+    fn new(file: File) -> ::mcap::McapResult<Self> {
+        let options = WriteOptions::new().compression(None).profile("").library("pelea");
+        let mut writer = options.create(BufWriter::new(file))?;
+        let mut channel = |topic: &str, (name, schema): (&str, &str)| {
+            let schema = writer.add_schema(name, "jsonschema", schema.as_bytes())?;
+            writer.add_channel(schema, topic, "json", &BTreeMap::new())
+        };
+        let states = channel("/dsr/state", ("dsr.State", STATE))?;
+        let commits = channel("/dsr/commit", ("dsr.Commit", COMMIT))?;
+        let (frames, logs) = (channel("/tf", TRANSFORMS)?, channel("/dsr/log", LOG)?);
+        Ok(Self { writer, states, commits, frames, logs, count: 0 })
+    }
+
+    fn state(&mut self, snapshot: &Snapshot) -> ::mcap::McapResult<()> {
+        let time = snapshot.time();
+        self.put(self.states, time, &snapshot.export())?;
+        Transforms::of_state(snapshot).map_or(Ok(()), |frames| self.put(self.frames, time, &frames))
+    }
+
+    fn commit(&mut self, delta: &Delta, writer: &str, snapshot: &Snapshot) -> ::mcap::McapResult<()> {
+        let sentences = said(delta, snapshot);
+        let commit = Commit {
+            version: delta.version.0,
+            time: seconds(delta.time),
+            writer,
+            sentences: &sentences,
+            changes: &delta.changes,
+            reflexes: &delta.reflexes,
+        };
+        self.put(self.commits, delta.time, &commit)?;
+        self.put(self.logs, delta.time, &Log::of_commit(delta, &sentences, writer))?;
+        let moved = Transforms::of_commit(delta, snapshot);
+        moved.map_or(Ok(()), |frames| self.put(self.frames, delta.time, &frames))
+    }
+
+    fn put(&mut self, channel_id: u16, Time(time): Time, message: &impl Serialize) -> ::mcap::McapResult<()> {
+        // The format's counter wraps, too.
+        let sequence = u32::try_from(self.count % (1 << 32)).unwrap_or_default();
+        let header = MessageHeader { channel_id, sequence, log_time: time, publish_time: time };
+        self.count += 1;
+        let bytes = serde_json::to_vec(message).map_err(std::io::Error::from)?;
+        self.writer.write_to_known_channel(&header, &bytes)
+    }
 }

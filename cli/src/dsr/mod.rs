@@ -5,6 +5,7 @@
 //! `graph` (the export), `log` and `diff` a line of the kind `commit` or `difference` each, `query` a line of the kind
 //! `match` each.
 
+mod foxglove;
 mod history;
 mod mcap;
 mod show;
@@ -129,6 +130,12 @@ fn open(path: &Path, console: &mut Console<'_>) -> Result<(Recording, Exit), Fai
 /// Who committed; nobody if the journal's dictionary does not know it.
 fn writer<'r>(recording: &'r Recording, delta: &Delta) -> &'r str {
     recording.dictionary().agent_name(delta.writer).map_or("", |name| name)
+}
+
+/// What a commit says: what changed, and which reflexes fired.
+fn said(delta: &Delta, after: &Snapshot) -> Vec<String> {
+    let fired = delta.reflexes.iter().map(|reflex| format!("reflex {} fired", reflex.0));
+    delta.sentences(after).into_iter().chain(fired).collect()
 }
 
 /// Begins a journal of `graph` in a folder that holds none. A folder that cannot take it is a result that cannot be
