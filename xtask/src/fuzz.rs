@@ -1,7 +1,8 @@
-//! Fuzzing the PDDL front end: builds the targets of `fuzz/` and runs them one after the other.
+//! Fuzzing what is read from files, PDDL, plans, journals and worlds: builds the targets of `fuzz/` and runs them one after
+//! the other.
 //!
-//! Each starts from its seeds and the cases of `pddl/test_data`; what libFuzzer adds goes to `fuzz/corpus`, a
-//! finding to `fuzz/artifacts` (both outside of git). Without a sanitizer: the crates forbid `unsafe`, so all that
+//! Each starts from its seeds, those that read PDDL from the cases of `pddl/test_data` and its words too; what libFuzzer adds
+//! goes to `fuzz/corpus`, a finding to `fuzz/artifacts` (both outside of git). Without a sanitizer: the crates forbid `unsafe`, so all that
 //! can be found is a panic, an overflow (checked here), a hang or too much memory, and that at twice the speed.
 
 use crate::{Failure, cargo};
@@ -9,6 +10,9 @@ use std::path::Path;
 
 /// Seconds for each target if none are named.
 const SECONDS: &str = "600";
+
+/// The targets to which PDDL means nothing.
+const NO_PDDL: [&str; 2] = ["journal", "cortex"];
 
 /// Runs one target, or all, for that many seconds each.
 pub(crate) fn fuzz(arguments: &[String]) -> Result<(), Failure> {
@@ -20,7 +24,9 @@ pub(crate) fn fuzz(arguments: &[String]) -> Result<(), Failure> {
     if targets.is_empty() {
         return Err(Failure::NoTarget(wanted.cloned().unwrap_or_default()));
     }
-    cargo::run(&["fuzz", "build", "--sanitizer", "none"])?;
+    let mut build = vec!["fuzz", "build", "--sanitizer", "none"];
+    build.extend(wanted.map(String::as_str));
+    cargo::run(&build)?;
     targets.iter().try_for_each(|target| run(&cargo::root(), target, seconds))
 }
 
@@ -28,17 +34,15 @@ fn run(root: &Path, target: &str, seconds: &str) -> Result<(), Failure> {
     let corpus = format!("fuzz/corpus/{target}");
     std::fs::create_dir_all(root.join(&corpus)).map_err(|error| Failure::File(corpus.clone(), error))?;
     let (seeds, time) = (format!("fuzz/seeds/{target}"), format!("-max_total_time={seconds}"));
-    let cases = ["pddl/test_data/ok", "pddl/test_data/err", "pddl/test_data/format"];
+    let reads_pddl = !NO_PDDL.contains(&target);
     let mut command = vec!["fuzz", "run", "--sanitizer", "none", target, &corpus, &seeds];
-    command.extend(cases);
-    command.extend([
-        "--",
-        "-dict=fuzz/pddl.dict",
-        "-max_len=4096",
-        "-timeout=10",
-        "-print_final_stats=1",
-        &time,
-    ]);
+    if reads_pddl {
+        command.extend(["pddl/test_data/ok", "pddl/test_data/err", "pddl/test_data/format"]);
+    }
+    command.extend(["--", "-max_len=4096", "-timeout=10", "-print_final_stats=1", &time]);
+    if reads_pddl {
+        command.push("-dict=fuzz/pddl.dict");
+    }
     cargo::run(&command)
 }
 
