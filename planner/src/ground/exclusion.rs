@@ -16,7 +16,8 @@ use super::instantiate::Lit;
 use super::join::{Bindings, Reached};
 use super::values::ValuePredicates;
 use crate::ids::id32;
-use crate::watch::{Interrupted, Spend, Watch};
+use crate::task::Rows;
+use crate::watch::{Interrupted, Watch};
 use invariants::{Happening, Invariant, Member, Proviso, conditional_invariants};
 use pddl::model::{Domain, PredicateId, Problem, Term};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -27,9 +28,8 @@ const ENTRIES: usize = 20_000_000;
 /// Groups of atoms of which at most one holds.
 #[derive(Default)]
 pub(crate) struct Exclusions {
-    /// The groups of atom `a` are `groups[starts[a]..starts[a + 1]]`.
-    starts: Vec<u32>,
-    groups: Vec<u32>,
+    /// By atom, its groups.
+    groups: Rows,
     count: usize,
 }
 
@@ -59,7 +59,7 @@ impl Exclusions {
         for (invariant, provisos) in candidates {
             let mut kept = true;
             for proviso in provisos {
-                kept &= match known.get(&proviso) {
+                kept = match known.get(&proviso) {
                     Some(&known) => known,
                     None => {
                         let keeps = keeps(&proviso, domain, bindings, watch)?;
@@ -67,6 +67,9 @@ impl Exclusions {
                         keeps
                     }
                 };
+                if !kept {
+                    break;
+                }
             }
             if kept {
                 found.push(invariant);
@@ -84,45 +87,24 @@ impl Exclusions {
             by_predicate[table.predicate(atom).0 as usize].push(atom);
         }
         let holds: FxHashSet<u32> = initial.iter().copied().collect();
-        let mut pairs: Vec<(u32, u32)> = Vec::new();
-        let mut count = 0;
+        let mut groups = Rows::default();
         let mut known: FxHashSet<Vec<u32>> = FxHashSet::default();
         for invariant in &found {
             for group in instances(invariant, table, &by_predicate, &holds, problem.objects.len(), watch)? {
                 watch.spend(64 + 8 * group.len())?;
-                if pairs.len() + group.len() > ENTRIES || known.contains(&group) {
+                if groups.items() + group.len() > ENTRIES || known.contains(&group) {
                     continue;
                 }
-                pairs.extend(group.iter().map(|&atom| (atom, count)));
-                count += 1;
+                groups.push(group.iter().copied());
                 known.insert(group);
             }
         }
-        let mut starts = vec![0_u32; atoms as usize + 1];
-        for part in watch.parts(&pairs, 4) {
-            part?.iter().for_each(|&(atom, _)| starts[atom as usize + 1] += 1);
-        }
-        for i in 0..atoms as usize {
-            starts[i + 1] += starts[i];
-        }
-        let mut fill = starts.clone();
-        let mut groups = vec![0; pairs.len()];
-        for part in watch.parts(&pairs, 8) {
-            for &(atom, group) in part? {
-                groups[fill[atom as usize] as usize] = group;
-                fill[atom as usize] += 1;
-            }
-        }
-        Ok(Self { starts, groups, count: count as usize })
+        Ok(Self { groups: groups.transposed(atoms as usize, watch)?, count: groups.len() })
     }
 
     /// The groups of an atom.
     pub(crate) fn of(&self, atom: u32) -> &[u32] {
-        let i = atom as usize;
-        match self.starts.get(i + 1) {
-            Some(&end) => &self.groups[self.starts[i] as usize..end as usize],
-            None => &[],
-        }
+        if (atom as usize) < self.groups.len() { self.groups.row(atom) } else { &[] }
     }
 
     /// How many groups.

@@ -21,7 +21,7 @@ pub(crate) struct Ff<'a> {
     explorer: Explorer<'a>,
     /// Where operators may have to be repeated.
     counted: Option<CountedPlan>,
-    /// Generation in which a proposition or operator was last marked.
+    /// Generation in which a proposition or operator was last marked; empty where plans are counted.
     marked: Vec<u32>,
     used: Vec<u32>,
     generation: u32,
@@ -37,10 +37,12 @@ impl<'a> Ff<'a> {
         let task = job.task;
         let goal = task.relaxation.literals(&job.goal.literals);
         let explorer = Explorer::new(job, goal, costs, Combine::Sum);
+        let counted = CountedPlan::new(task);
+        let marks = |count: usize| vec![0; if counted.is_some() { 0 } else { count }];
         Self {
-            marked: vec![0; task.relaxation.propositions()],
-            counted: CountedPlan::new(task),
-            used: vec![0; task.operators.len()],
+            marked: marks(task.relaxation.propositions()),
+            used: marks(task.operators.len()),
+            counted,
             generation: 0,
             stack: Vec::new(),
             achieved: Vec::new(),

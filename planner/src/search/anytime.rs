@@ -132,8 +132,7 @@ fn improve_metric(
     budget: &Budget<'_>,
     on_plan: &mut (dyn FnMut(&Plan) + Send),
 ) -> Improved {
-    const MEASURED: (Engine, u32) = (Engine::Measured, 1);
-    const ENGINES: &[(Engine, u32)] = &[MEASURED, (Engine::Improving, 1), (LAMA, 1)];
+    const ENGINES: &[(Engine, u32)] = &[(Engine::Measured, 1), (Engine::Improving, 1), (LAMA, 1)];
     let Outcome::Solved(first) = &report.outcome else {
         return Improved { report, quality: Quality::Unproven(Limit::Incomplete) };
     };
@@ -148,16 +147,8 @@ fn improve_metric(
             on_plan(plan);
         }
     };
-    let mut more =
-        portfolio::run(task, query, ENGINES, Threads::One, &bound, &rest, Sink::Every(&mut better));
-    if let Outcome::Unsolvable(_) = more.outcome {
-        // All states have been seen, but not all ways to them.
-        let expansions = expansions.map(|e| e.saturating_sub(more.statistics.expanded));
-        let rest = Budget { expansions, ..*budget };
-        let sink = Sink::Every(&mut better);
-        let last = portfolio::run(task, query, &[MEASURED], Threads::One, &bound, &rest, sink);
-        more = Report { statistics: more.statistics + last.statistics, ..last };
-    }
+    let sink = Sink::Every(&mut better);
+    let more = portfolio::run(task, query, ENGINES, Threads::One, &bound, &rest, sink);
     let quality = match more.outcome {
         Outcome::LimitReached(limit) => Quality::Unproven(limit),
         _ => Quality::Unproven(Limit::Incomplete),

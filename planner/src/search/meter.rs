@@ -8,11 +8,8 @@
 //! believed.
 
 use super::{Budget, Limit};
-use crate::watch::{Interrupted, Spend};
+use crate::watch::{INTERVAL, Interrupted, Spend};
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering::Relaxed};
-
-/// Units of work between two questions to the caller: well under a millisecond.
-const INTERVAL: u64 = 1 << 16;
 
 /// Bytes for whom nobody sets a limit.
 pub(crate) const UNLIMITED: usize = usize::MAX / 8;
@@ -74,7 +71,7 @@ impl<'a> Meter<'a> {
         let work = self.work.load(Relaxed) + units as u64;
         self.work.store(work, Relaxed);
         if work >= self.next_question.load(Relaxed) {
-            self.next_question.store(work + INTERVAL, Relaxed);
+            self.next_question.store(work + INTERVAL as u64, Relaxed);
             if (self.budget.interrupted)() {
                 self.stopped.store(true, Relaxed);
             }

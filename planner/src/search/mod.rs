@@ -7,6 +7,7 @@
 mod anytime;
 mod bfws;
 mod budget;
+mod chance;
 mod configuration;
 mod distance;
 mod dual_bfws;
@@ -24,6 +25,7 @@ mod outcome;
 mod portfolio;
 mod query;
 mod registry;
+mod regression;
 mod reordering;
 mod repair;
 mod searcher;

@@ -96,7 +96,7 @@ impl NoveltyTable {
     /// Judges a state and remembers it. `from` is the state before the last step, if that was judged in
     /// the same class.
     pub(crate) fn judge(&mut self, class: (u32, u32), state: &[u64], from: Option<&[u64]>) -> Novelty {
-        let words = self.words;
+        let (words, pairs) = (self.words, self.tells_pairs());
         let entry = self.classes.entry(class).or_insert_with(|| {
             self.bytes += words * 8 + 96;
             Class { facts: vec![0; words].into_boxed_slice(), rows: Vec::new(), rows_made: 0 }
@@ -105,7 +105,7 @@ impl NoveltyTable {
             true => Novelty::One,
             false => Novelty::Larger,
         };
-        if !self.pairs || self.bytes > self.most_bytes {
+        if !pairs {
             return novelty;
         }
         if entry.rows.is_empty() {
@@ -124,9 +124,14 @@ impl NoveltyTable {
         novelty
     }
 
-    /// Units of work that a judgement takes.
+    /// Whether pairs are told, and there is room for them.
+    fn tells_pairs(&self) -> bool {
+        self.pairs && self.bytes <= self.most_bytes
+    }
+
+    /// Units of work that the next judgement takes.
     pub(crate) fn price(&self, from: Option<&[u64]>) -> usize {
-        match (self.pairs, from) {
+        match (self.tells_pairs(), from) {
             (false, _) => self.words * 4 + 32,
             (true, Some(_)) => self.words * 16 + 128,
             (true, None) => self.words * self.words * 8,

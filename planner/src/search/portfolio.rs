@@ -40,7 +40,7 @@ pub(crate) enum Sink<'s> {
     First,
     /// Each that is cheaper than all before is handed on, and the searches continue below its cost.
     Better(&'s mut (dyn FnMut(&Plan) + Send)),
-    /// Each is handed on, and the searches continue.
+    /// Each is handed on, and the searches continue, each until it has nothing left; then that is the limit.
     Every(&'s mut (dyn FnMut(&Plan) + Send)),
 }
 
@@ -231,6 +231,8 @@ impl<'a, 's> Portfolio<'a, 's> {
                     }
                 }
             }
+            // It has seen all states, but not all ways to them.
+            Some(Outcome::Unsolvable(_)) if matches!(pool.sink, Sink::Every(_)) => pool.leave(member),
             Some(answer @ (Outcome::Unsolvable(_) | Outcome::Unsupported(_))) => {
                 pool.answer.get_or_insert(answer);
                 pool.keep(member);

@@ -12,6 +12,7 @@
 //! interference only; windows of them: Siddiqui & Haslum, "Continuing plan quality optimisation", JAIR
 //! 2015, §4.
 
+use super::chance::Chance;
 use crate::ids::{FactId, OperatorId};
 use crate::task::Task;
 use rustc_hash::FxHashMap;
@@ -88,16 +89,13 @@ fn chains(after: &[Vec<usize>], seed: Option<u64>) -> Vec<usize> {
     after.iter().flatten().for_each(|&j| open[j] += 1);
     let mut ready: Vec<usize> = (0..after.len()).rev().filter(|&i| open[i] == 0).collect();
     let mut places = Vec::with_capacity(after.len());
-    let mut random = seed.map(|seed| seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
+    let mut chance = seed.map(Chance::new);
     while let Some(top) = ready.len().checked_sub(1) {
         let mut chosen = top;
-        if let Some(random) = &mut random {
-            *random ^= *random << 13;
-            *random ^= *random >> 7;
-            *random ^= *random << 17;
-            if (*random >> 32).is_multiple_of(4) {
-                chosen = usize::try_from(*random >> 40).unwrap_or(0) % ready.len();
-            }
+        if let Some(chance) = &mut chance
+            && chance.below(4) == 0
+        {
+            chosen = chance.below(ready.len());
         }
         let step = ready.remove(chosen);
         places.push(step);

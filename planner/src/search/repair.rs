@@ -15,10 +15,10 @@
 
 use super::distance::Distance;
 use super::elimination::without_needless;
+use super::regression::Kernel;
 use super::{Budget, Limit, Outcome, Plan, Query, Report, SearchConfiguration, Statistics, solve};
-use crate::ids::{FactId, OperatorId};
-use crate::task::{Goal, Literals, LiteralsRef, State, Task};
-use std::collections::BTreeMap;
+use crate::ids::OperatorId;
+use crate::task::{Goal, Literals, State, Task};
 
 /// What decides between a repaired plan and a new one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -229,15 +229,19 @@ impl Work<'_> {
     /// A way to the kernel of a suffix, and the suffix.
     fn gap(&mut self) -> Option<Vec<OperatorId>> {
         let Repair { task, query, broken } = *self.repair;
+        // Only suffixes behind the last step that is excluded can be kept.
+        let free = broken.iter().rposition(|o| query.excluded.contains(o)).map_or(0, |last| last + 1);
         let mut nearest: Vec<(usize, usize, Literals)> = Vec::new();
-        for (start, kernel) in kernels(task, broken, query.goal) {
-            if broken[start..].iter().any(|o| query.excluded.contains(o)) {
-                continue;
+        let mut kernel = Kernel::new(task, &query.goal.literals);
+        for start in (free..=broken.len()).rev() {
+            if let Some(&step) = broken.get(start) {
+                kernel.before(step);
             }
-            let holds = |f: &&FactId| query.state.contains(**f);
-            let missing = kernel.positive.iter().filter(|f| !holds(f)).count()
-                + kernel.negative.iter().filter(holds).count();
-            nearest.push((missing, start, kernel));
+            let missing = kernel.missing(query.state);
+            // Where nothing is missing, the suffix was simulated, and what stands in its way is none of the facts.
+            if missing > 0 {
+                nearest.push((missing, start, kernel.literals()));
+            }
         }
         nearest.sort_by_key(|&(missing, start, _)| (missing, start));
         for (_, start, kernel) in nearest.into_iter().take(GAPS) {
@@ -285,30 +289,4 @@ impl Work<'_> {
             _ => None,
         }
     }
-}
-
-/// For each suffix, where it starts and what must hold before it, as far as facts tell.
-fn kernels(task: &Task, plan: &[OperatorId], goal: &Goal) -> Vec<(usize, Literals)> {
-    let mut kernel: BTreeMap<FactId, bool> = BTreeMap::new();
-    let require = |kernel: &mut BTreeMap<FactId, bool>, literals: LiteralsRef<'_>| {
-        kernel.extend(literals.positive.iter().map(|&f| (f, true)));
-        kernel.extend(literals.negative.iter().map(|&f| (f, false)));
-    };
-    let literals = |kernel: &BTreeMap<FactId, bool>| {
-        let of = |wanted: bool| kernel.iter().filter(move |&(_, &b)| b == wanted).map(|(&f, _)| f).collect();
-        Literals { positive: of(true), negative: of(false) }
-    };
-    require(&mut kernel, goal.literals.as_ref());
-    let mut found = vec![(plan.len(), literals(&kernel))];
-    for (start, &operator) in plan.iter().enumerate().rev() {
-        let operator = task.operator(operator);
-        kernel.retain(|fact, wanted| {
-            let given = if *wanted { operator.adds } else { operator.deletes };
-            // Axioms and numbers decide anew after each step.
-            given.binary_search(fact).is_err() && !task.facts()[*fact].derived
-        });
-        require(&mut kernel, operator.precondition);
-        found.push((start, literals(&kernel)));
-    }
-    found
 }

@@ -6,9 +6,9 @@
 //! the same pushes and pops give the same entries.
 //!
 //! Source: Xie, Müller, Holte & Imai, "Type-based exploration with multiple search queues for
-//! satisficing planning", AAAI 2014. Generator: Steele, Lea & Flood, "Fast splittable pseudorandom
-//! number generators", OOPSLA 2014.
+//! satisficing planning", AAAI 2014.
 
+use super::chance::Chance;
 use rustc_hash::FxHashMap;
 
 /// What entries of one bucket have in common.
@@ -19,12 +19,12 @@ pub(crate) struct TypeList<T> {
     index: FxHashMap<Type, usize>,
     buckets: Vec<(Type, Vec<T>)>,
     len: usize,
-    chance: u64,
+    chance: Chance,
 }
 
 impl<T> TypeList<T> {
     pub(crate) fn new() -> Self {
-        Self { index: FxHashMap::default(), buckets: Vec::new(), len: 0, chance: 0 }
+        Self { index: FxHashMap::default(), buckets: Vec::new(), len: 0, chance: Chance::new(0) }
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -50,8 +50,8 @@ impl<T> TypeList<T> {
         if self.buckets.is_empty() {
             return None;
         }
-        let at = self.below(self.buckets.len());
-        let entry = self.below(self.buckets[at].1.len());
+        let at = self.chance.below(self.buckets.len());
+        let entry = self.chance.below(self.buckets[at].1.len());
         let item = self.buckets[at].1.swap_remove(entry);
         self.len -= 1;
         if self.buckets[at].1.is_empty() {
@@ -62,17 +62,6 @@ impl<T> TypeList<T> {
             }
         }
         Some(item)
-    }
-
-    /// A number below `n`, the bias far too small to matter.
-    #[expect(clippy::cast_possible_truncation, reason = "the product's upper half is below n")]
-    fn below(&mut self, n: usize) -> usize {
-        self.chance = self.chance.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut mixed = self.chance;
-        mixed = (mixed ^ mixed >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        mixed = (mixed ^ mixed >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        mixed ^= mixed >> 31;
-        ((u128::from(mixed) * n as u128) >> 64) as usize
     }
 
     /// Bytes held by the items.

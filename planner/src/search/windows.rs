@@ -12,13 +12,13 @@
 
 use super::anytime::counted;
 use super::lazy::{Lazy, LazySettings, Pruning};
+use super::regression::Kernel;
 use super::reordering::{Arrangement, arranged};
 use super::{Barred, Bound, Job, Meter, Order, Outcome, Plan, Query, Searcher, Shared, Statistics, Turn};
 use crate::heuristics::{Costs, HeuristicKind};
-use crate::ids::{FactId, OperatorId};
+use crate::ids::OperatorId;
 use crate::task::{Goal, Literals, State, Task};
 use rustc_hash::{FxHashSet, FxHasher};
-use std::collections::BTreeSet;
 use std::hash::{Hash, Hasher};
 
 /// Work for a window in the first round; it doubles with each.
@@ -44,7 +44,7 @@ struct Tried {
     pruning: Pruning,
     /// Work for each.
     work: u64,
-    /// From where, to what, below which cost and how: as hashes.
+    /// Those of this round: from where, to what and below which cost, as hashes.
     windows: FxHashSet<u64>,
     statistics: Statistics,
 }
@@ -52,8 +52,7 @@ struct Tried {
 impl Tried {
     fn is_new(&mut self, state: &State, goal: &Literals, cost: u64) -> bool {
         let mut hasher = FxHasher::default();
-        let estimated = self.pruning == Pruning::Estimated;
-        (state.words(), &goal.positive, &goal.negative, cost, self.work, estimated).hash(&mut hasher);
+        (state.words(), &goal.positive, &goal.negative, cost).hash(&mut hasher);
         self.windows.insert(hasher.finish())
     }
 }
@@ -71,6 +70,8 @@ impl Windows<'_> {
         };
         for round in 0..ROUNDS {
             tried.work = WORK << round;
+            // With more work, or pruned otherwise, all are worth another try.
+            tried.windows.clear();
             tried.pruning = if round % 2 == 0 { Pruning::Estimated } else { Pruning::Spent };
             for arrangement in [
                 Arrangement::Found,
@@ -170,18 +171,12 @@ impl Windows<'_> {
 
     /// What must hold before `steps` for them to be done and to end in the goal.
     fn needed(&self, steps: &[OperatorId]) -> Literals {
-        let facts = |facts: &[FactId]| facts.iter().copied().collect::<BTreeSet<_>>();
-        let goal = &self.query.goal.literals;
-        let (mut positive, mut negative) = (facts(&goal.positive), facts(&goal.negative));
+        let mut kernel = Kernel::new(self.task, &self.query.goal.literals);
         for &step in steps.iter().rev() {
             let operator = self.task.operator(step);
             self.meter.spend(operator.adds.len() + operator.deletes.len() + 16);
-            // Axioms decide anew after each step.
-            positive.retain(|f| !operator.adds.contains(f) && !self.task.facts[*f].derived);
-            negative.retain(|f| !operator.deletes.contains(f) && !self.task.facts[*f].derived);
-            positive.extend(operator.precondition.positive);
-            negative.extend(operator.precondition.negative);
+            kernel.before(step);
         }
-        Literals { positive: positive.into_iter().collect(), negative: negative.into_iter().collect() }
+        kernel.literals()
     }
 }

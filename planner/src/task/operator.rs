@@ -15,13 +15,12 @@ pub struct Literals {
 
 impl Literals {
     pub(crate) fn hold_in(&self, words: &[u64]) -> bool {
-        self.positive.iter().all(|&f| contains(words, f))
-            && self.negative.iter().all(|&f| !contains(words, f))
+        self.as_ref().hold_in(words)
     }
 
     /// How many literals.
     pub fn len(&self) -> usize {
-        self.positive.len() + self.negative.len()
+        self.as_ref().len()
     }
 
     /// Whether it holds everywhere.
