@@ -157,11 +157,11 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         Outcome::Solved(plan) => solved(arguments, &files, &task, plan, &mut answer, console),
         Outcome::Unsolvable(reason) => {
             let why = Unsolvable::of(&files.domain, &files.problem, &task, reason, &budget);
-            let sentence = why.sentence();
+            let sentence = why.words().sentence();
             Message::error(format!("there is no plan: {sentence}"))
                 .at(&files.problem_source, files.problem.goal_span)
                 .show(console);
-            why.lines().iter().for_each(|line| console.note(line));
+            why.words().lines().iter().for_each(|line| console.note(line));
             answer.unsolvable = Some(why.record(&files));
             answer.end("unsolvable", &sentence, console);
             Exit::No

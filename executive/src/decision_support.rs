@@ -6,17 +6,20 @@
 //! of two that are as near the repaired one. What is running is put first where the plan still reaches the
 //! goal that way, so that nobody is interrupted without need. A plan is first put through the
 //! validator, which shares no code with the planner: a plan that does not validate is a bug of ours, and
-//! must not reach a patient. Invariant: effort is counted in states, never in seconds, so the same request
+//! must not reach a patient. Where there is no plan, the planner's explanation says why. Invariant: effort is counted in states, never in seconds, so the same request
 //! gives the same decision.
 //!
 //! Source: Fox, Gerevini, Long & Serina, "Plan stability: replanning versus plan repair", ICAPS 2006.
 
 use crate::{Model, Step};
 use planner::{
-    Attempt, Budget, Distance, Impossible, OperatorId, Outcome, Preference, Query, Repaired, Report,
-    SearchConfiguration, State, UnsolvableReason, Way, repair, solve,
+    Attempt, Budget, Distance, OperatorId, Outcome, Preference, Query, Repaired, Report, SearchConfiguration,
+    State, UnsolvableReason, Way, Words, explain, repair, solve,
 };
 use serde::Serialize;
+
+/// Reasons told below the sentence that says why there is no plan.
+const REASONS: usize = 4;
 
 /// A request for a plan.
 #[derive(Clone, Debug)]
@@ -146,7 +149,11 @@ pub fn decide(model: &Model, request: &Request) -> Decision {
                 Some(why) => Decision::Rejected(why),
             }
         }
-        Outcome::Unsolvable(reason) => Decision::NoPlan(unsolvable(model, &reason, &request.barred)),
+        Outcome::Unsolvable(reason) => {
+            let expansions = Some(request.expansions.saturating_sub(statistics.expanded));
+            let rest = Budget { expansions, ..budget };
+            Decision::NoPlan(unsolvable(model, &query, &reason, &request.barred, &rest))
+        }
         Outcome::Unsupported(feature) => {
             Decision::Rejected(format!("the planner does not support {feature}"))
         }
@@ -184,19 +191,28 @@ fn objection(model: &Model, state: &State, plan: &[OperatorId]) -> Option<String
     validator::explain(model.domain(), &problem, &plan, &verdict).map(|finding| finding.sentence)
 }
 
-/// Says why there is no plan: what can never hold, or that all was tried, and what had to be left out.
-fn unsolvable(model: &Model, reason: &UnsolvableReason, barred: &[Step]) -> String {
-    let mut why = match reason {
-        UnsolvableReason::Impossible(_) => "the goal cannot be reached from here".to_owned(),
-        UnsolvableReason::SpaceExhausted => "no sequence of steps reaches the goal from here".to_owned(),
-    };
-    if let UnsolvableReason::Impossible(Impossible::Atoms(atoms)) = reason {
-        let atoms: Vec<_> = atoms.iter().map(|atom| model.atom(atom).to_string()).collect();
-        why = format!("nothing can bring about {}", atoms.join(", "));
+/// Says why there is no plan: what can never hold, what of it nothing gives, and what had to be left out.
+fn unsolvable(
+    model: &Model,
+    query: &Query<'_>,
+    reason: &UnsolvableReason,
+    barred: &[Step],
+    budget: &Budget<'_>,
+) -> String {
+    let explanation = explain(model.domain(), model.problem(), model.task(), query, reason, budget);
+    let words = Words::new(model.task(), &explanation);
+    let mut why = words.sentence();
+    let lines = words.lines();
+    let reasons: Vec<&str> = lines.iter().map(|line| line.trim_start()).take(REASONS).collect();
+    if !reasons.is_empty() {
+        why = format!("{why}: {}", reasons.join("; "));
+    }
+    if lines.len() > REASONS {
+        why += "; …";
     }
     if !barred.is_empty() {
         let steps: Vec<_> = barred.iter().map(ToString::to_string).collect();
-        why = format!("{why} without what just failed: {}", steps.join(", "));
+        why = format!("{why} (without what just failed: {})", steps.join(", "));
     }
     why
 }

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use executive::{Decision, Model, Request, RequestId, Step, decide};
+use expect_test::{Expect, expect};
 use low_to_high::Fact;
 use pddl::model::Name;
 use pddl::{Source, parse_domain, parse_problem};
@@ -17,7 +18,11 @@ const PROBLEM: &str = "(define (problem p) (:domain lamps) (:objects a b c - lam
     (:goal (and (on a) (on b) (on c))))";
 
 fn model() -> Model {
-    let domain = parse_domain(&Source::new("d", DOMAIN), &[]).model.unwrap();
+    model_of(DOMAIN)
+}
+
+fn model_of(domain: &str) -> Model {
+    let domain = parse_domain(&Source::new("d", domain), &[]).model.unwrap();
     let problem = parse_problem(&Source::new("p", PROBLEM), &domain).model.unwrap();
     Model::new(domain, problem, &["on", "dead", "open"].map(Name::new)).unwrap()
 }
@@ -99,4 +104,37 @@ fn a_first_plan_has_nothing_to_be_held_against() {
     let model = model();
     let decision = decide(&model, &request(&model, &["open"], &[], None));
     assert!(matches!(&decision, Decision::Plan { repair: None, operators, .. } if operators.len() == 3));
+}
+
+#[test]
+fn why_there_is_no_plan_is_told_of_what_is_seen_now() {
+    let check = |domain: &str, seen: &[&str], barred: &[&str], expected: &Expect| {
+        let model = model_of(domain);
+        let mut request = request(&model, seen, &[], None);
+        request.barred = barred.iter().map(|name| model.step(operator(&model, name))).collect();
+        let decision = decide(&model, &request);
+        let Decision::NoPlan(why) = decision else { panic!("{decision:?}") };
+        expected.assert_eq(&why);
+    };
+    // The problem itself has no lamp that is dead.
+    let replace = "(:action replace :parameters (?l - lamp) :precondition (dead ?l) :effect (not (dead ?l)))";
+    let dead = &["open", "dead a", "on b"];
+    let expected = expect![
+        "the goal needs (on a), which nothing can bring about: (on a) by (light a) needs (not (dead a)); nothing takes \
+         (dead a) away"
+    ];
+    check(&DOMAIN.replace(replace, ""), dead, &[], &expected);
+    let expected = expect![
+        "the goal needs (on c), which nothing can bring about: (on c) by (light c), which may not be used (without what \
+         just failed: (light c))"
+    ];
+    check(DOMAIN, &["on b", "open"], &["(light c)"], &expected);
+    let unlock = "(:action unlock :parameters () :effect (open))";
+    let shuts = DOMAIN.replace(unlock, "").replace(":effect (on ?l)", ":effect (and (on ?l) (not (open)))");
+    let expected = expect![
+        "no reachable state satisfies the goal: exhausted: 4 states; the nearest to the goal, after 1 step, misses \
+         (on b), (on c); never together: (on a) and (on b); never together: (on a) and (on c); never together: (on b) \
+         and (on c)"
+    ];
+    check(&shuts, &["open"], &[], &expected);
 }

@@ -57,7 +57,7 @@ pub use ids::{FactId, FluentId, OperatorId};
 pub use number::Number;
 pub use obstacle::{
     Exclusive, Explanation, Extent, Giver, Hindrance, Nearest, Need, Never, NeverCompares, Part, Pattern,
-    Reason, ReasonId, Space, Wanted, Why, explain,
+    Reason, ReasonId, Space, Wanted, Why, Words, explain,
 };
 pub use search::{
     Attempt, BfwsSettings, Budget, Count, Distance, EagerSettings, Engine, Exploration, Improved,

@@ -58,8 +58,8 @@ impl ::lsp::Tools for Tools {
             }
             Outcome::Unsolvable(reason) => {
                 let why = Unsolvable::of(&domain, &problem, &grounded, &reason, &budget);
-                let mut sentence = format!("there is no plan: {}", why.sentence());
-                why.lines().iter().for_each(|line| sentence += &format!("\n{line}"));
+                let mut sentence = format!("there is no plan: {}", why.words().sentence());
+                why.words().lines().iter().for_each(|line| sentence += &format!("\n{line}"));
                 Planned::Unsolvable(remark(Severity::Error, sentence, (File::Problem, problem.goal_span)))
             }
             Outcome::Unsupported(feature) => Planned::Limit(format!("{feature} are not supported")),

@@ -18,14 +18,16 @@ mod space;
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test")]
 mod tests;
+mod words;
 
 pub use ranges::{Extent, NeverCompares};
 pub use reasons::{Giver, Hindrance, Need, Reason, ReasonId, Why};
 pub use space::{Nearest, Space};
+pub use words::Words;
 
 use crate::ids::{FactId, OperatorId};
-use crate::search::{Budget, UnsolvableReason};
-use crate::task::{Impossible, Operator, Task};
+use crate::search::{Budget, Query, UnsolvableReason};
+use crate::task::{Impossible, Operator, State, Task};
 use goal::Walk;
 use needs::{Binding, Needs};
 use oracle::Oracle;
@@ -106,25 +108,27 @@ impl Explanation {
     }
 }
 
-/// Says why `task`, the grounding of `problem`, has no plan. `reason` is what the search said of the problem's own
-/// goal and initial state; `budget` bounds the visit of states where these were exhausted.
+/// Says why `task`, the grounding of `problem`, has no plan from the query's state without the operators that it
+/// excludes; its goal must be the problem's own. `reason` is what the search said of that; `budget` bounds the visit of
+/// states where these were exhausted.
 pub fn explain(
     domain: &Domain,
     problem: &Problem,
     task: &Task,
+    query: &Query<'_>,
     reason: &UnsolvableReason,
     budget: &Budget<'_>,
 ) -> Explanation {
-    let first = Oracle::new(domain, problem, task, &[]);
-    let excluded = out_of_range(&first);
-    let oracle = if excluded.is_empty() { first } else { Oracle::new(domain, problem, task, &excluded) };
+    let first = Oracle::new(domain, problem, task, *query, &[]);
+    let never = out_of_range(&first);
+    let oracle = if never.is_empty() { first } else { Oracle::new(domain, problem, task, *query, &never) };
     let ranges = Ranges::new(&oracle);
     let mut reasons = Reasons::new(&oracle, &ranges);
     let walk = Walk { oracle: &oracle, ranges: &ranges };
     let parts = walk.parts(&mut reasons);
-    let exclusive = exclusive(task, &walk.required(), reason);
+    let exclusive = exclusive(task, query.state, &walk.required(), reason);
     let space = match reason {
-        UnsolvableReason::SpaceExhausted => Some(space::visit(task, budget)),
+        UnsolvableReason::SpaceExhausted => Some(space::visit(task, query, budget)),
         UnsolvableReason::Impossible(_) => None,
     };
     Explanation { parts, reasons: reasons.finish(), exclusive, space }
@@ -158,9 +162,9 @@ fn out_of_range(oracle: &Oracle<'_>) -> Vec<OperatorId> {
 }
 
 /// The pairs of which the task's groups say that they exclude each other.
-fn exclusive(task: &Task, facts: &[FactId], reason: &UnsolvableReason) -> Vec<Exclusive> {
+fn exclusive(task: &Task, state: &State, facts: &[FactId], reason: &UnsolvableReason) -> Vec<Exclusive> {
     // Groups are kept by whatever operators do, if they hold at first.
-    if !task.mutexes().keep(task.initial_state().words()) {
+    if !task.mutexes().keep(state.words()) {
         return Vec::new();
     }
     let mut found = Vec::new();

@@ -1,7 +1,7 @@
 //! What may ever hold: the one place that decides it.
 //!
 //! Idea: grounding reached every atom that is true in some state if nothing is ever deleted, and knows the atoms
-//! that nothing deletes; one more exploration of the grounded relaxation from the initial state adds what only
+//! that nothing deletes; one more exploration of the grounded relaxation from the query's state adds what only
 //! shows there. Invariant: what may hold in a reachable state is never denied.
 
 use super::Wanted;
@@ -9,12 +9,14 @@ use crate::heuristics::{Combine, Costs, Explorer};
 use crate::ids::{FactId, OperatorId, id32};
 use crate::search::{Bound, Budget, Job, Meter, Query, Shared};
 use crate::task::{AtomStatus, Literals, Task};
-use pddl::model::{Domain, EffectKind, Idx, ObjectId, PredicateId, Problem, TypeSet};
+use pddl::model::{ActionId, Domain, EffectKind, Idx, Name, ObjectId, PredicateId, Problem, TypeSet};
 
 pub(super) struct Oracle<'a> {
     pub(super) domain: &'a Domain,
     pub(super) problem: &'a Problem,
     pub(super) task: &'a Task,
+    /// From where, and without what.
+    pub(super) query: Query<'a>,
     /// By predicate: the atoms that may hold.
     possible: Vec<Vec<u32>>,
     /// By predicate: whether no action and no axiom changes it.
@@ -24,15 +26,17 @@ pub(super) struct Oracle<'a> {
 }
 
 impl<'a> Oracle<'a> {
-    /// `excluded` are operators that are known never to apply.
+    /// `never` are operators that are known never to apply.
     pub(super) fn new(
         domain: &'a Domain,
         problem: &'a Problem,
         task: &'a Task,
-        excluded: &[OperatorId],
+        query: Query<'a>,
+        never: &[OperatorId],
     ) -> Self {
-        let query = Query { excluded, ..Query::of(task) };
-        let (barred, meter) = (query.barred(task), Meter::new(Budget::default()));
+        let excluded = [query.excluded, never].concat();
+        let without = Query { excluded: &excluded, ..query };
+        let (barred, meter) = (without.barred(task), Meter::new(Budget::default()));
         let (bound, shared) = (Bound::none(), Shared::default());
         let (state, goal) = (query.state, query.goal);
         let job = Job { task, state, goal, barred: &barred, meter: &meter, bound: &bound, shared: &shared };
@@ -65,7 +69,7 @@ impl<'a> Oracle<'a> {
             });
         }
         domain.axioms.iter().for_each(|axiom| is_static[axiom.predicate.index()] = false);
-        Self { domain, problem, task, possible, is_static, may_fail }
+        Self { domain, problem, task, query, possible, is_static, may_fail }
     }
 
     /// Whether some reachable state may have it so; `false` is proven.
@@ -86,6 +90,19 @@ impl<'a> Oracle<'a> {
     pub(super) fn matches<'s>(&'s self, wanted: &'s Wanted) -> impl Iterator<Item = &'s [u32]> {
         let atoms = self.possible.get(wanted.pattern.predicate.index()).map_or(&[][..], Vec::as_slice);
         atoms.iter().map(|&atom| self.task.atoms.row(atom)).filter(|row| fits(wanted, row))
+    }
+
+    /// The arguments of an action that fit and with which the query excludes it.
+    pub(super) fn excluded<'s>(
+        &'s self,
+        action: ActionId,
+        wanted: &'s [Result<ObjectId, Name>],
+    ) -> impl Iterator<Item = &'s [ObjectId]> {
+        let operators = self.query.excluded.iter().map(|&operator| self.task.operator(operator));
+        let fits = move |own: &[ObjectId]| {
+            own.iter().zip(wanted).all(|(own, wanted)| wanted.as_ref().map_or(true, |wanted| wanted == own))
+        };
+        operators.filter(move |o| o.action == action && fits(o.arguments)).map(|o| o.arguments)
     }
 
     /// Whether nothing ever changes atoms of the predicate.

@@ -197,6 +197,15 @@ impl<'a> Ranges<'a> {
                 None => is_exact = false,
             }
         }
+        let state = oracle.query.state;
+        is_exact &= state.is_exact();
+        for (application, value) in oracle.task.numbers(state) {
+            let key = (application.function, application.arguments.clone());
+            match value {
+                Some(value) => initial.insert(key, value),
+                None => initial.remove(&key),
+            };
+        }
         let mut changing = BTreeSet::new();
         for action in &oracle.domain.actions {
             action.effect.each(&mut |part| {

@@ -38,7 +38,7 @@ pub struct Reason {
 /// Why a literal is never so.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Why {
-    /// No action and no axiom gives it, and it is not so initially.
+    /// No action and no axiom gives it, and it is not so to begin with.
     NothingGives,
     /// Whatever would give it never does.
     Givers {
@@ -71,6 +71,8 @@ pub enum Hindrance {
     NeverTogether(Vec<Wanted>),
     /// Its conditions never hold together.
     NeverApplies,
+    /// The query excludes it.
+    Excluded,
 }
 
 /// Something that is needed and never so.
@@ -142,6 +144,7 @@ impl<'a> Reasons<'a> {
         // Those that lack one thing say most.
         givers.sort_by_key(|giver| match &giver.hindrance {
             Hindered::Needs(needs) => needs.len(),
+            Hindered::Excluded => 0,
             Hindered::NeverTogether(_) => usize::MAX - 1,
             Hindered::NeverApplies => usize::MAX,
         });
@@ -163,6 +166,7 @@ impl<'a> Reasons<'a> {
             ),
             Hindered::NeverTogether(all) => Hindrance::NeverTogether(all),
             Hindered::NeverApplies => Hindrance::NeverApplies,
+            Hindered::Excluded => Hindrance::Excluded,
         };
         Giver { action: giver.action, arguments: giver.arguments, hindrance }
     }
@@ -216,24 +220,45 @@ impl<'a> Reasons<'a> {
             .filter(|wanted| wanted.positive)
             .partition(|wanted| self.oracle.is_static(wanted.pattern.predicate));
         let mut join = Join { oracle: self.oracle, rows: 0 };
-        let Some(rows) = join.all(&fixed, &candidate.binding, INSTANCES) else {
-            return vec![denied(&candidate.binding, self.never_together(&fixed, &others, candidate))];
+        let never = || {
+            let hindrance = self.never_together(&fixed, &others, candidate);
+            let excluded = match hindrance {
+                Hindered::NeverApplies => self.excluded(candidate, &candidate.binding),
+                _ => Vec::new(),
+            };
+            if excluded.is_empty() { vec![denied(&candidate.binding, hindrance)] } else { excluded }
         };
+        let Some(rows) = join.all(&fixed, &candidate.binding, INSTANCES) else { return never() };
         let mut found = Vec::new();
         for row in &rows {
             // An instance that equality or types rule out is no giver.
             let Some(needs) = self.needs(candidate, row) else { continue };
             let lacking = self.lacking(&needs, row);
-            if lacking.is_empty() {
-                return vec![denied(&candidate.binding, self.never_together(&fixed, &others, candidate))];
+            let excluded = if lacking.is_empty() { self.excluded(candidate, row) } else { Vec::new() };
+            if lacking.is_empty() && excluded.is_empty() {
+                return never();
             }
-            let new = denied(row, Hindered::Needs(lacking));
+            let lacks = (!lacking.is_empty()).then(|| denied(row, Hindered::Needs(lacking)));
+            for new in lacks.into_iter().chain(excluded) {
+                if !found.contains(&new) {
+                    found.push(new);
+                }
+            }
+        }
+        if found.is_empty() { never() } else { found }
+    }
+
+    /// The instances of a giver that the query excludes.
+    fn excluded(&self, candidate: &Candidate<'a>, binding: &Binding<'_>) -> Vec<Denied> {
+        let Some(action) = candidate.action else { return Vec::new() };
+        let wanted = binding.parameters();
+        let mut found: Vec<Denied> = Vec::new();
+        for arguments in self.oracle.excluded(action, &wanted) {
+            let arguments = arguments.iter().copied().map(Ok).collect();
+            let new = Denied { action: Some(action), arguments, hindrance: Hindered::Excluded };
             if !found.contains(&new) {
                 found.push(new);
             }
-        }
-        if found.is_empty() {
-            found.push(denied(&candidate.binding, self.never_together(&fixed, &others, candidate)));
         }
         found
     }
@@ -289,6 +314,7 @@ enum Hindered {
     Needs(Vec<Lacks>),
     NeverTogether(Vec<Wanted>),
     NeverApplies,
+    Excluded,
 }
 
 #[derive(PartialEq)]

@@ -7,7 +7,7 @@
 
 use crate::ids::{FactId, FluentId, OperatorId, StateId, id32};
 use crate::number::Number;
-use crate::search::{Budget, StateRegistry};
+use crate::search::{Budget, Query, StateRegistry};
 use crate::task::{Task, contains};
 use pddl::model::{GroundApplication, Idx};
 
@@ -45,8 +45,9 @@ pub struct Nearest {
     pub missing: Vec<Literal>,
 }
 
-pub(super) fn visit(task: &Task, budget: &Budget<'_>) -> Space {
-    let literals = &task.goal().literals;
+pub(super) fn visit(task: &Task, query: &Query<'_>, budget: &Budget<'_>) -> Space {
+    let literals = &query.goal.literals;
+    let barred = query.barred(task);
     let positive = literals.positive.iter().map(|&f| (f, true));
     let goals: Vec<Literal> = positive.chain(literals.negative.iter().map(|&f| (f, false))).collect();
     let fluents = fluents(task, &goals);
@@ -55,18 +56,20 @@ pub(super) fn visit(task: &Task, budget: &Budget<'_>) -> Space {
     let mut together = [0_u64; PAIRED];
     let mut nearest: Option<(usize, StateId, Vec<Literal>)> = None;
 
-    let mut registry = StateRegistry::new(task, task.initial_state().words());
-    let mut here = task.initial_state().words().to_vec();
+    let mut registry = StateRegistry::new(task, query.state.words());
+    let mut here = query.state.words().to_vec();
     let mut next = here.clone();
     let (mut successors, mut visited, mut known) = (Vec::new(), 0, 1);
     registry.insert(&here, None);
     let mut complete = true;
     while visited < known {
+        let asks = visited % 256 == 0;
+        let is_over = visited >= STATES
+            || budget.expansions.is_some_and(|most| u64::from(visited) >= most)
+            || (asks && (budget.interrupted)())
+            || (asks && budget.memory_bytes.is_some_and(|most| registry.memory() > most));
         // The first state is always looked at: it is the nearest, if no other is.
-        let is_over = visited > 0
-            && visited % 256 == 0
-            && ((budget.interrupted)() || budget.memory_bytes.is_some_and(|most| registry.memory() > most));
-        if visited >= STATES || is_over {
+        if visited > 0 && is_over {
             complete = false;
             break;
         }
@@ -100,6 +103,7 @@ pub(super) fn visit(task: &Task, budget: &Budget<'_>) -> Space {
         }
         successors.clear();
         task.successors.applicable(&here, &mut successors);
+        barred.filter(&mut successors);
         for &operator in &successors {
             next.copy_from_slice(&here);
             if !task.apply(operator, &here, &mut next) {

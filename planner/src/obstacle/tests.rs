@@ -1,11 +1,12 @@
 //! Explanations of small tasks, and of random ones held against all their states.
 
 use super::{Explanation, Extent, Hindrance, Need, Never, Wanted, Why, explain};
+use crate::ids::OperatorId;
 use crate::lifted_tests::{OBJECTS, PREDICATES, atom_name, bit, lifted_task};
 use crate::random_numbers;
 use crate::random_tests::{self, FACTS, random_task};
 use crate::search::{Budget, Outcome, Query, SearchConfiguration, UnsolvableReason, solve};
-use crate::task::Impossible;
+use crate::task::{Impossible, State};
 use crate::test_support::Grounded;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
@@ -26,7 +27,8 @@ impl Grounded {
             Outcome::Unsolvable(reason) => reason,
             _ => UnsolvableReason::SpaceExhausted,
         };
-        explain(&self.domain, &self.problem, &self.task, &reason, &Budget::default())
+        let query = Query::of(&self.task);
+        explain(&self.domain, &self.problem, &self.task, &query, &reason, &Budget::default())
     }
 
     fn name(&self, wanted: &Wanted) -> String {
@@ -72,6 +74,7 @@ impl Grounded {
                                 format!("never together {}", all.join(" "))
                             }
                             Hindrance::NeverApplies => "never".to_owned(),
+                            Hindrance::Excluded => "excluded".to_owned(),
                         };
                         lines.push(format!("{wanted} by {by}: {why}"));
                     }
@@ -335,10 +338,61 @@ proptest! {
     }
 
     #[test]
+    fn what_is_said_of_another_start_without_some_operators_is_so(
+        random in random_task(), steps in prop::collection::vec(0..100_usize, 0..4),
+        excluded in prop::collection::vec(any::<prop::sample::Index>(), 0..4),
+    ) {
+        let model = Grounded::new(random.text());
+        let task = &model.task;
+        let mut state = task.initial_state().clone();
+        for step in steps {
+            let applicable = task.applicable(&state);
+            let Some(&operator) = applicable.get(step % applicable.len().max(1)) else { break };
+            state = task.successor(&state, operator).unwrap();
+        }
+        let all: Vec<OperatorId> = task.operators().ids().collect();
+        let excluded: Vec<OperatorId> =
+            if all.is_empty() { Vec::new() } else { excluded.iter().map(|index| *index.get(&all)).collect() };
+        let query = Query { state: &state, goal: task.goal(), excluded: &excluded };
+        let reason = UnsolvableReason::SpaceExhausted;
+        let explanation = explain(&model.domain, &model.problem, task, &query, &reason, &Budget::default());
+        let mut states = vec![state.clone()];
+        let mut next = 0;
+        while let Some(here) = states.get(next).cloned() {
+            let allowed = task.applicable(&here).into_iter().filter(|o| !excluded.contains(o));
+            for after in allowed.filter_map(|operator| task.successor(&here, operator)) {
+                if !states.contains(&after) {
+                    states.push(after);
+                }
+            }
+            next += 1;
+        }
+        if states.iter().any(|s| task.satisfies(s, task.goal())) {
+            prop_assert!(explanation.parts.is_empty() && explanation.exclusive.is_empty());
+        }
+        let space = explanation.space.as_ref().unwrap();
+        prop_assert_eq!(space.states as usize, states.len());
+        let is_so = |wanted: &Wanted, state: &State| {
+            let arguments: Vec<_> = wanted.pattern.arguments.iter().map(|a| a.clone().unwrap()).collect();
+            task.fact(wanted.pattern.predicate, &arguments).is_some_and(|f| state.contains(f) == wanted.positive)
+        };
+        for reason in &explanation.reasons {
+            prop_assert!(!states.iter().any(|state| is_so(&reason.wanted, state)), "{reason:?}");
+            let Why::Givers { givers, .. } = &reason.why else { continue };
+            for giver in givers.iter().filter(|giver| giver.hindrance == Hindrance::Excluded) {
+                let named = |o: &&OperatorId| Some(task.operator(**o).action) == giver.action;
+                prop_assert!(excluded.iter().any(|o| named(&o)), "{giver:?}");
+            }
+        }
+    }
+
+    #[test]
     fn numbers_that_are_said_not_to_be_reached_are_not(random in random_numbers::random_task()) {
         let model = Grounded::new(random.text());
         let reason = UnsolvableReason::Impossible(Impossible::Formula);
-        let explanation = explain(&model.domain, &model.problem, &model.task, &reason, &Budget::default());
+        let query = Query::of(&model.task);
+        let explanation =
+            explain(&model.domain, &model.problem, &model.task, &query, &reason, &Budget::default());
         let (shortest, _) = random.shortest();
         prop_assert!(shortest.is_none() || explanation.parts.is_empty(), "{:?}", explanation.parts);
     }
