@@ -44,6 +44,15 @@ pub struct Signature {
     pub to: TypeId,
 }
 
+/// How many edges of a label a node may have; as many as one likes where nothing is said.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Degree {
+    /// That leave it.
+    pub leaving: Option<u32>,
+    /// That reach it.
+    pub reaching: Option<u32>,
+}
+
 /// What carries an attribute, by type.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -73,6 +82,7 @@ struct NodeType {
 struct Label {
     name: Arc<str>,
     signatures: Vec<Signature>,
+    degree: Degree,
 }
 
 #[derive(Debug)]
@@ -91,6 +101,8 @@ pub struct Dictionary {
     attributes: Vec<Attribute>,
     agents: Vec<Arc<str>>,
     resources: Vec<Arc<str>>,
+    /// Whether any label has a degree.
+    limited: bool,
     type_names: FxHashMap<Arc<str>, TypeId>,
     label_names: FxHashMap<Arc<str>, LabelId>,
     attribute_names: FxHashMap<Arc<str>, AttributeId>,
@@ -221,6 +233,16 @@ impl Dictionary {
     /// What the attribute may hold.
     pub fn kind(&self, id: AttributeId) -> Option<Kind> {
         self.attributes.get(id.index()).map(|entry| entry.kind)
+    }
+
+    /// How many edges of the label a node may have.
+    pub fn degree(&self, label: LabelId) -> Degree {
+        self.labels.get(label.index()).map_or(Degree::default(), |entry| entry.degree)
+    }
+
+    /// Whether any label is limited.
+    pub(crate) fn has_limits(&self) -> bool {
+        self.limited
     }
 
     /// What the attribute is measured in, if it is declared.

@@ -235,9 +235,9 @@ pub enum RestoreError {
     /// More commits than a graph can see.
     #[error("no version {}", found.0)]
     NoVersion { found: Version },
-    /// The transforms are no rooted tree.
+    /// The transforms are no rooted tree, or a node has more edges than it may.
     #[error(transparent)]
-    NoTree(#[from] TransactionError),
+    Unsound(#[from] TransactionError),
 }
 
 /// The last version that a number of a lease can tell from the next; a commit a nanosecond takes a hundred days to it.
@@ -249,6 +249,7 @@ pub(crate) fn restore(dictionary: Arc<Dictionary>, export: &Export) -> Result<St
         return Err(RestoreError::NoVersion { found: export.version });
     }
     let mut state = State::empty(dictionary);
+    let mark = state.mark();
     let dictionary = Arc::clone(&state.dictionary);
     for node in &export.nodes {
         let id = node.id;
@@ -274,8 +275,6 @@ pub(crate) fn restore(dictionary: Arc<Dictionary>, export: &Export) -> Result<St
             restore_attribute(&mut state, Holder::Node(node.id), attribute)?;
         }
     }
-    state.log.clear();
-    let mark = state.mark();
     for transform in &export.transforms {
         restore_transform(&mut state, transform)?;
     }

@@ -87,7 +87,8 @@ pub use chain::ChainError;
 pub use cortex::{CortexError, CortexUnit, CortexWorld, Imported};
 pub use delta::{Change, Delta};
 pub use dictionary::{
-    Dictionary, DictionaryBuilder, DictionaryError, End, HolderType, Nature, Permission, Signature, Token,
+    Degree, Dictionary, DictionaryBuilder, DictionaryError, End, HolderType, Nature, Permission, Signature,
+    Token,
 };
 pub use export::{
     Export, ExportedAttribute, ExportedEdge, ExportedNode, ExportedSample, ExportedTransform, ExportedValue,

@@ -5,6 +5,7 @@
 //! change its parent by a removal and a setting in one transaction.
 
 pub(crate) mod apply;
+mod degree;
 mod error;
 mod lease;
 mod tree;

@@ -51,6 +51,7 @@ impl Model {
         let signatures: &[_] = match label {
             "is" => &[("robot", "activity"), ("person", "activity")],
             "is_with" => &[("person", "robot")],
+            "sits_at" => &[("person", "place")],
             "is_in" => &[("test", "part")],
             _ => &[("object", "object")],
         };
@@ -155,11 +156,18 @@ impl Model {
 
     fn commit(&mut self, lines: &[String]) -> bool {
         let mut next = self.clone();
-        let fine = lines.iter().all(|line| next.edit(line)) && next.is_tree();
+        let fine = lines.iter().all(|line| next.edit(line)) && next.is_tree() && next.all_sit_apart();
         if fine {
             *self = next;
         }
         fine
+    }
+
+    /// One person per place where somebody sits, and one place per person.
+    fn all_sit_apart(&self) -> bool {
+        let sits: Vec<_> = self.edges.iter().filter(|edge| edge[1] == "sits_at").collect();
+        let all = |end: usize| sits.iter().map(|edge| &edge[end]).collect::<BTreeSet<_>>().len();
+        all(0) == sits.len() && all(2) == sits.len()
     }
 
     /// One component and no cycle, by petgraph.
@@ -225,6 +233,9 @@ fn line() -> impl Strategy<Value = String> {
             "carlos is_with clarc",
             "anna is_with clarc",
             "barthel is_in feeding",
+            "carlos sits_at clarc",
+            "carlos sits_at world",
+            "anna sits_at world",
             "carlos knows anna",
             "anna knows carlos",
             "clarc knows carlos",

@@ -170,6 +170,6 @@ fn what_is_refused_is_refused_soon() {
     export.transforms.push(below(2, 0));
     assert!(matches!(
         Graph::restore(graph.dictionary(), &export).map(|_| ()),
-        Err(RestoreError::NoTree(TransactionError::Cycle { .. }))
+        Err(RestoreError::Unsound(TransactionError::Cycle { .. }))
     ));
 }

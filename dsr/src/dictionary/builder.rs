@@ -7,7 +7,9 @@ use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
-use super::{Attribute, Dictionary, HolderType, Label, Nature, NodeType, Permission, Signature, Token};
+use super::{
+    Attribute, Degree, Dictionary, HolderType, Label, Nature, NodeType, Permission, Signature, Token,
+};
 use crate::id::{AgentId, AttributeId, LabelId, ResourceId, TypeId};
 use crate::unit::Unit;
 use crate::value::Kind;
@@ -110,6 +112,7 @@ impl DictionaryBuilder {
                 attributes: Vec::new(),
                 agents: Vec::new(),
                 resources: Vec::new(),
+                limited: false,
                 type_names: FxHashMap::default(),
                 label_names: FxHashMap::default(),
                 attribute_names: FxHashMap::default(),
@@ -129,7 +132,11 @@ impl DictionaryBuilder {
             ("holds", LabelId::HOLDS, ["priority", "yields", "claim"]),
             ("awaits", LabelId::AWAITS, ["awaits_priority", "awaits_yields", "asked"]),
         ] {
-            new.made.labels.push(Label { name: name.into(), signatures: vec![signature] });
+            new.made.labels.push(Label {
+                name: name.into(),
+                signatures: vec![signature],
+                degree: Degree::default(),
+            });
             new.made.label_names.insert(name.into(), label);
             let holder = HolderType::Edge { label, signature };
             for (attribute, kind) in attributes.into_iter().zip([Kind::Number, Kind::Bool, Kind::Number]) {
@@ -172,7 +179,11 @@ impl DictionaryBuilder {
             Some(&id) => id,
             None => {
                 let id = LabelId::at(self.made.labels.len());
-                self.made.labels.push(Label { name: name.clone(), signatures: Vec::new() });
+                self.made.labels.push(Label {
+                    name: name.clone(),
+                    signatures: Vec::new(),
+                    degree: Degree::default(),
+                });
                 self.made.label_names.insert(name, id);
                 id
             }
@@ -221,6 +232,18 @@ impl DictionaryBuilder {
             });
         }
         self.attribute(&name, HolderType::Edge { label, signature: Signature { from, to } }, kind)
+    }
+
+    /// Says how many edges of a label a node may have: one place where somebody is, two hands.
+    pub fn limit(&mut self, label: LabelId, degree: Degree) -> Result<(), DictionaryError> {
+        let entry =
+            self.made.labels.get_mut(label.index()).ok_or(DictionaryError::UnknownLabel { id: label })?;
+        if Dictionary::is_reserved(label) {
+            return Err(DictionaryError::Reserved { name: entry.name.clone() });
+        }
+        entry.degree = degree;
+        self.made.limited = self.made.labels.iter().any(|label| label.degree != Degree::default());
+        Ok(())
     }
 
     /// Says what a numeric attribute is measured in.

@@ -8,7 +8,9 @@ use std::sync::Arc;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::{Dictionary, DictionaryBuilder, DictionaryError, HolderType, Nature, Permission, Signature};
+use super::{
+    Degree, Dictionary, DictionaryBuilder, DictionaryError, HolderType, Nature, Permission, Signature,
+};
 use crate::id::{AgentId, AttributeId, LabelId, TypeId};
 use crate::unit::Unit;
 use crate::value::Kind;
@@ -34,6 +36,7 @@ struct PlainType {
 struct PlainLabel {
     name: Arc<str>,
     signatures: Vec<Signature>,
+    degree: Degree,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -63,7 +66,11 @@ impl Plain {
                 })
                 .collect(),
             labels: labels
-                .map(|entry| PlainLabel { name: entry.name.clone(), signatures: entry.signatures.clone() })
+                .map(|entry| PlainLabel {
+                    name: entry.name.clone(),
+                    signatures: entry.signatures.clone(),
+                    degree: entry.degree,
+                })
                 .collect(),
             attributes: attributes
                 .map(|entry| PlainAttribute {
@@ -84,9 +91,10 @@ impl Plain {
         for PlainType { name, parent, nature } in &self.types {
             builder.node_type(name, Some(*parent), *nature)?;
         }
-        for PlainLabel { name, signatures } in &self.labels {
+        for PlainLabel { name, signatures, degree } in &self.labels {
             for Signature { from, to } in signatures {
-                builder.label(name, *from, *to)?;
+                let label = builder.label(name, *from, *to)?;
+                builder.limit(label, *degree)?;
             }
         }
         for PlainAttribute { name, holder, kind, unit } in &self.attributes {

@@ -8,7 +8,7 @@
 use std::sync::Arc;
 
 use super::error::TransactionError;
-use super::{Edit, HolderRef, Transaction, tree};
+use super::{Edit, HolderRef, Transaction, degree, tree};
 use crate::block::Node;
 use crate::delta::{self, Change, Delta};
 use crate::dictionary::{Dictionary, HolderType, Nature, Token};
@@ -112,7 +112,7 @@ pub(crate) fn judge(state: &mut State, mark: Mark) -> Result<(), TransactionErro
     if state.log.mentions.transforms() {
         state.root = tree::check(state, mark)?;
     }
-    Ok(())
+    degree::check(state, mark)
 }
 
 /// Applies one edit, or leaves the state as it is.

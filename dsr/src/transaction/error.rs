@@ -70,6 +70,12 @@ pub enum TransactionError {
     /// A rotation that is no unit quaternion.
     #[error("the pose of '{child}' in '{parent}' has a rotation that is no unit quaternion")]
     NotRigid { parent: Name, child: Name },
+    /// More edges of a label would leave a node than the dictionary allows.
+    #[error("at most {most} '{label}' may leave '{node}'")]
+    TooManyLeave { node: Name, label: Name, most: u32 },
+    /// More edges of a label would reach a node than the dictionary allows.
+    #[error("at most {most} '{label}' may reach '{node}'")]
+    TooManyReach { node: Name, label: Name, most: u32 },
     /// The writer does not own the token there.
     #[error("'{writer}' may not write {token} at '{from}'{}", to.as_ref().map(|to| format!(", '{to}'")).unwrap_or_default())]
     Forbidden { writer: Name, token: Name, from: Name, to: Option<Name> },

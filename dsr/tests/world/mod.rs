@@ -7,8 +7,9 @@
 use std::sync::Arc;
 
 use dsr::{
-    AgentId, Covariance, Dictionary, DictionaryBuilder, End, Graph, HolderRef, Isometry3, Kind, Matrix6,
-    Nature, NewValue, NodeRef, Permission, Pose, Preemption, Priority, Time, Token, Transaction, TypeId,
+    AgentId, Covariance, Degree, Dictionary, DictionaryBuilder, End, Graph, HolderRef, Isometry3, Kind,
+    Matrix6, Nature, NewValue, NodeRef, Permission, Pose, Preemption, Priority, Time, Token, Transaction,
+    TypeId,
 };
 
 /// Types: `place` > (`robot`, `person`, `part`), `activity`, `test`. Agents: `speech` may say what is and what
@@ -27,6 +28,8 @@ pub(crate) fn dictionary() -> Arc<Dictionary> {
     let is_with = b.label("is_with", person, robot).unwrap();
     let is_in = b.label("is_in", test, part).unwrap();
     let knows = b.label("knows", TypeId::OBJECT, TypeId::OBJECT).unwrap();
+    let sits_at = b.label("sits_at", person, place).unwrap();
+    b.limit(sits_at, Degree { leaving: Some(1), reaching: Some(1) }).unwrap();
     let score = b.attribute_on_node("score", test, Kind::Number).unwrap();
     b.attribute_on_node("patient", test, Kind::Node(person)).unwrap();
     b.attribute_on_node("urgent", test, Kind::Bool).unwrap();

@@ -1,0 +1,38 @@
+//! How many edges of a label a node may have: judged once, at the end of a transaction, so that one edge can take the
+//! place of another in any order.
+//!
+//! Cost: two binary searches per edge that came; nothing in a dictionary without limits.
+
+use super::error::TransactionError;
+use crate::block::Node;
+use crate::id::{LabelId, NodeId};
+use crate::state::State;
+use crate::undo::{Mark, Undo};
+
+/// Whether the edges that came since the mark are too many somewhere.
+pub(super) fn check(state: &State, mark: Mark) -> Result<(), TransactionError> {
+    if !state.dictionary.has_limits() {
+        return Ok(());
+    }
+    for entry in state.log.since(mark) {
+        let Undo::EdgeAdded(key) = entry else { continue };
+        let degree = state.dictionary.degree(key.label);
+        let count = |node, edges: fn(Node<'_>, LabelId) -> usize| {
+            state.node(node).map_or(0, |node| edges(node, key.label))
+        };
+        let leaving = count(key.from, |node, label| node.edges(label).len());
+        let reaching = count(key.to, |node, label| node.sources(label).len());
+        let too_many = |node: NodeId, found: usize, most: Option<u32>| {
+            let most = most.filter(|&most| found > most as usize)?;
+            Some((state.name(node), most))
+        };
+        let label = || state.dictionary.label_name(key.label).cloned().unwrap_or_default();
+        if let Some((node, most)) = too_many(key.from, leaving, degree.leaving) {
+            return Err(TransactionError::TooManyLeave { node, label: label(), most });
+        }
+        if let Some((node, most)) = too_many(key.to, reaching, degree.reaching) {
+            return Err(TransactionError::TooManyReach { node, label: label(), most });
+        }
+    }
+    Ok(())
+}
