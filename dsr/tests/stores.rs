@@ -136,35 +136,44 @@ impl Store for Gated {
     }
 }
 
+/// The disk stalls at one append after the other: of the commit's frame, and of the dictionary and the state of the
+/// segment that begins behind it, each a header and a payload.
 #[test]
-fn commits_that_are_left_out_while_a_full_segment_is_written_are_a_gap() {
-    let graph = world::ward();
-    let memory = Memory::default();
-    let (told, came) = mpsc::channel();
-    let (go_on, gate) = mpsc::channel();
-    let store = Gated { memory: memory.clone(), came: told, go_on: gate };
-    let settings = Settings { waiting_bytes: 2_000, segment_bytes: 1, ..settings() };
-    let journal = graph.journal(store, settings).unwrap();
-    // The dictionary and the state, each a header and a payload.
-    for _ in 0..4 {
+fn commits_that_are_left_out_while_a_segment_ends_or_begins_are_a_gap() {
+    for stalled in 0..6 {
+        let graph = world::ward();
+        let memory = Memory::default();
+        let (told, came) = mpsc::channel();
+        let (go_on, gate) = mpsc::channel();
+        let store = Gated { memory: memory.clone(), came: told, go_on: gate };
+        let settings = Settings { waiting_bytes: 2_000, segment_bytes: 1, ..settings() };
+        let journal = graph.journal(store, settings).unwrap();
+        let pass = |appends| {
+            for _ in 0..appends {
+                came.recv().unwrap();
+                go_on.send(()).unwrap();
+            }
+        };
+        pass(4);
+        let first = world::commit(&graph, "dsr", "set barthel score number -1").unwrap().version;
+        pass(stalled);
+        // The thread has taken that commit, and nothing was lost by then.
         came.recv().unwrap();
-        go_on.send(()).unwrap();
+        for round in 0..1_000 {
+            world::commit(&graph, "dsr", &format!("set barthel score number {round}")).unwrap();
+        }
+        drop(go_on);
+        let last = graph.snapshot();
+        let progress = journal.wait(last.version()).unwrap();
+        assert_eq!((progress.gaps, progress.durable), (1, last.version()), "append {stalled}");
+        journal.close().unwrap();
+        let recording = Recording::read(memory.segments()).unwrap();
+        assert_eq!(recording.damage(), &[]);
+        assert_eq!(bytes(&recording.at(last.version()).unwrap()), bytes(&last));
+        assert_eq!(recording.at(first).unwrap().version(), first);
+        let lost = recording.at(Version(last.version().0 - 1)).unwrap_err();
+        assert!(matches!(lost, RecordingError::NotRecorded { .. }), "{lost}");
     }
-    world::commit(&graph, "dsr", "set barthel score number -1").unwrap();
-    // The thread has taken that commit, and nothing was lost by then.
-    came.recv().unwrap();
-    for round in 0..1_000 {
-        world::commit(&graph, "dsr", &format!("set barthel score number {round}")).unwrap();
-    }
-    drop(go_on);
-    let last = graph.snapshot();
-    let progress = journal.wait(last.version()).unwrap();
-    assert_eq!((progress.gaps, progress.durable), (1, last.version()));
-    journal.close().unwrap();
-    let recording = Recording::read(memory.segments()).unwrap();
-    assert_eq!(bytes(&recording.at(last.version()).unwrap()), bytes(&last));
-    let lost = recording.at(Version(last.version().0 - 1)).unwrap_err();
-    assert!(matches!(lost, RecordingError::NotRecorded { .. }), "{lost}");
 }
 
 /// A store that panics after some appends.
