@@ -12,9 +12,9 @@ use std::sync::{Arc, LazyLock};
 
 use arbitrary::{Arbitrary, Result, Unstructured};
 use dsr::{
-    AgentId, Change, Covariance, Delta, DictionaryBuilder, Edit, Export, ExportedAttribute, ExportedValue,
-    Graph, Holder, HolderRef, Isometry3, Kind, Matrix6, Memory, Nature, NewValue, NodeId, NodeRef,
-    Permission, Pose, Preemption, Priority, Recording, ResourceId, Settings, Snapshot, Time, Token,
+    AgentId, Change, Covariance, Degree, Delta, DictionaryBuilder, Edit, Export, ExportedAttribute,
+    ExportedValue, Graph, Holder, HolderRef, Isometry3, Kind, Matrix6, Memory, Nature, NewValue, NodeId,
+    NodeRef, Permission, Pose, Preemption, Priority, Recording, ResourceId, Settings, Snapshot, Time, Token,
     Transaction, Unit, Value, Version,
 };
 use serde::Serialize;
@@ -42,6 +42,7 @@ static WORLD: LazyLock<World> = LazyLock::new(|| {
     let robot = b.node_type("robot", Some(place), Nature::Geometric).expect("new");
     let thing = b.node_type("thing", None, Nature::Symbolic).expect("new");
     let near = b.label("near", place, place).expect("new");
+    b.limit(near, Degree { leaving: Some(1), reaching: Some(2) }).expect("it is there");
     let has = b.label("has", robot, thing).expect("new");
     let size = b.attribute_on_node("size", place, Kind::Number).expect("new");
     b.measured_in(size, Unit::Metre).expect("a number");
