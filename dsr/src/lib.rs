@@ -105,7 +105,7 @@ pub use journal::{
 pub use mentions::Mentions;
 pub use nalgebra::{Isometry3, Matrix6};
 pub use pattern::{
-    Binding, Comparison, HolderTerm, Metric, Operand, Pattern, PatternBuilder, PatternError,
+    Binding, Comparison, HolderTerm, Metric, Operand, Pattern, PatternBuilder, PatternError, PatternSource,
     PatternTextError, Term, Threshold, Variable,
 };
 pub use pose::{Covariance, CovarianceError, Pose};

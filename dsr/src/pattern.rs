@@ -22,7 +22,7 @@ mod text;
 use std::ops::Deref;
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
 pub use self::builder::PatternBuilder;
 pub use self::check::PatternError;
@@ -33,12 +33,13 @@ pub(crate) use self::rigid::moved;
 use self::seed::Seed;
 pub(crate) use self::seed::{Fixed, Route, Slices};
 pub use self::text::PatternTextError;
+use crate::dictionary::Dictionary;
 use crate::id::{AttributeId, LabelId, NodeId, TypeId};
 use crate::mentions::Mentions;
 use crate::value::Value;
 
 /// A variable of a pattern.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Variable {
     scope: Scope,
     index: u16,
@@ -51,14 +52,16 @@ impl Variable {
     }
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 enum Scope {
     Top,
     Local,
 }
 
 /// What may stand where a node is meant.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Term {
     /// A variable.
     Variable(Variable),
@@ -87,7 +90,8 @@ impl From<&str> for Term {
 }
 
 /// What carries an attribute in a pattern.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 #[expect(missing_docs, reason = "the fields are the terms of the variant")]
 pub enum HolderTerm {
     /// A node.
@@ -115,7 +119,8 @@ impl<T: Into<Term>> From<T> for HolderTerm {
 }
 
 /// How two values are compared. Order is for numbers only.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 #[expect(missing_docs, reason = "the names say it")]
 pub enum Comparison {
     Equal,
@@ -127,7 +132,8 @@ pub enum Comparison {
 }
 
 /// The right-hand side of an attribute guard.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Operand {
     /// A constant.
     Value(Value),
@@ -168,7 +174,8 @@ impl From<Term> for Operand {
 }
 
 /// What is measured between two frames, when it is asked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Metric {
     /// Between the origins, in metres.
     Distance,
@@ -180,7 +187,7 @@ pub enum Metric {
 /// not come and go with each measurement: in the band between them a match stays what it was, there or not; without a
 /// history it is not there. In a negated part this is so for the match of the pattern around it: "nobody near" appears
 /// when everybody has passed the second number, and stays until somebody has passed the first.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Threshold {
     /// What is measured begins to compare so when the comparison holds with this.
     pub appears: f64,
@@ -195,7 +202,8 @@ impl From<f64> for Threshold {
 }
 
 /// What a metric is held against.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 enum Limit {
     Threshold(Threshold),
     /// An attribute of the first node.
@@ -220,7 +228,8 @@ impl Strictness {
 }
 
 /// A part of a conjunction. Terms are slots once compiled.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 enum Atom<T> {
     Edge { from: T, label: LabelId, to: T },
     Present { holder: Carrier<T>, attribute: AttributeId },
@@ -231,13 +240,15 @@ enum Atom<T> {
     Without(Conjunction<T>),
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 enum Carrier<T> {
     Node(T),
     Edge { from: T, label: LabelId, to: T },
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 enum Right<T> {
     Value(Value),
     Term(T),
@@ -245,7 +256,7 @@ enum Right<T> {
 }
 
 /// Parts that must all hold, with the variables that begin here.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 struct Conjunction<T> {
     variables: Vec<T>,
     atoms: Vec<Atom<T>>,
@@ -264,9 +275,34 @@ enum Constant {
     Named(Arc<str>),
 }
 
-/// A compiled pattern.
+/// A pattern as it was written, without a dictionary: plain data, for files and other processes. [`PatternSource::build`]
+/// checks it as a [`PatternBuilder`] does.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct PatternSource {
+    /// Names and types of the top-level variables.
+    variables: Vec<(Arc<str>, TypeId)>,
+    /// Types of the local variables.
+    locals: Vec<TypeId>,
+    body: Conjunction<Term>,
+}
+
+impl PatternSource {
+    /// The pattern of a dictionary.
+    pub fn build(self, dictionary: &Dictionary) -> Result<Pattern, PatternError> {
+        check::compile(dictionary, self)
+    }
+}
+
+impl Serialize for Pattern {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.source.serialize(serializer)
+    }
+}
+
+/// A compiled pattern. Written by serde as its [`PatternSource`].
 #[derive(Debug, Clone)]
 pub struct Pattern {
+    source: Arc<PatternSource>,
     /// Names and types of the top-level variables, which have the first slots.
     variables: Vec<(Arc<str>, TypeId)>,
     /// Types of the local variables, which have the next slots.
@@ -291,6 +327,11 @@ impl Pattern {
     /// The names and types of the variables, in the order of a [`Binding`].
     pub fn variables(&self) -> impl Iterator<Item = (&str, TypeId)> + '_ {
         self.variables.iter().map(|(name, node_type)| (&**name, *node_type))
+    }
+
+    /// How it was written.
+    pub fn source(&self) -> &Arc<PatternSource> {
+        &self.source
     }
 
     /// The variable of that name.

@@ -16,27 +16,30 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
+use crate::dictionary::Dictionary;
 use crate::id::{AgentId, LabelId, NodeId, ReflexId, ResourceId, Version};
 use crate::mentions::Mentions;
-use crate::pattern::{Pattern, Variable};
+use crate::pattern::{Pattern, PatternError, PatternSource, Variable};
 use crate::state::State;
 use crate::transaction::apply::{apply, judge, resource_name};
 use crate::transaction::{Edit, TransactionError};
 
-/// A pattern with some of its variables fixed.
-#[derive(Debug, Clone)]
-pub struct Bound {
+/// A pattern with some of its variables fixed. With `P` = [`PatternSource`] it is plain data, as all of a [`Reflex`] is.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Bound<P = Arc<Pattern>> {
     /// The pattern.
-    pub pattern: Arc<Pattern>,
+    pub pattern: P,
     /// The fixed variables.
     pub binding: Vec<(Variable, NodeId)>,
 }
 
 /// A condition to keep: at least one of the alternatives must have a match.
-#[derive(Debug, Clone)]
-pub struct Keep {
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Keep<P = Arc<Pattern>> {
     /// The alternatives.
-    pub any: Vec<Bound>,
+    pub any: Vec<Bound<P>>,
 }
 
 impl From<Bound> for Keep {
@@ -52,17 +55,36 @@ impl Keep {
 }
 
 /// What an activity leaves with the graph.
-#[derive(Debug, Clone)]
-pub struct Reflex {
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Reflex<P = Arc<Pattern>> {
     /// Whose activity it is; the writer of the transaction that registers it.
     pub owner: AgentId,
     /// What must keep holding, all of it.
-    pub keep: Vec<Keep>,
+    pub keep: Vec<Keep<P>>,
     /// What to write when it no longer does. An edit that names a node that is gone is left out; if another
     /// cannot be made, none is. It takes no lease and waits for none.
     pub on_break: Vec<Edit>,
     /// Leases that the activity needs. Losing one breaks the reflex; firing or dismissing gives them back.
     pub leases: Vec<ResourceId>,
+}
+
+impl Reflex<PatternSource> {
+    /// The reflex of a dictionary.
+    pub fn build(self, dictionary: &Dictionary) -> Result<Reflex, PatternError> {
+        let bound = |Bound { pattern, binding }: Bound<PatternSource>| {
+            Ok(Bound { pattern: Arc::new(pattern.build(dictionary)?), binding })
+        };
+        let keep = |keep: Keep<PatternSource>| {
+            Ok(Keep { any: keep.any.into_iter().map(bound).collect::<Result<_, PatternError>>()? })
+        };
+        let Self { owner, keep: kept, on_break, leases } = self;
+        Ok(Reflex {
+            owner,
+            keep: kept.into_iter().map(keep).collect::<Result<_, PatternError>>()?,
+            on_break,
+            leases,
+        })
+    }
 }
 
 /// A reflex that is registered, with the grant of each of its leases.

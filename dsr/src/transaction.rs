@@ -16,7 +16,9 @@ use serde::{Deserialize, Serialize};
 
 pub use self::error::TransactionError;
 pub use self::lease::{Lease, Preemption, Priority, Waiting};
+use crate::dictionary::Dictionary;
 use crate::id::{AgentId, AttributeId, LabelId, ReflexId, ResourceId, Time, TypeId, Version};
+use crate::pattern::{Pattern, PatternError, PatternSource};
 use crate::pose::Pose;
 use crate::reflex::Reflex;
 use crate::value::{NewValue, NodeRef};
@@ -94,14 +96,24 @@ pub enum Edit {
     Expire { agent: AgentId },
 }
 
-/// A list of edits by one writer.
-#[derive(Debug, Clone)]
-pub struct Transaction {
+/// A list of edits by one writer. With `P` = [`PatternSource`] it is plain data, which [`Transaction::build`] makes one of
+/// a dictionary.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Transaction<P = Arc<Pattern>> {
     pub(crate) writer: AgentId,
     pub(crate) expected: Option<Version>,
     pub(crate) edits: Vec<Edit>,
-    pub(crate) guards: Vec<Reflex>,
+    pub(crate) guards: Vec<Reflex<P>>,
     pub(crate) dismissed: Vec<ReflexId>,
+}
+
+impl Transaction<PatternSource> {
+    /// The transaction of a dictionary.
+    pub fn build(self, dictionary: &Dictionary) -> Result<Transaction, PatternError> {
+        let Self { writer, expected, edits, guards, dismissed } = self;
+        let guards = guards.into_iter().map(|guard| guard.build(dictionary)).collect::<Result<_, _>>()?;
+        Ok(Transaction { writer, expected, edits, guards, dismissed })
+    }
 }
 
 impl Transaction {

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::{
-    Atom, Carrier, Comparison, Conjunction, HolderTerm, Limit, Metric, Operand, Pattern, PatternError, Right,
-    Scope, Term, Threshold, Variable, check,
+    Atom, Carrier, Comparison, Conjunction, HolderTerm, Limit, Metric, Operand, Pattern, PatternError,
+    PatternSource, Right, Scope, Term, Threshold, Variable,
 };
 use crate::dictionary::Dictionary;
 use crate::id::{AttributeId, LabelId, TypeId};
@@ -129,7 +129,7 @@ impl<'d> PatternBuilder<'d> {
     pub fn build(self) -> Result<Pattern, PatternError> {
         let Self { dictionary, variables, locals, mut open } = self;
         let body = open.pop().expect("the pattern's own conjunction is never popped before");
-        check::compile(dictionary, variables, locals, &body)
+        PatternSource { variables, locals, body }.build(dictionary)
     }
 
     fn top(&mut self) -> &mut Conjunction<Term> {

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use super::plan::{Mask, plan};
 use super::{
-    Atom, Carrier, Comparison, Conjunction, Constant, Limit, Pattern, Right, SLOTS, Scope, Slot, Term,
-    Threshold, Variable, rigid, seed,
+    Atom, Carrier, Comparison, Conjunction, Constant, Limit, Pattern, PatternSource, Right, SLOTS, Scope,
+    Slot, Term, Threshold, Variable, rigid, seed,
 };
 use crate::dictionary::{Dictionary, HolderType, Nature};
 use crate::id::{AttributeId, LabelId, NodeId, TypeId};
@@ -54,12 +54,8 @@ pub enum PatternError {
     NotGeometric { node_type: Name },
 }
 
-pub(super) fn compile(
-    dictionary: &Dictionary,
-    variables: Vec<(Name, TypeId)>,
-    locals: Vec<TypeId>,
-    body: &Conjunction<Term>,
-) -> Result<Pattern, PatternError> {
+pub(super) fn compile(dictionary: &Dictionary, source: PatternSource) -> Result<Pattern, PatternError> {
+    let (variables, locals) = (source.variables.clone(), source.locals.clone());
     let count = variables.len() + locals.len();
     if count > SLOTS {
         return Err(PatternError::TooLarge { count });
@@ -79,7 +75,7 @@ pub(super) fn compile(
         mentions,
         remembers: false,
     };
-    let body = checker.conjunction(body)?;
+    let body = checker.conjunction(&source.body)?;
     let Checker { types, constants, mut mentions, remembers, .. } = checker;
     let count = types.len() + constants.len();
     if count > SLOTS {
@@ -99,6 +95,7 @@ pub(super) fn compile(
     let type_of = |slot: Slot| types.get(usize::from(slot.0)).copied();
     rigid::measured(&body, &type_of, dictionary, &mut measured);
     Ok(Pattern {
+        source: Arc::new(source),
         variables,
         locals,
         constants,

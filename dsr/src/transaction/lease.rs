@@ -46,7 +46,7 @@ pub enum Preemption {
 }
 
 /// A lease, as the graph shows it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Lease {
     /// Who holds the resource.
     pub holder: AgentId,
@@ -61,7 +61,7 @@ pub struct Lease {
 }
 
 /// A wait for a lease, as the graph shows it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Waiting {
     /// Who waits.
     pub agent: AgentId,
