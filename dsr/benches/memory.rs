@@ -42,12 +42,20 @@ fn main() {
     println!("{} bytes a node with 4 attributes and 3 edges, at {NODES} nodes", (built - before) / NODES);
 
     let ids: Vec<_> = graph.snapshot().nodes_of(place).collect();
+    for (at, &node) in ids.iter().enumerate() {
+        #[expect(clippy::cast_precision_loss, reason = "any number will do")]
+        let value = at as f64 + 2.0;
+        graph.edit(AgentId::DSR, Time(1), |tx| _ = tx.set_attribute(node, numbers[0], value)).unwrap();
+    }
+    let written = resident().unwrap();
+    println!("{} bytes a node when each has been written since, alone", (written - before) / NODES);
+
     let before = resident().unwrap();
     let mut held = Vec::new();
     for round in 0..10_000_usize {
         let node = ids[round.wrapping_mul(2_654_435_761) % NODES];
         #[expect(clippy::cast_precision_loss, reason = "any number will do")]
-        let value = round as f64 + 2.0;
+        let value = round as f64 + 0.5;
         let commit =
             graph.edit(AgentId::DSR, Time(1), |tx| _ = tx.set_attribute(node, numbers[0], value)).unwrap();
         held.push(commit.snapshot);
