@@ -1,7 +1,7 @@
 //! Looking now and then whether the caller wants an end.
 //!
 //! Problem: grounding a million operators takes a second, and whoever cancels wants an answer within
-//! milliseconds, whatever stage is at work. Idea: every loop [`Watch::spend`]s units of work, about a
+//! milliseconds, whatever stage is at work. Idea: every loop [spends](Spend::try_spend) units of work, about a
 //! nanosecond each, and each time an interval is used up the caller's closure is asked; an error then
 //! runs up through the stages with `?`. Invariant: once it was told so, a watch answers nothing else, so
 //! that a helper may stop early and leave it to its caller to notice. Searches have a meter instead,
@@ -52,16 +52,6 @@ impl<'a> Watch<'a> {
         self.interrupted
     }
 
-    /// Adds work; asks the caller where an interval is used up.
-    pub(crate) fn spend(&self, units: usize) -> Result<(), Interrupted> {
-        let since = self.since.get() + units;
-        if since < INTERVAL && !self.over.get() {
-            self.since.set(since);
-            return Ok(());
-        }
-        self.ask(since)
-    }
-
     #[cold]
     fn ask(&self, since: usize) -> Result<(), Interrupted> {
         self.widest.set(self.widest.get().max(since));
@@ -80,8 +70,14 @@ impl<'a> Watch<'a> {
 }
 
 impl Spend for Watch<'_> {
+    /// Asks the caller where an interval is used up.
     fn try_spend(&self, units: usize) -> Result<(), Interrupted> {
-        self.spend(units)
+        let since = self.since.get() + units;
+        if since < INTERVAL && !self.over.get() {
+            self.since.set(since);
+            return Ok(());
+        }
+        self.ask(since)
     }
 }
 
@@ -113,15 +109,15 @@ pub(crate) fn sort_by_count(
 
 #[cfg(test)]
 mod tests {
-    use super::{INTERVAL, Interrupted, Watch, sort_by_count};
+    use super::{INTERVAL, Interrupted, Spend, Watch, sort_by_count};
     use crate::ground::{GroundOptions, watched};
 
     #[test]
     fn whoever_is_told_once_stays_told() {
         let watch = Watch::new(&|| true);
-        assert_eq!(watch.spend(INTERVAL - 1), Ok(()));
-        assert_eq!(watch.spend(1), Err(Interrupted));
-        assert_eq!(watch.spend(0), Err(Interrupted));
+        assert_eq!(watch.try_spend(INTERVAL - 1), Ok(()));
+        assert_eq!(watch.try_spend(1), Err(Interrupted));
+        assert_eq!(watch.try_spend(0), Err(Interrupted));
     }
 
     #[test]

@@ -126,7 +126,7 @@ pub(super) struct RepairRecord {
     old_steps: usize,
     left_out: Vec<String>,
     prefer: Prefer,
-    way: Option<&'static str>,
+    way: Option<Way>,
     reused: Option<Figures>,
     scratch: Option<Figures>,
     scratch_limit: Option<&'static str>,
@@ -224,11 +224,8 @@ pub(super) fn run(
         (None, None) if repaired.fresh.is_some() => console.note("from scratch: none"),
         (None, None) => console.note("from scratch: not looked for"),
     }
-    let way = repaired.way.map(|way| match way {
-        Way::Reuse => "reuse",
-        Way::Scratch => "scratch",
-    });
-    match repaired.way {
+    let way = repaired.way;
+    match way {
         Some(Way::Reuse) => console.note("the repaired plan is taken"),
         Some(Way::Scratch) => console.note("the plan from scratch is taken"),
         None => {}

@@ -11,7 +11,7 @@
 //! [`instance`] says 470.
 
 use super::error::GroundOptions;
-use crate::watch::Watch;
+use crate::watch::{Spend, Watch};
 use std::cell::Cell;
 
 /// Bytes beyond which 32-bit positions might not do.
@@ -63,7 +63,7 @@ impl<'a> Guard<'a> {
     }
 
     fn spend(&self, units: usize) {
-        if self.watch.spend(units).is_err() {
+        if self.watch.try_spend(units).is_err() {
             self.stop.set(Some(Stop::Interrupted));
         }
     }

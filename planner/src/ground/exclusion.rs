@@ -17,7 +17,7 @@ use super::join::{Bindings, Reached};
 use super::values::ValuePredicates;
 use crate::ids::id32;
 use crate::task::Rows;
-use crate::watch::{Interrupted, Watch};
+use crate::watch::{Interrupted, Spend, Watch};
 use invariants::{Happening, Invariant, Member, Proviso, conditional_invariants};
 use pddl::model::{Domain, PredicateId, Problem, Term};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -52,8 +52,8 @@ impl Exclusions {
         }
         let happenings: Vec<Happening<'_>> = domain.actions.iter().map(Happening::of_action).collect();
         let candidates =
-            conditional_invariants(domain, &happenings, &mut |work| watch.spend(64 * work).is_ok());
-        watch.spend(0)?;
+            conditional_invariants(domain, &happenings, &mut |work| watch.try_spend(64 * work).is_ok());
+        watch.try_spend(0)?;
         let mut known: FxHashMap<Proviso, bool> = FxHashMap::default();
         let mut found = Vec::new();
         for (invariant, provisos) in candidates {
@@ -83,7 +83,7 @@ impl Exclusions {
         let atoms = id32(table.len());
         let mut by_predicate: Vec<Vec<u32>> = vec![Vec::new(); domain.predicates.len()];
         for atom in statics..atoms {
-            watch.spend(8)?;
+            watch.try_spend(8)?;
             by_predicate[table.predicate(atom).0 as usize].push(atom);
         }
         let holds: FxHashSet<u32> = initial.iter().copied().collect();
@@ -91,7 +91,7 @@ impl Exclusions {
         let mut known: FxHashSet<Vec<u32>> = FxHashSet::default();
         for invariant in &found {
             for group in instances(invariant, table, &by_predicate, &holds, problem.objects.len(), watch)? {
-                watch.spend(64 + 8 * group.len())?;
+                watch.try_spend(64 + 8 * group.len())?;
                 if groups.items() + group.len() > ENTRIES || known.contains(&group) {
                     continue;
                 }
@@ -130,7 +130,7 @@ fn keeps(
         return Ok(false);
     }
     for row in 0..own.rows {
-        watch.spend(16)?;
+        watch.try_spend(16)?;
         let row = &own.values[row * own.width..][..own.width];
         if proviso.equal.iter().all(|&(a, b)| resolve(a, row) == resolve(b, row)) {
             return Ok(false);
@@ -165,7 +165,7 @@ fn instances(
     let mut found: Vec<(u32, Vec<u32>)> = Vec::new();
     for member in &invariant.members {
         for &atom in &by_predicate[member.predicate.0 as usize] {
-            watch.spend(64)?;
+            watch.try_spend(64)?;
             let row = table.row(atom);
             let key = packing.key(member.parameters.iter().map(|&p| row[p]));
             let next = found.len();

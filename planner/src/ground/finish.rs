@@ -60,7 +60,7 @@ pub(crate) fn finish(
     let mut numbers = vec![NONE; raw.atoms as usize];
     let mut status = Vec::with_capacity(known as usize);
     for a in 0..raw.atoms {
-        watch.spend(64)?;
+        watch.try_spend(64)?;
         let i = a as usize;
         let kept = pruned.needed[i] && !pruned.always[i] && !pruned.never[i];
         if kept {
@@ -85,7 +85,7 @@ pub(crate) fn finish(
     let view = View { pruned: &pruned, numbers: &numbers };
     let mut rules: Vec<AxiomRule> = Vec::new();
     for (head, body) in raw.rules.iter().filter(|(h, _)| numbers[*h as usize] != NONE) {
-        watch.spend(64 + 8 * body.len())?;
+        watch.try_spend(64 + 8 * body.len())?;
         if let Some(body) = view.literals(body) {
             rules.push(AxiomRule { head: FactId(numbers[*head as usize]), body });
         }
@@ -94,7 +94,7 @@ pub(crate) fn finish(
     let (mut operators, mut amounts, mut parts) = (Operators::default(), Vec::new(), Parts::default());
     let raw_operators = std::mem::take(&mut raw.operators);
     for (own, &improves) in raw_operators.iter().zip(&pruned.improves) {
-        watch.spend(raw_operators.work(&own))?;
+        watch.try_spend(raw_operators.work(&own))?;
         if pruned.is_refuted(own.precondition) {
             continue;
         }
@@ -183,7 +183,7 @@ fn groups(
 ) -> Result<Vec<Vec<u32>>, Interrupted> {
     let mut groups: Vec<Vec<u32>> = vec![Vec::new(); exclusions.len()];
     for atom in (0..known).filter(|&a| numbers[a as usize] != NONE) {
-        watch.spend(8 + 16 * exclusions.of(atom).len())?;
+        watch.try_spend(8 + 16 * exclusions.of(atom).len())?;
         for &group in exclusions.of(atom) {
             groups[group as usize].push(numbers[atom as usize]);
         }
@@ -191,12 +191,12 @@ fn groups(
     // Different groups of atoms may be the same group of facts. In order, by their first facts.
     let mut by_first: Vec<Vec<Vec<u32>>> = vec![Vec::new(); numbers.len()];
     for group in groups.into_iter().filter(|g| g.len() > 1) {
-        watch.spend(32)?;
+        watch.try_spend(32)?;
         by_first[group[0] as usize].push(group);
     }
     let mut sorted = Vec::new();
     for mut group in by_first {
-        watch.spend(4 + 256 * group.len())?;
+        watch.try_spend(4 + 256 * group.len())?;
         group.sort_unstable();
         group.dedup();
         sorted.append(&mut group);
@@ -228,7 +228,7 @@ fn set_costs(
         )]
         let cost = (amount * f64::from(scale)).round() as u32;
         operators.set_cost(operator, cost);
-        watch.spend(8)?;
+        watch.try_spend(8)?;
     }
     Ok(scale)
 }

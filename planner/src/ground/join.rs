@@ -23,7 +23,7 @@ use super::plan::{Filter, JoinPlan, Step, plan};
 use super::raw::Failure;
 use super::rule::Rule;
 use super::schema::Schema;
-use crate::watch::Watch;
+use crate::watch::{Spend, Watch};
 use pddl::model::{PredicateId, Term};
 use rustc_hash::FxHashMap;
 
@@ -124,7 +124,7 @@ pub(crate) fn reach(
     let allowed = options.bytes();
     let mut out = Out { schemas, table, bindings, instance_bytes, bytes, allowed, watch, fluents };
     for atom in 0..statics {
-        watch.spend(128)?;
+        watch.try_spend(128)?;
         indices.insert(&out.table, atom);
     }
     let mut binding = Vec::new();
@@ -134,7 +134,7 @@ pub(crate) fn reach(
     }
     let mut current = statics;
     while (current as usize) < out.table.len() {
-        watch.spend(128)?;
+        watch.try_spend(128)?;
         indices.insert(&out.table, current);
         let predicate = out.table.predicate(current).0 as usize;
         for (r, plan) in &triggered[predicate] {
@@ -208,7 +208,7 @@ impl Join<'_, '_> {
     }
 
     fn step(&mut self, at: usize, binding: &mut Vec<u32>) -> Result<(), GroundError> {
-        if self.out.watch.spend(32).is_err() {
+        if self.out.watch.try_spend(32).is_err() {
             return Err(self.out.interrupted(self.rule.schema));
         }
         let (rule, plan, indices) = (self.rule, self.plan, self.indices);
@@ -256,7 +256,7 @@ impl Join<'_, '_> {
             Step::Scan { atom, index, key, assign, repeat } => {
                 let candidates = indices.bucket(*index, key, binding);
                 'rows: for (i, &candidate) in candidates.iter().enumerate() {
-                    if i.is_multiple_of(256) && self.out.watch.spend(1024).is_err() {
+                    if i.is_multiple_of(256) && self.out.watch.try_spend(1024).is_err() {
                         return Err(self.out.interrupted(self.rule.schema));
                     }
                     if candidate == self.current && self.skips(*atom) {

@@ -33,7 +33,7 @@ pub(crate) use atoms::AtomTable;
 pub use error::{Feature, GroundError, GroundOptions, Origin};
 
 use crate::task::{Names, Task};
-use crate::watch::Watch;
+use crate::watch::{Spend, Watch};
 use cost::{CostModel, Measure, metric_span};
 use exclusion::Exclusions;
 use fluents::Fluents;
@@ -102,7 +102,7 @@ fn build(
 
     let mut table = AtomTable::new(domain.predicates.len(), problem.objects.len());
     let insert = |table: &mut AtomTable, fact: &pddl::model::Fact| {
-        watch.spend(128).map(|()| table.insert(fact.predicate, fact.arguments.iter().map(|o| o.0)))
+        watch.try_spend(128).map(|()| table.insert(fact.predicate, fact.arguments.iter().map(|o| o.0)))
     };
     for fact in problem.init.iter().filter(|f| is_static[f.predicate.index()]) {
         insert(&mut table, fact)?;
@@ -227,7 +227,7 @@ fn add_all_instances(
     let before = table.len();
     let mut odometer = vec![0_usize; ranges.len()];
     loop {
-        watch.spend(128)?;
+        watch.try_spend(128)?;
         table.insert(predicate, odometer.iter().zip(&ranges).map(|(&i, r)| r[i]));
         let instances = table.len() - before;
         if instances * budget::atom(ranges.len()) > options.bytes() {

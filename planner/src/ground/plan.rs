@@ -9,7 +9,7 @@ use super::join::Indices;
 use super::rule::{BodyAtom, Rule};
 use super::universe::Range;
 use crate::number::Relation;
-use crate::watch::Watch;
+use crate::watch::{Spend, Watch};
 use pddl::model::{Expression, ExpressionKind, PredicateId, Term};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::Arc;
@@ -113,7 +113,7 @@ impl<'a> Statistics<'a> {
         // Where the watch is over nobody asks for the number.
         let (table, watch, atoms) = (self.table, self.watch, self.of_predicate.get(&predicate));
         *self.distinct.entry((predicate, positions.to_vec())).or_insert_with(|| {
-            let atoms = atoms.into_iter().flatten().take_while(|_| watch.spend(64).is_ok());
+            let atoms = atoms.into_iter().flatten().take_while(|_| watch.try_spend(64).is_ok());
             let rows = atoms.map(|&a| table.row(a));
             rows.map(|r| positions.iter().map(|&p| r[p]).collect()).collect::<FxHashSet<Vec<u32>>>().len()
         })

@@ -69,7 +69,7 @@ impl Ways {
     ) -> Result<(), Interrupted> {
         self.needs.push(conditions.into_iter().flatten().copied());
         self.gives.push(adds.iter().map(|a| a << 1).chain(deletes.iter().map(|a| a << 1 | 1)));
-        watch.spend(16 + conditions[0].len() + conditions[1].len() + adds.len() + deletes.len())
+        watch.try_spend(16 + conditions[0].len() + conditions[1].len() + adds.len() + deletes.len())
     }
 }
 
@@ -102,7 +102,7 @@ fn always_derived(raw: &RawTask, pruned: &mut Pruned, watch: &Watch<'_>) -> Resu
     let mut missing: Vec<usize> = Vec::with_capacity(raw.rules.len());
     let mut queue: Vec<u32> = Vec::new();
     for (rule, (_, body)) in (0..).zip(&raw.rules) {
-        watch.spend(16 + 4 * body.len())?;
+        watch.try_spend(16 + 4 * body.len())?;
         let open = body.iter().filter(|&&l| pruned.constant(l) != Some(true));
         missing.push(open.clone().count());
         // A negative literal that is open stays so: atoms only come to hold.
@@ -118,7 +118,7 @@ fn always_derived(raw: &RawTask, pruned: &mut Pruned, watch: &Watch<'_>) -> Resu
             continue;
         }
         for &reader in readers.row(head) {
-            watch.spend(8)?;
+            watch.try_spend(8)?;
             missing[reader as usize] -= 1;
             if missing[reader as usize] == 0 {
                 queue.push(reader);
@@ -138,7 +138,7 @@ fn reachable(
     let mut more = Ways::default();
     let readers = readers(raw);
     for op in raw.operators.iter() {
-        watch.spend(8)?;
+        watch.try_spend(8)?;
         for (condition, adds, deletes) in raw.operators.conditional(&op) {
             more.push([op.precondition, condition], (adds, deletes), watch)?;
         }
@@ -162,7 +162,7 @@ fn reachable(
         }
     };
     for a in 0..n {
-        watch.spend(4)?;
+        watch.try_spend(4)?;
         let lit = id32(a) << 1;
         if initial[a] || exogenous[a] {
             reach(lit, &mut queue);
@@ -175,7 +175,7 @@ fn reachable(
     let mut ready: Vec<u32> = Vec::new();
     for (rows, before) in [(&raw.operators.preconditions, 0), (&more.needs, operators)] {
         for way in 0..id32(rows.len()) {
-            watch.spend(4)?;
+            watch.try_spend(4)?;
             missing.push(id32(rows.row(way).len()));
             if missing.last() == Some(&0) {
                 ready.push(before + way);
@@ -184,7 +184,7 @@ fn reachable(
     }
     loop {
         while let Some(way) = ready.pop() {
-            watch.spend(16)?;
+            watch.try_spend(16)?;
             if way < operators {
                 let op = raw.operators.get(way);
                 op.adds.iter().for_each(|&a| reach(a << 1, &mut queue));
@@ -227,7 +227,7 @@ fn influenced(
 ) -> Result<RawEffects, Interrupted> {
     let mut effects = RawEffects::default();
     for &position in &readers[change.fluent as usize] {
-        watch.spend(64)?;
+        watch.try_spend(64)?;
         let (atom, comparison) = &raw.numbers.atoms[position as usize];
         let compared = (comparison.relation, &comparison.expression);
         let influence = Influence::of(compared, &change.fluent, change.change, change.value.as_ref());
@@ -262,7 +262,7 @@ fn measured<'r>(
     mark(metric, pruned, &mut queue);
     while let Some(fluent) = queue.pop() {
         for &i in changed_by.row(raw.atoms + fluent) {
-            watch.spend(64)?;
+            watch.try_spend(64)?;
             for change in raw.operators.get(i).numbers.iter().filter(|c| c.fluent == fluent) {
                 change.value.iter().for_each(|value| mark(value, pruned, &mut queue));
                 changes.push(change);
@@ -290,7 +290,7 @@ fn may_improve(objective: Objective, metric: &Expression<u32>, change: &RawChang
 fn changed_by(raw: &RawTask, watch: &Watch<'_>) -> Result<Rows, Interrupted> {
     let mut changes = Rows::default();
     for op in raw.operators.iter() {
-        watch.spend(16 + 8 * raw.operators.size(&op) + 8 * op.numbers.len())?;
+        watch.try_spend(16 + 8 * raw.operators.size(&op) + 8 * op.numbers.len())?;
         let own = op.adds.iter().chain(op.deletes);
         let conditional = raw.operators.conditional(&op);
         if conditional.len() == 0 && op.numbers.is_empty() {
@@ -334,16 +334,16 @@ fn relevance(
         need(l, pruned, &mut queue);
     }
     for change in measured(raw, &changed_by, pruned, watch)? {
-        watch.spend(8 + change.condition.len())?;
+        watch.try_spend(8 + change.condition.len())?;
         change.condition.iter().for_each(|&l| need(l, pruned, &mut queue));
     }
     for a in (0..n).filter(|&a| exogenous[a]) {
-        watch.spend(8)?;
+        watch.try_spend(8)?;
         need(id32(a) << 1, pruned, &mut queue);
     }
     let mut seen = pruned.improves.clone();
     for (op, improves) in raw.operators.iter().zip(&seen) {
-        watch.spend(8 + op.precondition.len())?;
+        watch.try_spend(8 + op.precondition.len())?;
         if *improves && !pruned.is_refuted(op.precondition) {
             op.precondition.iter().for_each(|&l| need(l, pruned, &mut queue));
         }
@@ -356,14 +356,14 @@ fn relevance(
         for &i in changed_by.row(atom) {
             if i as usize >= operators {
                 let (_, body) = &raw.rules[i as usize - operators];
-                watch.spend(8 + 4 * body.len())?;
+                watch.try_spend(8 + 4 * body.len())?;
                 if !pruned.is_refuted(body) {
                     body.iter().for_each(|&l| need(l, pruned, &mut queue));
                 }
                 continue;
             }
             let op = raw.operators.get(i);
-            watch.spend(16 + 4 * op.precondition.len())?;
+            watch.try_spend(16 + 4 * op.precondition.len())?;
             if pruned.is_refuted(op.precondition) {
                 continue;
             }
@@ -371,14 +371,14 @@ fn relevance(
                 op.precondition.iter().for_each(|&l| need(l, pruned, &mut queue));
             }
             for change in op.numbers.iter().filter(|c| raw.atoms + c.fluent == atom) {
-                watch.spend(16 + 4 * change.condition.len())?;
+                watch.try_spend(16 + 4 * change.condition.len())?;
                 if !pruned.is_refuted(&change.condition) {
                     change.condition.iter().for_each(|&l| need(l, pruned, &mut queue));
                     change.value.iter().for_each(|value| read(value, pruned, &mut queue));
                 }
             }
             for (condition, adds, deletes) in raw.operators.conditional(&op) {
-                watch.spend(8 + 4 * condition.len() + adds.len() + deletes.len())?;
+                watch.try_spend(8 + 4 * condition.len() + adds.len() + deletes.len())?;
                 let touches = adds.contains(&atom) || deletes.contains(&atom);
                 if touches && !pruned.is_refuted(condition) {
                     condition.iter().for_each(|&l| need(l, pruned, &mut queue));

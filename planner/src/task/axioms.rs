@@ -12,7 +12,7 @@
 
 use super::{Fact, Literals, Rows, contains, for_each_set, set, unset};
 use crate::ids::{FactId, id32};
-use crate::watch::{Interrupted, Watch, sort_by_count};
+use crate::watch::{Interrupted, Spend, Watch, sort_by_count};
 use pddl::model::{Idx, IndexVec};
 
 /// `head` holds where `body` does.
@@ -84,7 +84,7 @@ impl AxiomProgram {
             let end = start + sorted[start..].partition_point(|r| component_of[r.head.index()] == component);
             let own = |f: &FactId| component_of[f.index()] == component;
             for rule in &sorted[start..end] {
-                watch.spend(16 + 4 * rule.body.len())?;
+                watch.try_spend(16 + 4 * rule.body.len())?;
                 if let Some(&f) = rule.body.negative.iter().find(|f| own(f)) {
                     return Err(NoProgram::NotStratified(f));
                 }
@@ -108,7 +108,7 @@ impl AxiomProgram {
             let own = component_of[component.heads[0].index()];
             let mut outside: Vec<u32> = Vec::new();
             for rule in rules {
-                watch.spend(64 + 8 * rule.body.len())?;
+                watch.try_spend(64 + 8 * rule.body.len())?;
                 let (inside, others): (Vec<FactId>, Vec<FactId>) =
                     rule.body.positive.iter().partition(|f| component_of[f.index()] == own);
                 needs.push(inside.into_iter().map(|f| f.0));
@@ -205,7 +205,7 @@ fn components(
     let n = facts.len();
     let mut below: Vec<Vec<u32>> = vec![Vec::new(); n];
     for rule in rules {
-        watch.spend(8 + 4 * rule.body.len())?;
+        watch.try_spend(8 + 4 * rule.body.len())?;
         let body = rule.body.positive.iter().chain(rule.body.negative.iter());
         below[rule.head.index()].extend(body.filter(|&&f| facts[f].derived).map(|f| f.0));
     }
@@ -224,7 +224,7 @@ fn components(
                 stack.push(v);
                 on_stack[v] = true;
             }
-            watch.spend(8)?;
+            watch.try_spend(8)?;
             if let Some(&w) = below[v].get(*edge) {
                 *edge += 1;
                 let w = w as usize;

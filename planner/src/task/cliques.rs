@@ -11,7 +11,7 @@
 
 use super::relaxation::Relaxation;
 use crate::ids::id32;
-use crate::watch::{Interrupted, Watch};
+use crate::watch::{Interrupted, Spend, Watch};
 use rustc_hash::FxHashMap;
 
 /// A proposition without a clique.
@@ -28,7 +28,7 @@ pub(super) fn cliques(graph: &Relaxation, watch: &Watch<'_>) -> Result<(Vec<u32>
     let mut first: Vec<u32> = Vec::new();
     for p in 0..id32(graph.propositions()) {
         let (_, moves) = graph.waiting_and_moves(p);
-        watch.spend(8 + 64 * moves.len())?;
+        watch.try_spend(8 + 64 * moves.len())?;
         let Some(price) = moves.first().map(|&n| graph.price(n)) else { continue };
         if moves.iter().any(|&n| graph.price(n) != price) {
             continue;

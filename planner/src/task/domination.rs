@@ -91,7 +91,7 @@ impl Work<'_> {
     fn is_dominated(&mut self, node: u32, proposition: u32, looks: &mut usize) -> Result<bool, Interrupted> {
         let graph = self.graph;
         let needs = graph.preconditions.row(node);
-        self.watch.spend(16 + 4 * needs.len())?;
+        self.watch.try_spend(16 + 4 * needs.len())?;
         for &p in needs {
             self.mark[p as usize] = node;
         }
@@ -110,7 +110,7 @@ impl Work<'_> {
                 }
                 *looks -= 1;
                 let row = graph.preconditions.row(other);
-                self.watch.spend(8 + row.len())?;
+                self.watch.try_spend(8 + row.len())?;
                 if row.iter().all(|&q| self.mark[q as usize] == node) && graph.price(other) <= price {
                     return Ok(true);
                 }

@@ -10,7 +10,7 @@
 
 use super::{Operator, Operators, Rows, State, contains};
 use crate::ids::{FactId, id32};
-use crate::watch::{Interrupted, Watch};
+use crate::watch::{Interrupted, Spend, Watch};
 use pddl::model::Idx;
 
 /// The groups.
@@ -35,7 +35,7 @@ impl Mutexes {
     ) -> Result<Self, Interrupted> {
         let mut rows = Rows::default();
         for group in groups {
-            watch.spend(8 + 4 * group.len())?;
+            watch.try_spend(8 + 4 * group.len())?;
             rows.push(group.iter().copied());
         }
         let of = rows.transposed(facts, watch)?;
@@ -44,7 +44,7 @@ impl Mutexes {
         if !groups.is_empty() {
             for operator in operators.iter() {
                 let (deletes, adds) = (operator.deletes.len(), operator.adds.len());
-                watch.spend(16 + 8 * deletes * (1 + adds) + 16 * operator.conditional.len())?;
+                watch.try_spend(16 + 8 * deletes * (1 + adds) + 16 * operator.conditional.len())?;
                 mutexes.leave(&operator);
             }
         }

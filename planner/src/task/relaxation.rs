@@ -16,7 +16,7 @@ use super::{
     for_each_set,
 };
 use crate::ids::{FactId, id32};
-use crate::watch::{Interrupted, Watch, sort_by_count};
+use crate::watch::{Interrupted, Spend, Watch, sort_by_count};
 use pddl::model::{Idx, IndexVec};
 use rustc_hash::FxHashMap;
 
@@ -73,7 +73,7 @@ impl Relaxation {
         });
         let bodies = axioms.rules().iter().map(|r| r.body.as_ref());
         for literals in conditions.chain(bodies).chain([goal.literals.as_ref()]) {
-            watch.spend(8 + literals.negative.len())?;
+            watch.try_spend(8 + literals.negative.len())?;
             for &f in literals.negative {
                 if graph.negation[f.index()] == 0 {
                     let proposition = id32(graph.facts + graph.negated.len());
@@ -90,7 +90,7 @@ impl Relaxation {
             comparisons.map(|(c, position)| (c.fact, position)).collect();
         for (id, op) in operators.enumerate() {
             graph.ways.set_takings(id.0, numeric.takings(&op, &comparisons));
-            watch.spend(32 + 8 * op.size())?;
+            watch.try_spend(32 + 8 * op.size())?;
             graph.node(id.0, op.cost, &[op.precondition], op.adds, op.deletes);
             for influenced in op.numeric.into_iter().flat_map(|e| numeric.influences(e)) {
                 let (facts, ways): (Vec<FactId>, Vec<Way>) = influenced.holds.into_iter().unzip();
@@ -107,12 +107,12 @@ impl Relaxation {
                 }
             }
             for e in op.conditional.iter() {
-                watch.spend(32 + 8 * (op.precondition.len() + e.condition.len() + e.adds.len()))?;
+                watch.try_spend(32 + 8 * (op.precondition.len() + e.condition.len() + e.adds.len()))?;
                 graph.node(id.0, op.cost, &[op.precondition, e.condition], e.adds, e.deletes);
             }
         }
         for rule in axioms.rules() {
-            watch.spend(32 + 8 * rule.body.len())?;
+            watch.try_spend(32 + 8 * rule.body.len())?;
             graph.node(AXIOM, 0, &[rule.body.as_ref()], &[rule.head], &[]);
         }
         graph.first_move = id32(graph.nodes());
@@ -125,7 +125,7 @@ impl Relaxation {
         self.needed_by = self.preconditions.transposed(self.propositions(), watch)?;
         let starts = (0..id32(self.propositions())).map(|p| {
             let row = self.needed_by.row(p);
-            watch.spend(32).map(|()| id32(row.partition_point(|&node| node < self.first_move)))
+            watch.try_spend(32).map(|()| id32(row.partition_point(|&node| node < self.first_move)))
         });
         self.moves_at = starts.collect::<Result<_, _>>()?;
         (self.clique, self.cliques) = cliques(self, watch)?;
@@ -175,7 +175,7 @@ impl Relaxation {
         };
         let (mut moves, mut others) = (Vec::new(), Vec::new());
         for node in 0..id32(effects.len()) {
-            watch.spend(4)?;
+            watch.try_spend(4)?;
             let is_move = self.preconditions.row(node).len() == 1;
             if !effects.row(node).is_empty() {
                 (if is_move { &mut moves } else { &mut others }).push(node);
@@ -186,7 +186,7 @@ impl Relaxation {
         graph.first_move = id32(others.len());
         for node in others.into_iter().chain(moves) {
             let (needs, achieves) = (self.preconditions.row(node), effects.row(node));
-            watch.spend(16 + 2 * (needs.len() + achieves.len()))?;
+            watch.try_spend(16 + 2 * (needs.len() + achieves.len()))?;
             if needs.is_empty() {
                 graph.free.push(id32(graph.operator.len()));
             }

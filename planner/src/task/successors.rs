@@ -71,14 +71,14 @@ impl Sorter<'_> {
     /// Sorts operators whose keys agree up to `depth`.
     fn sort(&mut self, items: &mut [u32], depth: usize) -> Result<(), Interrupted> {
         let keys = self.keys;
-        self.watch.spend(64 * items.len().min(FEW))?;
+        self.watch.try_spend(64 * items.len().min(FEW))?;
         if items.len() <= FEW {
             let rest = |i: u32| keys.of(i).get(depth..).unwrap_or(&[]);
             items.sort_unstable_by(|&a, &b| rest(a).cmp(rest(b)).then(a.cmp(&b)));
             return Ok(());
         }
         self.counts.fill(0);
-        self.watch.spend(self.counts.len() / 4)?;
+        self.watch.try_spend(self.counts.len() / 4)?;
         for part in self.watch.parts(items, 8) {
             part?.iter().for_each(|&i| self.counts[keys.symbol(i, depth) as usize + 1] += 1);
         }
@@ -129,14 +129,14 @@ impl SuccessorTree {
     pub(crate) fn new(facts: usize, operators: &Operators, watch: &Watch<'_>) -> Result<Self, Interrupted> {
         let mut frequency = vec![0_u32; facts];
         for op in operators.iter() {
-            watch.spend(8 + op.precondition.positive.len())?;
+            watch.try_spend(8 + op.precondition.positive.len())?;
             for f in op.precondition.positive {
                 frequency[f.index()] += 1;
             }
         }
         let mut keys = Keys::default();
         for op in operators.iter() {
-            watch.spend(16 + 8 * op.precondition.len())?;
+            watch.try_spend(16 + 8 * op.precondition.len())?;
             let start = keys.literals.len();
             keys.literals.extend(op.precondition.positive.iter().map(|f| f.0 << 1));
             keys.literals[start..]
@@ -170,7 +170,7 @@ impl SuccessorTree {
                 open.pop();
                 continue;
             }
-            watch.spend(32)?;
+            watch.try_spend(32)?;
             let literal = keys.of(sorted[*at])[depth];
             let branch = *at + gallop(&sorted[*at..*end], |i| keys.of(i)[depth] == literal);
             let ends = *at + gallop(&sorted[*at..branch], |i| keys.of(i).len() == depth + 1);
