@@ -63,9 +63,6 @@ pub enum CortexError {
     /// Two symbols with one id.
     #[error("two symbols have the id {id}")]
     SameId { id: String },
-    /// A link to or from nothing.
-    #[error("link `{label}` from {src} to {dst}: no symbol has the id {missing}")]
-    NoSymbol { label: String, src: String, dst: String, missing: String },
     /// An RT link without three numbers each.
     #[error("link `RT` from `{parent}` to `{child}` has no translation and rotation of three numbers")]
     NoPose { parent: String, child: String },
@@ -244,17 +241,24 @@ impl CortexWorld {
         let mut seen = BTreeSet::new();
         for link in self.model.symbols.values().flat_map(|symbol| &symbol.links) {
             let (src, dst, label) = (link.src.text(), link.dst.text(), link.label.clone());
-            let find = |id: &String| {
-                let (src, dst, label) = (src.clone(), dst.clone(), label.clone());
-                let missing = || CortexError::NoSymbol { label, src, dst, missing: id.clone() };
-                ids.get(id).copied().ok_or_else(missing)
+            // Cortex passes over these with a warning, too.
+            let (Some(&from), Some(&to)) = (ids.get(&src), ids.get(&dst)) else {
+                let missing = if ids.contains_key(&src) { &dst } else { &src };
+                notes.push(format!(
+                    "link `{label}` from {src} to {dst}: left out, no symbol has the id {missing}"
+                ));
+                continue;
             };
-            let (from, to) = (find(&src)?, find(&dst)?);
             let (start, end) = (&nodes[from].name, &nodes[to].name);
             if label == "RT" {
                 let no_pose = || CortexError::NoPose { parent: start.clone(), child: end.clone() };
                 let placed = ring::placed(link, unit).ok_or_else(no_pose)?;
                 joints.push(Joint { parent: from, child: to, placed });
+                for name in link.attribute.keys().filter(|name| !ring::NAMES.contains(&name.as_str())) {
+                    notes.push(format!(
+                        "attribute `{name}` of `{start} RT {end}`: left out, a transform has none"
+                    ));
+                }
             } else if from == to {
                 notes.push(format!("link `{label}` from `{start}` to itself: left out, no edge may do that"));
             } else if !seen.insert((from, label.clone(), to)) {

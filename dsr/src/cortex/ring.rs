@@ -16,6 +16,16 @@ const BLOCK: usize = 3;
 /// Their stamps are milliseconds.
 const MILLISECOND: u64 = 1_000_000;
 
+/// The attributes of a link that say so.
+pub(super) const NAMES: [&str; 6] = [
+    "rt_translation",
+    "rt_rotation_euler_xyz",
+    "rt_timestamps",
+    "rt_head_index",
+    "translation",
+    "rotation_euler_xyz",
+];
+
 /// Where a link says that its child is.
 pub(super) enum Placed {
     Still(Isometry3<f64>),
@@ -26,7 +36,9 @@ pub(super) enum Placed {
 /// What a link says; `None` if it has no three numbers each.
 pub(super) fn placed(link: &Link, unit: CortexUnit) -> Option<Placed> {
     let numbers = |name: &str| link.attribute.get(name)?.value.numbers();
-    let (translation, rotation) = (numbers("rt_translation")?, numbers("rt_rotation_euler_xyz")?);
+    // Older files have names without `rt_`.
+    let either = |name: &str| numbers(name).or_else(|| numbers(name.strip_prefix("rt_")?));
+    let (translation, rotation) = (either("rt_translation")?, either("rt_rotation_euler_xyz")?);
     let pose = |block: usize| {
         let at = block.checked_mul(BLOCK)?;
         let three = |list: &[f64]| -> Option<[f64; BLOCK]> { list.get(at..at + BLOCK)?.try_into().ok() };

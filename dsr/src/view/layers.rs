@@ -25,7 +25,7 @@ const LABEL: f64 = 18.0;
 const APART: f64 = 28.0;
 const NEAR: f64 = 12.0;
 /// Least and most between two rows.
-const GAP: (f64, f64) = (20.0, 90.0);
+const GAP: (f64, f64) = (24.0, 90.0);
 /// Around everything.
 const MARGIN: f64 = 30.0;
 /// Between two lines at a node.
@@ -290,10 +290,7 @@ fn straighten(rows: &[Vec<usize>], cells: &mut [Cell]) {
                     None => 0.0,
                 };
                 offsets.push(offset);
-                let near = &cells[cell].near;
-                let weight: f64 = near.iter().map(|(_, weight)| weight).sum();
-                let wanted =
-                    near.iter().map(|(other, weight)| cells[*other].x * weight).sum::<f64>() / weight;
+                let (wanted, weight) = wanted(&cells[cell], cells, sweep % 2 == 0);
                 let mut block = (wanted - offset, weight, 1);
                 while let Some(before) = blocks.pop_if(|before| before.0 > block.0) {
                     let weight = before.1 + block.1;
@@ -308,6 +305,16 @@ fn straighten(rows: &[Vec<usize>], cells: &mut [Cell]) {
             }
         }
     }
+}
+
+/// Where a cell would be without the others of its row, and how much it matters. A node, in the middle of its neighbours. A
+/// line, straight on from the row that was moved before: so a long one has its bends in few places.
+fn wanted(cell: &Cell, cells: &[Cell], is_down: bool) -> (f64, f64) {
+    let all = cell.near.iter().map(|(_, weight)| weight).sum();
+    let before = |other: usize| cell.is_node || (cells[other].row < cell.row) == is_down;
+    let near = cell.near.iter().filter(|(other, _)| before(*other));
+    let (sum, weight) = near.fold((0.0, 0.0), |(s, w), (other, own)| (s + cells[*other].x * own, w + own));
+    (sum / weight, all)
 }
 
 /// The middle of each row, and where the last one ends: rows between which lines go far to the side are further apart.
