@@ -210,3 +210,33 @@ fn what_no_change_shows_is_told_and_foxglove_gets_what_it_knows() {
     ];
     assert_eq!(frames, wanted);
 }
+
+#[test]
+fn segments_of_another_history_are_noted_and_damaged_ones_are_errors() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut builder = DictionaryBuilder::new();
+    let place = builder.node_type("place", None, Nature::Symbolic).unwrap();
+    let dictionary = builder.build();
+    // Times that fall: versions order, not they.
+    for times in [[0, 10, 20], [0, 10, 5]] {
+        let graph = Graph::new(dictionary.clone());
+        let store = dsr::Folder::new(folder.path()).unwrap();
+        let journal = graph.journal(store, dsr::Settings::default()).unwrap();
+        for seconds in times {
+            let name = format!("place {seconds}");
+            let time = Time(seconds * 1_000_000_000);
+            graph.edit(AgentId::DSR, time, |tx| _ = tx.add_node(name.as_str(), place)).unwrap();
+        }
+        journal.close().unwrap();
+    }
+    let journal = folder.path().display().to_string();
+    let (exit, then, err) = pelea(&["dsr", "show", &journal, "--at", "7s"]);
+    assert!(exit == Exit::Yes && then.starts_with("version 3, at "), "{then}");
+    assert!(err.contains("note: ") && err.contains("of another history"), "{err}");
+    let (exit, _, err) = pelea(&["dsr", "show", &folder.path().join("00000000.dsr").display().to_string()]);
+    assert_eq!((exit, err.as_str()), (Exit::Yes, ""));
+    std::fs::create_dir(folder.path().join("00000002.dsr")).unwrap();
+    let (exit, now, err) = pelea(&["dsr", "show", &journal]);
+    assert!(exit == Exit::Unreadable && now.starts_with("version 3, at "), "{now}");
+    assert!(err.contains("cannot read"), "{err}");
+}
