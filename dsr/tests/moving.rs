@@ -7,7 +7,7 @@ mod world;
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::Ordering;
 
 use dsr::{
     Comparison, Delivery, Dictionary, DictionaryBuilder, Graph, Kind, Matches, Metric, Nature, NodeId,
@@ -336,29 +336,17 @@ proptest! {
     }
 }
 
-fn watch(graph: &Graph, write: impl Fn(&mut PatternBuilder<'_>, &Dictionary)) -> (Matches, Arc<AtomicU32>) {
-    let dictionary = graph.dictionary();
-    let mut pattern = PatternBuilder::new(&dictionary);
-    write(&mut pattern, &dictionary);
-    let mut matches = graph.subscribe(pattern.build().unwrap());
-    while matches.try_recv().is_some() {}
-    let told = Arc::new(AtomicU32::new(0));
-    let counter = Arc::clone(&told);
-    matches.on_wake(move || _ = counter.fetch_add(1, Ordering::SeqCst));
-    (matches, told)
-}
-
 /// Each line is a commit; whether each watcher was told of it, and how many matches it has.
 #[test]
 fn who_measures_nothing_that_moves_is_not_told() {
     let graph = house();
     let near = |a: &'static str, b: &'static str| {
-        watch(&graph, move |p, d| {
+        world::watch(&graph, move |p, d| {
             let [a, b] = [a, b].map(|name| p.variable(name, d.node_type(name).unwrap()));
             p.distance(a, b, Comparison::Less, 1.2);
         })
     };
-    let near_one = watch(&graph, |p, d| {
+    let near_one = world::watch(&graph, |p, d| {
         let who = p.variable("who", d.node_type("person").unwrap());
         p.distance(who, "one", Comparison::Less, 1.2);
     });

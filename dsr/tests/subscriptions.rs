@@ -4,26 +4,9 @@
 mod world;
 
 use std::num::NonZeroUsize;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::Ordering;
 
-use dsr::{Comparison, Delivery, Graph, HolderTerm, Mailbox, MatchChange, Matches, Pattern, PatternBuilder};
-
-/// Subscribes, looks at what is there, and counts from then on how often it is told of something.
-fn watch(
-    graph: &Graph,
-    write: impl Fn(&mut PatternBuilder<'_>, &dsr::Dictionary),
-) -> (Matches, Arc<AtomicU32>) {
-    let dictionary = graph.dictionary();
-    let mut pattern = PatternBuilder::new(&dictionary);
-    write(&mut pattern, &dictionary);
-    let mut matches = graph.subscribe(pattern.build().unwrap());
-    while matches.try_recv().is_some() {}
-    let told = Arc::new(AtomicU32::new(0));
-    let counter = Arc::clone(&told);
-    matches.on_wake(move || _ = counter.fetch_add(1, Ordering::SeqCst));
-    (matches, told)
-}
+use dsr::{Comparison, Delivery, Graph, HolderTerm, Mailbox, MatchChange, Pattern, PatternBuilder};
 
 fn commit(graph: &Graph, lines: &str) {
     world::commit(graph, "dsr", lines).unwrap();
@@ -34,7 +17,7 @@ fn commit(graph: &Graph, lines: &str) {
 fn only_those_whom_a_commit_may_concern_are_told() {
     let graph = world::ward();
     let by_value = |wanted: f64| {
-        watch(&graph, move |p, d| {
+        world::watch(&graph, move |p, d| {
             let (test, part) = (
                 p.variable("test", d.node_type("test").unwrap()),
                 p.variable("part", d.node_type("part").unwrap()),
@@ -44,7 +27,7 @@ fn only_those_whom_a_commit_may_concern_are_told() {
         })
     };
     let beside = |label: &'static str| {
-        watch(&graph, move |p, d| {
+        world::watch(&graph, move |p, d| {
             let (a, b) = (
                 p.variable("a", d.node_type("person").unwrap()),
                 p.variable("b", d.node_type("robot").unwrap()),
@@ -54,14 +37,14 @@ fn only_those_whom_a_commit_may_concern_are_told() {
         })
     };
     let by_type = |wanted: &'static str| {
-        watch(&graph, move |p, d| {
+        world::watch(&graph, move |p, d| {
             let who = p.variable("who", d.node_type(wanted).unwrap());
             let what = p.variable("what", d.node_type("activity").unwrap());
             p.edge(who, d.label("is").unwrap(), what);
         })
     };
     let crossing = |wanted: f64| {
-        watch(&graph, move |p, d| {
+        world::watch(&graph, move |p, d| {
             let test = p.variable("test", d.node_type("test").unwrap());
             p.guard(test, d.attribute("score").unwrap(), Comparison::GreaterOrEqual, wanted);
         })

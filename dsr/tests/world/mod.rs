@@ -5,11 +5,12 @@
 #![allow(clippy::unwrap_used, reason = "a test that fails says where")]
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use dsr::{
     AgentId, Covariance, Degree, Dictionary, DictionaryBuilder, End, Graph, HolderRef, Isometry3, Kind,
-    Matrix6, Nature, NewValue, NodeRef, Permission, Pose, Preemption, Priority, Time, Token, Transaction,
-    TypeId,
+    Matches, Matrix6, Nature, NewValue, NodeRef, PatternBuilder, Permission, Pose, Preemption, Priority,
+    Time, Token, Transaction, TypeId,
 };
 
 /// Types: `place` > (`robot`, `person`, `part`), `activity`, `test`. Agents: `speech` may say what is and what
@@ -154,4 +155,20 @@ fn known(transform: Isometry3<f64>, variance: &[&str]) -> Pose {
 
 pub(crate) fn bytes(graph: &Graph) -> String {
     serde_json::to_string(&graph.snapshot().export()).unwrap()
+}
+
+/// Subscribes, looks at what is there, and counts from then on how often it is told of something.
+pub(crate) fn watch(
+    graph: &Graph,
+    write: impl Fn(&mut PatternBuilder<'_>, &Dictionary),
+) -> (Matches, Arc<AtomicU32>) {
+    let dictionary = graph.dictionary();
+    let mut pattern = PatternBuilder::new(&dictionary);
+    write(&mut pattern, &dictionary);
+    let mut matches = graph.subscribe(pattern.build().unwrap());
+    while matches.try_recv().is_some() {}
+    let told = Arc::new(AtomicU32::new(0));
+    let counter = Arc::clone(&told);
+    matches.on_wake(move || _ = counter.fetch_add(1, Ordering::SeqCst));
+    (matches, told)
 }
