@@ -107,7 +107,14 @@ fn metrics(c: &mut Criterion) {
     };
     follow(c, "metrics/nearer than 1 m: one of 1,000 persons moves", near, walks);
     follow(c, "metrics/1,000 further than 1 m: one of them moves", far, walks);
-    follow(c, "metrics/nobody nearer than 1 m: one of 1,000 persons moves", alone, walks);
+    follow(c, "metrics/nobody nearer than 1 m: one of 1,000 persons comes and goes", alone, walks);
+    follow(c, "metrics/nobody nearer than 1 m: one of 1,000 persons moves", alone, |crowd, near, tx| {
+        tx.set_transform("floor", crowd.persons[700], place(if near { 4.0 } else { 4.5 }, 0.0));
+    });
+    follow(c, "metrics/nobody nearer than 1 m, but there is: another moves", alone, |crowd, near, tx| {
+        tx.set_transform("floor", crowd.persons[500], place(0.5, 0.0));
+        tx.set_transform("floor", crowd.persons[700], place(if near { 4.0 } else { 4.5 }, 0.0));
+    });
     follow(c, "metrics/nearer than 1 m: ten of 1,000 persons move", near, |crowd, near, tx| {
         for &who in &crowd.persons[500..510] {
             tx.set_transform("floor", who, place(if near { 0.9 } else { 1.1 }, 0.0));

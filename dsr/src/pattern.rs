@@ -13,7 +13,9 @@
 mod builder;
 mod check;
 mod clue;
+mod held;
 mod matcher;
+mod negated;
 mod plan;
 mod rigid;
 mod seed;
@@ -27,10 +29,13 @@ use serde::{Deserialize, Serialize, Serializer};
 pub use self::builder::PatternBuilder;
 pub use self::check::PatternError;
 pub(crate) use self::clue::{Clue, Ordered, Tip, ValueKey, Way};
+pub(crate) use self::held::Held;
+use self::negated::Part;
+pub(crate) use self::negated::{Known, Moves, Witnesses};
 use self::plan::{Mask, Step};
 use self::rigid::End;
 pub(crate) use self::rigid::moved;
-use self::seed::Seed;
+use self::seed::Seedling;
 pub(crate) use self::seed::{Fixed, Route, Slices};
 pub use self::text::PatternTextError;
 use crate::dictionary::Dictionary;
@@ -311,9 +316,11 @@ pub struct Pattern {
     constants: Vec<Constant>,
     body: Conjunction<Slot>,
     /// Where joins begin when something changes.
-    seeds: Vec<(Seed, Clue)>,
+    seeds: Vec<Seedling>,
     /// The ends of each metric, where joins begin when something moves.
     measured: Vec<[End; 2]>,
+    /// The negated parts that can be judged by what has moved in them.
+    parts: Vec<Part>,
     /// The join order when no variable is fixed.
     plan: Vec<Step>,
     /// The join order when all variables are.

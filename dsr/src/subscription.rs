@@ -16,12 +16,11 @@ use std::num::NonZeroUsize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 
-use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
-use crate::delta::Delta;
-use crate::id::{NodeId, Version};
-use crate::pattern::{Binding, Fixed, Pattern, Plans, Slices};
+use crate::delta::{Change, Delta};
+use crate::id::Version;
+use crate::pattern::{Binding, Fixed, Held, Known, Moves, Pattern, Plans, Slices, Witnesses};
 use crate::snapshot::Snapshot;
 
 /// How many commits a queue holds unless the subscriber says otherwise.
@@ -328,10 +327,10 @@ pub struct MatchChange {
 pub struct Matches {
     queue: Arc<Queue>,
     pattern: Arc<Pattern>,
-    held: BTreeSet<Binding>,
-    /// Per variable, what is held by its node.
-    by_node: Vec<FxHashMap<NodeId, BTreeSet<Binding>>>,
+    held: Held,
     plans: Plans,
+    /// Who keeps what from being a match.
+    witnesses: Witnesses,
     /// How much there was to look at when all matches were looked at last.
     whole: usize,
     /// Whether anything was looked at yet.
@@ -340,9 +339,8 @@ pub struct Matches {
 
 impl Matches {
     pub(crate) fn new(queue: Arc<Queue>, pattern: Arc<Pattern>) -> Self {
-        let by_node = pattern.variables().map(|_| FxHashMap::default()).collect();
-        let (held, plans) = (BTreeSet::new(), Plans::default());
-        Self { queue, pattern, held, by_node, plans, whole: 0, begun: false }
+        let (held, plans, witnesses) = (Held::new(&pattern), Plans::default(), Witnesses::default());
+        Self { queue, pattern, held, plans, witnesses, whole: 0, begun: false }
     }
 
     /// The pattern.
@@ -352,7 +350,7 @@ impl Matches {
 
     /// The matches after the changes received so far.
     pub fn held(&self) -> &BTreeSet<Binding> {
-        &self.held
+        self.held.all()
     }
 
     /// The next change, if there is one. Commits that change no match are passed over.
@@ -406,17 +404,30 @@ impl Matches {
         let (mut appeared, mut disappeared) = (Vec::new(), Vec::new());
         let (snapshot, missed) = match told {
             Told::Lagged { missed, snapshot } => {
-                self.match_all(&snapshot, &mut appeared, &mut disappeared);
+                self.witnesses = Witnesses::default();
+                self.match_all(&snapshot, None, &mut appeared, &mut disappeared);
                 (snapshot, missed)
             }
             Told::Commits(deltas, snapshot) => {
                 // What several commits concern is what each of them does, looked at once, in the last one's state.
                 let deltas = deltas.iter().map(|delta| &**delta);
-                match self.pattern.slices(deltas, snapshot.state(), self.whole) {
-                    Slices::All => self.match_all(&snapshot, &mut appeared, &mut disappeared),
+                let mut changes = deltas.clone().flat_map(|delta| &delta.changes);
+                if changes.any(|change| matches!(change, Change::NodeRemoved { .. })) {
+                    self.witnesses.forget(snapshot.state());
+                }
+                let (slices, moves) = self.pattern.slices(deltas, snapshot.state(), self.whole);
+                if let Some(moves) = &moves {
+                    moves.witnesses.replace(std::mem::take(&mut self.witnesses));
+                }
+                match slices {
+                    Slices::All => self.match_all(&snapshot, moves.as_ref(), &mut appeared, &mut disappeared),
                     Slices::These(slices) => {
-                        self.match_slices(&slices, &snapshot, &mut appeared, &mut disappeared);
+                        let moves = moves.as_ref();
+                        self.match_slices(&slices, &snapshot, moves, &mut appeared, &mut disappeared);
                     }
+                }
+                if let Some(moves) = moves {
+                    self.witnesses = moves.witnesses.into_inner();
                 }
                 (snapshot, 0)
             }
@@ -430,18 +441,23 @@ impl Matches {
     fn match_all(
         &mut self,
         snapshot: &Snapshot,
+        moves: Option<&Moves<'_>>,
         appeared: &mut Vec<Binding>,
         disappeared: &mut Vec<Binding>,
     ) {
-        let looked = Cell::new(1 + self.held.len());
-        let found = self.pattern.matches_counted(snapshot.state(), &[], &looked);
-        self.whole = looked.get() + found.len();
+        let (state, held) = (snapshot.state(), self.held.all());
+        let looked = Cell::new(1 + held.len());
+        let known = moves.map(|moves| Known { moves, held: &self.held });
+        let found = self.pattern.matches_known(state, known.as_ref(), &looked);
+        let looked = looked.get() + found.len();
+        // With what is known, it may be less than it will be without.
+        self.whole = if known.is_some() { self.whole.max(looked) } else { looked };
         let mut now: BTreeSet<_> = found.into_iter().collect();
-        now.extend(self.held.iter().filter(|held| self.pattern.keeps(snapshot.state(), held)).cloned());
-        let gone: Vec<_> = self.held.difference(&now).cloned().collect();
-        let new: Vec<_> = now.difference(&self.held).cloned().collect();
-        gone.iter().for_each(|binding| self.lose(binding));
-        new.iter().for_each(|binding| self.find(binding));
+        now.extend(held.iter().filter(|held| self.pattern.keeps(state, held)).cloned());
+        let gone: Vec<_> = held.difference(&now).cloned().collect();
+        let new: Vec<_> = now.difference(held).cloned().collect();
+        gone.iter().for_each(|binding| self.held.lose(binding));
+        new.iter().for_each(|binding| self.held.find(binding));
         appeared.extend(new);
         disappeared.extend(gone);
     }
@@ -452,6 +468,7 @@ impl Matches {
         &mut self,
         slices: &[Fixed],
         snapshot: &Snapshot,
+        moves: Option<&Moves<'_>>,
         appeared: &mut Vec<Binding>,
         disappeared: &mut Vec<Binding>,
     ) {
@@ -459,11 +476,16 @@ impl Matches {
         for (at, fixed) in slices.iter().enumerate() {
             // A slice is at least one look.
             if at > 0 && looked.get() + (slices.len() - at) > self.whole {
-                self.match_all(snapshot, appeared, disappeared);
+                self.match_all(snapshot, moves, appeared, disappeared);
                 break;
             }
             looked.set(looked.get() + 1);
-            self.match_slice(fixed, snapshot, &looked, appeared, disappeared);
+            let now = {
+                let known = moves.map(|moves| Known { moves, held: &self.held });
+                let plans = &mut self.plans;
+                self.pattern.matches_of(snapshot.state(), fixed, plans, known.as_ref(), &looked)
+            };
+            self.match_slice(fixed, now, snapshot, appeared, disappeared);
         }
         appeared.sort_unstable();
         disappeared.sort_unstable();
@@ -473,49 +495,23 @@ impl Matches {
     fn match_slice(
         &mut self,
         fixed: &Fixed,
+        now: Vec<Binding>,
         snapshot: &Snapshot,
-        looked: &Cell<usize>,
         appeared: &mut Vec<Binding>,
         disappeared: &mut Vec<Binding>,
     ) {
-        let now = self.pattern.matches_of(snapshot.state(), fixed, &mut self.plans, looked);
-        let held_with = |(at, node): &(usize, NodeId)| self.by_node[*at].get(node);
-        // The smallest of the sets that all of them are in; one that is empty says that there are none.
-        let sets = fixed.iter().map(held_with).min_by_key(|set| set.map_or(0, BTreeSet::len)).flatten();
-        let agrees = |binding: &&Binding| fixed.iter().all(|(at, node)| binding[*at] == *node);
-        let gone: Vec<_> = sets
-            .into_iter()
-            .flatten()
-            .filter(agrees)
+        let held = self.held.with(fixed);
+        let gone: Vec<_> = held
             .filter(|held| now.binary_search(held).is_err() && !self.pattern.keeps(snapshot.state(), held))
             .cloned()
             .collect();
-        gone.iter().for_each(|binding| self.lose(binding));
+        gone.iter().for_each(|binding| self.held.lose(binding));
         disappeared.extend(gone);
         for binding in now {
-            if !self.held.contains(&binding) {
-                self.find(&binding);
+            if !self.held.all().contains(&binding) {
+                self.held.find(&binding);
                 appeared.push(binding);
             }
         }
-    }
-
-    fn find(&mut self, binding: &Binding) {
-        for (sets, node) in self.by_node.iter_mut().zip(binding.iter()) {
-            sets.entry(*node).or_default().insert(binding.clone());
-        }
-        self.held.insert(binding.clone());
-    }
-
-    fn lose(&mut self, binding: &Binding) {
-        for (sets, node) in self.by_node.iter_mut().zip(binding.iter()) {
-            if let Some(set) = sets.get_mut(node) {
-                set.remove(binding);
-                if set.is_empty() {
-                    sets.remove(node);
-                }
-            }
-        }
-        self.held.remove(binding);
     }
 }

@@ -230,6 +230,45 @@ fn patterns(d: &Dictionary) -> Vec<(&'static str, Pattern, Condition)> {
             p.distance(robot, tool, less, NEAR);
         });
     });
+    let spread: Condition = |s, _, _| {
+        let tools = nodes(s, "tool");
+        let near = |robot| tools.iter().any(|tool| s.distance(robot, *tool).is_ok_and(|m| m <= 1.5));
+        !nodes(s, "robot").into_iter().any(near)
+    };
+    add("a person while no robot is near a tool, without hysteresis", spread, &|p| {
+        p.variable("who", kind("person"));
+        p.without(|p| {
+            let (robot, tool) = (p.variable("robot", kind("robot")), p.variable("tool", kind("tool")));
+            p.distance(robot, tool, Comparison::LessOrEqual, 1.5);
+        });
+    });
+    let empty_handed: Condition = |s, n, _| {
+        let near = |tool| s.distance(n[1], tool).is_ok_and(|metres| metres <= 1.5);
+        with(s, n[0], n[1]) && !nodes(s, "tool").into_iter().any(near)
+    };
+    add("a person with a robot that has no tool near", empty_handed, &|p| {
+        let (who, robot) = (p.variable("who", kind("person")), p.variable("robot", kind("robot")));
+        p.edge(who, label, robot);
+        p.without(|p| {
+            let tool = p.variable("tool", kind("tool"));
+            p.distance(robot, tool, Comparison::LessOrEqual, 1.5);
+        });
+    });
+    let unserved: Condition = |s, n, _| {
+        let near = |robot| {
+            let at = |name| s.node(name).and_then(|node| s.distance(robot, node).ok());
+            at("cup").is_some_and(|m| m <= 1.5) && at("carl").is_some_and(|m| m <= 3.5)
+        };
+        !nodes(s, "robot").into_iter().any(|robot| with(s, n[0], robot) && near(robot))
+    };
+    add("a person none of whose robots is near the cup and Carl", unserved, &|p| {
+        let who = p.variable("who", kind("person"));
+        p.without(|p| {
+            let robot = p.variable("robot", kind("robot"));
+            p.edge(who, label, robot).distance(robot, "cup", Comparison::LessOrEqual, 1.5);
+            p.distance("carl", robot, Comparison::LessOrEqual, 3.5);
+        });
+    });
     // Under two negations the first number is the one to come by again.
     let served: Condition = |s, n, level| {
         let near = |robot| s.node("cup").is_some_and(|cup| level.near(s, robot, cup));
@@ -334,6 +373,21 @@ proptest! {
     fn what_is_held_is_what_a_naive_machine_holds(history in history()) {
         check(&history)?;
     }
+}
+
+/// The cup comes into the band, where those who were matches stay so; who comes then is none before it has left the band.
+#[test]
+fn one_that_is_held_in_the_band_speaks_for_no_other() {
+    let history = [
+        "transform one arm 0 0 0 0\ntransform arm cup 0 1.5 0 0",
+        "node dora person",
+        "transform arm cup 0 1.7 0 0",
+        "transform arm cup 0 3 0 0",
+        "transform arm cup 0 1.5 0 0",
+        "transform arm cup 0 1 0 0",
+        "transform arm cup 0 1.5 0 0",
+    ];
+    check(&history.map(str::to_owned)).unwrap();
 }
 
 /// Each line is a commit; whether each watcher was told of it, and how many matches it has.

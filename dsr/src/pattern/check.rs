@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::plan::{Mask, plan};
 use super::{
     Atom, Carrier, Comparison, Conjunction, Constant, Limit, Pattern, PatternSource, Right, SLOTS, Scope,
-    Slot, Term, Threshold, Variable, rigid, seed,
+    Slot, Term, Threshold, Variable, negated, rigid, seed,
 };
 use crate::dictionary::{Dictionary, HolderType, Nature};
 use crate::id::{AttributeId, LabelId, NodeId, TypeId};
@@ -88,11 +88,11 @@ pub(super) fn compile(dictionary: &Dictionary, source: PatternSource) -> Result<
     let mut bound = Mask::default();
     (types.len()..count).for_each(|slot| bound.insert(slot_at(slot)));
     let order = plan(&body, bound);
+    let type_of = |slot: Slot| types.get(usize::from(slot.0)).copied();
+    let parts = negated::parts(&body, bound, &type_of, dictionary);
     (0..variables.len()).for_each(|slot| bound.insert(slot_at(slot)));
     let judgement = plan(&body, bound);
-    let (mut seeds, mut measured) = (Vec::new(), Vec::new());
-    seed::seeds(&[&body], &mut seeds);
-    let type_of = |slot: Slot| types.get(usize::from(slot.0)).copied();
+    let (seeds, mut measured) = (seed::seedlings(&body), Vec::new());
     rigid::measured(&body, &type_of, dictionary, &mut measured);
     Ok(Pattern {
         source: Arc::new(source),
@@ -102,6 +102,7 @@ pub(super) fn compile(dictionary: &Dictionary, source: PatternSource) -> Result<
         body,
         seeds,
         measured,
+        parts,
         plan: order,
         judgement,
         mentions,

@@ -5,10 +5,11 @@
 use std::cell::Cell;
 use std::ops::ControlFlow;
 
+use super::negated::{Case, Judge, Part, Witness};
 use super::plan::{Mask, Step, plan};
 use super::{
-    Atom, Binding, Carrier, Comparison, Fixed, Limit, Metric, Pattern, Plans, Right, SLOTS, Slot, Strictness,
-    Variable,
+    Atom, Binding, Carrier, Comparison, Fixed, Known, Limit, Metric, Pattern, Plans, Right, SLOTS, Slot,
+    Strictness, Variable,
 };
 use crate::id::{AttributeId, EdgeKey, Holder, NodeId, TypeId};
 use crate::snapshot::Snapshot;
@@ -24,20 +25,29 @@ impl Pattern {
     /// All matches that give these variables these nodes, in order. None gives a node to a local variable or to one that
     /// only a larger pattern has; to fix these is a mistake of the caller, and stops a debug build.
     pub fn matches_with(&self, snapshot: &Snapshot, fixed: &[(Variable, NodeId)]) -> Vec<Binding> {
-        self.matches_counted(snapshot.state(), fixed, &Cell::new(0))
-    }
-
-    /// The same; counts what is looked at.
-    pub(crate) fn matches_counted(
-        &self,
-        state: &State,
-        fixed: &[(Variable, NodeId)],
-        looked: &Cell<usize>,
-    ) -> Vec<Binding> {
         let mut found = Vec::new();
         let count = self.variables.len();
-        let _ = self.run_all(state, fixed, looked, &mut |slots| {
+        let _ = self.run_all(snapshot.state(), fixed, &mut |slots| {
             found.push(Binding(slots[..count].to_vec()));
+            ControlFlow::Continue(())
+        });
+        found.sort_unstable();
+        found
+    }
+
+    /// All matches, in order. Counts what is looked at.
+    pub(crate) fn matches_known(
+        &self,
+        state: &State,
+        known: Option<&Known<'_>>,
+        looked: &Cell<usize>,
+    ) -> Vec<Binding> {
+        let mut slots = [NodeId::NOWHERE; SLOTS];
+        self.bind_constants(state, &mut slots);
+        let run = Run { pattern: self, state, strictness: Strictness::Appears, known, looked };
+        let mut found = Vec::new();
+        let _ = run.steps(&self.plan, &mut slots, &mut |slots| {
+            found.push(Binding(slots[..self.variables.len()].to_vec()));
             ControlFlow::Continue(())
         });
         found.sort_unstable();
@@ -51,11 +61,12 @@ impl Pattern {
         state: &State,
         fixed: &Fixed,
         plans: &mut Plans,
+        known: Option<&Known<'_>>,
         looked: &Cell<usize>,
     ) -> Vec<Binding> {
         let mut slots = [NodeId::NOWHERE; SLOTS];
         let mut bound = self.bind_constants(state, &mut slots);
-        let run = Run { pattern: self, state, strictness: Strictness::Appears, looked };
+        let run = Run { pattern: self, state, strictness: Strictness::Appears, known, looked };
         for &(at, node) in fixed {
             if (bound.contains(slot(at)) && slots[at] != node) || !run.admits(slot(at), node) {
                 return Vec::new();
@@ -85,7 +96,7 @@ impl Pattern {
         let mut slots = [NodeId::NOWHERE; SLOTS];
         self.bind_constants(state, &mut slots);
         let looked = Cell::new(0);
-        let run = Run { pattern: self, state, strictness: Strictness::Stays, looked: &looked };
+        let run = Run { pattern: self, state, strictness: Strictness::Stays, known: None, looked: &looked };
         for (at, &node) in held.iter().enumerate() {
             if !run.admits(slot(at), node) {
                 return false;
@@ -116,19 +127,14 @@ impl Pattern {
     }
 
     pub(crate) fn holds_in(&self, state: &State, fixed: &[(Variable, NodeId)]) -> bool {
-        self.run_all(state, fixed, &Cell::new(0), &mut |_| ControlFlow::Break(())).is_break()
+        self.run_all(state, fixed, &mut |_| ControlFlow::Break(())).is_break()
     }
 
-    fn run_all(
-        &self,
-        state: &State,
-        fixed: &[(Variable, NodeId)],
-        looked: &Cell<usize>,
-        emit: Emit<'_>,
-    ) -> ControlFlow<()> {
+    fn run_all(&self, state: &State, fixed: &[(Variable, NodeId)], emit: Emit<'_>) -> ControlFlow<()> {
+        let looked = &Cell::new(0);
         let mut slots = [NodeId::NOWHERE; SLOTS];
         let mut bound = self.bind_constants(state, &mut slots);
-        let run = Run { pattern: self, state, strictness: Strictness::Appears, looked };
+        let run = Run { pattern: self, state, strictness: Strictness::Appears, known: None, looked };
         let mut any = false;
         for &(variable, node) in fixed {
             let own = variable.position().filter(|&at| at < self.variables.len());
@@ -148,6 +154,11 @@ impl Pattern {
         } else {
             run.steps(&self.plan, &mut slots, emit)
         }
+    }
+
+    /// The slot of a variable of the pattern itself.
+    pub(super) fn variable_slot(&self, at: usize) -> Slot {
+        slot(at)
     }
 
     pub(super) fn type_of(&self, slot: Slot) -> Option<TypeId> {
@@ -170,6 +181,8 @@ struct Run<'a> {
     pattern: &'a Pattern,
     state: &'a State,
     strictness: Strictness,
+    /// What is known of negated parts.
+    known: Option<&'a Known<'a>>,
     /// How many nodes have been tried for a variable.
     looked: &'a Cell<usize>,
 }
@@ -183,10 +196,24 @@ impl Run<'_> {
                     self.steps(rest, slots, emit)?;
                 }
             }
-            Step::Without(inner) => {
-                let negated = Run { strictness: self.strictness.negated(), ..*self };
+            Step::Without { at, steps: inner } => {
+                let negated = Run { strictness: self.strictness.negated(), known: None, ..*self };
+                let node = |slot| get(slots, slot);
+                let judge = self.known.and_then(|known| Some((known, known.judge(self.pattern, *at, node)?)));
                 // Locals bound inside are not read outside, so the slots can be shared.
-                if negated.steps(inner, slots, &mut |_| ControlFlow::Break(())).is_continue() {
+                let blocked = match judge {
+                    Some((_, Judge::Suspects(part, suspects))) => {
+                        suspects.iter().try_for_each(|&(own, node)| {
+                            let (end, inner) = &part.own[own];
+                            negated.bind(end.slot, node, inner, slots, &mut |_| ControlFlow::Break(()))
+                        })
+                    }
+                    Some((known, Judge::Search(part, case))) => {
+                        negated.search(part, case, known, inner, slots)
+                    }
+                    None => negated.steps(inner, slots, &mut |_| ControlFlow::Break(())),
+                };
+                if blocked.is_continue() {
                     self.steps(rest, slots, emit)?;
                 }
             }
@@ -220,6 +247,32 @@ impl Run<'_> {
             }
         }
         ControlFlow::Continue(())
+    }
+
+    /// Looks for a match of a negated part, first at the one that was found last.
+    fn search(
+        &self,
+        part: &Part,
+        case: Case,
+        known: &Known<'_>,
+        inner: &[Step],
+        slots: &mut Slots,
+    ) -> ControlFlow<()> {
+        let witness = known.moves.witnesses.borrow().get(&case);
+        if let Some(witness) = witness
+            && part.locals.iter().zip(&witness).all(|(slot, node)| self.admits(*slot, *node))
+        {
+            self.looked.set(self.looked.get() + 1);
+            part.locals.iter().zip(witness).for_each(|(slot, node)| slots[usize::from(slot.0)] = node);
+            self.steps(&part.judgement, slots, &mut |_| ControlFlow::Break(()))?;
+        }
+        let mut found: Option<Witness> = None;
+        let outcome = self.steps(inner, slots, &mut |slots| {
+            found = Some(part.locals.iter().map(|slot| get(slots, *slot)).collect());
+            ControlFlow::Break(())
+        });
+        known.moves.witnesses.borrow_mut().put(case, found);
+        outcome
     }
 
     fn bind(

@@ -24,7 +24,7 @@ impl Mask {
         other.0 & !self.0 == 0
     }
 
-    fn union(self, other: Self) -> Self {
+    pub(super) fn union(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 
@@ -47,27 +47,28 @@ pub(super) enum Step {
     /// Bind the variable to every node of its type.
     Scan(Slot),
     /// Filter: the steps must have no match.
-    Without(Vec<Step>),
+    /// The part is the atom there.
+    Without { at: usize, steps: Vec<Step> },
 }
 
 /// A join order for `part`, when the slots in `bound` are bound.
 pub(super) fn plan(part: &Conjunction<Slot>, mut bound: Mask) -> Vec<Step> {
-    let mut waiting: Vec<&Atom<Slot>> = part.atoms.iter().collect();
+    let mut waiting: Vec<(usize, &Atom<Slot>)> = part.atoms.iter().enumerate().collect();
     let mut steps = Vec::new();
     loop {
         let mut at = 0;
         while at < waiting.len() {
-            if bound.includes(free(waiting[at])) {
+            if bound.includes(free(waiting[at].1)) {
                 steps.push(match waiting.remove(at) {
-                    Atom::Without(part) => Step::Without(plan(part, bound)),
-                    atom => Step::Check(atom.clone()),
+                    (at, Atom::Without(part)) => Step::Without { at, steps: plan(part, bound) },
+                    (_, atom) => Step::Check(atom.clone()),
                 });
             } else {
                 at += 1;
             }
         }
         if let Some((at, step, slot)) =
-            waiting.iter().enumerate().find_map(|(at, atom)| walk(atom, bound).map(|(s, t)| (at, s, t)))
+            waiting.iter().enumerate().find_map(|(at, (_, atom))| walk(atom, bound).map(|(s, t)| (at, s, t)))
         {
             waiting.remove(at);
             steps.push(step);
@@ -75,7 +76,7 @@ pub(super) fn plan(part: &Conjunction<Slot>, mut bound: Mask) -> Vec<Step> {
             continue;
         }
         let unbound = part.variables.iter().copied().filter(|&slot| !bound.contains(slot));
-        let wanted = |slot: &Slot| waiting.iter().filter(|atom| free(atom).contains(*slot)).count();
+        let wanted = |slot: &Slot| waiting.iter().filter(|(_, atom)| free(atom).contains(*slot)).count();
         // The first of the most wanted, so that the order of declaration breaks ties.
         let Some(slot) = unbound.rev().max_by_key(wanted) else { break };
         steps.push(Step::Scan(slot));
@@ -103,7 +104,7 @@ fn walk(atom: &Atom<Slot>, bound: Mask) -> Option<(Step, Slot)> {
 }
 
 /// The slots that a part reads, without the local variables of negated parts.
-fn free(atom: &Atom<Slot>) -> Mask {
+pub(super) fn free(atom: &Atom<Slot>) -> Mask {
     let pair = |a: Slot, b: Slot| {
         let mut mask = Mask::default();
         mask.insert(a);

@@ -111,6 +111,16 @@ impl<'s> Groups<'s> {
         Self { state, moved, labels, complete }
     }
 
+    /// The frames below changed edges; nothing if these were too many to be walked.
+    pub(super) fn moved(&self) -> Option<impl Iterator<Item = NodeId>> {
+        self.complete.then(|| self.labels.keys().copied())
+    }
+
+    /// Whether the frame is below a changed edge, if it was possible to walk all.
+    pub(super) fn has_moved(&self, frame: NodeId) -> bool {
+        self.labels.contains_key(&frame)
+    }
+
     fn of(&mut self, frame: NodeId) -> Label {
         if self.complete {
             return self.labels.get(&frame).copied().flatten();
@@ -170,28 +180,29 @@ impl Pattern {
     }
 
     /// Adds the matches that changed edges above these frames may concern. No more are added than the budget allows:
-    /// beyond it, all are.
-    pub(super) fn apart(
+    /// beyond it, all are. Gives the groups, if anything has moved.
+    pub(super) fn apart<'s>(
         &self,
         moved: SmallVec<[NodeId; 4]>,
-        state: &State,
+        state: &'s State,
         budget: usize,
         into: &mut Slices,
-    ) {
+    ) -> Option<Groups<'s>> {
         let frames = |ends: &[End; 2]| -> usize {
             ends.iter().map(|end| self.domain(end, state).count(state)).fold(0, usize::saturating_add)
         };
         let most = self.measured.iter().map(frames).max().unwrap_or(0);
         if moved.is_empty() || most == 0 {
-            return;
+            return None;
         }
         let mut groups = Groups::new(moved, state, most.min(budget));
         for ends in &self.measured {
-            let Slices::These(slices) = into else { return };
+            let Slices::These(slices) = into else { break };
             if self.across(ends, &mut groups, budget, slices) == Reach::All {
                 *into = Slices::All;
             }
         }
+        Some(groups)
     }
 
     /// The beginnings of joins for one metric.

@@ -16,6 +16,7 @@
 use smallvec::SmallVec;
 
 use super::clue::{self, Clue, Ordered, ValueKey};
+use super::negated::Moves;
 use super::plan::Mask;
 use super::rigid::moved;
 use super::{Atom, Carrier, Comparison, Conjunction, Constant, Limit, Pattern, Right, Slot};
@@ -45,8 +46,26 @@ pub(super) enum Seed {
     Loose(Slot),
 }
 
+/// An atom as a seed, and where in the pattern it is.
+#[derive(Debug, Clone)]
+pub(super) struct Seedling {
+    seed: Seed,
+    clue: Clue,
+    /// The negated part of the pattern in which it is, if it is in one.
+    part: Option<usize>,
+}
+
+/// The seeds of a pattern.
+pub(super) fn seedlings(body: &Conjunction<Slot>) -> Vec<Seedling> {
+    let mut found = Vec::new();
+    seeds(&[body], None, &mut found);
+    found
+}
+
 /// The seeds of the last of these conjunctions, which stand within each other, and of the negated parts in it.
-pub(super) fn seeds(around: &[&Conjunction<Slot>], into: &mut Vec<(Seed, Clue)>) {
+fn seeds(around: &[&Conjunction<Slot>], inside: Option<usize>, all: &mut Vec<Seedling>) {
+    let mut found = Vec::new();
+    let into = &mut found;
     let Some(part) = around.last() else { return };
     let mut bound = Mask::default();
     for (at, atom) in part.atoms.iter().enumerate() {
@@ -76,13 +95,14 @@ pub(super) fn seeds(around: &[&Conjunction<Slot>], into: &mut Vec<(Seed, Clue)>)
                     into.push((Seed::NodeAttribute { attribute: *attribute, node: *from }, Clue::Any));
                 }
             }
-            Atom::Without(inner) => seeds(&[around, &[inner]].concat(), into),
+            Atom::Without(inner) => seeds(&[around, &[inner]].concat(), inside.or(Some(at)), all),
             // A node is of its type from when it comes to when it goes, which is what `Loose` is for.
             Atom::Distinct(..) | Atom::IsA(..) => {}
         }
     }
     let loose = part.variables.iter().filter(|slot| !bound.contains(**slot));
     into.extend(loose.map(|slot| (Seed::Loose(*slot), Clue::Any)));
+    all.extend(found.into_iter().map(|(seed, clue)| Seedling { seed, clue, part: inside }));
 }
 
 fn carrier(
@@ -166,7 +186,7 @@ impl Pattern {
             Clue::Below(number) => Route::Below(attribute, number),
             Clue::Any | Clue::With(..) | Clue::Beside(..) => Route::Attribute(attribute),
         };
-        for &(seed, clue) in &self.seeds {
+        for &Seedling { seed, clue, .. } in &self.seeds {
             match seed {
                 Seed::Edge { label, from, to } => {
                     let wanted = |slot| self.type_of(slot).unwrap_or(TypeId::OBJECT);
@@ -212,37 +232,45 @@ impl Pattern {
         routes
     }
 
-    /// The matches that deltas may concern; the state is the one after the last of them. Finding them costs no more than
-    /// the budget beside what the deltas are long.
-    pub(crate) fn slices<'d>(
+    /// The matches that deltas may concern, and what has moved in negated parts, if that is enough to judge them by; the
+    /// state is the one after the last of them. Finding them costs no more than the budget beside what the deltas are long.
+    pub(crate) fn slices<'d, 's>(
         &self,
         deltas: impl IntoIterator<Item = &'d Delta>,
-        state: &State,
+        state: &'s State,
         budget: usize,
-    ) -> Slices {
+    ) -> (Slices, Option<Moves<'s>>) {
         let (mut slices, mut frames) = (SmallVec::<[Fixed; 4]>::new(), SmallVec::new());
+        let mut touched = SmallVec::<[usize; 4]>::new();
         for change in deltas.into_iter().flat_map(|delta| &delta.changes) {
             if self.concerns_constant(change) {
-                return Slices::All;
+                return (Slices::All, None);
             }
-            for (seed, _) in &self.seeds {
-                match self.grow(*seed, change, state) {
-                    Growth::Nothing => {}
-                    Growth::Slice(fixed) if fixed.is_empty() => return Slices::All,
-                    Growth::Slice(fixed) => slices.push(fixed),
+            for seedling in &self.seeds {
+                if let Growth::Slice(fixed) = self.grow(seedling.seed, change, state) {
+                    slices.push(fixed);
+                    touched.extend(seedling.part);
                 }
             }
             if !self.measured.is_empty() {
                 frames.extend(moved(change, state));
             }
         }
-        let mut found = Slices::These(slices);
-        self.apart(frames, state, budget, &mut found);
+        slices.sort_unstable();
+        slices.dedup();
+        // One without any node comes first.
+        let all = slices.first().is_some_and(SmallVec::is_empty);
+        let mut found = if all { Slices::All } else { Slices::These(slices) };
+        if all && self.parts.is_empty() {
+            return (found, None);
+        }
+        let groups = self.apart(frames, state, budget, &mut found);
         if let Slices::These(slices) = &mut found {
             slices.sort_unstable();
             slices.dedup();
         }
-        found
+        let moves = (!self.parts.is_empty()).then(|| Moves::new(self, &touched, groups, state));
+        (found, moves)
     }
 
     /// Whether a node that the pattern speaks of comes or goes.
