@@ -202,13 +202,14 @@ fn unsolvable(
     let explanation = explain(model.domain(), model.problem(), model.task(), query, reason, budget);
     let words = Words::new(model.task(), &explanation);
     let mut why = words.sentence();
-    let lines = words.lines();
-    let reasons: Vec<&str> = lines.iter().map(|line| line.trim_start()).take(REASONS).collect();
+    let (chain, lines) = (words.chain(), words.lines());
+    let reasons = match chain.as_slice() {
+        [] => lines.iter().map(|line| line.trim_start()).take(REASONS).collect::<Vec<_>>().join("; "),
+        [first, .., before, last] if chain.len() > REASONS => format!("{first}; …; {before}; {last}"),
+        all => all.join("; "),
+    };
     if !reasons.is_empty() {
-        why = format!("{why}: {}", reasons.join("; "));
-    }
-    if lines.len() > REASONS {
-        why += "; …";
+        why = format!("{why}: {reasons}");
     }
     if !barred.is_empty() {
         let steps: Vec<_> = barred.iter().map(ToString::to_string).collect();

@@ -86,6 +86,77 @@ impl<'a> Words<'a> {
         lines
     }
 
+    /// The shortest way from the goal down to what the query excludes or, where there is nothing of that, to what nothing
+    /// gives: a line for each literal on it. Empty where the goal's parts are no literals.
+    pub fn chain(&self) -> Vec<String> {
+        let mut above: Vec<Option<(ReasonId, &Giver)>> = vec![None; self.explanation.reasons.len()];
+        let parts = self.explanation.parts.iter().flat_map(|part| &part.never);
+        let mut order: Vec<ReasonId> = Vec::new();
+        for never in parts {
+            if let Never::Literal(id) = never
+                && !order.contains(id)
+            {
+                order.push(*id);
+            }
+        }
+        let mut next = 0;
+        while let Some(&id) = order.get(next) {
+            next += 1;
+            let Why::Givers { givers, .. } = &self.explanation.reason(id).why else { continue };
+            for giver in givers {
+                for lacking in needed(giver) {
+                    if !order.contains(&lacking) {
+                        order.push(lacking);
+                        above[lacking.0 as usize] = Some((id, giver));
+                    }
+                }
+            }
+        }
+        let excluded = |id: &ReasonId| match &self.explanation.reason(*id).why {
+            Why::Givers { givers, .. } => givers.iter().find(|giver| giver.hindrance == Hindrance::Excluded),
+            _ => None,
+        };
+        let is_not_given = |id: &&ReasonId| self.explanation.reason(**id).why == Why::NothingGives;
+        let wanted = |id: ReasonId| &self.explanation.reason(id).wanted;
+        let name = |id: ReasonId| self.wanted(wanted(id));
+        let end = order.iter().find_map(|id| Some((*id, self.hindered(&name(*id), excluded(id)?, name))));
+        let end = end.or_else(|| order.iter().find(is_not_given).map(|&id| (id, self.not_given(wanted(id)))));
+        let Some((mut at, line)) = end else { return Vec::new() };
+        let mut lines = vec![line];
+        while let Some((id, giver)) = above[at.0 as usize] {
+            lines.push(self.hindered(&name(id), giver, name));
+            at = id;
+        }
+        lines.reverse();
+        lines
+    }
+
+    /// What is in the way of a giver, in a line.
+    fn hindered(&self, wanted: &str, giver: &Giver, name: impl Fn(ReasonId) -> String) -> String {
+        let by = self.giver(giver).unwrap_or_else(|| "its axiom".to_owned());
+        let head = format!("{wanted} by {by}");
+        match &giver.hindrance {
+            Hindrance::Needs(needs) => {
+                let all = needs.iter().map(|need| match need {
+                    Need::Literal(id) => name(*id),
+                    Need::Number(own) => format!("{}, but {}", own.comparison, bounded(own)),
+                });
+                format!("{head} needs {}", listed(&all.collect::<Vec<_>>(), "and"))
+            }
+            Hindrance::NeverTogether(all) => {
+                let all: Vec<String> = all.iter().map(|wanted| self.wanted(wanted)).collect();
+                format!("{head} needs {}, never for the same objects", listed(&all, "and"))
+            }
+            Hindrance::NeverApplies => format!("{head}, but what it needs never holds together"),
+            Hindrance::Excluded => format!("{head}, which may not be used"),
+        }
+    }
+
+    fn not_given(&self, wanted: &Wanted) -> String {
+        let name = self.task.pattern_name(&wanted.pattern);
+        if wanted.positive { format!("nothing gives {name}") } else { format!("nothing takes {name} away") }
+    }
+
     fn space(&self, space: &Space, lines: &mut Vec<String>) {
         let names =
             |goals: &[(FactId, bool)]| first(&goals.iter().map(|&goal| self.goal(goal)).collect::<Vec<_>>());
@@ -161,13 +232,7 @@ impl Tree<'_> {
         let reason = of.explanation.reason(id);
         let (indent, wanted) = ("  ".repeat(depth), of.wanted(&reason.wanted));
         match &reason.why {
-            Why::NothingGives if reason.wanted.positive => {
-                self.lines.push(format!("{indent}nothing gives {wanted}"));
-            }
-            Why::NothingGives => {
-                let name = of.task.pattern_name(&reason.wanted.pattern);
-                self.lines.push(format!("{indent}nothing takes {name} away"));
-            }
+            Why::NothingGives => self.lines.push(format!("{indent}{}", of.not_given(&reason.wanted))),
             Why::Unexplored => self.lines.push(format!("{indent}{wanted} is never true")),
             Why::Givers { givers, more } => {
                 for giver in givers {
@@ -182,37 +247,28 @@ impl Tree<'_> {
 
     fn giver(&mut self, wanted: &str, giver: &Giver, depth: usize) {
         let of = self.of;
-        let by = of.giver(giver).unwrap_or_else(|| "its axiom".to_owned());
-        let head = format!("{}{wanted} by {by}", "  ".repeat(depth));
-        match &giver.hindrance {
-            Hindrance::Needs(needs) => {
-                let all: Vec<String> = needs
-                    .iter()
-                    .map(|need| match need {
-                        Need::Literal(id) => {
-                            let name = of.wanted(&of.explanation.reason(*id).wanted);
-                            if self.shown[id.0 as usize] { format!("{name} (see above)") } else { name }
-                        }
-                        Need::Number(own) => format!("{}, but {}", own.comparison, bounded(own)),
-                    })
-                    .collect();
-                self.lines.push(format!("{head} needs {}", listed(&all, "and")));
-                for need in needs {
-                    if let Need::Literal(id) = need {
-                        self.reason(*id, depth + 1);
-                    }
-                }
-            }
-            Hindrance::NeverTogether(all) => {
-                let all: Vec<String> = all.iter().map(|wanted| of.wanted(wanted)).collect();
-                self.lines.push(format!("{head} needs {}, never for the same objects", listed(&all, "and")));
-            }
-            Hindrance::NeverApplies => {
-                self.lines.push(format!("{head}, but what it needs never holds together"));
-            }
-            Hindrance::Excluded => self.lines.push(format!("{head}, which may not be used")),
+        let name = |id: ReasonId| {
+            let name = of.wanted(&of.explanation.reason(id).wanted);
+            if self.shown[id.0 as usize] { format!("{name} (see above)") } else { name }
+        };
+        let line = of.hindered(wanted, giver, name);
+        self.lines.push(format!("{}{line}", "  ".repeat(depth)));
+        for id in needed(giver) {
+            self.reason(id, depth + 1);
         }
     }
+}
+
+/// The literals that a giver lacks.
+fn needed(giver: &Giver) -> impl Iterator<Item = ReasonId> {
+    let needs = match &giver.hindrance {
+        Hindrance::Needs(needs) => needs.as_slice(),
+        _ => &[],
+    };
+    needs.iter().filter_map(|need| match need {
+        Need::Literal(id) => Some(*id),
+        Need::Number(_) => None,
+    })
 }
 
 /// `(fuel a) never gets above 7`.
