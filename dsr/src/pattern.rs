@@ -1,7 +1,7 @@
 //! Patterns: a small subgraph with variables, and the ways to find it in a snapshot.
 //!
 //! Problem: agents should see the part of the graph that concerns them, not all of it, and the mapping from
-//! subgraphs to actions should be text, not code in each agent. Idea: a conjunction of edges, attribute guards,
+//! subgraphs to actions should be text, not code in each agent. Idea: a conjunction of edges, types, attribute guards,
 //! inequalities, distances and negated conjunctions over typed variables, checked against the dictionary when it
 //! is built, compiled once with a join order. A disjunction is a `Vec<Pattern>`.
 //!
