@@ -15,6 +15,7 @@ use crate::block::Joint;
 use crate::id::{AgentId, AttributeId, EdgeKey, Holder, LabelId, NodeId, ReflexId, Time, TypeId, Version};
 use crate::pose::Pose;
 use crate::state::{Kept, State};
+use crate::track::Sample;
 use crate::undo::Undo;
 use crate::value::Value;
 
@@ -208,10 +209,20 @@ fn compare_joints(after: &mut State, child: NodeId, old: Option<&Joint>, changes
                 changes.push(Change::TransformChanged { parent, child, old, new });
             }
         }
+        (Some(old), Some(new)) if old.parent == new.parent && same_samples(old, new) => {
+            after.keep_since(Kept::Joint(child), old.since);
+        }
         (old, new) => {
             replace_joint(child, old, new, changes);
         }
     }
+}
+
+/// Whether both move, and remember the same.
+fn same_samples(old: &Joint, new: &Joint) -> bool {
+    let (Some(old), Some(new)) = (&old.track, &new.track) else { return false };
+    let same = |(a, b): (&Sample, &Sample)| a.time == b.time && a.pose.same(&b.pose);
+    old.samples().count() == new.samples().count() && old.samples().zip(new.samples()).all(same)
 }
 
 /// What it takes to go from one joint of a node to another, or none.

@@ -38,21 +38,37 @@ use sync::Arc;
 #[derive(Clone, Debug, PartialEq)]
 struct Pair(u64, u64);
 
-impl Twin for Pair {
-    type Change = ();
+/// How the other twin is to follow an addition.
+#[derive(Clone, Copy)]
+enum Added {
+    Told,
+    /// Told so that it cannot follow, and finds out when half is done.
+    Garbled,
+}
 
-    fn follow(&mut self, (): &()) -> bool {
-        (self.0, self.1) = (self.0 + 1, self.1 + 1);
+impl Twin for Pair {
+    type Change = Added;
+
+    fn follow(&mut self, added: &Added) -> bool {
+        self.0 += 1;
+        match added {
+            Added::Told => self.1 += 1,
+            Added::Garbled => return false,
+        }
         true
     }
 }
 
 fn add(kernel: &Kernel<Pair, u64>) -> u64 {
+    add_with(kernel, Some(Added::Told))
+}
+
+fn add_with(kernel: &Kernel<Pair, u64>, added: Option<Added>) -> u64 {
     let mut writing = kernel.write();
     let pair = writing.next();
     pair.0 += 1;
     pair.1 += 1;
-    let made = writing.publish(Some(())).0.0;
+    let made = writing.publish(added).0.0;
     *writing.own() += 1;
     made
 }
@@ -85,6 +101,24 @@ fn no_update_is_lost_and_readers_see_whole_values_in_order() {
         assert_eq!(*first, then, "what was read stays");
         assert_eq!((*kernel.read()).clone(), Pair(4, 4));
         assert_eq!(*kernel.write().own(), 4);
+    });
+}
+
+#[test]
+fn a_twin_that_cannot_follow_is_given_up() {
+    explore(|| {
+        let kernel = Arc::new(Kernel::new(Pair(0, 0), 0));
+        let other = Arc::clone(&kernel);
+        let writer = loom::thread::spawn(move || {
+            add_with(&other, None);
+            add_with(&other, Some(Added::Garbled));
+        });
+        add(&kernel);
+        let seen = kernel.read();
+        add(&kernel);
+        assert!(seen.0 == seen.1 && (1..=3).contains(&seen.0), "whole");
+        writer.join().unwrap();
+        assert_eq!(*kernel.read(), Pair(4, 4), "no update is lost");
     });
 }
 

@@ -619,3 +619,21 @@ fn a_reference_follows_its_last_value() {
         &[&["set barthel patient node carlos"], &["set barthel patient node anna"], &["no-node carlos"]];
     check(&history_of(lines)).unwrap();
 }
+
+/// What is put back as it was makes no version, a frame that moves too.
+#[test]
+fn a_frame_that_goes_and_comes_back_as_it_was_leaves_no_trace() {
+    let graph = world::ward();
+    world::commit(&graph, "dsr", "node anna person\nsample world anna 5 1 0").unwrap();
+    let before = world::bytes(&graph);
+    let back = "no-transform world anna\nsample world anna 5 1 0";
+    let commit = world::commit(&graph, "dsr", back).unwrap();
+    assert!(commit.delta.changes.is_empty());
+    assert_eq!(world::bytes(&graph), before);
+    let lines: &[&[&str]] = &[
+        &["transform world clarc 1 0 0 0"],
+        &["sample world carlos 5 1 0"],
+        &["no-transform world carlos", "sample world carlos 5 1 0"],
+    ];
+    check(&history_of(lines)).unwrap();
+}
