@@ -229,22 +229,33 @@ fn go_on(graph: &Graph, dice: &mut Unstructured<'_>) -> Result<Vec<Delta>> {
         let before = graph.snapshot();
         let agents: Vec<_> = graph.dictionary().agents().collect();
         let writer = if dice.ratio(1, 2)? { AgentId::DSR } else { *dice.choose(&agents)? };
-        let mut transaction = Transaction::new(writer);
-        for _ in 0..dice.int_in_range(1..=4)? {
-            transaction.push(edit(dice)?);
-        }
+        let edits = (0..dice.int_in_range(1..=4)?).map(|_| edit(dice)).collect::<Result<Vec<_>>>()?;
         let time = time(dice)?;
-        let Ok(commit) = graph.commit(&transaction, time) else { continue };
-        if commit.version == before.version() {
-            continue;
+        // What is refused as a whole is tried edit by edit.
+        if !commit(graph, writer, &edits, time, &mut deltas) {
+            assert_eq!(graph.snapshot().export(), before.export(), "what is refused leaves no trace");
+            for edit in &edits {
+                commit(graph, writer, std::slice::from_ref(edit), time, &mut deltas);
+            }
         }
+    }
+    look(&graph.snapshot(), time(dice)?);
+    Ok(deltas)
+}
+
+/// Commits some edits if that can be, and adds their delta.
+fn commit(graph: &Graph, writer: AgentId, edits: &[Edit], time: Time, deltas: &mut Vec<Delta>) -> bool {
+    let before = graph.snapshot();
+    let mut transaction = Transaction::new(writer);
+    transaction.extend(edits.iter().cloned());
+    let Ok(commit) = graph.commit(&transaction, time) else { return false };
+    if commit.version != before.version() {
         hold(&commit.snapshot);
         let replayed = Graph::replay(graph.dictionary(), &before.export(), [&*commit.delta]);
         assert_eq!(replayed.expect("it was committed").snapshot().export(), commit.snapshot.export());
         deltas.push((*commit.delta).clone());
     }
-    look(&graph.snapshot(), time(dice)?);
-    Ok(deltas)
+    true
 }
 
 /// An id of any kind.
@@ -294,13 +305,19 @@ fn pose(dice: &mut Unstructured<'_>) -> Result<Pose> {
 }
 
 fn edit(dice: &mut Unstructured<'_>) -> Result<Edit> {
-    let (from, to) = (node(dice)?, node(dice)?);
+    let (mut from, mut to) = (node(dice)?, node(dice)?);
+    let kind = dice.int_in_range(0..=13)?;
+    if (8..=10).contains(&kind) && dice.ratio(3, 4)? {
+        let hung = [("world", "robot"), ("robot", "camera"), ("camera", "anna")];
+        let &(parent, child) = dice.choose(&hung)?;
+        (from, to) = (NodeRef::from(parent), NodeRef::from(child));
+    }
     let holder = |dice: &mut Unstructured<'_>, node: NodeRef, to| {
         let label = id(dice, 8)?;
         Ok(if dice.ratio(1, 2)? { HolderRef::edge(node, label, to) } else { HolderRef::node(node) })
     };
     let preemption = |finishes| if finishes { Preemption::Finishes } else { Preemption::Yields };
-    Ok(match dice.int_in_range(0..=13)? {
+    Ok(match kind {
         0 => Edit::AddNode { name: name(dice)?, node_type: id(dice, 8)? },
         1 => Edit::RemoveNode { node: from },
         2 | 3 => Edit::AddEdge { from, label: id(dice, 8)?, to },
