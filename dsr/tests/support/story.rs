@@ -62,7 +62,9 @@ static WORLD: LazyLock<World> = LazyLock::new(|| {
     let journal = graph.journal(memory.clone(), Settings::default()).expect("there are threads");
     let at = |x: f64, turn: f64| Isometry3::new([x, 0.0, 0.0].into(), [0.0, 0.0, turn].into());
     let edit = |agent, time, edits: &mut dyn FnMut(&mut Transaction)| {
-        graph.edit(agent, Time(time), edits).expect("it fits");
+        let commit = graph.edit(agent, Time(time), edits).expect("it fits");
+        // One by one, so that the bytes are the same each time.
+        journal.wait(commit.version).expect("memory does not fail");
     };
     edit(AgentId::DSR, 0, &mut |tx| {
         tx.add_node("world", place)
