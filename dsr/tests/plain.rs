@@ -90,4 +90,15 @@ fn what_is_read_is_checked() {
     let strange = json.replace("\"index\":2", "\"index\":7");
     assert_ne!(strange, json);
     assert!(source(&strange).build(&graph.dictionary()).is_err());
+    // A part that declares a variable of the pattern, and a variable that nobody declares.
+    let local = r#"{"variable":{"scope":"local","index":0}}"#;
+    let again = json.replace(
+        &format!(r#""variables":[{local}]"#),
+        r#""variables":[{"variable":{"scope":"top","index":0}}]"#,
+    );
+    assert_ne!(again, json);
+    assert!(matches!(source(&again).build(&graph.dictionary()), Err(PatternError::Misdeclared { .. })));
+    let never = json.replace(&format!(r#""variables":[{local}]"#), r#""variables":[]"#);
+    assert_ne!(never, json);
+    assert!(source(&never).build(&graph.dictionary()).is_err());
 }

@@ -1,10 +1,10 @@
 //! `pelea dsr log`, `diff` and `query`: what happened, what differs, and where a pattern matches.
 
-use super::{Failed, Moment, open, said, seconds, state, writer};
+use super::{Failed, Moment, Told, open, seconds, state, writer};
 use crate::console::Console;
 use crate::exit::Exit;
 use clap::Args;
-use dsr::{Binding, Change, Delta, Mentions, Pattern, Played, Recording, ReflexId, Snapshot};
+use dsr::{Binding, Change, Delta, Mentions, Pattern, Played, Recording, Snapshot};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -51,30 +51,10 @@ pub(crate) struct QueryArguments {
 #[derive(Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 enum Record<'a> {
-    Commit {
-        version: u64,
-        time: f64,
-        writer: &'a str,
-        sentences: &'a [String],
-        changes: &'a [Change],
-        reflexes: &'a [ReflexId],
-    },
-    Jump {
-        from: u64,
-        to: u64,
-    },
-    Difference {
-        from: u64,
-        to: u64,
-        sentences: &'a [String],
-        changes: &'a [Change],
-    },
-    Match {
-        version: u64,
-        time: f64,
-        holds: bool,
-        bindings: &'a Names<'a>,
-    },
+    Commit(&'a Told<'a>),
+    Jump { from: u64, to: u64 },
+    Difference { from: u64, to: u64, sentences: &'a [String], changes: &'a [Change] },
+    Match { version: u64, time: f64, holds: bool, bindings: &'a Names<'a> },
 }
 
 pub(super) fn log(arguments: &LogArguments, console: &mut Console<'_>) -> Result<Exit, Failed> {
@@ -93,21 +73,14 @@ pub(super) fn log(arguments: &LogArguments, console: &mut Console<'_>) -> Result
         if arguments.by.as_ref().is_some_and(|by| by != writer) {
             continue;
         }
-        let sentences = said(&delta, &replay.snapshot());
-        let wanted = |text: &String| sentences.iter().any(|sentence| sentence.contains(text.as_str()));
+        let told = Told::new(&recording, &delta, &replay.snapshot());
+        let wanted = |text: &String| told.sentences.iter().any(|sentence| sentence.contains(text.as_str()));
         if !arguments.about.as_ref().is_none_or(wanted) {
             continue;
         }
-        let (version, time) = (delta.version.0, seconds(delta.time));
+        let Told { version, time, ref sentences, .. } = told;
         console.result(&format!("{version:>6} {time:>10.3} s  {writer}: {}", sentences.join("; ")));
-        console.record(&Record::Commit {
-            version,
-            time,
-            writer,
-            sentences: &sentences,
-            changes: &delta.changes,
-            reflexes: &delta.reflexes,
-        });
+        console.record(&Record::Commit(&told));
     }
     Ok(exit)
 }

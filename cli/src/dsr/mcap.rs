@@ -5,13 +5,13 @@
 //! (`foxglove`). Log times are those of the commits.
 
 use super::foxglove::{LOG, Log, TRANSFORMS, Transforms};
-use super::{Failed, open, said, seconds, writer};
+use super::{Failed, Told, open};
 use crate::console::Console;
 use crate::exit::Exit;
 use ::mcap::records::MessageHeader;
 use ::mcap::{WriteOptions, Writer};
 use clap::Args;
-use dsr::{Change, Delta, Played, Recording, ReflexId, Snapshot, Time};
+use dsr::{Delta, Played, Recording, Snapshot, Time};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -26,18 +26,6 @@ pub(crate) struct Arguments {
     /// Where the MCAP file goes.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-}
-
-/// A commit as a message.
-#[derive(Serialize)]
-struct Commit<'a> {
-    version: u64,
-    time: f64,
-    writer: &'a str,
-    sentences: &'a [String],
-    changes: &'a [Change],
-    /// The reflexes that fired.
-    reflexes: &'a [ReflexId],
 }
 
 const COMMIT: &str = r#"{"title": "dsr.Commit", "type": "object",
@@ -82,7 +70,9 @@ fn write(recording: &Recording, path: &Path) -> Result<u64, Failed> {
         let snapshot = replay.snapshot();
         match played? {
             Played::Jump { .. } => output.state(&snapshot),
-            Played::Commit(delta) => output.commit(&delta, writer(recording, &delta), &snapshot),
+            Played::Commit(delta) => {
+                output.commit(&delta, &Told::new(recording, &delta, &snapshot), &snapshot)
+            }
         }
         .map_err(failed)?;
     }
@@ -120,18 +110,9 @@ impl Output {
         Transforms::of_state(snapshot).map_or(Ok(()), |frames| self.put(self.frames, time, &frames))
     }
 
-    fn commit(&mut self, delta: &Delta, writer: &str, snapshot: &Snapshot) -> ::mcap::McapResult<()> {
-        let sentences = said(delta, snapshot);
-        let commit = Commit {
-            version: delta.version.0,
-            time: seconds(delta.time),
-            writer,
-            sentences: &sentences,
-            changes: &delta.changes,
-            reflexes: &delta.reflexes,
-        };
-        self.put(self.commits, delta.time, &commit)?;
-        self.put(self.logs, delta.time, &Log::of_commit(delta, &sentences, writer))?;
+    fn commit(&mut self, delta: &Delta, told: &Told<'_>, snapshot: &Snapshot) -> ::mcap::McapResult<()> {
+        self.put(self.commits, delta.time, told)?;
+        self.put(self.logs, delta.time, &Log::of_commit(delta, &told.sentences, told.writer))?;
         let moved = Transforms::of_commit(delta, snapshot);
         moved.map_or(Ok(()), |frames| self.put(self.frames, delta.time, &frames))
     }

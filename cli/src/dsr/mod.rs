@@ -16,8 +16,10 @@ use crate::exit::Exit;
 use crate::render::Message;
 use clap::Subcommand;
 use dsr::{
-    Damage, Delta, Folder, Graph, Journal, Recording, RecordingError, Settings, Snapshot, Time, Version,
+    Change, Damage, Delta, Folder, Graph, Journal, Recording, RecordingError, ReflexId, Settings, Snapshot,
+    Time, Version,
 };
+use serde::Serialize;
 use std::path::Path;
 use std::str::FromStr;
 
@@ -132,10 +134,31 @@ fn writer<'r>(recording: &'r Recording, delta: &Delta) -> &'r str {
     recording.dictionary().agent_name(delta.writer).map_or("", |name| name)
 }
 
-/// What a commit says: what changed, and which reflexes fired.
-fn said(delta: &Delta, after: &Snapshot) -> Vec<String> {
-    let fired = delta.reflexes.iter().map(|reflex| format!("reflex {} fired", reflex.0));
-    delta.sentences(after).into_iter().chain(fired).collect()
+/// A commit, as records and messages tell it.
+#[derive(Serialize)]
+struct Told<'a> {
+    version: u64,
+    time: f64,
+    writer: &'a str,
+    /// What changed, and which reflexes fired.
+    sentences: Vec<String>,
+    changes: &'a [Change],
+    /// The reflexes that fired.
+    reflexes: &'a [ReflexId],
+}
+
+impl<'a> Told<'a> {
+    fn new(recording: &'a Recording, delta: &'a Delta, after: &Snapshot) -> Self {
+        let fired = delta.reflexes.iter().map(|reflex| format!("reflex {} fired", reflex.0));
+        Self {
+            version: delta.version.0,
+            time: seconds(delta.time),
+            writer: writer(recording, delta),
+            sentences: delta.sentences(after).into_iter().chain(fired).collect(),
+            changes: &delta.changes,
+            reflexes: &delta.reflexes,
+        }
+    }
 }
 
 /// Begins a journal of `graph` in a folder that holds none. A folder that cannot take it is a result that cannot be

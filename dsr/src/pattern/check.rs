@@ -34,6 +34,9 @@ pub enum PatternError {
     /// A local variable outside the negated part that declares it, or a variable of another pattern.
     #[error("a variable is used outside its part")]
     OutOfScope { variable: Variable },
+    /// A variable that no part declares, or two, or a part that is not its own. A builder makes none.
+    #[error("a variable is not declared once, in its own part")]
+    Misdeclared { variable: Variable },
     /// No signature of the label fits these types.
     #[error("'{label}' never goes from a '{from}' to a '{to}'")]
     WrongSignature { label: Name, from: Name, to: Name },
@@ -72,10 +75,13 @@ pub(super) fn compile(dictionary: &Dictionary, source: PatternSource) -> Result<
         tops: variables.len(),
         constants: Vec::new(),
         visible: Mask::default(),
+        declared: Mask::default(),
+        depth: 0,
         mentions,
         remembers: false,
     };
     let body = checker.conjunction(&source.body)?;
+    checker.all_declared()?;
     let Checker { types, constants, mut mentions, remembers, .. } = checker;
     let count = types.len() + constants.len();
     if count > SLOTS {
@@ -122,6 +128,10 @@ struct Checker<'d> {
     constants: Vec<Constant>,
     /// The variables that may be used here.
     visible: Mask,
+    /// Those that some part so far has declared.
+    declared: Mask,
+    /// In how many parts the present one lies.
+    depth: usize,
     mentions: Mentions,
     remembers: bool,
 }
@@ -133,11 +143,17 @@ impl Checker<'_> {
         for term in &part.variables {
             if let Term::Variable(variable) = term {
                 let slot = self.slot_of(*variable)?;
+                if self.declared.contains(slot) || (variable.scope == Scope::Top) != (self.depth == 0) {
+                    return Err(PatternError::Misdeclared { variable: *variable });
+                }
+                self.declared.insert(slot);
                 self.visible.insert(slot);
                 variables.push(slot);
             }
         }
+        self.depth += 1;
         let mut atoms = part.atoms.iter().map(|atom| self.atom(atom)).collect::<Result<Vec<_>, _>>()?;
+        self.depth -= 1;
         atoms.retain(|atom| !self.says_nothing(atom));
         self.visible = outside;
         Ok(Conjunction { variables, atoms })
@@ -342,6 +358,16 @@ impl Checker<'_> {
             Scope::Local => (self.tops + index, self.types.len()),
         };
         if slot < end { Ok(slot_at(slot)) } else { Err(PatternError::OutOfScope { variable }) }
+    }
+
+    fn all_declared(&self) -> Result<(), PatternError> {
+        let index = |index: usize| u16::try_from(index).unwrap_or(u16::MAX);
+        let variable = |slot| match usize::checked_sub(slot, self.tops) {
+            None => Variable { scope: Scope::Top, index: index(slot) },
+            Some(local) => Variable { scope: Scope::Local, index: index(local) },
+        };
+        let missing = (0..self.types.len()).find(|&slot| !self.declared.contains(slot_at(slot)));
+        missing.map_or(Ok(()), |slot| Err(PatternError::Misdeclared { variable: variable(slot) }))
     }
 
     /// The type of a variable; constants have none.
