@@ -187,6 +187,10 @@ fn what_is_no_pattern_is_told_with_its_place() {
         "(is_with clarc ?b",
         "(and (robot ?r) (test ?t) (is_with ?t ?r))",
         "(< (distance ?a ?b) far)",
+        "(< (bearing ?a ?b) 1 far)",
+        "(< (distance ?a ?b) 2 1)",
+        "(< (distance ?a ?b) (score ?a))",
+        "(< (score ?t) 1 2)",
         "((is_with ?a ?b))",
         "(and (robot ?r) (person ?r))",
         "(and (robot ?r) (not (person ?r)))",
@@ -224,6 +228,14 @@ fn what_is_no_pattern_is_told_with_its_place() {
             'is_with' never goes from a 'test' to a 'robot'
         (< (distance ?a ?b) far)
             byte 20: a number of metres belongs here
+        (< (bearing ?a ?b) 1 far)
+            byte 21: a number of radians belongs here
+        (< (distance ?a ?b) 2 1)
+            no threshold: appears at 2, disappears at 1
+        (< (distance ?a ?b) (score ?a))
+            byte 20: `<=` and an attribute of the first node belongs here
+        (< (score ?t) 1 2)
+            byte 0: `<` takes two sides
         ((is_with ?a ?b))
             byte 0: a part such as `(LABEL a b)` belongs here
         (and (robot ?r) (person ?r))

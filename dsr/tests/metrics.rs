@@ -155,6 +155,36 @@ fn bearing_and_reach_follow_frames_and_attributes() {
     assert!(!holds(&mut within));
 }
 
+/// What is asked as text is what a program would write.
+#[test]
+fn texts_measure_too() {
+    let graph = room();
+    let (dictionary, reach) = (graph.dictionary(), graph.dictionary().attribute("reach").unwrap());
+    let mut texts = [
+        "(< (bearing robot person) 0.5)",
+        "(<= (distance robot person) (reach robot))",
+        "(<= (distance robot person) 1 1.5)",
+    ]
+    .map(|text| graph.subscribe(dsr::Pattern::parse(&dictionary, text).unwrap()));
+    let near = Threshold { appears: 1.0, disappears: 1.5 };
+    let mut written = [
+        watch(&graph, |p| _ = p.metric(Metric::Bearing, "robot", "person", Comparison::Less, 0.5)),
+        watch(&graph, |p| _ = p.reachable("robot", "person", reach)),
+        watch(&graph, |p| _ = p.distance("robot", "person", Comparison::LessOrEqual, near)),
+    ];
+    graph.edit(AgentId::DSR, Time(0), |tx| _ = tx.set_attribute("robot", reach, 0.8)).unwrap();
+    let mut seen = [false; 3];
+    for (x, y) in [(5.0, 0.0), (0.7, 0.2), (1.2, 0.0), (0.2, 0.7), (1.6, 0.0), (1.2, 0.0)] {
+        walk(&graph, x, y);
+        for ((text, written), seen) in texts.iter_mut().zip(&mut written).zip(&mut seen) {
+            let holds = holds(text);
+            assert_eq!(holds, self::holds(written), "{x} {y}");
+            *seen |= holds;
+        }
+    }
+    assert_eq!(seen, [true; 3]);
+}
+
 #[test]
 fn a_threshold_that_makes_no_sense_is_refused() {
     let graph = room();

@@ -1,14 +1,18 @@
 //! Patterns as text, for people who ask: `(and (is_with ?who clarc) (not (is clarc speaking)) (> (score ?test) 3))`.
 //!
 //! A word with `?` is a variable, any other names a node. `(LABEL a b)` is an edge, `(TYPE a)` says what a node is (a
-//! variable of which nothing is said may be anything; of two types that overlap the narrower counts), `(ATTRIBUTE a)` or
-//! `(ATTRIBUTE a b)` says that an attribute of a node or of an edge has a value, `(= (ATTRIBUTE a) VALUE)` and `!=`, `<`, `<=`, `>`, `>=` compare it with a number, `true`, `false`, a
-//! `"text"`, a node or another attribute; `(< (distance a b) 1.5)` compares metres, `(distinct a b)` two nodes. `(and …)`
-//! and `(not …)` nest; a variable that stands only inside a `not` is local to it.
+//! variable of which nothing is said may be anything; of two types that overlap the narrower counts), `(ATTRIBUTE a)`
+//! or `(ATTRIBUTE a b)` says that an attribute of a node or of an edge has a value, `(= (ATTRIBUTE a) VALUE)` and `!=`,
+//! `<`, `<=`, `>`, `>=` compare it with a number, `true`, `false`, a `"text"`, a node or another attribute; `(<
+//! (distance a b) 1.5)` compares metres, `(< (bearing a b) 0.3)` radians, with two numbers the first to come and the
+//! second to go by, `(<= (distance a b) (ATTRIBUTE a))` says that `a` reaches `b`; `(distinct a b)` compares two nodes.
+//! `(and …)` and `(not …)` nest; a variable that stands only inside a `not` is local to it.
 
 use std::collections::BTreeMap;
 
-use super::{Comparison, HolderTerm, Operand, Pattern, PatternBuilder, PatternError, Term, Variable};
+use super::{
+    Comparison, HolderTerm, Metric, Operand, Pattern, PatternBuilder, PatternError, Term, Threshold, Variable,
+};
 use crate::dictionary::{Dictionary, HolderType};
 use crate::id::{AttributeId, TypeId};
 use crate::value::{Kind, Value};
@@ -214,8 +218,17 @@ impl<'d, 't> Writer<'d, 't> {
             _ => {}
         }
         if let Some(comparison) = comparison(head) {
-            let [left, right] = rest else { return Err(arity("two sides")) };
-            return self.comparison(builder, comparison, left, right);
+            return match rest {
+                [left, right] => match metric(left)? {
+                    Some(measured) => self.metric(builder, comparison, &measured, (right, right)),
+                    None => self.comparison(builder, comparison, left, right),
+                },
+                [left, come, go] => match metric(left)? {
+                    Some(measured) => self.metric(builder, comparison, &measured, (come, go)),
+                    None => Err(arity("two sides")),
+                },
+                _ => Err(arity("two sides")),
+            };
         }
         if let (Some(label), [from, to]) = (self.dictionary.label(head), rest) {
             let (from, to) = (self.term(from)?, self.term(to)?);
@@ -261,24 +274,42 @@ impl<'d, 't> Writer<'d, 't> {
         left: &Form<'t>,
         right: &Form<'t>,
     ) -> Result<(), PatternTextError> {
-        let (at, head, rest) = split(left)?;
-        if head == "distance" {
-            let [a, b] = rest else {
-                return Err(PatternTextError::Arity { at, word: head.to_owned(), wanted: "two nodes" });
-            };
-            let (a, b) = (self.term(a)?, self.term(b)?);
-            let metres = match right {
-                Form::Word(_, word) => word.parse().ok().filter(|metres: &f64| metres.is_finite()),
-                _ => None,
-            };
-            let metres =
-                metres.ok_or(PatternTextError::Expected { at: right.at(), wanted: "a number of metres" })?;
-            builder.distance(a, b, comparison, metres);
-            return Ok(());
-        }
         let (holder, attribute) = self.attribute(left)?;
         let operand = self.operand(right, self.dictionary.kind(attribute))?;
         builder.guard(holder, attribute, comparison, operand);
+        Ok(())
+    }
+
+    /// A metric against a number, against two (one to come, one to go by), or a distance against how far the first reaches.
+    fn metric(
+        &self,
+        builder: &mut PatternBuilder<'d>,
+        comparison: Comparison,
+        Measured { metric, from, to }: &Measured<'_, 't>,
+        (come, go): (&Form<'t>, &Form<'t>),
+    ) -> Result<(), PatternTextError> {
+        let (a, b) = (self.term(from)?, self.term(to)?);
+        if let Form::List(at, _) = come {
+            let (holder, reach) = self.attribute(come)?;
+            let wanted = "`<=` and an attribute of the first node";
+            let fits = (*metric, comparison) == (Metric::Distance, Comparison::LessOrEqual)
+                && holder == HolderTerm::Node(a.clone());
+            if !fits {
+                return Err(PatternTextError::Expected { at: *at, wanted });
+            }
+            builder.reachable(a, b, reach);
+            return Ok(());
+        }
+        let number = |form: &Form<'t>| {
+            let number = if let Form::Word(_, word) = form { word.parse().ok() } else { None };
+            let wanted =
+                if *metric == Metric::Distance { "a number of metres" } else { "a number of radians" };
+            number
+                .filter(|number: &f64| number.is_finite())
+                .ok_or(PatternTextError::Expected { at: form.at(), wanted })
+        };
+        let threshold = Threshold { appears: number(come)?, disappears: number(go)? };
+        builder.metric(*metric, a, b, comparison, threshold);
         Ok(())
     }
 
@@ -333,6 +364,27 @@ impl<'d, 't> Writer<'d, 't> {
             Form::List(at, _) => Err(PatternTextError::Expected { at: *at, wanted: "a node or a variable" }),
         }
     }
+}
+
+/// What is measured between which forms.
+struct Measured<'f, 't> {
+    metric: Metric,
+    from: &'f Form<'t>,
+    to: &'f Form<'t>,
+}
+
+/// `(distance a b)` or `(bearing a b)`, if it is one of them.
+fn metric<'f, 't>(form: &'f Form<'t>) -> Result<Option<Measured<'f, 't>>, PatternTextError> {
+    let (at, head, rest) = split(form)?;
+    let metric = match head {
+        "distance" => Metric::Distance,
+        "bearing" => Metric::Bearing,
+        _ => return Ok(None),
+    };
+    let [from, to] = rest else {
+        return Err(PatternTextError::Arity { at, word: head.to_owned(), wanted: "two nodes" });
+    };
+    Ok(Some(Measured { metric, from, to }))
 }
 
 fn comparison(word: &str) -> Option<Comparison> {
