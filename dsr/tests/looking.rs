@@ -225,13 +225,13 @@ fn what_is_no_pattern_is_told_with_its_place() {
         (is_with clarc ?b
             byte 17: `)` is missing
         (and (robot ?r) (test ?t) (is_with ?t ?r))
-            'is_with' never goes from a 'test' to a 'robot'
+            byte 26: 'is_with' never goes from a 'test' to a 'robot'
         (< (distance ?a ?b) far)
             byte 20: a number of metres belongs here
         (< (bearing ?a ?b) 1 far)
             byte 21: a number of radians belongs here
         (< (distance ?a ?b) 2 1)
-            no threshold: appears at 2, disappears at 1
+            byte 0: no threshold: appears at 2, disappears at 1
         (< (distance ?a ?b) (score ?a))
             byte 20: `<=` and an attribute of the first node belongs here
         (< (score ?t) 1 2)

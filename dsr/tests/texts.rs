@@ -154,7 +154,7 @@ proptest! {
                 // Refused is what never holds, inside of a `not` or outside.
                 Err(error) => {
                     prop_assert!(
-                        matches!(error, PatternTextError::Wrong(_) | PatternTextError::Disjoint { .. }),
+                        matches!(error, PatternTextError::Wrong { .. } | PatternTextError::Disjoint { .. }),
                         "{said}: {error}"
                     );
                     let s = graph.snapshot();

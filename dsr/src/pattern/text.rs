@@ -42,8 +42,8 @@ pub enum PatternTextError {
     #[error("byte {at}: `{word}` is a `{first}` and so never a `{second}`")]
     Disjoint { at: usize, word: String, first: String, second: String },
     /// It says what the dictionary never allows.
-    #[error(transparent)]
-    Wrong(#[from] PatternError),
+    #[error("byte {at}: {error}")]
+    Wrong { at: usize, error: PatternError },
 }
 
 /// How deeply parts may nest.
@@ -74,10 +74,19 @@ impl Pattern {
         if reader.at < text.len() {
             return Err(PatternTextError::Missing { at: reader.at, wanted: "the end" });
         }
-        let mut builder = PatternBuilder::new(dictionary);
-        let mut writer = Writer { dictionary, known: BTreeMap::new() };
-        writer.conjunction(&mut builder, std::slice::from_ref(&form))?;
-        Ok(builder.build()?)
+        let build = |parts| {
+            let mut builder = PatternBuilder::new(dictionary);
+            let mut writer = Writer { dictionary, known: BTreeMap::new(), parts, last: form.at() };
+            writer.conjunction(&mut builder, std::slice::from_ref(&form))?;
+            builder.build().map_err(|error| PatternTextError::Wrong { at: writer.last, error })
+        };
+        build(usize::MAX).or_else(|error| match error {
+            // The first part with which it goes wrong is the one.
+            PatternTextError::Wrong { .. } => {
+                (0..).find_map(|parts| build(parts).err()).map_or(Err(error), Err)
+            }
+            other => Err(other),
+        })
     }
 }
 
@@ -136,6 +145,10 @@ struct Writer<'d, 't> {
     dictionary: &'d Dictionary,
     /// The variables that may stand here, with their types.
     known: BTreeMap<&'t str, (Variable, TypeId)>,
+    /// How many parts are still to be written.
+    parts: usize,
+    /// Where the last one that was written begins.
+    last: usize,
 }
 
 /// The word that begins a list, and what is behind it.
@@ -209,6 +222,11 @@ impl<'d, 't> Writer<'d, 't> {
                 return builder.without(|builder| self.conjunction(builder, std::slice::from_ref(part)));
             }
             ("not", _) => return Err(arity("one part")),
+            _ => {}
+        }
+        let Some(left) = self.parts.checked_sub(1) else { return Ok(()) };
+        (self.parts, self.last) = (left, at);
+        match (head, rest) {
             ("distinct", [a, b]) => {
                 let (a, b) = (self.term(a)?, self.term(b)?);
                 builder.distinct(a, b);
