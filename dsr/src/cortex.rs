@@ -238,7 +238,7 @@ impl CortexWorld {
         notes: &mut Vec<String>,
     ) -> Result<(Vec<Edge>, Vec<Joint>), CortexError> {
         let (mut edges, mut joints) = (Vec::new(), Vec::new());
-        let mut seen = BTreeSet::new();
+        let (mut seen, mut hung) = (BTreeSet::new(), BTreeSet::new());
         for link in self.model.symbols.values().flat_map(|symbol| &symbol.links) {
             let (src, dst, label) = (link.src.text(), link.dst.text(), link.label.clone());
             // Cortex passes over these with a warning, too.
@@ -251,6 +251,11 @@ impl CortexWorld {
             };
             let (start, end) = (&nodes[from].name, &nodes[to].name);
             if label == "RT" {
+                if !hung.insert((from, to)) {
+                    notes
+                        .push(format!("link `RT` from `{start}` to `{end}`: left out, there is one already"));
+                    continue;
+                }
                 let no_pose = || CortexError::NoPose { parent: start.clone(), child: end.clone() };
                 let placed = ring::placed(link, unit).ok_or_else(no_pose)?;
                 joints.push(Joint { parent: from, child: to, placed });

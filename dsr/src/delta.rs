@@ -145,7 +145,7 @@ pub(crate) fn settle(after: &mut State) -> Vec<Change> {
             seen.insert(Thing::of(entry))
         };
         if first {
-            compare(after, entry, &mut changes);
+            compare(after, entry, &entries[..at], &mut changes);
         }
     }
     for entry in &entries {
@@ -160,7 +160,8 @@ pub(crate) fn settle(after: &mut State) -> Vec<Change> {
     changes
 }
 
-fn compare(after: &mut State, first: &Undo, changes: &mut Vec<Change>) {
+/// Holds the first entry about a thing, and with it those before, against what is there now.
+fn compare(after: &mut State, first: &Undo, earlier: &[Undo], changes: &mut Vec<Change>) {
     match first {
         Undo::NodeAdded(node) => {
             if let Some(found) = after.node(*node) {
@@ -183,7 +184,18 @@ fn compare(after: &mut State, first: &Undo, changes: &mut Vec<Change>) {
         Undo::Cell { holder, attribute, old } => {
             compare_cells(after, *holder, *attribute, old.as_ref(), changes);
         }
-        Undo::Joint { child, old } => compare_joints(after, *child, old.as_ref(), changes),
+        Undo::Joint { child, old } => {
+            // What the edge remembered before the transaction is told by `old` if it was not sampled first.
+            let sampled = |entry: &Undo| matches!(entry, Undo::Sample { child: other, .. } if other == child);
+            match (old, after.joint(*child)) {
+                (Some(old), Some(new))
+                    if old.parent == new.parent && same_samples(old, new) && !earlier.iter().any(sampled) =>
+                {
+                    after.keep_since(Kept::Joint(*child), old.since);
+                }
+                _ => compare_joints(after, *child, old.as_ref(), changes),
+            }
+        }
         Undo::Sample { child, time, old, newest, since } => {
             let Some(joint) = after.joint(*child) else { return };
             let Some(track) = &joint.track else { return };
@@ -208,9 +220,6 @@ fn compare_joints(after: &mut State, child: NodeId, old: Option<&Joint>, changes
                 let (old, parent, new) = (old.pose.clone(), new.parent, new.pose.clone());
                 changes.push(Change::TransformChanged { parent, child, old, new });
             }
-        }
-        (Some(old), Some(new)) if old.parent == new.parent && same_samples(old, new) => {
-            after.keep_since(Kept::Joint(child), old.since);
         }
         (old, new) => {
             replace_joint(child, old, new, changes);

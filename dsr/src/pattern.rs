@@ -281,7 +281,7 @@ enum Constant {
 }
 
 /// A pattern as it was written, without a dictionary: plain data, for files and other processes. [`PatternSource::build`]
-/// checks it as a [`PatternBuilder`] does.
+/// checks it as a [`PatternBuilder`] does. The format must limit how deeply it nests, as JSON's reader does.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct PatternSource {
     /// Names and types of the top-level variables.
@@ -334,6 +334,11 @@ impl Pattern {
     /// The names and types of the variables, in the order of a [`Binding`].
     pub fn variables(&self) -> impl Iterator<Item = (&str, TypeId)> + '_ {
         self.variables.iter().map(|(name, node_type)| (&**name, *node_type))
+    }
+
+    /// Whether a match gives the variable a node: one of the pattern's own, not of a negated part.
+    pub(crate) fn gives(&self, variable: Variable) -> bool {
+        variable.position().is_some_and(|at| at < self.variables.len())
     }
 
     /// How it was written.

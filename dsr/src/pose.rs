@@ -51,12 +51,13 @@ impl Covariance {
         if !matrix.iter().all(|number| number.is_finite()) {
             return Err(CovarianceError::NotFinite);
         }
-        let scale = matrix.amax();
         let even = 0.5 * matrix + 0.5 * matrix.transpose();
-        if (matrix - even).amax() > scale * ROUNDING {
+        if (matrix - even).amax() > matrix.amax() * ROUNDING {
             return Err(CovarianceError::NotSymmetric);
         }
-        // Singular ones are common: a robot on a floor has no error upwards.
+        // Singular ones are common: a robot on a floor has no error upwards. Of what is kept, so that what has been taken
+        // once is taken again, when it is read.
+        let scale = even.amax();
         let shifted = even + Matrix6::identity() * (scale * ROUNDING);
         if scale > 0.0 && Cholesky::new(shifted).is_none() {
             return Err(CovarianceError::NotPositive);
@@ -64,9 +65,9 @@ impl Covariance {
         Ok(Self(even))
     }
 
-    /// At `part` of the way to another.
-    pub(crate) fn towards(&self, other: &Self, part: f64) -> Self {
-        Self(self.0 * (1.0 - part) + other.0 * part)
+    /// At `part` of the way to another; `None` where rounding has made it none.
+    pub(crate) fn towards(&self, other: &Self, part: f64) -> Option<Self> {
+        Self::new(self.0 * (1.0 - part) + other.0 * part).ok()
     }
 
     /// As a matrix.
@@ -217,8 +218,8 @@ impl Uncertain {
     /// As what callers see.
     pub(crate) fn pose(self) -> Pose {
         let covariance = match self.error {
-            // Only rounding lies between this and a covariance, and that is evened out.
-            Error::Known(matrix) => Some(Arc::new(Covariance(0.5 * matrix + 0.5 * matrix.transpose()))),
+            // Numbers too large, or lost in rounding along a chain of kilometres: nothing is known then.
+            Error::Known(matrix) => Covariance::new(matrix).ok().map(Arc::new),
             Error::None | Error::Unknown => None,
         };
         Pose { transform: self.transform, covariance }
@@ -305,6 +306,15 @@ mod tests {
             });
             prop_assert!(Covariance::new(known(along.inverse())).is_ok());
         }
+    }
+
+    /// A variance that stands for "no idea" may be too large to be added up.
+    #[test]
+    fn what_is_too_large_is_not_known() {
+        let vast =
+            Uncertain { transform: Isometry3::identity(), error: Error::Known(Matrix6::identity() * 1e308) };
+        assert_eq!(vast.pose().covariance.map(|known| known.matrix()[(0, 0)]), Some(1e308));
+        assert_eq!((vast * vast).pose().covariance, None);
     }
 
     #[test]

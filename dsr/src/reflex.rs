@@ -72,7 +72,11 @@ impl Reflex<PatternSource> {
     /// The reflex of a dictionary.
     pub fn build(self, dictionary: &Dictionary) -> Result<Reflex, PatternError> {
         let bound = |Bound { pattern, binding }: Bound<PatternSource>| {
-            Ok(Bound { pattern: Arc::new(pattern.build(dictionary)?), binding })
+            let pattern = Arc::new(pattern.build(dictionary)?);
+            match binding.iter().find(|(variable, _)| !pattern.gives(*variable)) {
+                Some((variable, _)) => Err(PatternError::OutOfScope { variable: *variable }),
+                None => Ok(Bound { pattern, binding }),
+            }
         };
         let keep = |keep: Keep<PatternSource>| {
             Ok(Keep { any: keep.any.into_iter().map(bound).collect::<Result<_, PatternError>>()? })

@@ -77,6 +77,8 @@ impl Routes {
             }
         }
         self.index.find_moved(delta, state, |found| seats.extend_from_slice(found));
+        anew.sort_unstable();
+        anew.dedup();
         seats.extend(anew.iter().copied());
         seats.sort_unstable();
         seats.dedup();

@@ -6,7 +6,7 @@
 //!
 //! Overflow: a queue that is full is emptied, and from then on keeps one thing, the newest state, until its subscriber
 //! comes for it: so a pattern subscriber misses intermediate matches but never ends up with a wrong set of them, and one
-//! that never comes holds no old state that commits would have to copy around. Waking: a blocked `recv` by a condition
+//! that never comes holds old states only until its queue is full, and commits do not copy around them for ever. Waking: a blocked `recv` by a condition
 //! variable, anything else (an async task) by a callback; both after the commit's lock and the queue's are given back,
 //! so that who wakes finds neither taken. What an emptied queue held is freed then too.
 
@@ -71,6 +71,9 @@ pub enum Delivery {
     /// was. Only the newest state is kept.
     Newest,
 }
+
+/// So many that nobody counts them.
+const FEW: usize = 64;
 
 /// How a subscription's queue is kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -173,6 +176,11 @@ impl Queue {
     pub(crate) fn push(self: &Arc<Self>, committed: &Committed) -> Option<Wake> {
         let mut content = self.content();
         let mut freed = Freed::default();
+        // Who has not looked yet and wants what is, not what was, begins with this.
+        if self.mailbox.delivery == Delivery::Newest && content.start.is_some() {
+            freed.1 = content.start.replace(committed.snapshot.clone());
+            return self.wake(&content, freed);
+        }
         if content.missed > 0 || content.commits.len() >= self.mailbox.capacity.get() {
             content.missed += content.commits.len() as u64;
             freed = (std::mem::take(&mut content.commits), content.start.take());
@@ -428,6 +436,10 @@ impl Matches {
                 }
                 if let Some(moves) = moves {
                     self.witnesses = moves.witnesses.into_inner();
+                    // Of bindings that nobody asks about any more; a look at everything makes no more than it looks at.
+                    if self.witnesses.len() > self.whole.max(FEW) {
+                        self.witnesses = Witnesses::default();
+                    }
                 }
                 (snapshot, 0)
             }
@@ -453,7 +465,9 @@ impl Matches {
         // With what is known, it may be less than it will be without.
         self.whole = if known.is_some() { self.whole.max(looked) } else { looked };
         let mut now: BTreeSet<_> = found.into_iter().collect();
-        now.extend(held.iter().filter(|held| self.pattern.keeps(state, held)).cloned());
+        let stays = |held: &&Binding| !now.contains(*held) && self.pattern.keeps(state, held);
+        let staying: Vec<_> = held.iter().filter(stays).cloned().collect();
+        now.extend(staying);
         let gone: Vec<_> = held.difference(&now).cloned().collect();
         let new: Vec<_> = now.difference(held).cloned().collect();
         gone.iter().for_each(|binding| self.held.lose(binding));

@@ -158,7 +158,7 @@ impl Track {
             Around::Between(a, b, part) => {
                 let transform = between(&a.transform, &b.transform, part);
                 let known = a.covariance.as_ref().zip(b.covariance.as_ref());
-                Pose { transform, covariance: known.map(|(a, b)| Arc::new(a.towards(b, part))) }
+                Pose { transform, covariance: known.and_then(|(a, b)| a.towards(b, part)).map(Arc::new) }
             }
         })
     }

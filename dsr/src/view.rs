@@ -32,6 +32,9 @@ impl Snapshot {
         let mut nodes = BTreeSet::from([node]);
         let mut border = vec![node];
         for _ in 0..steps {
+            if border.is_empty() {
+                break;
+            }
             let near = |id: &NodeId| self.get(*id).map(neighbours).unwrap_or_default();
             border = border.iter().flat_map(near).filter(|id| nodes.insert(*id)).collect();
         }

@@ -191,6 +191,8 @@ fn what_is_no_pattern_is_told_with_its_place() {
         "(< (distance ?a ?b) 2 1)",
         "(< (distance ?a ?b) (score ?a))",
         "(< (score ?t) 1 2)",
+        "(= (says ?t ?p) ?x)",
+        "(< (score ?t) inf)",
         "((is_with ?a ?b))",
         "(and (robot ?r) (person ?r))",
         "(and (robot ?r) (not (person ?r)))",
@@ -236,6 +238,10 @@ fn what_is_no_pattern_is_told_with_its_place() {
             byte 20: `<=` and an attribute of the first node belongs here
         (< (score ?t) 1 2)
             byte 0: `<` takes two sides
+        (= (says ?t ?p) ?x)
+            byte 16: a text belongs here
+        (< (score ?t) inf)
+            byte 14: a number belongs here
         ((is_with ?a ?b))
             byte 0: a part such as `(LABEL a b)` belongs here
         (and (robot ?r) (person ?r))

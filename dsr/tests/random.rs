@@ -636,4 +636,16 @@ fn a_frame_that_goes_and_comes_back_as_it_was_leaves_no_trace() {
         &["no-transform world carlos", "sample world carlos 5 1 0"],
     ];
     check(&history_of(lines)).unwrap();
+    // But not if it was somewhere else before it went.
+    let lines: &[&[&str]] = &[
+        &["transform world clarc 1 0 0 0"],
+        &["sample world carlos 5 1 0"],
+        &[
+            "sample world carlos 4 2 0",
+            "no-transform world carlos",
+            "sample world carlos 5 1 0",
+            "sample world carlos 4 2 0",
+        ],
+    ];
+    check(&history_of(lines)).unwrap();
 }

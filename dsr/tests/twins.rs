@@ -45,6 +45,8 @@ fn deed() -> impl Strategy<Value = Deed> {
             "no-node barthel",
             "node barthel test\nset barthel patient node carlos",
             "no-transform world carlos\ntransform clarc carlos 1 0 0 0 0.01",
+            "sample clarc camera 1 1 0\nno-transform clarc camera\nsample clarc camera 0 2 0\nsample clarc camera 1 1 0",
+            "no-transform clarc camera\nsample clarc camera 0 2 0",
         ][..],
     );
     prop_oneof![

@@ -41,7 +41,7 @@ pub(super) fn placed(link: &Link, unit: CortexUnit) -> Option<Placed> {
     let (translation, rotation) = (either("rt_translation")?, either("rt_rotation_euler_xyz")?);
     let pose = |block: usize| {
         let at = block.checked_mul(BLOCK)?;
-        let three = |list: &[f64]| -> Option<[f64; BLOCK]> { list.get(at..at + BLOCK)?.try_into().ok() };
+        let three = |list: &[f64]| -> Option<[f64; BLOCK]> { list.get(at..)?.get(..BLOCK)?.try_into().ok() };
         Some(isometry(three(&translation)?, three(&rotation)?, unit))
     };
     let head = link.attribute.get("rt_head_index").and_then(|head| whole(head.value.number()?));

@@ -22,6 +22,12 @@ pub enum PatternError {
     /// More variables and constants than a pattern may have.
     #[error("a pattern may have {SLOTS} variables and constants, not {count}")]
     TooLarge { count: usize },
+    /// More atoms, or deeper negated parts, than a pattern may have.
+    #[error("a pattern may have {ATOMS} atoms, and negated parts {DEEPEST} deep")]
+    TooManyParts,
+    /// A number that is infinite or none.
+    #[error("attribute '{attribute}' is held against a number that is not finite")]
+    NotFinite { attribute: Name },
     /// The type is of another dictionary.
     #[error("no type {id}")]
     UnknownType { id: TypeId },
@@ -57,7 +63,30 @@ pub enum PatternError {
     NotGeometric { node_type: Name },
 }
 
+/// How many atoms a pattern may have, those of its negated parts among them: matching goes one deeper for each.
+const ATOMS: usize = 1_024;
+
+/// How deeply negated parts may nest.
+const DEEPEST: usize = 64;
+
+/// Before anything walks the parts by calling itself.
+fn bounded(body: &Conjunction<Term>) -> Result<(), PatternError> {
+    let (mut atoms, mut parts) = (0, vec![(body, 0)]);
+    while let Some((part, depth)) = parts.pop() {
+        atoms += part.atoms.len();
+        if atoms > ATOMS || depth > DEEPEST {
+            return Err(PatternError::TooManyParts);
+        }
+        parts.extend(part.atoms.iter().filter_map(|atom| match atom {
+            Atom::Without(inner) => Some((inner, depth + 1)),
+            _ => None,
+        }));
+    }
+    Ok(())
+}
+
 pub(super) fn compile(dictionary: &Dictionary, source: PatternSource) -> Result<Pattern, PatternError> {
+    bounded(&source.body)?;
     let (variables, locals) = (source.variables.clone(), source.locals.clone());
     let count = variables.len() + locals.len();
     if count > SLOTS {
@@ -219,7 +248,8 @@ impl Checker<'_> {
                 };
                 // Of the same numbers nothing is to be remembered.
                 self.remembers |= appears != disappears;
-                if ordered { Ok(()) } else { Err(PatternError::WrongThreshold { threshold }) }
+                let finite = appears.is_finite() && disappears.is_finite();
+                if ordered && finite { Ok(()) } else { Err(PatternError::WrongThreshold { threshold }) }
             }
             Limit::Attribute(attribute) => {
                 self.carrier(&Carrier::Node(from.clone()), attribute)?;
@@ -297,6 +327,9 @@ impl Checker<'_> {
             return Err(wrong());
         }
         match operand {
+            Right::Value(Value::Number(number)) if kind == Kind::Number && !number.is_finite() => {
+                Err(PatternError::NotFinite { attribute: name.clone() })
+            }
             Right::Value(value) => match (kind, value) {
                 (Kind::Number, Value::Number(_))
                 | (Kind::Text, Value::Text(_))

@@ -154,6 +154,10 @@ impl Witnesses {
         }
     }
 
+    pub(crate) fn len(&self) -> usize {
+        self.0.len()
+    }
+
     /// Lets go of cases of nodes that are no longer there.
     pub(crate) fn forget(&mut self, state: &State) {
         self.0.retain(|(_, outer), _| outer.iter().all(|(_, node)| state.node(*node).is_some()));

@@ -11,7 +11,8 @@
 use std::collections::BTreeMap;
 
 use super::{
-    Comparison, HolderTerm, Metric, Operand, Pattern, PatternBuilder, PatternError, Term, Threshold, Variable,
+    Comparison, HolderTerm, Metric, Operand, Pattern, PatternBuilder, PatternError, SLOTS, Term, Threshold,
+    Variable,
 };
 use crate::dictionary::{Dictionary, HolderType};
 use crate::id::{AttributeId, TypeId};
@@ -65,7 +66,7 @@ impl Form<'_> {
 }
 
 impl Pattern {
-    /// Reads a pattern, in the language of `pelea dsr query`: see the README. Variables are those that stand outside of
+    /// Reads a pattern, in the language of `pelea dsr query`, as the head of this module has it (`docs/dsr.md`). Variables are those that stand outside of
     /// any `not`, in their order.
     pub fn parse(dictionary: &Dictionary, text: &str) -> Result<Self, PatternTextError> {
         let mut reader = Reader { text, at: 0 };
@@ -174,6 +175,10 @@ fn typed<'f, 't>(forms: &'f [Form<'t>], dictionary: &Dictionary) -> Option<(Type
 /// The variables that stand in forms outside of any `not`, and the narrowest type that each is given there.
 fn variables<'t>(forms: &[Form<'t>], dictionary: &Dictionary, found: &mut Vec<(&'t str, TypeId)>) {
     for form in forms {
+        // More than a pattern may have, so that there is no use in looking for the rest.
+        if found.len() > SLOTS {
+            return;
+        }
         match form {
             Form::Word(_, word) if word.starts_with('?') && !found.iter().any(|(known, _)| known == word) => {
                 found.push((word, TypeId::OBJECT));
@@ -201,8 +206,13 @@ impl<'d, 't> Writer<'d, 't> {
         let mut here = Vec::new();
         variables(forms, self.dictionary, &mut here);
         here.retain(|(word, _)| !self.known.contains_key(word));
+        let count = self.known.len() + here.len();
+        if count > SLOTS {
+            let error = PatternError::TooLarge { count };
+            return Err(PatternTextError::Wrong { at: self.last, error });
+        }
         for (word, node_type) in &here {
-            let name = word.trim_start_matches('?');
+            let name = word.strip_prefix('?').unwrap_or(word);
             let variable = builder.variable(name, *node_type);
             self.known.insert(word, (variable, *node_type));
         }
@@ -308,6 +318,9 @@ impl<'d, 't> Writer<'d, 't> {
     ) -> Result<(), PatternTextError> {
         let (a, b) = (self.term(from)?, self.term(to)?);
         if let Form::List(at, _) = come {
+            if !std::ptr::eq(come, go) {
+                return Err(PatternTextError::Expected { at: *at, wanted: "a number" });
+            }
             let (holder, reach) = self.attribute(come)?;
             let wanted = "`<=` and an attribute of the first node";
             let fits = (*metric, comparison) == (Metric::Distance, Comparison::LessOrEqual)
@@ -348,6 +361,9 @@ impl<'d, 't> Writer<'d, 't> {
                     "false" => false.into(),
                     _ => return Err(PatternTextError::Expected { at: *at, wanted: "`true` or `false`" }),
                 },
+                Some(Kind::Text) if word.starts_with('?') => {
+                    return Err(PatternTextError::Expected { at: *at, wanted: "a text" });
+                }
                 Some(Kind::Text) => Operand::Value(Value::text(*word)),
                 _ => Operand::Term(self.term(form)?),
             },
