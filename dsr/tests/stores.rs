@@ -305,3 +305,90 @@ fn a_journal_goes_on_behind_the_one_before_and_outlives_its_graph() {
     assert_eq!(bytes(&recording.at(recording.last().0).unwrap()), bytes(&graph.snapshot()));
     assert!(matches!(Recording::open(folder.path().join("none")), Err(RecordingError::Unreadable { .. })));
 }
+
+/// A folder on a disk that is full after some bytes.
+struct Filling {
+    folder: Folder,
+    left: usize,
+}
+
+impl Store for Filling {
+    fn begin(&mut self, number: u64) -> io::Result<()> {
+        self.folder.begin(number)
+    }
+
+    fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
+        let fits = bytes.len().min(self.left);
+        self.left -= fits;
+        self.folder.append(&bytes[..fits])?;
+        if fits < bytes.len() { Err(io::ErrorKind::StorageFull.into()) } else { Ok(()) }
+    }
+
+    fn sync(&mut self) -> io::Result<()> {
+        self.folder.sync()
+    }
+
+    fn keep(&mut self, newest: NonZeroU64) -> io::Result<()> {
+        self.folder.keep(newest)
+    }
+}
+
+#[test]
+fn starts_that_die_before_their_state_is_written_push_no_history_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let kept = Settings { segment_bytes: 1, segments: NonZeroU64::new(3), ..settings() };
+    let graph = world::ward();
+    let journal = graph.journal(Folder::new(folder.path()).unwrap(), kept.clone()).unwrap();
+    for round in 0..5 {
+        let commit = world::commit(&graph, "dsr", &format!("set barthel score number {round}")).unwrap();
+        journal.wait(commit.version).unwrap();
+    }
+    journal.close().unwrap();
+    let before = names(folder.path());
+    assert_eq!(before.len(), 3);
+    let (first, last) = (Recording::open(folder.path()).unwrap().first(), graph.snapshot());
+    for left in [0, 10, 500] {
+        let full = Filling { folder: Folder::new(folder.path()).unwrap(), left };
+        let failed = graph.journal(full, kept.clone()).unwrap().close().unwrap_err();
+        assert_eq!(failed.error.kind(), io::ErrorKind::StorageFull);
+        let recording = Recording::open(folder.path()).unwrap();
+        assert_eq!((recording.first(), recording.last().0), (first, last.version()));
+    }
+    assert_eq!(names(folder.path()).len(), 6, "what was begun is named to who reads");
+    let cut = Recording::open(folder.path()).unwrap();
+    assert_eq!(cut.damage().len(), 3, "{:?}", cut.damage());
+    // There is room again.
+    graph.journal(Folder::new(folder.path()).unwrap(), kept).unwrap().close().unwrap();
+    let after = names(folder.path());
+    assert_eq!(after[..2], before[1..]);
+    assert_eq!(after.len(), 3);
+    let recording = Recording::open(folder.path()).unwrap();
+    assert_eq!(recording.damage(), &[]);
+    assert_eq!(bytes(&recording.at(last.version()).unwrap()), bytes(&last));
+    assert!(recording.first().0 < last.version());
+}
+
+#[test]
+fn a_state_that_is_there_without_its_name_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let graph = world::ward();
+    graph.journal(Folder::new(folder.path()).unwrap(), settings()).unwrap().close().unwrap();
+    assert_eq!(names(folder.path()), ["00000000.dsr"]);
+    let at = |name| folder.path().join(name);
+    std::fs::rename(at("00000000.dsr"), at("00000000.dsr.part")).unwrap();
+    let recording = Recording::open(folder.path()).unwrap();
+    assert_eq!(recording.damage(), &[]);
+    assert_eq!(bytes(&recording.resume().unwrap().snapshot()), bytes(&graph.snapshot()));
+    assert!(!Folder::new(folder.path()).unwrap().is_fresh());
+}
+
+#[test]
+fn two_journals_that_begin_in_a_folder_at_once_do_not_write_over_each_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let (one, other) = (Folder::new(folder.path()).unwrap(), Folder::new(folder.path()).unwrap());
+    let graph = world::ward();
+    graph.journal(one, settings()).unwrap().close().unwrap();
+    let failed = graph.journal(other, settings()).unwrap().close().unwrap_err();
+    assert_eq!(failed.error.kind(), io::ErrorKind::AlreadyExists);
+    assert_eq!(names(folder.path()), ["00000000.dsr"]);
+}

@@ -100,11 +100,8 @@ impl Recording {
         let mut tries = 0;
         loop {
             let is_folder = path.is_dir();
-            let files = if is_folder {
-                store::segments(path).map_err(unreadable)?.into_iter().map(|(_, path)| path).collect()
-            } else {
-                vec![path.to_owned()]
-            };
+            let files =
+                if is_folder { store::segments(path).map_err(unreadable)? } else { vec![path.to_owned()] };
             let (mut reader, mut gone) = (Reader::default(), false);
             for path in files {
                 let name = path.to_string_lossy();

@@ -1,4 +1,7 @@
 //! Where a journal goes: numbered segments, one after the other.
+//!
+//! Invariant: in a [`Folder`] a file has the name of a segment only once a whole state is on the disk in it; until then
+//! `.part` stands behind the name. So starts that die, or find the disk full, never push out what can be read.
 
 use std::fs::File;
 use std::io::{self, Write as _};
@@ -12,10 +15,12 @@ pub trait Store: Send + 'static {
     fn begin(&mut self, number: u64) -> io::Result<()>;
     /// Appends to the segment.
     fn append(&mut self, bytes: &[u8]) -> io::Result<()>;
-    /// Returns when everything that was appended would outlive a loss of power.
+    /// Returns when everything that was appended would outlive a loss of power. The first one after `begin` says that the
+    /// state with which the segment begins is there as a whole.
     fn sync(&mut self) -> io::Result<()>;
     /// Lets go of the oldest segments until there are only so many, those of earlier journals in the same place included.
-    /// Called when the state with which the newest one begins is on the disk.
+    /// Called when the state with which the newest one begins is on the disk. One whose own state never was does not count,
+    /// and is let go of in any case.
     fn keep(&mut self, newest: NonZeroU64) -> io::Result<()>;
 }
 
@@ -24,18 +29,46 @@ fn name(number: u64) -> String {
     format!("{number:08}.dsr")
 }
 
+/// What stands behind the name of a segment until its state is on the disk.
+const PART: &str = ".part";
+
+/// How far a segment came.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Stage {
+    /// Its state may be torn, or be written at this moment.
+    Part,
+    /// Its state is on the disk.
+    Whole,
+}
+
 /// The segments in a folder, by number. Other files are none, whatever they hold: `0.dsr` is somebody's copy.
-pub(super) fn segments(folder: &Path) -> io::Result<Vec<(u64, PathBuf)>> {
+fn staged(folder: &Path) -> io::Result<Vec<(u64, Stage, PathBuf)>> {
     let mut found = Vec::new();
     for entry in std::fs::read_dir(folder)? {
         let path = entry?.path();
-        let number = path.file_stem().and_then(|stem| stem.to_str()?.parse().ok());
-        if let Some(number) = number.filter(|&number| path.file_name().is_some_and(|n| *n == *name(number))) {
-            found.push((number, path));
+        let Some(file) = path.file_name().and_then(|file| file.to_str()) else { continue };
+        let (stem, stage) = file.strip_suffix(PART).map_or((file, Stage::Whole), |stem| (stem, Stage::Part));
+        let number = stem.strip_suffix(".dsr").and_then(|number| number.parse().ok());
+        if let Some(number) = number.filter(|&number| stem == name(number)) {
+            found.push((number, stage, path));
         }
     }
     found.sort();
     Ok(found)
+}
+
+/// The segments in a folder, by number, those that were only begun among them: after a crash the state of one may be there
+/// as a whole without its name.
+pub(super) fn segments(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    Ok(staged(folder)?.into_iter().map(|(.., path)| path).collect())
+}
+
+/// Removes a file that may be gone already.
+fn remove(path: &Path) -> io::Result<()> {
+    match std::fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
 }
 
 /// Syncs the names in a folder, which must outlive a loss of power, too. Not every system can.
@@ -46,13 +79,15 @@ fn sync_names(folder: &Path) {
     }
 }
 
-/// A folder with a file for each segment: `00000000.dsr` and so on.
+/// A folder with a file for each segment: `00000000.dsr` and so on, `00000000.dsr.part` until its state is on the disk.
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
     /// Added to the numbers: a journal that goes on leaves the files of the one before alone.
     offset: u64,
     file: Option<File>,
+    /// The number of the segment that has not got its name yet.
+    part: Option<u64>,
 }
 
 impl Folder {
@@ -64,13 +99,17 @@ impl Folder {
         let made = made.map(Path::to_owned).collect::<Vec<_>>();
         std::fs::create_dir_all(&path)?;
         made.iter().filter_map(|folder| folder.parent()).for_each(sync_names);
-        let offset = segments(&path)?.last().map_or(0, |(number, _)| number.saturating_add(1));
-        Ok(Self { path, offset, file: None })
+        let offset = staged(&path)?.last().map_or(0, |(number, ..)| number.saturating_add(1));
+        Ok(Self { path, offset, file: None, part: None })
     }
 
     /// Whether no journal was there before.
     pub fn is_fresh(&self) -> bool {
         self.offset == 0
+    }
+
+    fn part_of(&self, number: u64) -> PathBuf {
+        self.path.join(name(number) + PART)
     }
 
     fn current(&mut self) -> io::Result<&mut File> {
@@ -81,8 +120,15 @@ impl Folder {
 impl Store for Folder {
     fn begin(&mut self, number: u64) -> io::Result<()> {
         let number = self.offset.checked_add(number).ok_or(io::ErrorKind::FileTooLarge)?;
-        self.file = Some(File::create_new(self.path.join(name(number)))?);
-        sync_names(&self.path);
+        let whole = self.path.join(name(number));
+        let part = self.part_of(number);
+        let file = File::create_new(&part)?;
+        // Another journal in this folder: looked for once this one has the number, so that they cannot pass each other.
+        if whole.exists() {
+            remove(&part)?;
+            return Err(io::ErrorKind::AlreadyExists.into());
+        }
+        (self.file, self.part) = (Some(file), Some(number));
         Ok(())
     }
 
@@ -91,15 +137,27 @@ impl Store for Folder {
     }
 
     fn sync(&mut self) -> io::Result<()> {
-        self.current()?.sync_data()
+        self.current()?.sync_data()?;
+        if let Some(number) = self.part {
+            std::fs::rename(self.part_of(number), self.path.join(name(number)))?;
+            self.part = None;
+            sync_names(&self.path);
+        }
+        Ok(())
     }
 
     fn keep(&mut self, newest: NonZeroU64) -> io::Result<()> {
-        let segments = segments(&self.path)?;
-        for (_, path) in &segments[..surplus(segments.len(), newest)] {
-            match std::fs::remove_file(path) {
-                Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
-                _ => {}
+        let segments = staged(&self.path)?;
+        let whole = segments.iter().filter(|(_, stage, _)| *stage == Stage::Whole).count();
+        let mut surplus = surplus(whole, newest);
+        for (_, stage, path) in &segments {
+            match stage {
+                Stage::Part => remove(path)?,
+                Stage::Whole if surplus > 0 => {
+                    remove(path)?;
+                    surplus -= 1;
+                }
+                Stage::Whole => {}
             }
         }
         Ok(())
