@@ -211,10 +211,16 @@ impl Queue {
         self.content.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn pop(&self, content: &mut Content) -> Option<Told> {
-        if !content.commits.is_empty() {
-            content.start = None;
+    /// What is told next; and the first state, if that is of no use any more: to be freed when no lock is held.
+    fn pop(content: &mut Content) -> Option<(Told, Option<Snapshot>)> {
+        if content.commits.is_empty() {
+            return None;
         }
+        let start = content.start.take();
+        Self::next(content).map(|told| (told, start))
+    }
+
+    fn next(content: &mut Content) -> Option<Told> {
         let missed = std::mem::take(&mut content.missed);
         let mut deltas = SmallVec::new();
         // The last state of what is told; in between there may be none.
@@ -232,13 +238,16 @@ impl Queue {
     }
 
     fn try_recv(&self) -> Option<Told> {
-        self.pop(&mut self.content())
+        let popped = Self::pop(&mut self.content());
+        popped.map(|(told, _)| told)
     }
 
     fn recv(&self) -> Option<Told> {
         let mut content = self.content();
         loop {
-            if let Some(told) = self.pop(&mut content) {
+            if let Some((told, start)) = Self::pop(&mut content) {
+                drop(content);
+                drop(start);
                 return Some(told);
             }
             if content.closed {

@@ -103,7 +103,7 @@ fn only_those_whom_a_commit_may_concern_are_told() {
         edge carlos is_with clarc: 0/0 0/1 1/1 1/1 0/1 0/1 0/1 0/1 0/0
         set barthel score number 4: 0/0 1/0 0/1 0/1 0/1 0/1 0/1 1/0 0/0
         clear barthel score: 0/0 0/0 0/1 0/1 0/1 0/1 1/0 0/0 0/0
-        no-node clarc: 0/0 0/0 1/0 1/0 1/0 1/1 0/0 0/0 0/0
+        no-node clarc: 0/0 0/0 1/0 1/0 1/0 0/1 0/0 0/0 0/0
     "#]]
     .assert_eq(&seen);
 }

@@ -26,8 +26,11 @@ type Seats = SmallVec<[Seat; 2]>;
 /// frames take 7.6.
 const FRAMES: usize = 512;
 
-/// The edges that a delta takes away, by node: looked for once, however many edges it changes.
-pub(super) struct Gone(Vec<(NodeId, LabelId, Way)>);
+/// What a delta takes away, by node: looked for once, however many edges it changes.
+pub(super) struct Gone {
+    edges: Vec<(NodeId, LabelId, Way)>,
+    nodes: Vec<(NodeId, TypeId)>,
+}
 
 impl Gone {
     pub(super) fn of(delta: &Delta) -> Self {
@@ -38,12 +41,23 @@ impl Gone {
         let ends = |edge: &EdgeKey| [(edge.from, edge.label, Way::Out), (edge.to, edge.label, Way::In)];
         let mut ends: Vec<_> = edges.flat_map(ends).collect();
         ends.sort_unstable_by_key(|(node, ..)| *node);
-        Self(ends)
+        let nodes = delta.changes.iter().filter_map(|change| match change {
+            Change::NodeRemoved { node, node_type, .. } => Some((*node, *node_type)),
+            _ => None,
+        });
+        // A delta lists them in their order.
+        Self { edges: ends, nodes: nodes.collect() }
+    }
+
+    /// What a node was that went.
+    fn type_of(&self, node: NodeId) -> Option<TypeId> {
+        let at = self.nodes.binary_search_by_key(&node, |(other, _)| *other).ok()?;
+        Some(self.nodes[at].1)
     }
 
     fn at(&self, node: NodeId) -> impl Iterator<Item = (LabelId, Way)> + '_ {
-        let start = self.0.partition_point(|(other, ..)| *other < node);
-        self.0[start..]
+        let start = self.edges.partition_point(|(other, ..)| *other < node);
+        self.edges[start..]
             .iter()
             .take_while(move |(other, ..)| *other == node)
             .map(|(_, label, way)| (*label, *way))
@@ -263,15 +277,10 @@ impl Index {
 
 impl Fan {
     fn find(&mut self, edge: EdgeKey, gone: &Gone, state: &State, tell: &mut impl FnMut(&[Seat])) {
-        let (Some(from), Some(to)) = (state.node(edge.from), state.node(edge.to)) else {
-            // A node that went has no type any more: all are told.
-            for class in self.classes.values() {
-                tell(&class.any);
-                class.with.values().chain(class.beside.values()).for_each(|seats| tell(seats));
-            }
-            return;
-        };
-        let exact = (from.node_type(), to.node_type());
+        let (from, to) = (state.node(edge.from), state.node(edge.to));
+        // An end that is not there any more went in the same commit.
+        let exact = |id, node: Option<Node<'_>>| node.map(Node::node_type).or_else(|| gone.type_of(id));
+        let Some(exact) = exact(edge.from, from).zip(exact(edge.to, to)) else { return };
         let fitting = self.fitting.entry(exact).or_insert_with(|| {
             let fits = |wanted: &&Ends| fit(&state.dictionary, exact, **wanted);
             self.classes.keys().filter(fits).copied().collect()
@@ -279,6 +288,11 @@ impl Fan {
         for wanted in fitting.iter() {
             let Some(class) = self.classes.get(wanted) else { continue };
             tell(&class.any);
+            let (Some(from), Some(to)) = (from, to) else {
+                // What stood beside a node that went is not known any more: whatever the clue, it is told.
+                class.with.values().chain(class.beside.values()).for_each(|seats| tell(seats));
+                continue;
+            };
             for (tip, id, node) in [(Tip::From, edge.from, from), (Tip::To, edge.to, to)] {
                 if !class.with.is_empty() {
                     for cell in node.cells() {
