@@ -7,7 +7,7 @@ mod world;
 use std::path::Path;
 
 use dsr::{
-    AgentId, Damage, DictionaryBuilder, Durability, Folder, Graph, Memory, Recording, RecordingError,
+    AgentId, Damage, DictionaryBuilder, Durability, Folder, Graph, Memory, Nature, Recording, RecordingError,
     Settings, Snapshot, Time, Version,
 };
 use proptest::prelude::*;
@@ -243,4 +243,22 @@ fn a_file_that_cannot_be_read_is_named_and_one_that_is_gone_is_not_missed() {
         let recording = Recording::open(folder.path()).unwrap();
         assert_eq!((recording.damage(), recording.last()), (&[][..], last));
     }
+}
+
+#[test]
+fn any_number_of_starts_without_a_commit_is_gone_through() {
+    let memory = Memory::default();
+    let mut builder = DictionaryBuilder::new();
+    let thing = builder.node_type("thing", None, Nature::Symbolic).unwrap();
+    let graph = Graph::new(builder.build());
+    graph.journal(memory.clone(), settings(1)).unwrap().close().unwrap();
+    let start = memory.segments().remove(0);
+    let journal = graph.journal(memory.clone(), settings(1 << 20)).unwrap();
+    graph.edit(AgentId::DSR, Time(7), |tx| _ = tx.add_node("thing", thing)).unwrap();
+    journal.close().unwrap();
+    let last = memory.segments().pop().unwrap();
+    let recording = Recording::read(std::iter::repeat_n(start, 20_000).chain([last])).unwrap();
+    assert_eq!(recording.damage(), &[]);
+    assert_eq!(recording.replay().unwrap().filter_map(Result::ok).count(), 1);
+    assert_eq!(recording.at(Version(1)).unwrap().time(), Time(7));
 }

@@ -127,25 +127,28 @@ impl<'r> Replay<'r> {
     }
 
     fn step(&mut self) -> Result<Option<Played>, RecordingError> {
-        if self.fill() {
-            let (delta, next) = self.delta()?;
-            let offset = self.rest.start;
-            self.rest.start = next;
-            return match replay::apply(Arc::make_mut(&mut self.state), &delta) {
-                Ok(()) => Ok(Some(Played::Commit(delta))),
-                Err(error) => {
-                    let segment = self.segments[self.segment].name.clone();
-                    Err(RecordingError::Misfit { segment, offset, error })
-                }
-            };
+        // As many segments as there were starts without a commit may begin where the last one ended.
+        while !self.fill() {
+            let from = self.version();
+            if self.segment + 1 >= self.segments.len() {
+                return Ok(None);
+            }
+            *self = Self::new(self.segments, self.segment + 1)?;
+            let to = self.version();
+            if from != to {
+                return Ok(Some(Played::Jump { from, to }));
+            }
         }
-        let from = self.version();
-        if self.segment + 1 >= self.segments.len() {
-            return Ok(None);
+        let (delta, next) = self.delta()?;
+        let offset = self.rest.start;
+        self.rest.start = next;
+        match replay::apply(Arc::make_mut(&mut self.state), &delta) {
+            Ok(()) => Ok(Some(Played::Commit(delta))),
+            Err(error) => {
+                let segment = self.segments[self.segment].name.clone();
+                Err(RecordingError::Misfit { segment, offset, error })
+            }
         }
-        *self = Self::new(self.segments, self.segment + 1)?;
-        let to = self.version();
-        if from == to { self.step() } else { Ok(Some(Played::Jump { from, to })) }
     }
 }
 
