@@ -262,3 +262,43 @@ fn any_number_of_starts_without_a_commit_is_gone_through() {
     assert_eq!(recording.replay().unwrap().filter_map(Result::ok).count(), 1);
     assert_eq!(recording.at(Version(1)).unwrap().time(), Time(7));
 }
+
+#[test]
+fn versions_that_meet_by_chance_are_two_histories() {
+    for (theirs, ours, same) in [(1, 2, false), (1, 1, true)] {
+        let folder = tempfile::tempdir().unwrap();
+        for score in [theirs, ours] {
+            let graph = world::ward();
+            world::commit(&graph, "dsr", &format!("set barthel score number {score}")).unwrap();
+            graph.journal(Folder::new(folder.path()).unwrap(), settings(1)).unwrap().close().unwrap();
+        }
+        let recording = Recording::open(folder.path()).unwrap();
+        assert_eq!(recording.first(), recording.last());
+        match recording.damage() {
+            // Nobody could tell them apart.
+            [] => assert!(same),
+            [Damage::OtherHistory { last, next, .. }] => assert!(!same && last == next),
+            other => panic!("{other:?}"),
+        }
+    }
+}
+
+#[test]
+fn a_history_that_begins_behind_another_one_is_a_jump() {
+    let folder = tempfile::tempdir().unwrap();
+    let yesterday = world::ward();
+    run(&yesterday, folder.path(), 2);
+    let today = world::ward();
+    for round in 0..5 {
+        world::commit(&today, "dsr", &format!("set barthel score number {round}")).unwrap();
+    }
+    run(&today, folder.path(), 1);
+    let recording = Recording::open(folder.path()).unwrap();
+    assert_eq!(recording.damage(), &[]);
+    let jumps = recording.replay().unwrap().filter_map(|played| match played.unwrap() {
+        dsr::Played::Jump { from, to } => Some((from, to.0)),
+        dsr::Played::Commit(_) => None,
+    });
+    let from = yesterday.snapshot().version();
+    assert_eq!(jumps.collect::<Vec<_>>(), [(from, today.snapshot().version().0 - 1)]);
+}

@@ -3,9 +3,11 @@
 //! Problem: a file may be torn, damaged, from another program or another graph, and what else was recorded must stay
 //! readable. Idea: whatever is wrong with a segment is a [`Damage`] of that segment. Invariant: a segment that is kept
 //! begins with a dictionary and a whole state, and the versions of its deltas follow each other. Cost: one pass over the
-//! bytes, after which each frame is known with the earliest time in it.
+//! bytes, after which each frame is known with the earliest time in it; and a replay of each segment whose end meets the
+//! beginning of the next.
 
 use std::borrow::Cow;
+use std::cmp::Ordering;
 use std::io;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -140,9 +142,14 @@ impl Reader {
                     self.damage.push(Damage::OtherDictionary { segment: name });
                     continue;
                 }
-                // Behind another history versions may meet by chance, so the states have to.
-                is_next =
-                    if is_next { last <= first } else { playback::leads_to(&segment, next).unwrap_or(false) };
+                // Versions of different histories may meet by chance, so where they meet the states have to. Where commits
+                // are missing in between there is nothing to compare; behind another history that is not enough.
+                is_next = match last.cmp(&first) {
+                    Ordering::Less => is_next,
+                    // What cannot be read again is not therefore of another history.
+                    Ordering::Equal => playback::leads_to(&segment, next).unwrap_or(is_next),
+                    Ordering::Greater => false,
+                };
                 if !is_next {
                     self.damage.push(Damage::OtherHistory { segment: name, last, next: first });
                     continue;
