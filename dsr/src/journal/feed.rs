@@ -3,13 +3,14 @@
 //! Problem: a disk that stalls must slow no writer and fill no memory. Idea: a commit leaves a reference to its delta and
 //! goes on. When more wait than the limit allows, nothing more is taken in, and the thread begins anew with a whole
 //! state as soon as it can: what is missing is a gap in the history, never a wrong state. Invariant: what was taken in
-//! follows without gaps on what was handed out before.
+//! follows without gaps on what was handed out before, and what waits and what the thread holds stay below the limit together.
 
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use crate::delta::{Change, Delta};
 use crate::id::Version;
+use crate::pose::{Covariance, Pose};
 use crate::snapshot::Snapshot;
 use crate::state::State;
 
@@ -21,7 +22,7 @@ pub(crate) struct Feed {
     came: Condvar,
     /// Something was written, for whoever waits for a version.
     went: Condvar,
-    /// The most bytes of deltas that may wait.
+    /// The most bytes of deltas that may wait or be in the thread's hands.
     limit: usize,
 }
 
@@ -29,6 +30,8 @@ pub(crate) struct Feed {
 struct Waiting {
     deltas: Vec<Arc<Delta>>,
     bytes: usize,
+    /// Bytes of what was handed out last: the thread holds it until the disk has taken it, and then comes again.
+    held: usize,
     /// Commits are not taken in until the thread has taken a state.
     overflowed: bool,
     /// The thread sleeps.
@@ -85,9 +88,31 @@ pub(super) struct Last {
     pub(super) state: Option<Snapshot>,
 }
 
-/// About what a delta takes in memory.
+/// About what a delta takes in memory, texts left out.
 fn size(delta: &Delta) -> usize {
-    size_of::<Delta>() + delta.changes.len() * size_of::<Change>()
+    let covariances = delta.changes.iter().flat_map(poses).filter(|pose| pose.covariance.is_some()).count();
+    size_of::<Delta>()
+        + size_of_val(&*delta.changes)
+        + size_of_val(&*delta.reflexes)
+        + covariances * size_of::<Covariance>()
+}
+
+/// The poses of a change.
+fn poses(change: &Change) -> impl Iterator<Item = &Pose> {
+    let (old, new) = match change {
+        Change::TransformRemoved { old, .. } => (Some(old), None),
+        Change::TransformAdded { new, .. } => (None, Some(new)),
+        Change::TransformChanged { old, new, .. } => (Some(old), Some(new)),
+        Change::TransformSampled { old, new, .. } => (old.as_ref(), Some(new)),
+        Change::AttributeRemoved { .. }
+        | Change::EdgeRemoved { .. }
+        | Change::NodeRemoved { .. }
+        | Change::NodeAdded { .. }
+        | Change::EdgeAdded { .. }
+        | Change::AttributeAdded { .. }
+        | Change::AttributeChanged { .. } => (None, None),
+    };
+    old.into_iter().chain(new)
 }
 
 impl Feed {
@@ -106,7 +131,7 @@ impl Feed {
             return false;
         }
         let bytes = waiting.bytes + size(delta);
-        if waiting.overflowed || bytes > self.limit {
+        if waiting.overflowed || bytes.saturating_add(waiting.held) > self.limit {
             waiting.overflowed = true;
         } else {
             waiting.bytes = bytes;
@@ -132,9 +157,10 @@ impl Feed {
         self.came.notify_one();
     }
 
-    /// Waits for something to do, at most until `until`.
+    /// Waits for something to do, at most until `until`. What was handed out before is gone.
     pub(super) fn take(&self, until: Option<Instant>, spare: Vec<Arc<Delta>>) -> Work {
         let mut waiting = self.lock();
+        waiting.held = 0;
         let idle = |w: &Waiting| {
             let wanted = w.wanted > w.done.durable && w.done.written > w.done.durable;
             w.deltas.is_empty() && !w.overflowed && w.end.is_none() && !wanted
@@ -152,7 +178,7 @@ impl Feed {
             };
         }
         waiting.asleep = false;
-        waiting.bytes = 0;
+        waiting.held = std::mem::take(&mut waiting.bytes);
         Work {
             deltas: std::mem::replace(&mut waiting.deltas, spare),
             overflowed: waiting.overflowed,
@@ -166,7 +192,7 @@ impl Feed {
     /// What still waits; from here on everything is taken in again. Called under the commit lock.
     pub(crate) fn restart(&self) -> Rest {
         let mut waiting = self.lock();
-        waiting.bytes = 0;
+        waiting.held = std::mem::take(&mut waiting.bytes);
         Rest {
             deltas: std::mem::take(&mut waiting.deltas),
             overflowed: std::mem::take(&mut waiting.overflowed),
@@ -192,5 +218,62 @@ impl Feed {
             waiting = self.went.wait(waiting).unwrap_or_else(PoisonError::into_inner);
         }
         waiting.done.clone()
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test that fails says where")]
+mod tests {
+    use nalgebra::{Isometry3, Matrix6};
+
+    use super::*;
+    use crate::dictionary::{DictionaryBuilder, Nature};
+    use crate::graph::Graph;
+    use crate::id::{AgentId, NodeId, Time};
+
+    #[test]
+    fn what_the_thread_holds_is_counted_until_it_comes_again() {
+        let mut builder = DictionaryBuilder::new();
+        let thing = builder.node_type("thing", None, Nature::Symbolic).unwrap();
+        let graph = Graph::new(builder.build());
+        let mut names = 0..;
+        let mut add = |commits| {
+            for name in names.by_ref().take(commits) {
+                let name = format!("thing {name}");
+                graph.edit(AgentId::DSR, Time(0), |tx| _ = tx.add_node(name.as_str(), thing)).unwrap();
+            }
+        };
+        // Room for four commits of one change.
+        let feed = Arc::new(Feed::new(4 * (size_of::<Delta>() + size_of::<Change>())));
+        graph.attach(&feed);
+        add(3);
+        let work = feed.take(None, Vec::new());
+        assert_eq!((work.deltas.len(), work.overflowed), (3, false));
+        add(1);
+        let work = feed.take(None, Vec::new());
+        assert_eq!((work.deltas.len(), work.overflowed), (1, false));
+        add(5);
+        let work = feed.take(None, Vec::new());
+        assert_eq!((work.deltas.len(), work.overflowed), (3, true));
+        assert_eq!(feed.restart().deltas.len(), 0);
+        add(4);
+        let rest = feed.restart();
+        assert_eq!((rest.deltas.len(), rest.overflowed), (4, false));
+        add(1);
+        assert!(feed.take(None, Vec::new()).overflowed);
+    }
+
+    #[test]
+    fn covariances_are_counted() {
+        let sampled = |covariance: Option<Covariance>| {
+            let place = Isometry3::identity();
+            let new = covariance.map_or(Pose::from(place), |covariance| Pose::new(place, covariance));
+            let (parent, child, time) = (NodeId(0), NodeId(1), Time(1));
+            let change = Change::TransformSampled { parent, child, time, old: Some(new.clone()), new };
+            let (version, writer) = (Version(1), AgentId::DSR);
+            size(&Delta { version, time, writer, changes: vec![change], reflexes: Vec::new() })
+        };
+        let covariance = Covariance::new(Matrix6::identity()).unwrap();
+        assert_eq!(sampled(Some(covariance)), sampled(None) + 2 * size_of::<[f64; 36]>());
     }
 }
