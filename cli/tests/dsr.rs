@@ -239,4 +239,12 @@ fn segments_of_another_history_are_noted_and_damaged_ones_are_errors() {
     let (exit, now, err) = pelea(&["dsr", "show", &journal]);
     assert!(exit == Exit::Unreadable && now.starts_with("version 3, at "), "{now}");
     assert!(err.contains("cannot read"), "{err}");
+    // With nothing left to show, the damage is why.
+    let alone = folder.path().join("00000000.dsr");
+    let mut bytes = std::fs::read(&alone).unwrap();
+    bytes[40] ^= 1;
+    std::fs::write(&alone, bytes).unwrap();
+    let (exit, _, err) = pelea(&["dsr", "show", &alone.display().to_string()]);
+    assert_eq!(exit, Exit::Unreadable);
+    assert!(err.contains("00000000.dsr` is corrupt at byte 0") && err.contains("no state"), "{err}");
 }

@@ -218,7 +218,10 @@ fn a_segment_of_another_format_is_named() {
     let sum = crc32fast::hash(&first[..24]);
     first[24..28].copy_from_slice(&sum.to_le_bytes());
     let alone = Recording::read([first.clone()]).unwrap_err();
-    assert!(matches!(alone, RecordingError::Format { format: 99, .. }), "{alone}");
+    assert!(
+        matches!(alone, RecordingError::Damaged { damage: Damage::Format { format: 99, .. } }),
+        "{alone}"
+    );
     let recording = Recording::read(segments).unwrap();
     assert!(matches!(recording.damage(), [Damage::Format { format: 99, .. }]));
     assert_eq!(recording.last(), versions[2]);

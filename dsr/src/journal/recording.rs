@@ -36,12 +36,12 @@ pub enum RecordingError {
     /// A file or a folder that cannot be read.
     #[error("cannot read `{}`: {error}", path.display())]
     Unreadable { path: PathBuf, error: io::Error },
-    /// There is no segment, or none with a whole state.
+    /// There is no segment, or nothing that begins as one.
     #[error("no state of a journal")]
     Empty,
-    /// A segment of another format.
-    #[error("`{segment}` has format {format}, which this program does not know")]
-    Format { segment: Arc<str>, format: u32 },
+    /// No segment has a state that can be read; the damage that says most about why.
+    #[error("{damage}; there is no state that can be read")]
+    Damaged { damage: Damage },
     /// The journal has no such version.
     #[error("no version {}: there are versions {} to {}", asked.0, first.0, last.0)]
     NoVersion { asked: Version, first: Version, last: Version },
@@ -137,13 +137,18 @@ impl Recording {
     }
 
     fn of(reader: Reader) -> Result<Self, RecordingError> {
-        let (segments, mut damage) = reader.done();
+        let (segments, damage) = reader.done();
         let Some(newest) = segments.last() else {
-            let format = damage.iter().position(|damage| matches!(damage, Damage::Format { .. }));
-            return Err(match format.map(|at| damage.swap_remove(at)) {
-                Some(Damage::Format { segment, format }) => RecordingError::Format { segment, format },
-                _ => RecordingError::Empty,
-            });
+            // What became of the disk says more than what a crash left.
+            let told = |damage: &Damage| match damage {
+                Damage::Corrupt { .. } | Damage::Unreadable { .. } => 0,
+                Damage::Format { .. } => 1,
+                _ => 2,
+            };
+            // A file with nothing but a torn end may be anything.
+            let known = damage.into_iter().filter(|damage| !matches!(damage, Damage::Torn { .. }));
+            let first = known.min_by_key(told);
+            return Err(first.map_or(RecordingError::Empty, |damage| RecordingError::Damaged { damage }));
         };
         Ok(Self { dictionary: Arc::clone(&newest.dictionary), segments, damage })
     }
