@@ -1,8 +1,10 @@
 //! What must hold before steps for them to be done and to end in a goal.
 //!
 //! Idea: from the back, what a step gives is taken out of what is wanted, and what it needs is added. What axioms,
-//! numbers and conditional effects need is not followed back, so whoever needs a plan replays it. Invariant: where
-//! there are none of these, the kernel of a suffix holds exactly where the suffix reaches the goal. Cost: a step is
+//! numbers and conditional effects need is not followed back, and neither is it seen where a step takes away what is
+//! wanted after it, so whoever needs a plan replays it. Invariant: where there are no axioms, numbers and conditional
+//! effects, the kernel of a suffix holds wherever the suffix reaches the goal; the other way round, too, if the suffix
+//! is the end of some plan for that goal. Cost: a step is
 //! linear in the kernel, times a search in the step's effects.
 //!
 //! Source: Fikes, Hart & Nilsson, "Learning and executing generalized robot plans", AIJ 1972.

@@ -238,7 +238,8 @@ impl Work<'_> {
                 kernel.before(step);
             }
             let missing = kernel.missing(query.state);
-            // Where nothing is missing, the suffix was simulated, and what stands in its way is none of the facts.
+            // Every suffix was simulated before. Where nothing is missing and it did not lead to the goal, what stands in
+            // its way is nothing that the kernel tells: there is no gap to search a way over.
             if missing > 0 {
                 nearest.push((missing, start, kernel.literals()));
             }
