@@ -28,7 +28,7 @@ impl<'a> Walk<'a> {
     /// The conjuncts that are never so.
     pub(super) fn parts(&self, reasons: &mut Reasons<'_>) -> Vec<Part> {
         // What was noted of a part that is possible after all must not be told.
-        let mut noted = Reasons::new(self.oracle, self.ranges);
+        let mut noted = reasons.without_nodes();
         let mut found = Vec::new();
         let goal = &self.oracle.problem.goal;
         self.conjuncts(goal, true, &mut |part, positive| {

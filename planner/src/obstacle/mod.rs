@@ -4,11 +4,13 @@
 //! What grounding never reaches although nothing is ever deleted is traced back to what nothing gives
 //! (`reasons`); numbers are bounded by intervals (`ranges`); facts of one mutex group exclude each other; and
 //! where the search has visited every state, they are visited once more, to say which goals never held, which
-//! never together, and how near one came (`space`). Invariant: nothing is claimed that was not proven; what
-//! there is no proof for is left out. Cost: bounded in all four.
+//! never together, and how near one came (`space`). That an operator is excluded is told only where it would apply
+//! (`bans`). Invariant: nothing is claimed that was not proven; what there is no proof for is left out. Cost: bounded in
+//! all of them.
 //!
 //! Source: Göbelbecker et al., "Coming up with good excuses", ICAPS 2010, for the question.
 
+mod bans;
 mod goal;
 mod needs;
 mod oracle;
@@ -109,8 +111,8 @@ impl Explanation {
 }
 
 /// Says why `task`, the grounding of `problem`, has no plan from the query's state without the operators that it
-/// excludes; its goal must be the problem's own. `reason` is what the search said of that; `budget` bounds the visit of
-/// states where these were exhausted.
+/// excludes; its goal must be the problem's own. `reason` is what the search said of that; `budget` bounds the visits of
+/// states: where these were exhausted, and where it is to be told whether it is an excluded operator that is missing.
 pub fn explain(
     domain: &Domain,
     problem: &Problem,
@@ -123,7 +125,7 @@ pub fn explain(
     let never = out_of_range(&first);
     let oracle = if never.is_empty() { first } else { Oracle::new(domain, problem, task, *query, &never) };
     let ranges = Ranges::new(&oracle);
-    let mut reasons = Reasons::new(&oracle, &ranges);
+    let mut reasons = Reasons::new(&oracle, &ranges, budget);
     let walk = Walk { oracle: &oracle, ranges: &ranges };
     let parts = walk.parts(&mut reasons);
     let exclusive = exclusive(task, query.state, &walk.required(), reason);

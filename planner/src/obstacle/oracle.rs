@@ -8,7 +8,7 @@ use super::Wanted;
 use crate::heuristics::{Combine, Costs, Explorer};
 use crate::ids::{FactId, OperatorId, id32};
 use crate::search::{Bound, Budget, Job, Meter, Query, Shared};
-use crate::task::{AtomStatus, Literals, Task};
+use crate::task::{AtomStatus, Literals, LiteralsRef, Task};
 use pddl::model::{ActionId, Domain, EffectKind, Idx, Name, ObjectId, PredicateId, Problem, TypeSet};
 
 pub(super) struct Oracle<'a> {
@@ -23,6 +23,8 @@ pub(super) struct Oracle<'a> {
     is_static: Vec<bool>,
     /// By fact: whether it may become false.
     may_fail: Vec<bool>,
+    /// Operators that the query excludes, and of which everything that they need may hold.
+    may_apply: Vec<OperatorId>,
 }
 
 impl<'a> Oracle<'a> {
@@ -60,6 +62,12 @@ impl<'a> Oracle<'a> {
             task.relaxation.literals(&negated).into_iter().all(reached)
         };
         let may_fail = task.facts().ids().map(may_fail).collect();
+        let may_apply = |operator: &OperatorId| {
+            let LiteralsRef { positive, negative } = task.operator(*operator).precondition;
+            let needed = Literals { positive: positive.into(), negative: negative.into() };
+            !never.contains(operator) && task.relaxation.literals(&needed).into_iter().all(reached)
+        };
+        let may_apply = query.excluded.iter().copied().filter(may_apply).collect();
         let mut is_static = vec![true; domain.predicates.len()];
         for action in &domain.actions {
             action.effect.each(&mut |part| {
@@ -69,7 +77,7 @@ impl<'a> Oracle<'a> {
             });
         }
         domain.axioms.iter().for_each(|axiom| is_static[axiom.predicate.index()] = false);
-        Self { domain, problem, task, query, possible, is_static, may_fail }
+        Self { domain, problem, task, query, possible, is_static, may_fail, may_apply }
     }
 
     /// Whether some reachable state may have it so; `false` is proven.
@@ -92,17 +100,24 @@ impl<'a> Oracle<'a> {
         atoms.iter().map(|&atom| self.task.atoms.row(atom)).filter(|row| fits(wanted, row))
     }
 
-    /// The arguments of an action that fit and with which the query excludes it.
+    /// The operators of an action that fit and that the query excludes, with their arguments.
     pub(super) fn excluded<'s>(
         &'s self,
         action: ActionId,
         wanted: &'s [Result<ObjectId, Name>],
-    ) -> impl Iterator<Item = &'s [ObjectId]> {
-        let operators = self.query.excluded.iter().map(|&operator| self.task.operator(operator));
+    ) -> impl Iterator<Item = (OperatorId, &'s [ObjectId])> {
+        let operators = self.query.excluded.iter().map(|&id| (id, self.task.operator(id)));
         let fits = move |own: &[ObjectId]| {
             own.iter().zip(wanted).all(|(own, wanted)| wanted.as_ref().map_or(true, |wanted| wanted == own))
         };
-        operators.filter(move |o| o.action == action && fits(o.arguments)).map(|o| o.arguments)
+        operators
+            .filter(move |(_, o)| o.action == action && fits(o.arguments))
+            .map(|(id, o)| (id, o.arguments))
+    }
+
+    /// Whether each literal that an excluded operator needs may hold in some reachable state; `false` is proven.
+    pub(super) fn may_apply(&self, excluded: OperatorId) -> bool {
+        self.may_apply.contains(&excluded)
     }
 
     /// Whether nothing ever changes atoms of the predicate.

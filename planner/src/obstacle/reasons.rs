@@ -4,15 +4,19 @@
 //! a literal that is never so, or a comparison that never holds, or its conditions never come together. Each
 //! literal is a node of one graph, looked at once, breadth first; a cycle is an edge to a node that is known. Where
 //! no single condition of a giver is denied, its static conditions are joined, and each instance that these leave is
-//! asked by itself. Cost: bounded nodes, givers of each and rows of a join; what is beyond is counted.
+//! asked by itself; where that is not enough, all its conditions are. Of the query's bans only those are told that keep
+//! an instance that lacks nothing else. Cost: bounded nodes, givers of each and rows of a join; what is beyond is counted.
 
+use super::bans::Bans;
 use super::needs::{Binding, Needs};
 use super::oracle::Oracle;
 use super::ranges::{NeverCompares, Ranges};
 use super::{Pattern, Wanted};
 use crate::ids::id32;
+use crate::search::Budget;
 use invariants::{Change, changes};
 use pddl::model::{Action, ActionId, Axiom, Condition, Name, ObjectId};
+use std::cell::OnceCell;
 
 /// Literals that are looked at.
 const REASONS: usize = 48;
@@ -71,7 +75,7 @@ pub enum Hindrance {
     NeverTogether(Vec<Wanted>),
     /// Its conditions never hold together.
     NeverApplies,
-    /// The query excludes it.
+    /// The query excludes it, and nothing else is known to be in its way.
     Excluded,
 }
 
@@ -88,6 +92,8 @@ pub enum Need {
 pub(super) struct Reasons<'a> {
     oracle: &'a Oracle<'a>,
     ranges: &'a Ranges<'a>,
+    budget: &'a Budget<'a>,
+    bans: OnceCell<Bans>,
     found: Vec<Reason>,
 }
 
@@ -98,9 +104,22 @@ struct Candidate<'a> {
     conditions: Vec<&'a Condition>,
 }
 
+impl Candidate<'_> {
+    fn denied(&self, binding: &Binding<'_>, hindrance: Hindered) -> Denied {
+        let arguments = if self.action.is_some() { binding.parameters() } else { Vec::new() };
+        Denied { action: self.action, arguments, hindrance }
+    }
+}
+
 impl<'a> Reasons<'a> {
-    pub(super) fn new(oracle: &'a Oracle<'a>, ranges: &'a Ranges<'a>) -> Self {
-        Self { oracle, ranges, found: Vec::new() }
+    /// `budget` bounds the visit of states that tells what the bans are to blame for.
+    pub(super) fn new(oracle: &'a Oracle<'a>, ranges: &'a Ranges<'a>, budget: &'a Budget<'a>) -> Self {
+        Self { oracle, ranges, budget, bans: OnceCell::new(), found: Vec::new() }
+    }
+
+    /// Another graph on the same ground.
+    pub(super) fn without_nodes(&self) -> Self {
+        Self::new(self.oracle, self.ranges, self.budget)
     }
 
     /// The node of a literal that the oracle denies.
@@ -205,11 +224,7 @@ impl<'a> Reasons<'a> {
     /// What is in the way of a giver, or of each instance of it.
     fn hindered(&self, candidate: &Candidate<'a>) -> Vec<Denied> {
         let Some(needs) = self.needs(candidate, &candidate.binding) else { return Vec::new() };
-        let denied = |binding: &Binding<'_>, hindrance: Hindered| Denied {
-            action: candidate.action,
-            arguments: if candidate.action.is_some() { binding.parameters() } else { Vec::new() },
-            hindrance,
-        };
+        let denied = |binding: &Binding<'_>, hindrance: Hindered| candidate.denied(binding, hindrance);
         let lacking = self.lacking(&needs, &candidate.binding);
         if !lacking.is_empty() {
             return vec![denied(&candidate.binding, Hindered::Needs(lacking))];
@@ -220,42 +235,85 @@ impl<'a> Reasons<'a> {
             .filter(|wanted| wanted.positive)
             .partition(|wanted| self.oracle.is_static(wanted.pattern.predicate));
         let mut join = Join { oracle: self.oracle, rows: 0 };
-        let never = || {
-            let hindrance = self.never_together(&fixed, &others, candidate);
-            let excluded = match hindrance {
-                Hindered::NeverApplies => self.excluded(candidate, &candidate.binding),
-                _ => Vec::new(),
-            };
-            if excluded.is_empty() { vec![denied(&candidate.binding, hindrance)] } else { excluded }
+        let together = || match self.never_together(&fixed, &others, candidate) {
+            Some(never) => vec![denied(&candidate.binding, never)],
+            None => self.each(candidate, &[fixed.as_slice(), &others].concat()),
         };
-        let Some(rows) = join.all(&fixed, &candidate.binding, INSTANCES) else { return never() };
+        let Some(rows) = join.all(&fixed, &candidate.binding, INSTANCES) else { return together() };
         let mut found = Vec::new();
         for row in &rows {
             // An instance that equality or types rule out is no giver.
             let Some(needs) = self.needs(candidate, row) else { continue };
             let lacking = self.lacking(&needs, row);
-            let excluded = if lacking.is_empty() { self.excluded(candidate, row) } else { Vec::new() };
-            if lacking.is_empty() && excluded.is_empty() {
-                return never();
+            if lacking.is_empty() {
+                return together();
             }
-            let lacks = (!lacking.is_empty()).then(|| denied(row, Hindered::Needs(lacking)));
-            for new in lacks.into_iter().chain(excluded) {
+            let new = denied(row, Hindered::Needs(lacking));
+            if !found.contains(&new) {
+                found.push(new);
+            }
+        }
+        if found.is_empty() { together() } else { found }
+    }
+
+    /// What is in the way of each instance that the literals leave, where no single need of the giver is denied.
+    fn each(&self, candidate: &Candidate<'a>, literals: &[&Wanted]) -> Vec<Denied> {
+        let denied = |binding: &Binding<'_>, hindrance: Hindered| candidate.denied(binding, hindrance);
+        let mut join = Join { oracle: self.oracle, rows: 0 };
+        let rows = join.all(literals, &candidate.binding, INSTANCES);
+        let rows = rows.unwrap_or_else(|| vec![candidate.binding.clone()]);
+        let (mut found, mut open): (Vec<Denied>, Vec<Denied>) = Default::default();
+        for row in &rows {
+            let Some(needs) = self.needs(candidate, row) else { continue };
+            let lacking = self.lacking(&needs, row);
+            let mut new = Vec::new();
+            if lacking.is_empty() {
+                new = self.excluded(candidate, row);
+                if new.iter().all(|new| new.hindrance != Hindered::Excluded) {
+                    open.push(denied(row, Hindered::NeverApplies));
+                }
+            } else {
+                new.push(denied(row, Hindered::Needs(lacking)));
+            }
+            for new in new {
                 if !found.contains(&new) {
                     found.push(new);
                 }
             }
         }
-        if found.is_empty() { never() } else { found }
+        // What nothing but a ban keeps from applying must not be among what never applies.
+        let bars = found.iter().any(|found| found.hindrance == Hindered::Excluded);
+        if bars {
+            open.dedup();
+            found.extend(open);
+        } else if !open.is_empty() || found.is_empty() {
+            found.push(denied(&candidate.binding, Hindered::NeverApplies));
+        }
+        found
     }
 
-    /// The instances of a giver that the query excludes.
-    fn excluded(&self, candidate: &Candidate<'a>, binding: &Binding<'_>) -> Vec<Denied> {
+    /// The instances of a giver that the query excludes: what they lack, or that nothing else is in their way. What is
+    /// in the way of others is left out.
+    fn excluded(&self, candidate: &Candidate<'a>, binding: &Binding<'a>) -> Vec<Denied> {
         let Some(action) = candidate.action else { return Vec::new() };
         let wanted = binding.parameters();
         let mut found: Vec<Denied> = Vec::new();
-        for arguments in self.oracle.excluded(action, &wanted) {
-            let arguments = arguments.iter().copied().map(Ok).collect();
-            let new = Denied { action: Some(action), arguments, hindrance: Hindered::Excluded };
+        for (operator, arguments) in self.oracle.excluded(action, &wanted) {
+            let mut binding = binding.clone();
+            for (parameter, &object) in binding.variables.parameter_ids().zip(arguments) {
+                binding.set(parameter, Some(object));
+            }
+            let Some(needs) = self.needs(candidate, &binding) else { continue };
+            let lacking = self.lacking(&needs, &binding);
+            let bans = || self.bans.get_or_init(|| Bans::visit(self.oracle, self.budget));
+            let hindrance = if !lacking.is_empty() {
+                Hindered::Needs(lacking)
+            } else if self.oracle.may_apply(operator) && bans().may_bar(operator) {
+                Hindered::Excluded
+            } else {
+                continue;
+            };
+            let new = candidate.denied(&binding, hindrance);
             if !found.contains(&new) {
                 found.push(new);
             }
@@ -283,7 +341,12 @@ impl<'a> Reasons<'a> {
     }
 
     /// The first conditions of which it is known that no objects satisfy all.
-    fn never_together(&self, fixed: &[&Wanted], others: &[&Wanted], candidate: &Candidate<'_>) -> Hindered {
+    fn never_together(
+        &self,
+        fixed: &[&Wanted],
+        others: &[&Wanted],
+        candidate: &Candidate<'_>,
+    ) -> Option<Hindered> {
         let mut all: Vec<&Wanted> = fixed.to_vec();
         all.extend(others);
         let mut join = Join { oracle: self.oracle, rows: 0 };
@@ -291,13 +354,14 @@ impl<'a> Reasons<'a> {
             match join.all(&all[..count], &candidate.binding, 1) {
                 // One that is found says that there are some; none where the limit was reached says nothing.
                 Some(rows) if rows.is_empty() => {
-                    return Hindered::NeverTogether(all[..count].iter().map(|&w| w.clone()).collect());
+                    let together = all[..count].iter().map(|&w| w.clone()).collect();
+                    return Some(Hindered::NeverTogether(together));
                 }
                 _ if join.rows >= ROWS => break,
                 _ => {}
             }
         }
-        Hindered::NeverApplies
+        None
     }
 }
 

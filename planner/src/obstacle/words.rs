@@ -162,7 +162,7 @@ impl<'a> Words<'a> {
             |goals: &[(FactId, bool)]| first(&goals.iter().map(|&goal| self.goal(goal)).collect::<Vec<_>>());
         let states = counted(space.states as usize, "state", "states");
         let steps = match space.nearest.steps.len() {
-            0 => "the initial one".to_owned(),
+            0 => "the one to begin with".to_owned(),
             n => format!("after {}", counted(n, "step", "steps")),
         };
         let missing = names(&space.nearest.missing);
