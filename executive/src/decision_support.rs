@@ -21,6 +21,10 @@ use serde::Serialize;
 /// Reasons told below the sentence that says why there is no plan.
 const REASONS: usize = 4;
 
+/// States visited for these reasons: whoever asked waits for them before the fallback begins, and what more of them would
+/// add is detail.
+const VISITED: u64 = 2_000;
+
 /// A request for a plan.
 #[derive(Clone, Debug)]
 pub struct Request {
@@ -150,7 +154,7 @@ pub fn decide(model: &Model, request: &Request) -> Decision {
             }
         }
         Outcome::Unsolvable(reason) => {
-            let expansions = Some(request.expansions.saturating_sub(statistics.expanded));
+            let expansions = Some(request.expansions.saturating_sub(statistics.expanded).min(VISITED));
             let rest = Budget { expansions, ..budget };
             Decision::NoPlan(unsolvable(model, &query, &reason, &request.barred, &rest))
         }

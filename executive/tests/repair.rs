@@ -100,6 +100,28 @@ fn a_step_that_failed_is_not_reused() {
 }
 
 #[test]
+fn nobody_waits_long_for_the_reasons() {
+    // Nothing but a visit of all states shows that there is no plan, and there are thousands of these.
+    let fuses: Vec<String> = (0..10).map(|i| format!("(fuse{i})")).collect();
+    let switches: String = (0..10)
+        .map(|i| {
+            format!("(:action in{i} :parameters () :effect (fuse{i})) (:action out{i} :parameters () :effect (not (fuse{i})))")
+        })
+        .collect();
+    let domain = DOMAIN
+        .replace("(:action unlock :parameters () :effect (open))", &switches)
+        .replace("(dead ?l - lamp) (open)", &format!("(dead ?l - lamp) (open) {}", fuses.join(" ")))
+        .replace("(and (open)", &format!("(and (open) {}", fuses.join(" ")))
+        .replace(":effect (on ?l)", ":effect (and (on ?l) (not (open)))");
+    let model = model_of(&domain);
+    let mut request = request(&model, &["open"], &[], None);
+    request.expansions = 100_000;
+    let decision = decide(&model, &request);
+    let Decision::NoPlan(why) = decision else { panic!("{decision:?}") };
+    assert!(why.contains("of the first 2000 states"), "{why}");
+}
+
+#[test]
 fn a_first_plan_has_nothing_to_be_held_against() {
     let model = model();
     let decision = decide(&model, &request(&model, &["open"], &[], None));
