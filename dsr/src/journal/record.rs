@@ -44,20 +44,26 @@ fn put(record: &impl Serialize, bytes: &mut Vec<u8>) {
     let _ = postcard::to_io(record, bytes);
 }
 
-pub(super) fn put_start(dictionary: &Dictionary, bytes: &mut Vec<u8>) {
-    put(&(FORMAT, dictionary), bytes);
+/// `goes_on`: the same journal wrote the segment before.
+pub(super) fn put_start(goes_on: bool, dictionary: &Dictionary, bytes: &mut Vec<u8>) {
+    put(&(FORMAT, goes_on, dictionary), bytes);
 }
 
 pub(super) fn put_delta(delta: &Delta, bytes: &mut Vec<u8>) {
     put(delta, bytes);
 }
 
-pub(super) fn start(payload: &[u8]) -> Result<Dictionary, Malformed> {
+/// Whether the journal goes on with this segment, and the bytes of the dictionary.
+pub(super) fn start(payload: &[u8]) -> Result<(bool, &[u8]), Malformed> {
     let (format, rest) = postcard::take_from_bytes::<u32>(payload).map_err(|_| Malformed::Bytes)?;
     if format != FORMAT {
         return Err(Malformed::Format(format));
     }
-    postcard::from_bytes(rest).map_err(|_| Malformed::Bytes)
+    postcard::take_from_bytes(rest).map_err(|_| Malformed::Bytes)
+}
+
+pub(super) fn dictionary(bytes: &[u8]) -> Result<Dictionary, Malformed> {
+    postcard::from_bytes(bytes).map_err(|_| Malformed::Bytes)
 }
 
 /// Hands the state over part by part; `full` is asked after each and may take the bytes away.

@@ -3,8 +3,8 @@
 //! Problem: a file may be torn, damaged, from another program or another graph, and what else was recorded must stay
 //! readable. Idea: whatever is wrong with a segment is a [`Damage`] of that segment. Invariant: a segment that is kept
 //! begins with a dictionary and a whole state, and the versions of its deltas follow each other. Cost: one pass over the
-//! bytes, after which each frame is known with the earliest time in it; and a replay of each segment whose end meets the
-//! beginning of the next.
+//! bytes, after which each frame is known with the earliest time in it; and a replay of each segment on whose end another program
+//! has gone on.
 
 use std::borrow::Cow;
 use std::cmp::Ordering;
@@ -32,6 +32,8 @@ pub(super) struct Segment {
     pub(super) name: Arc<str>,
     source: Source,
     pub(super) dictionary: Arc<Dictionary>,
+    /// The journal that wrote it wrote the one before.
+    goes_on: bool,
     pub(super) frames: Vec<Frame>,
     /// For each frame the earliest time of a version in it; none in the first.
     pub(super) earliest: Vec<Option<Time>>,
@@ -95,8 +97,10 @@ impl Reader {
             self.damage.push(corrupt(start.offset));
             return None;
         }
-        let dictionary = match self.dictionary(start.payload(bytes)) {
-            Ok(dictionary) => dictionary,
+        let begun = record::start(start.payload(bytes))
+            .and_then(|(goes_on, dictionary)| Ok((goes_on, self.dictionary(dictionary)?)));
+        let (goes_on, dictionary) = match begun {
+            Ok(begun) => begun,
             Err(Malformed::Format(format)) => {
                 self.damage.push(Damage::Format { segment: name.clone(), format });
                 return None;
@@ -118,14 +122,14 @@ impl Reader {
         frames.truncate(earliest.len());
         let (first, last) = (at.first?, at.last?);
         let source = at.whole.then(source)?;
-        Some(Segment { name: name.clone(), source, dictionary, frames, earliest, first, last })
+        Some(Segment { name: name.clone(), source, dictionary, goes_on, frames, earliest, first, last })
     }
 
     fn dictionary(&mut self, payload: &[u8]) -> Result<Arc<Dictionary>, Malformed> {
         if let Some((_, known)) = self.dictionaries.iter().find(|(bytes, _)| bytes == payload) {
             return Ok(Arc::clone(known));
         }
-        let dictionary = Arc::new(record::start(payload)?);
+        let dictionary = Arc::new(record::dictionary(payload)?);
         self.dictionaries.push((payload.to_vec(), Arc::clone(&dictionary)));
         Ok(dictionary)
     }
@@ -142,13 +146,14 @@ impl Reader {
                     self.damage.push(Damage::OtherDictionary { segment: name });
                     continue;
                 }
-                // Versions of different histories may meet by chance, so where they meet the states have to. Where commits
-                // are missing in between there is nothing to compare; behind another history that is not enough.
                 is_next = match last.cmp(&first) {
-                    Ordering::Less => is_next,
-                    // What cannot be read again is not therefore of another history.
-                    Ordering::Equal => playback::leads_to(&segment, next).unwrap_or(is_next),
                     Ordering::Greater => false,
+                    // Commits may be missing in between: left out, or in a segment that is gone.
+                    _ if next.goes_on => is_next,
+                    // Another program began where this one ended. Versions of different histories may meet by chance, so
+                    // the states have to; what cannot be read again is not therefore of another history.
+                    Ordering::Equal => playback::leads_to(&segment, next).unwrap_or(is_next),
+                    Ordering::Less => false,
                 };
                 if !is_next {
                     self.damage.push(Damage::OtherHistory { segment: name, last, next: first });

@@ -131,7 +131,8 @@ impl<S: Store> Writer<S> {
     }
 
     fn begin(&mut self, state: &Snapshot) -> io::Result<()> {
-        if self.segment.begun > 0 {
+        let goes_on = self.segment.begun > 0;
+        if goes_on {
             self.sync()?;
         }
         self.store.begin(self.segment.begun)?;
@@ -139,7 +140,7 @@ impl<S: Store> Writer<S> {
         self.segment = Segment { begun: self.segment.begun + 1, ..Segment::default() };
         let mut buffer = std::mem::take(&mut self.buffer);
         buffer.clear();
-        record::put_start(state.dictionary(), &mut buffer);
+        record::put_start(goes_on, state.dictionary(), &mut buffer);
         self.frame(Kind::Start, &mut buffer)?;
         record::put_state(state, &mut buffer, |buffer| {
             if buffer.len() >= FRAME { self.frame(Kind::State, buffer) } else { Ok(()) }
