@@ -72,17 +72,16 @@ fn a_stalled_disk_slows_no_writer_and_leaves_a_gap() {
     assert!(matches!(lost, RecordingError::NotRecorded { .. }), "{lost}");
 }
 
-/// A store that is full after some bytes.
-struct Full(usize);
+/// A store that only appends, and does what it is told with what it gets.
+struct Appends<F>(F);
 
-impl Store for Full {
+impl<F: FnMut(&[u8]) -> io::Result<()> + Send + 'static> Store for Appends<F> {
     fn begin(&mut self, _: u64) -> io::Result<()> {
         Ok(())
     }
 
     fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.0 = self.0.checked_sub(bytes.len()).ok_or(io::ErrorKind::StorageFull)?;
-        Ok(())
+        (self.0)(bytes)
     }
 
     fn sync(&mut self) -> io::Result<()> {
@@ -97,7 +96,12 @@ impl Store for Full {
 #[test]
 fn a_full_disk_is_told_and_the_graph_goes_on() {
     let graph = world::ward();
-    let journal = graph.journal(Full(5_000), settings()).unwrap();
+    let mut left = 5_000_usize;
+    let full = Appends(move |bytes: &[u8]| {
+        left = left.checked_sub(bytes.len()).ok_or(io::ErrorKind::StorageFull)?;
+        Ok(())
+    });
+    let journal = graph.journal(full, settings()).unwrap();
     let mut failed = None;
     for round in 0..1_000 {
         let commit = world::commit(&graph, "dsr", &format!("set barthel score number {round}")).unwrap();
@@ -176,34 +180,17 @@ fn commits_that_are_left_out_while_a_segment_ends_or_begins_are_a_gap() {
     }
 }
 
-/// A store that panics after some appends.
-struct Panics(usize);
-
-impl Store for Panics {
-    fn begin(&mut self, _: u64) -> io::Result<()> {
-        Ok(())
-    }
-
-    fn append(&mut self, _: &[u8]) -> io::Result<()> {
-        self.0 = self.0.checked_sub(1).expect("a fault of the store's author");
-        Ok(())
-    }
-
-    fn sync(&mut self) -> io::Result<()> {
-        Ok(())
-    }
-
-    fn keep(&mut self, _: NonZeroU64) -> io::Result<()> {
-        Ok(())
-    }
-}
-
 #[test]
 fn a_store_that_panics_is_told_and_the_graph_goes_on() {
-    for appends in [0, 4, 5] {
+    for appends in [0_usize, 4, 5] {
         let graph = world::ward();
         let before = graph.snapshot().version();
-        let journal = graph.journal(Panics(appends), settings()).unwrap();
+        let mut left = appends;
+        let panics = Appends(move |_: &[u8]| {
+            left = left.checked_sub(1).expect("a fault of the store's author");
+            Ok(())
+        });
+        let journal = graph.journal(panics, settings()).unwrap();
         let commit = world::commit(&graph, "dsr", "set barthel score number 1").unwrap();
         let failed = journal.wait(commit.version).unwrap_err();
         assert_eq!(failed.durable, if appends == 0 { Version(0) } else { before });
