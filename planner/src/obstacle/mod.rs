@@ -11,6 +11,7 @@
 //! Source: Göbelbecker et al., "Coming up with good excuses", ICAPS 2010, for the question.
 
 mod bans;
+mod breadth;
 mod goal;
 mod needs;
 mod oracle;

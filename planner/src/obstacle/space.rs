@@ -5,11 +5,13 @@
 //! numbers got, and which state had most. Invariant: what is said of all states is said only if all were visited. Cost:
 //! at most [`STATES`] states and the caller's budget.
 
+use super::breadth::{self, Visited};
 use crate::ids::{FactId, FluentId, OperatorId, StateId, id32};
 use crate::number::Number;
-use crate::search::{Budget, Query, StateRegistry};
+use crate::search::{Budget, Query};
 use crate::task::{Task, contains};
 use pddl::model::{GroundApplication, Idx};
+use std::ops::ControlFlow;
 
 /// States that are visited.
 pub(super) const STATES: u32 = 200_000;
@@ -47,7 +49,6 @@ pub struct Nearest {
 
 pub(super) fn visit(task: &Task, query: &Query<'_>, budget: &Budget<'_>) -> Space {
     let literals = &query.goal.literals;
-    let barred = query.barred(task);
     let positive = literals.positive.iter().map(|&f| (f, true));
     let goals: Vec<Literal> = positive.chain(literals.negative.iter().map(|&f| (f, false))).collect();
     let fluents = fluents(task, &goals);
@@ -56,64 +57,35 @@ pub(super) fn visit(task: &Task, query: &Query<'_>, budget: &Budget<'_>) -> Spac
     let mut together = [0_u64; PAIRED];
     let mut nearest: Option<(usize, StateId, Vec<Literal>)> = None;
 
-    let mut registry = StateRegistry::new(task, query.state.words());
-    let mut here = query.state.words().to_vec();
-    let mut next = here.clone();
-    let (mut successors, mut visited, mut known) = (Vec::new(), 0, 1);
-    registry.insert(&here, None);
-    let mut complete = true;
-    while visited < known {
-        let asks = visited % 256 == 0;
-        let is_over = visited >= STATES
-            || budget.expansions.is_some_and(|most| u64::from(visited) >= most)
-            || (asks && (budget.interrupted)())
-            || (asks && budget.memory_bytes.is_some_and(|most| registry.memory() > most));
-        // The first state is always looked at: it is the nearest, if no other is.
-        if visited > 0 && is_over {
-            complete = false;
-            break;
-        }
-        let id = StateId(visited);
-        registry.read(id, &mut here);
-        visited += 1;
-        let holds = |&(fact, wanted): &Literal| contains(&here, fact) == wanted;
-        let mut mask = 0_u64;
-        for (i, _) in goals.iter().enumerate().filter(|(_, goal)| holds(goal)) {
-            held[i] = true;
-            mask |= if i < PAIRED { 1 << i } else { 0 };
-        }
-        together
-            .iter_mut()
-            .enumerate()
-            .filter(|(i, _)| mask >> i & 1 == 1)
-            .for_each(|(_, with)| *with |= mask);
-        for (fluent, extent) in fluents.iter().zip(&mut extent) {
-            if let Some(value) = task.numeric.value(&here, *fluent) {
-                let (low, high) = extent.unwrap_or((value, value));
-                let (low, high) = (
-                    if value.is_below(low) { value } else { low },
-                    if high.is_below(value) { value } else { high },
-                );
-                *extent = Some((low, high));
+    let Visited { registry, states, complete } =
+        breadth::visit(task, query, budget, STATES, |id, here, _| {
+            let holds = |&(fact, wanted): &Literal| contains(here, fact) == wanted;
+            let mut mask = 0_u64;
+            for (i, _) in goals.iter().enumerate().filter(|(_, goal)| holds(goal)) {
+                held[i] = true;
+                mask |= if i < PAIRED { 1 << i } else { 0 };
             }
-        }
-        let missing: Vec<Literal> = goals.iter().filter(|goal| !holds(goal)).copied().collect();
-        if nearest.as_ref().is_none_or(|(least, ..)| missing.len() < *least) {
-            nearest = Some((missing.len(), id, missing));
-        }
-        successors.clear();
-        task.successors.applicable(&here, &mut successors);
-        barred.filter(&mut successors);
-        for &operator in &successors {
-            next.copy_from_slice(&here);
-            if !task.apply(operator, &here, &mut next) {
-                // A number is too long, and what comes after it is not seen.
-                complete = false;
-            } else if registry.insert(&next, Some((id, operator))).1 {
-                known += 1;
+            together
+                .iter_mut()
+                .enumerate()
+                .filter(|(i, _)| mask >> i & 1 == 1)
+                .for_each(|(_, with)| *with |= mask);
+            for (fluent, extent) in fluents.iter().zip(&mut extent) {
+                if let Some(value) = task.numeric.value(here, *fluent) {
+                    let (low, high) = extent.unwrap_or((value, value));
+                    let (low, high) = (
+                        if value.is_below(low) { value } else { low },
+                        if high.is_below(value) { value } else { high },
+                    );
+                    *extent = Some((low, high));
+                }
             }
-        }
-    }
+            let missing: Vec<Literal> = goals.iter().filter(|goal| !holds(goal)).copied().collect();
+            if nearest.as_ref().is_none_or(|(least, ..)| missing.len() < *least) {
+                nearest = Some((missing.len(), id, missing));
+            }
+            ControlFlow::Continue(())
+        });
     let (steps, missing) =
         nearest.map_or_else(Default::default, |(_, id, missing)| (registry.path(id), missing));
     let all = id32(goals.len().min(PAIRED));
@@ -127,7 +99,7 @@ pub(super) fn visit(task: &Task, query: &Query<'_>, budget: &Budget<'_>) -> Spac
         Some((task.numeric.fluents[fluent.index()].application.clone(), low, high))
     };
     Space {
-        states: visited,
+        states,
         complete,
         never: goals.iter().zip(&held).filter(|(_, held)| complete && !**held).map(|(g, _)| *g).collect(),
         apart: if complete {

@@ -1,0 +1,67 @@
+//! All reachable states, breadth first, as far as somebody wants to wait: what the visits of an explanation share.
+//!
+//! Invariant: `complete` only if every state that can be reached without the excluded operators was looked at. The first
+//! state is always looked at. Cost: the states and operators visited.
+
+use std::ops::ControlFlow;
+
+use crate::ids::{OperatorId, StateId};
+use crate::search::{Budget, Query, StateRegistry};
+use crate::task::Task;
+
+/// What a visit has left behind.
+pub(super) struct Visited<'t> {
+    pub(super) registry: StateRegistry<'t>,
+    /// How many states were looked at.
+    pub(super) states: u32,
+    /// Whether these were all.
+    pub(super) complete: bool,
+}
+
+/// Looks at states, at most so many, with all operators that apply there, excluded ones too, until it is told to stop.
+pub(super) fn visit<'t>(
+    task: &'t Task,
+    query: &Query<'_>,
+    budget: &Budget<'_>,
+    most: u32,
+    mut look: impl FnMut(StateId, &[u64], &[OperatorId]) -> ControlFlow<()>,
+) -> Visited<'t> {
+    let barred = query.barred(task);
+    let mut registry = StateRegistry::new(task, query.state.words());
+    let mut here = query.state.words().to_vec();
+    let mut next = here.clone();
+    let (mut successors, mut visited, mut known) = (Vec::new(), 0, 1);
+    registry.insert(&here, None);
+    let mut complete = true;
+    while visited < known {
+        let asks = visited % 256 == 0;
+        let is_over = visited >= most
+            || budget.expansions.is_some_and(|most| u64::from(visited) >= most)
+            || (asks && (budget.interrupted)())
+            || (asks && budget.memory_bytes.is_some_and(|most| registry.memory() > most));
+        if visited > 0 && is_over {
+            complete = false;
+            break;
+        }
+        let id = StateId(visited);
+        registry.read(id, &mut here);
+        visited += 1;
+        successors.clear();
+        task.successors.applicable(&here, &mut successors);
+        if look(id, &here, &successors).is_break() {
+            complete = false;
+            break;
+        }
+        barred.filter(&mut successors);
+        for &operator in &successors {
+            next.copy_from_slice(&here);
+            if !task.apply(operator, &here, &mut next) {
+                // A number is too long, and what comes after it is not seen.
+                complete = false;
+            } else if registry.insert(&next, Some((id, operator))).1 {
+                known += 1;
+            }
+        }
+    }
+    Visited { registry, states: visited, complete }
+}
