@@ -184,18 +184,7 @@ fn compare(after: &mut State, first: &Undo, earlier: &[Undo], changes: &mut Vec<
         Undo::Cell { holder, attribute, old } => {
             compare_cells(after, *holder, *attribute, old.as_ref(), changes);
         }
-        Undo::Joint { child, old } => {
-            // What the edge remembered before the transaction is told by `old` if it was not sampled first.
-            let sampled = |entry: &Undo| matches!(entry, Undo::Sample { child: other, .. } if other == child);
-            match (old, after.joint(*child)) {
-                (Some(old), Some(new))
-                    if old.parent == new.parent && same_samples(old, new) && !earlier.iter().any(sampled) =>
-                {
-                    after.keep_since(Kept::Joint(*child), old.since);
-                }
-                _ => compare_joints(after, *child, old.as_ref(), changes),
-            }
-        }
+        Undo::Joint { child, old } => compare_joints(after, *child, old.as_ref(), earlier, changes),
         Undo::Sample { child, time, old, newest, since } => {
             let Some(joint) = after.joint(*child) else { return };
             let Some(track) = &joint.track else { return };
@@ -211,19 +200,29 @@ fn compare(after: &mut State, first: &Undo, earlier: &[Undo], changes: &mut Vec<
     }
 }
 
-fn compare_joints(after: &mut State, child: NodeId, old: Option<&Joint>, changes: &mut Vec<Change>) {
-    match (old, after.joint(child)) {
-        (Some(old), Some(new)) if old.parent == new.parent && old.track.is_none() && new.track.is_none() => {
-            if old.pose.same(&new.pose) {
-                after.keep_since(Kept::Joint(child), old.since);
-            } else {
-                let (old, parent, new) = (old.pose.clone(), new.parent, new.pose.clone());
-                changes.push(Change::TransformChanged { parent, child, old, new });
-            }
-        }
-        (old, new) => {
-            replace_joint(child, old, new, changes);
-        }
+fn compare_joints(
+    after: &mut State,
+    child: NodeId,
+    old: Option<&Joint>,
+    earlier: &[Undo],
+    changes: &mut Vec<Change>,
+) {
+    let (Some(old), Some(new)) = (old, after.joint(child)) else {
+        return replace_joint(child, old, after.joint(child), changes);
+    };
+    let stays = old.parent == new.parent;
+    let stand = old.track.is_none() && new.track.is_none();
+    // What the edge remembered before the transaction is told by `old` only if it was not sampled first.
+    let sampled = |entry: &Undo| matches!(entry, Undo::Sample { child: other, .. } if *other == child);
+    if stays && stand && old.pose.same(&new.pose)
+        || stays && same_samples(old, new) && !earlier.iter().any(sampled)
+    {
+        after.keep_since(Kept::Joint(child), old.since);
+    } else if stays && stand {
+        let (old, parent, new) = (old.pose.clone(), new.parent, new.pose.clone());
+        changes.push(Change::TransformChanged { parent, child, old, new });
+    } else {
+        replace_joint(child, Some(old), Some(new), changes);
     }
 }
 
@@ -277,8 +276,7 @@ fn compare_cells(
             after.keep_since(Kept::Cell(holder, attribute), since);
         }
         (Some((old, _)), Some(new)) => {
-            let target_gone = old.as_node().is_some_and(|target| after.node(target).is_none());
-            replace_value(holder, attribute, (old, new), target_gone, changes);
+            replace_value(after, holder, attribute, (old, new), changes);
         }
     }
 }
@@ -286,13 +284,13 @@ fn compare_cells(
 /// What it takes to go from one value of an attribute to another. It goes with the node that it names, and changes are
 /// applied after nodes have gone: then it went and came back.
 pub(crate) fn replace_value(
+    after: &State,
     holder: Holder,
     attribute: AttributeId,
     (old, new): (Value, Value),
-    target_gone: bool,
     changes: &mut Vec<Change>,
 ) {
-    if target_gone {
+    if old.as_node().is_some_and(|target| after.node(target).is_none()) {
         changes.push(Change::AttributeRemoved { holder, attribute, old });
         changes.push(Change::AttributeAdded { holder, attribute, new });
     } else {

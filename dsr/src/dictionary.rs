@@ -68,6 +68,22 @@ pub enum HolderType {
     },
 }
 
+impl HolderType {
+    pub(crate) fn takes_node(self, node_type: TypeId, dictionary: &Dictionary) -> bool {
+        matches!(self, Self::Node(on) if dictionary.is_a(node_type, on))
+    }
+
+    pub(crate) fn takes_edge(
+        self,
+        label: LabelId,
+        (from, to): (TypeId, TypeId),
+        dictionary: &Dictionary,
+    ) -> bool {
+        matches!(self, Self::Edge { label: on, signature }
+            if on == label && dictionary.is_a(from, signature.from) && dictionary.is_a(to, signature.to))
+    }
+}
+
 #[derive(Debug)]
 struct NodeType {
     name: Arc<str>,

@@ -54,8 +54,7 @@ fn nodes(before: &State, after: &State, id: NodeId, changes: &mut Vec<Change>) {
             match after.cell(holder, attribute) {
                 None => changes.push(Change::AttributeRemoved { holder, attribute, old }),
                 Some(new) if !new.value.same(&old) => {
-                    let target_gone = old.as_node().is_some_and(|target| after.node(target).is_none());
-                    replace_value(holder, attribute, (old, new.value.clone()), target_gone, changes);
+                    replace_value(after, holder, attribute, (old, new.value.clone()), changes);
                 }
                 Some(_) => {}
             }

@@ -6,7 +6,7 @@
 //! `transaction::tree`, leases and waits by `transaction::lease`.
 
 use crate::block::Node;
-use crate::dictionary::{HolderType, Nature};
+use crate::dictionary::Nature;
 use crate::id::{AttributeId, EdgeKey, Holder, NodeId, TypeId};
 use crate::pose::Pose;
 use crate::state::State;
@@ -28,18 +28,16 @@ impl State {
     /// Whether an attribute may have this value there.
     pub(crate) fn value_fits(&self, holder: Holder, attribute: AttributeId, value: &Value) -> bool {
         let dictionary = &self.dictionary;
-        let sits = match (holder, dictionary.holder(attribute)) {
-            (Holder::Node(node), Some(HolderType::Node(on))) => {
-                self.type_of(node).is_some_and(|found| dictionary.is_a(found, on))
+        let sits = dictionary.holder(attribute).is_some_and(|declared| match holder {
+            Holder::Node(node) => {
+                self.type_of(node).is_some_and(|found| declared.takes_node(found, dictionary))
             }
-            (Holder::Edge(key), Some(HolderType::Edge { label, signature })) => {
+            Holder::Edge(key) => {
                 let ends = self.type_of(key.from).zip(self.type_of(key.to));
-                let fit =
-                    |(from, to)| dictionary.is_a(from, signature.from) && dictionary.is_a(to, signature.to);
-                label == key.label && self.edge(key).is_some() && ends.is_some_and(fit)
+                self.edge(key).is_some()
+                    && ends.is_some_and(|ends| declared.takes_edge(key.label, ends, dictionary))
             }
-            _ => false,
-        };
+        });
         sits && match (dictionary.kind(attribute), value) {
             (Some(Kind::Number), Value::Number(number)) => number.is_finite(),
             (Some(Kind::Text), Value::Text(_)) | (Some(Kind::Bool), Value::Bool(_)) => true,

@@ -108,6 +108,11 @@ impl Mentions {
         self.labels.contains(label.index())
     }
 
+    /// Whether leases or waits for them matter.
+    pub(crate) fn leases(&self) -> bool {
+        self.has_label(LabelId::HOLDS) || self.has_label(LabelId::AWAITS)
+    }
+
     pub(crate) fn clear(&mut self) {
         *self = Self::default();
     }

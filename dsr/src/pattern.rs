@@ -336,9 +336,14 @@ impl Pattern {
         self.variables.iter().map(|(name, node_type)| (&**name, *node_type))
     }
 
-    /// Whether a match gives the variable a node: one of the pattern's own, not of a negated part.
+    /// Where a match has the node of a variable: of the pattern's own, not of a negated part or of another pattern.
+    fn place_of(&self, variable: Variable) -> Option<usize> {
+        variable.position().filter(|&at| at < self.variables.len())
+    }
+
+    /// Whether a match gives the variable a node.
     pub(crate) fn gives(&self, variable: Variable) -> bool {
-        variable.position().is_some_and(|at| at < self.variables.len())
+        self.place_of(variable).is_some()
     }
 
     /// How it was written.

@@ -175,11 +175,6 @@ impl Error {
     }
 }
 
-/// `[v]ₓ`, with which a product is the cross product with `v`.
-fn cross(v: &nalgebra::Vector3<f64>) -> Matrix3<f64> {
-    v.cross_matrix()
-}
-
 /// A matrix of four parts: `[a b; 0 d]`.
 fn parts(a: &Matrix3<f64>, b: &Matrix3<f64>, d: &Matrix3<f64>) -> Matrix6<f64> {
     let mut whole = Matrix6::zeros();
@@ -207,7 +202,7 @@ impl Uncertain {
 
     pub(crate) fn inverse(self) -> Self {
         let back = self.transform.rotation.to_rotation_matrix().matrix().transpose();
-        let lever = back * cross(&self.transform.translation.vector);
+        let lever = back * self.transform.translation.vector.cross_matrix();
         let by = parts(&-back, &-lever, &-back);
         Self {
             transform: self.transform.inverse(),
@@ -231,7 +226,7 @@ impl Mul for Uncertain {
 
     fn mul(self, other: Self) -> Self {
         let turn = *self.transform.rotation.to_rotation_matrix().matrix();
-        let lever = -cross(&(turn * other.transform.translation.vector));
+        let lever = -(turn * other.transform.translation.vector).cross_matrix();
         let own = parts(&Matrix3::identity(), &lever, &Matrix3::identity());
         let others = parts(&turn, &Matrix3::zeros(), &turn);
         let one = self.error.map(|matrix| own * matrix * own.transpose());

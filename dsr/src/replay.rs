@@ -5,7 +5,7 @@
 
 use crate::block::Cell;
 use crate::delta::{Change, Delta};
-use crate::id::{AttributeId, Holder, LabelId, NodeId, TypeId, Version};
+use crate::id::{AttributeId, Holder, NodeId, TypeId, Version};
 use crate::state::State;
 use crate::transaction::apply::judge;
 use crate::undo::Mark;
@@ -64,9 +64,7 @@ fn redo_all(state: &mut State, delta: &Delta, mark: Mark) -> Result<(), ReplayEr
     }
     let as_a_whole = ReplayError::Misfit { version, change: delta.changes.len() };
     judge(state, mark).map_err(|_| as_a_whole.clone())?;
-    let mentions = &state.log.mentions;
-    let leases = mentions.has_label(LabelId::HOLDS) || mentions.has_label(LabelId::AWAITS);
-    if leases && !state.leases_are_sound() { Err(as_a_whole) } else { Ok(()) }
+    if state.log.mentions.leases() && !state.leases_are_sound() { Err(as_a_whole) } else { Ok(()) }
 }
 
 /// Applies a delta that another copy of the same state made, so that it is known to fit; false if it does not continue

@@ -123,7 +123,11 @@ struct Content {
 }
 
 /// What a queue let go of: to be freed when no lock is held any more.
-type Freed = (VecDeque<(Arc<Delta>, Option<Snapshot>)>, Option<Snapshot>);
+#[derive(Default)]
+struct Freed {
+    commits: VecDeque<(Arc<Delta>, Option<Snapshot>)>,
+    start: Option<Snapshot>,
+}
 
 /// What is left to do for a queue when no lock is held any more.
 pub(crate) struct Wake {
@@ -178,16 +182,16 @@ impl Queue {
         let mut freed = Freed::default();
         // Who has not looked yet and wants what is, not what was, begins with this.
         if self.mailbox.delivery == Delivery::Newest && content.start.is_some() {
-            freed.1 = content.start.replace(committed.snapshot.clone());
+            freed.start = content.start.replace(committed.snapshot.clone());
             return self.wake(&content, freed);
         }
         if content.missed > 0 || content.commits.len() >= self.mailbox.capacity.get() {
             content.missed += content.commits.len() as u64;
-            freed = (std::mem::take(&mut content.commits), content.start.take());
+            freed = Freed { commits: std::mem::take(&mut content.commits), start: content.start.take() };
         } else if self.mailbox.delivery == Delivery::Newest
             && let Some((delta, before)) = content.commits.back_mut()
         {
-            freed.0.push_back((Arc::clone(delta), before.take()));
+            freed.commits.push_back((Arc::clone(delta), before.take()));
         }
         content.commits.push_back((Arc::clone(&committed.delta), Some(committed.snapshot.clone())));
         self.wake(&content, freed)
@@ -202,7 +206,8 @@ impl Queue {
     fn wake(self: &Arc<Self>, content: &Content, freed: Freed) -> Option<Wake> {
         let sleeper = (content.asleep > 0).then(|| Arc::clone(self));
         let waker = content.waker.clone();
-        let nothing = sleeper.is_none() && waker.is_none() && freed.0.is_empty() && freed.1.is_none();
+        let nothing =
+            sleeper.is_none() && waker.is_none() && freed.commits.is_empty() && freed.start.is_none();
         (!nothing).then_some(Wake { sleeper, waker, _freed: freed })
     }
 

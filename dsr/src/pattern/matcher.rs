@@ -137,7 +137,7 @@ impl Pattern {
         let run = Run { pattern: self, state, strictness: Strictness::Appears, known: None, looked };
         let mut any = false;
         for &(variable, node) in fixed {
-            let own = variable.position().filter(|&at| at < self.variables.len());
+            let own = self.place_of(variable);
             debug_assert!(own.is_some(), "a local variable, or one of another pattern, cannot be fixed");
             let Some(at) = own else { return ControlFlow::Continue(()) };
             // Fixed twice to different nodes, or to a node of another type: no match.

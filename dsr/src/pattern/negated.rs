@@ -49,9 +49,6 @@ pub(super) fn parts(
 ) -> Vec<Part> {
     let part = |(at, atom): (usize, &Atom<Slot>)| {
         let Atom::Without(inner) = atom else { return None };
-        if inner.variables.iter().any(|slot| body.variables.contains(slot)) {
-            return None;
-        }
         let (mut anchors, mut own) = (Vec::new(), Vec::<(End, Vec<Step>)>::new());
         let (outside, mut remembers) = (free(atom), false);
         for atom in &inner.atoms {

@@ -75,19 +75,25 @@ impl Pattern {
         if reader.at < text.len() {
             return Err(PatternTextError::Missing { at: reader.at, wanted: "the end" });
         }
-        let build = |parts| {
+        let attempt = |limit| {
             let mut builder = PatternBuilder::new(dictionary);
-            let mut writer = Writer { dictionary, known: BTreeMap::new(), parts, last: form.at() };
-            writer.conjunction(&mut builder, std::slice::from_ref(&form))?;
-            builder.build().map_err(|error| PatternTextError::Wrong { at: writer.last, error })
+            let mut writer =
+                Writer { dictionary, known: BTreeMap::new(), limit, written: 0, last: form.at() };
+            let written = writer.conjunction(&mut builder, std::slice::from_ref(&form));
+            let wrong = |error| PatternTextError::Wrong { at: writer.last, error };
+            (written.and_then(|()| builder.build().map_err(wrong)), writer.written)
         };
-        build(usize::MAX).or_else(|error| match error {
-            // The first part with which it goes wrong is the one.
-            PatternTextError::Wrong { .. } => {
-                (0..).find_map(|parts| build(parts).err()).map_or(Err(error), Err)
-            }
-            other => Err(other),
-        })
+        let (done, written) = attempt(usize::MAX);
+        if !matches!(done, Err(PatternTextError::Wrong { .. })) {
+            return done;
+        }
+        // The part is named with which it first goes wrong; more parts make nothing right.
+        let (mut least, mut most) = (0, written);
+        while least < most {
+            let middle = least.midpoint(most);
+            if attempt(middle).0.is_err() { most = middle } else { least = middle + 1 }
+        }
+        attempt(least).0
     }
 }
 
@@ -146,8 +152,9 @@ struct Writer<'d, 't> {
     dictionary: &'d Dictionary,
     /// The variables that may stand here, with their types.
     known: BTreeMap<&'t str, (Variable, TypeId)>,
-    /// How many parts are still to be written.
-    parts: usize,
+    /// How many parts are to be written, and were.
+    limit: usize,
+    written: usize,
     /// Where the last one that was written begins.
     last: usize,
 }
@@ -234,8 +241,10 @@ impl<'d, 't> Writer<'d, 't> {
             ("not", _) => return Err(arity("one part")),
             _ => {}
         }
-        let Some(left) = self.parts.checked_sub(1) else { return Ok(()) };
-        (self.parts, self.last) = (left, at);
+        if self.written == self.limit {
+            return Ok(());
+        }
+        (self.written, self.last) = (self.written + 1, at);
         match (head, rest) {
             ("distinct", [a, b]) => {
                 let (a, b) = (self.term(a)?, self.term(b)?);

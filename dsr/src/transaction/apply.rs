@@ -11,7 +11,7 @@ use super::error::TransactionError;
 use super::{Edit, HolderRef, Transaction, degree, tree};
 use crate::block::Node;
 use crate::delta::{self, Change, Delta};
-use crate::dictionary::{Dictionary, HolderType, Nature, Token};
+use crate::dictionary::{Dictionary, Nature, Token};
 use crate::id::{AgentId, AttributeId, EdgeKey, Holder, LabelId, NodeId, ReflexId, Time, TypeId, Version};
 use crate::pose::Pose;
 use crate::state::{Side, State};
@@ -280,7 +280,7 @@ fn attribute_to_write(
     match holder {
         HolderRef::Node(node) => {
             let (id, node_type) = typed(state, node)?;
-            if !matches!(declared, HolderType::Node(holder) if dictionary.is_a(node_type, holder)) {
+            if !declared.takes_node(node_type, dictionary) {
                 return Err(wrong(format!("'{}' ({})", state.name(id), type_name(state, node_type))));
             }
             permitted(state, writer, token, (Named::Node(id), node_type), None)?;
@@ -293,11 +293,7 @@ fn attribute_to_write(
             if Dictionary::is_reserved(*label) {
                 return Err(TransactionError::Reserved { name: label_name.clone() });
             }
-            let fits = matches!(declared, HolderType::Edge { label: on, signature }
-                if on == *label
-                    && dictionary.is_a(start, signature.from)
-                    && dictionary.is_a(end, signature.to));
-            if !fits {
+            if !declared.takes_edge(*label, (start, end), dictionary) {
                 return Err(wrong(format!("'{}' {label_name} '{}'", state.name(from), state.name(to))));
             }
             let ends = ((Named::Node(from), start), Some((Named::Node(to), end)));

@@ -291,7 +291,7 @@ impl State {
 
     /// Lets leases go over to those who wait and have become more urgent than what the lease is worth.
     pub(crate) fn settle_leases(&mut self, since: Version) {
-        if !(self.log.mentions.has_label(LabelId::HOLDS) || self.log.mentions.has_label(LabelId::AWAITS)) {
+        if !self.log.mentions.leases() {
             return;
         }
         // Each time somebody waits no more, so this ends.
