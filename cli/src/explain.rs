@@ -55,7 +55,8 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         Err(unknown) => {
             let mut message = Message::error(format!("no diagnostic has the code `{code}`"));
             let names = lints::all().flat_map(|lint| [lint.code(), lint.name]);
-            let suggestion = unknown.suggestion.map(str::to_owned).or_else(|| pddl::nearest(code, names));
+            let suggestion =
+                unknown.suggestion.map(str::to_owned).or_else(|| diagnostics::nearest(code, names));
             message.help = Some(match suggestion {
                 Some(nearest) => format!("did you mean `{nearest}`?"),
                 None => "`pelea explain` lists all codes".to_owned(),

@@ -8,7 +8,7 @@ mod story;
 use std::path::{Path, PathBuf};
 
 fn seeds(target: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/seeds").join(target)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/fuzz/seeds").join(target)
 }
 
 fn files(target: &str) -> impl Iterator<Item = Vec<u8>> {

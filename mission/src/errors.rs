@@ -2,7 +2,7 @@
 //!
 //! Codes: E07xx shape of a TOML file, E08xx words, E09xx scenarios, C01xx between the layers.
 
-use project::{Finding, Sources};
+use diagnostics::{Finding, Sources};
 
 /// Why there is no mission (or scenario): at least one finding is an error.
 #[derive(Clone, Debug, thiserror::Error)]

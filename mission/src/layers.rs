@@ -7,7 +7,7 @@
 
 use pddl::model::{Domain, FunctionId, Idx, ObjectId, PredicateId, Problem, TypeId};
 
-use project::{Place, SourceId};
+use diagnostics::{Place, SourceId};
 
 /// A model and the source it came from.
 #[derive(Clone, Debug)]

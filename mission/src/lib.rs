@@ -18,7 +18,7 @@
 //! assert!(lines.contains("tea/mission.toml:1:8: error[E0703]: `name` is an integer"));
 //! ```
 //!
-//! Map, from the ground up: `files` (paths), `errors` (why there is none; findings are [`project::Finding`])) →
+//! Map, from the ground up: `files` (paths), `errors` (why there is none; findings are [`diagnostics::Finding`])) →
 //! `manifest` (`mission.toml`), `layers` (the PDDL) → `content` (words) → `load` → `mission` →
 //! [`scenario`], [`report`], `check` (between the layers).
 

@@ -17,8 +17,8 @@ use crate::errors::MissionErrors;
 use crate::files::{FileError, Files, join};
 use crate::manifest::{self, Manifest};
 use crate::mission::{Fallback, Mission};
-use project::{Finding, Place, SourceId, Sources};
-use tables::Reader;
+use diagnostics::toml::Reader;
+use diagnostics::{Finding, Place, SourceId, Sources};
 
 /// What a loader carries from file to file.
 pub(crate) struct Loader<'f> {

@@ -7,7 +7,7 @@ use pddl::Span;
 use pddl::model::Name;
 
 use crate::files::join;
-use tables::{Reader, Table, Text};
+use diagnostics::toml::{Reader, Table, Text};
 
 /// A name that the manifest mentions, with its place.
 #[derive(Clone, Debug)]

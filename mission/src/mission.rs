@@ -11,8 +11,8 @@ use crate::files::{Files, join};
 use crate::layers::Layers;
 use crate::manifest::Manifest;
 use crate::scenario::{self, Scenario};
-use project::{Finding, Place, SourceId, Sources};
-use tables::did_you_mean;
+use diagnostics::did_you_mean;
+use diagnostics::{Finding, Place, SourceId, Sources};
 
 /// What to do when there is no plan.
 #[derive(Clone, Debug)]

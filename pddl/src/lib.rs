@@ -43,7 +43,6 @@ pub mod model;
 mod parse;
 mod plan;
 mod print;
-mod source;
 pub mod syntax;
 
 pub use analysis::{
@@ -51,9 +50,11 @@ pub use analysis::{
 };
 pub use decimal::{Decimal, NotADecimal};
 pub use diagnostic::{
-    Diagnostic, DiagnosticKind, Explanation, FileKind, Label, Severity, SymbolKind, UnknownCode,
-    UnsupportedFeature, explain, explanations, nearest,
+    Diagnostic, DiagnosticKind, Explanation, FileKind, Label, SymbolKind, UnknownCode, UnsupportedFeature,
+    explain, explanations,
 };
+/// Texts and places in them, for callers that read nothing but PDDL.
+pub use diagnostics::{LineColumn, Severity, Source, Span};
 pub use format::format;
 pub use parse::{Parsed, parse_domain, parse_plan, parse_problem};
 pub use plan::{
@@ -62,4 +63,3 @@ pub use plan::{
     TemporalStep,
 };
 pub use print::{print_domain, print_plan, print_problem};
-pub use source::{LineColumn, Source, Span};

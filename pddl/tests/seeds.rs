@@ -1,6 +1,6 @@
 //! The seeds of the fuzz targets, read as fuzzing reads them: what was found once stays found.
 
-#[path = "../../fuzz/src/lib.rs"]
+#[path = "../../tests/fuzz/src/lib.rs"]
 #[expect(unreachable_pub, reason = "public for the fuzz targets")]
 mod fuzz;
 
@@ -10,7 +10,7 @@ type Check = fn(&[u8]);
 
 #[test]
 fn every_seed_holds() {
-    let seeds = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/seeds");
+    let seeds = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/fuzz/seeds");
     let targets: [(&str, Check); 4] =
         [("domain", fuzz::domain), ("problem", fuzz::problem), ("hddl", fuzz::hddl), ("plan", fuzz::plan)];
     for (folder, check) in targets {

@@ -64,7 +64,7 @@ enum Failure {
     Metadata(#[from] cargo_metadata::Error),
     #[error("{0}: {1}")]
     File(String, std::io::Error),
-    #[error("there is no file fuzz/targets/{0}.rs")]
+    #[error("there is no file tests/fuzz/targets/{0}.rs")]
     NoTarget(String),
     #[error("{0} finding(s), listed above")]
     Findings(usize),

@@ -21,10 +21,11 @@ use crate::disk::show;
 use crate::exit::Exit;
 use crate::render::counted;
 use crate::scenario::{self, ScenarioError};
+use diagnostics::{Finding, SourceId};
 use lints::Level;
 use mission::Mission;
 use pddl::Source;
-use project::{Finding, Project, SourceId};
+use project::Project;
 use serde::Serialize;
 use std::path::Path;
 

@@ -59,7 +59,7 @@ pub(super) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Result<Ex
         Some(name) => {
             let unknown = || {
                 let text = format!("no node `{name}` in version {}", snapshot.version().0);
-                let nearest = pddl::nearest(name, snapshot.nodes().map(|node| node.name()));
+                let nearest = diagnostics::nearest(name, snapshot.nodes().map(|node| node.name()));
                 Failed(
                     Exit::No,
                     nearest.map_or(text.clone(), |nearest| format!("{text}; is it `{nearest}`?")),

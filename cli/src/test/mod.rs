@@ -28,7 +28,7 @@ use crate::memory;
 use crate::pool;
 use crate::render::Message;
 use clap::Args;
-use project::Finding;
+use diagnostics::Finding;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};

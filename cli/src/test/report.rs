@@ -4,7 +4,7 @@ use super::Failed;
 use crate::console::{Console, Form};
 use crate::disk;
 use crate::exit::Exit;
-use project::Finding;
+use diagnostics::Finding;
 use serde::Serialize;
 use suite::{CaseId, Suite};
 

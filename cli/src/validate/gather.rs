@@ -9,8 +9,9 @@
 
 use super::Arguments;
 use crate::files::{self, FileError};
+use diagnostics::SourceId;
 use pddl::Source;
-use project::{FileKind, Project, SourceId};
+use project::{FileKind, Project};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use thiserror::Error;

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use pddl::model::{Name, Term};
 
 use crate::mission::Mission;
-use project::{Finding, Place};
+use diagnostics::{Finding, Place};
 
 pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
     let mut claimed: BTreeMap<(Name, i32), (Name, Place)> = BTreeMap::new();

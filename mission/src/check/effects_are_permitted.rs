@@ -12,7 +12,7 @@ use pddl::model::{
 
 use crate::layers::Layers;
 use crate::mission::Mission;
-use project::{Finding, Place};
+use diagnostics::{Finding, Place};
 
 /// A token with the nodes that each of its arguments may be.
 struct Written {

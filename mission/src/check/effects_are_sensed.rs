@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 
 use super::tokens::Tokens;
 use crate::mission::Mission;
-use project::{Finding, Place};
+use diagnostics::{Finding, Place};
 
 pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
     let (domain, perception) = (&mission.layers.domain, &mission.layers.perception.model);

@@ -11,7 +11,7 @@ use pddl::model::{Name, TimeSpecifier};
 
 use super::tokens::{Tokens, written_by_rules};
 use crate::mission::Mission;
-use project::{Finding, Place};
+use diagnostics::{Finding, Place};
 
 pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
     let methods = &mission.layers.methods;

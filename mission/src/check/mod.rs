@@ -15,7 +15,7 @@ mod tasks_of_actions;
 mod tokens;
 
 use crate::mission::Mission;
-use project::Finding;
+use diagnostics::Finding;
 
 /// A check: looks at a mission and adds what it finds.
 pub(crate) type Check = fn(&Mission, &mut Vec<Finding>);

@@ -8,8 +8,8 @@
 use pddl::model::{Domain, Object};
 
 use crate::mission::Mission;
-use project::{Finding, Place, SourceId};
-use tables::did_you_mean;
+use diagnostics::did_you_mean;
+use diagnostics::{Finding, Place, SourceId};
 
 pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
     let layers = &mission.layers;

@@ -8,7 +8,7 @@
 
 use super::tokens::{Tokens, written_by_intentions, written_by_rules};
 use crate::mission::Mission;
-use project::{Finding, Place};
+use diagnostics::{Finding, Place};
 
 pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
     let layers = &mission.layers;

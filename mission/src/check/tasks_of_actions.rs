@@ -9,7 +9,7 @@
 use pddl::model::{TypeSet, TypeTable};
 
 use crate::mission::Mission;
-use project::{Finding, Place};
+use diagnostics::{Finding, Place};
 
 pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
     let (domain, methods) = (&mission.layers.domain, &mission.layers.methods);

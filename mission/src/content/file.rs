@@ -5,8 +5,8 @@ use pddl::Span;
 use pddl::model::Name;
 
 use super::ReportLabels;
-use project::SourceId;
-use tables::{Reader, Table, Text};
+use diagnostics::SourceId;
+use diagnostics::toml::{Reader, Table, Text};
 
 /// A key with its sentence.
 #[derive(Clone, Debug)]

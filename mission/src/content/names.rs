@@ -10,8 +10,8 @@ use super::file::LanguageFile;
 use super::grammar::normalise;
 use super::required::{Said, place};
 use super::words::unknown_placeholders;
-use project::{Finding, Place, Sources};
-use tables::did_you_mean;
+use diagnostics::did_you_mean;
+use diagnostics::{Finding, Place, Sources};
 
 /// Reports every key that does not name a node of the right kind.
 pub(crate) fn check(file: &LanguageFile, said: &Said, findings: &mut Vec<Finding>) {

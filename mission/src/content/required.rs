@@ -15,7 +15,7 @@ use pddl::model::{Name, ObjectId, Term};
 use super::file::LanguageFile;
 use super::words::template;
 use crate::layers::Layers;
-use project::{Finding, Place, Sources};
+use diagnostics::{Finding, Place, Sources};
 
 /// What is said in one part.
 #[derive(Clone, Debug)]

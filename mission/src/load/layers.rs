@@ -7,8 +7,8 @@ use super::Loader;
 use crate::files::join;
 use crate::layers::{Layer, Layers, Tokens};
 use crate::manifest::{Manifest, Mention};
-use project::{Finding, Place, SourceId};
-use tables::did_you_mean;
+use diagnostics::did_you_mean;
+use diagnostics::{Finding, Place, SourceId};
 
 /// All layers; `None` if one is not there, and then the loader knows why.
 pub(super) fn read(loader: &mut Loader<'_>, from: SourceId, manifest: &Manifest) -> Option<Layers> {
@@ -74,7 +74,7 @@ fn parse<M: Model>(
 ) -> Option<Layer<M>> {
     let source = loader.source(path, asked_at)?;
     let parsed = parse(&loader.sources[source]);
-    loader.findings.extend(parsed.diagnostics.iter().map(|d| Finding::of_pddl(source, d)));
+    loader.findings.extend(parsed.diagnostics.iter().map(|d| d.finding(source)));
     let features = parsed.model.iter().flat_map(Model::features);
     // HighToLow looks at the constraints of methods.
     let features = features.filter(|(feature, _)| *feature != Feature::NetworkConstraints);

@@ -7,8 +7,8 @@ use crate::content::{Words, file, names, required};
 use crate::files::{join, stem};
 use crate::layers::Layers;
 use crate::manifest::Manifest;
-use project::{Finding, Place, SourceId};
-use tables::Reader;
+use diagnostics::toml::Reader;
+use diagnostics::{Finding, Place, SourceId};
 
 /// The words of every language, by tag.
 pub(super) fn read(

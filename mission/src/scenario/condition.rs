@@ -9,8 +9,7 @@ use pddl::model::{Condition, Variables};
 use pddl::{Source, Span};
 
 use crate::layers::Layers;
-use project::Finding;
-use tables::{Reader, Text};
+use diagnostics::toml::{Reader, Text};
 
 /// A condition over the graph.
 #[derive(Clone, Debug)]
@@ -45,7 +44,7 @@ pub(super) fn read(reader: &mut Reader<'_>, layers: &Layers, text: &Text) -> Opt
         text.within(Span::new(span.start.saturating_sub(offset), span.end.saturating_sub(offset)))
     };
     for diagnostic in parsed.diagnostics {
-        let mut finding = Finding::of_pddl(reader.source, &diagnostic);
+        let mut finding = diagnostic.finding(reader.source);
         finding.place.span = moved(finding.place.span);
         // Other places are in the dictionary or in the text around the condition.
         finding.related.clear();

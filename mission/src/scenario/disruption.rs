@@ -11,9 +11,9 @@ pub use self::step::Step;
 use super::GraphCondition;
 use super::read::node;
 use crate::layers::Layers;
-use project::Finding;
-use tables::did_you_mean;
-use tables::{Reader, Table};
+use diagnostics::Finding;
+use diagnostics::did_you_mean;
+use diagnostics::toml::{Reader, Table};
 
 /// A device that can be disturbed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -6,9 +6,9 @@ use pddl::model::Name;
 use super::GraphCondition;
 use super::read::node;
 use crate::layers::Layers;
-use project::Finding;
-use tables::did_you_mean;
-use tables::{Reader, Table, Text};
+use diagnostics::Finding;
+use diagnostics::did_you_mean;
+use diagnostics::toml::{Reader, Table, Text};
 
 /// An expected value and where it is written.
 #[derive(Clone, Debug)]

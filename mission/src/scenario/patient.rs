@@ -6,7 +6,7 @@ use pddl::model::{Name, ObjectId};
 
 use super::read::{argument, node};
 use crate::mission::Mission;
-use tables::{Reader, Table};
+use diagnostics::toml::{Reader, Table};
 
 /// How an answer is given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

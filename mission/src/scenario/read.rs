@@ -11,9 +11,9 @@ use crate::errors::MissionErrors;
 use crate::files::stem;
 use crate::layers::Layers;
 use crate::mission::Mission;
-use project::Finding;
-use tables::did_you_mean;
-use tables::{Reader, Table, Text};
+use diagnostics::Finding;
+use diagnostics::did_you_mean;
+use diagnostics::toml::{Reader, Table, Text};
 
 /// Reads `source` as a scenario of `mission`.
 pub(crate) fn read(mission: &Mission, source: Source) -> Result<Scenario, MissionErrors> {

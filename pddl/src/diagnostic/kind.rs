@@ -3,7 +3,7 @@
 use crate::analysis::NameKind;
 use crate::model::Name;
 
-use super::Severity;
+use diagnostics::Severity;
 
 /// What an author may have meant a name to be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -7,27 +7,13 @@
 mod describe;
 mod explain;
 mod kind;
-mod suggest;
 
 pub use explain::{Explanation, UnknownCode, explain, explanations};
 pub use kind::{DiagnosticKind, FileKind, SymbolKind, UnsupportedFeature};
-pub use suggest::nearest;
 
-use crate::Span;
+use diagnostics::{Severity, Span};
 use serde::Serialize;
 use serde::ser::SerializeStruct;
-
-/// How bad it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Severity {
-    /// The model is still meaningful.
-    Warning,
-    /// A language feature that is read but that no model holds yet.
-    Unsupported,
-    /// There is no model.
-    Error,
-}
 
 /// What a secondary place has to do with a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

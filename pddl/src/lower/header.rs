@@ -2,9 +2,10 @@
 
 use super::sink::Sink;
 use crate::Span;
-use crate::diagnostic::{DiagnosticKind, FileKind, nearest};
+use crate::diagnostic::{DiagnosticKind, FileKind};
 use crate::model::Name;
 use crate::syntax::{Node, NodeKind, Tree};
+use diagnostics::nearest;
 
 /// The definition that a file holds.
 pub(crate) struct Header<'t> {

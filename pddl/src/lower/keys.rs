@@ -1,8 +1,9 @@
 //! `:key value` pairs of actions, tasks, methods and networks.
 
 use super::sink::Sink;
-use crate::diagnostic::{DiagnosticKind, nearest};
+use crate::diagnostic::DiagnosticKind;
 use crate::syntax::{Node, NodeKind};
+use diagnostics::nearest;
 
 /// The pairs of one definition.
 pub(crate) struct Keys<'t> {

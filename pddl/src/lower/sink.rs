@@ -1,10 +1,11 @@
 //! Where diagnostics go while a model is made.
 
 use crate::analysis::{NameKind, Occurrence, Role, Symbol};
-use crate::diagnostic::{Diagnostic, DiagnosticKind, Label, UnsupportedFeature, nearest};
+use crate::diagnostic::{Diagnostic, DiagnosticKind, Label, UnsupportedFeature};
 use crate::model::Name;
 use crate::syntax::Node;
 use crate::{Parsed, Severity, Span};
+use diagnostics::nearest;
 
 /// Most searches for a similar name in one run: each looks at every declared name.
 const MAX_SUGGESTIONS: usize = 64;

@@ -12,6 +12,15 @@ pub trait Idx: Copy + Eq + fmt::Debug {
     fn index(self) -> usize;
 }
 
+impl Idx for diagnostics::SourceId {
+    fn from_index(index: usize) -> Self {
+        Self(u32::try_from(index).expect("there are fewer than 2^32 files"))
+    }
+    fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
 /// A `Vec<T>` that only an `I` indexes.
 #[derive(Clone, PartialEq, Eq)]
 pub struct IndexVec<I, T> {

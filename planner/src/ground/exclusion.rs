@@ -18,7 +18,7 @@ use super::values::ValuePredicates;
 use crate::ids::id32;
 use crate::task::Rows;
 use crate::watch::{Interrupted, Spend, Watch};
-use invariants::{Happening, Invariant, Member, Proviso, conditional_invariants};
+use analysis::invariants::{Happening, Invariant, Member, Proviso, conditional_invariants};
 use pddl::model::{Domain, PredicateId, Problem, Term};
 use rustc_hash::{FxHashMap, FxHashSet};
 

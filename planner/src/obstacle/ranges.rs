@@ -12,7 +12,7 @@
 use super::needs::{Binding, Compared, Needs};
 use super::oracle::Oracle;
 use crate::number::Number;
-use invariants::{Context, changes};
+use analysis::invariants::{Context, changes};
 use pddl::model::{
     Application, ArithmeticOperator, AssignOperator, AssignedValue, Comparison, EffectKind, Expression,
     ExpressionKind, FluentValue, FunctionId, ObjectId, Term,
@@ -434,7 +434,9 @@ impl<'a> Ranges<'a> {
             let arguments: Vec<_> = fluent.1.iter().map(|&o| Ok(o)).collect();
             let mut hits = Vec::new();
             changes(&action.effect, &mut |context, change| {
-                let &invariants::Change::Assign(operator, application, value) = change else { return };
+                let &analysis::invariants::Change::Assign(operator, application, value) = change else {
+                    return;
+                };
                 if application.function == fluent.0
                     && let Some(binding) =
                         binding.unified_terms(&application.arguments, &arguments, self.oracle)

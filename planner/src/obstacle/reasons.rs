@@ -14,7 +14,7 @@ use super::ranges::{NeverCompares, Ranges};
 use super::{Pattern, Wanted};
 use crate::ids::id32;
 use crate::search::Budget;
-use invariants::{Change, changes};
+use analysis::invariants::{Change, changes};
 use pddl::model::{Action, ActionId, Axiom, Condition, Name, ObjectId};
 use std::cell::OnceCell;
 

@@ -4,9 +4,9 @@ use pddl::model::{ActionId, Name, ObjectId};
 
 use crate::layers::Layers;
 use crate::manifest::{Mention, symbols};
-use project::Finding;
-use tables::did_you_mean;
-use tables::{Reader, Text};
+use diagnostics::Finding;
+use diagnostics::did_you_mean;
+use diagnostics::toml::{Reader, Text};
 
 /// An action of the plan with its arguments.
 #[derive(Clone, Debug, PartialEq, Eq)]

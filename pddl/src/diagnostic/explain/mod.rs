@@ -12,7 +12,7 @@ mod times;
 mod types;
 mod unsupported;
 
-use super::nearest;
+use diagnostics::nearest;
 use serde::Serialize;
 
 /// What a code means.

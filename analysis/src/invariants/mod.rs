@@ -1,0 +1,38 @@
+//! Sets of atoms of which at most one holds at a time, found on the lifted domain.
+//!
+//! Two use them: `lints`, because two conditions of which one excludes the other are a mistake that
+//! relaxed reachability cannot see, and `planner`, for mutex groups and finite-domain variables. What
+//! changes the state is handed in as [`Happening`]s, since the two do not look at the same parts of
+//! the language; an [`Invariant`] says that the number of its atoms never becomes more than one, and
+//! [`Counts`] says where a problem lets it start. Who knows which instances there are can ask for those that
+//! hold unless parameters are equal ([`conditional_invariants`]).
+//!
+//! ```
+//! use analysis::invariants::{Counts, Happening, invariants};
+//!
+//! let source = pddl::Source::new("d", "(define (domain hall) (:predicates (at ?x ?y))
+//!     (:action go :parameters (?x ?from ?to) :precondition (at ?x ?from)
+//!      :effect (and (not (at ?x ?from)) (at ?x ?to))))");
+//! let domain = pddl::parse_domain(&source, &[]).model.expect("a correct domain");
+//! let happenings: Vec<Happening> = domain.actions.iter().map(Happening::of_action).collect();
+//! let found = invariants(&domain, &happenings);
+//! assert_eq!(found.len(), 1);
+//! assert_eq!((&found[0].members[0].parameters[..], found[0].members[0].counted), (&[0][..], Some(1)));
+//! ```
+//!
+//! | module | holds |
+//! |---|---|
+//! | `synthesis` | candidates, and how they are mended |
+//! | `balance` | whether a candidate's number can grow |
+//! | `counts` | the numbers in a problem's initial state |
+//! | `changes` | an effect without its connectives |
+
+mod balance;
+mod changes;
+mod counts;
+mod synthesis;
+
+pub use balance::{differ, literals};
+pub use changes::{Change, Context, changes};
+pub use counts::Counts;
+pub use synthesis::{Happening, Invariant, Member, Proviso, conditional_invariants, invariants};

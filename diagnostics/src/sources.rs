@@ -1,0 +1,84 @@
+//! Texts by number, and places in them as plain lines.
+
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+use serde::Serialize;
+
+use crate::{Finding, Place, Source, Span};
+
+/// A text of a project or a mission.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+pub struct SourceId(pub u32);
+
+impl SourceId {
+    fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// Texts by number.
+#[derive(Clone, Debug, Default)]
+pub struct Sources(Vec<Arc<Source>>);
+
+impl Sources {
+    /// None yet.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds one.
+    pub fn push(&mut self, source: Source) -> SourceId {
+        let id = SourceId(u32::try_from(self.0.len()).expect("there are fewer than 2^32 files"));
+        self.0.push(Arc::new(source));
+        id
+    }
+
+    /// Puts another text in the place of one.
+    pub fn replace(&mut self, id: SourceId, source: Source) {
+        self.0[id.index()] = Arc::new(source);
+    }
+
+    /// The first place of the source of that id.
+    pub fn start_of(source: SourceId) -> Place {
+        Place { source, span: Span::default() }
+    }
+
+    /// All, with their ids.
+    pub fn iter(&self) -> impl Iterator<Item = (SourceId, &Source)> {
+        (0..).map(SourceId).zip(self.0.iter().map(|source| &**source))
+    }
+
+    /// The source of that id, to keep.
+    pub fn shared(&self, id: SourceId) -> Arc<Source> {
+        Arc::clone(&self.0[id.index()])
+    }
+
+    /// `path:line:column`.
+    pub fn place(&self, place: Place) -> String {
+        let source = &self.0[place.source.index()];
+        let at = source.line_column(place.span.start);
+        format!("{}:{}:{}", source.name(), at.line, at.column)
+    }
+
+    /// A finding in plain lines: place, severity, code, message, then other places and the advice.
+    pub fn describe(&self, finding: &Finding) -> String {
+        let severity = finding.severity.word();
+        let place = self.place(finding.place);
+        let mut text = format!("{place}: {severity}[{}]: {}\n", finding.code, finding.message);
+        for (place, message) in &finding.related {
+            let _ = writeln!(text, "  {}: {message}", self.place(*place));
+        }
+        if let Some(help) = &finding.help {
+            let _ = writeln!(text, "  help: {help}");
+        }
+        text
+    }
+}
+
+impl std::ops::Index<SourceId> for Sources {
+    type Output = Source;
+    fn index(&self, id: SourceId) -> &Source {
+        &self.0[id.index()]
+    }
+}

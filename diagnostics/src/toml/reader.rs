@@ -1,0 +1,72 @@
+//! One TOML file: its syntax, and what is wrong with it.
+
+use ::toml::Spanned;
+use ::toml::de::{DeTable, DeValue};
+
+use super::Table;
+use crate::{Finding, Place, Source, SourceId, Span};
+
+/// What a reader of one TOML file carries along.
+pub struct Reader<'a> {
+    /// Which source it reads.
+    pub source: SourceId,
+    /// Its text.
+    pub text: &'a str,
+    /// What it found.
+    pub findings: Vec<Finding>,
+}
+
+impl<'a> Reader<'a> {
+    /// Parses `source` and hands its root table to `read`; syntax errors become findings, and what
+    /// could be read is read all the same.
+    pub fn read<T>(
+        id: SourceId,
+        source: &'a Source,
+        read: impl FnOnce(&mut Self, Table<'_>) -> T,
+    ) -> (T, Vec<Finding>) {
+        let mut reader = Self { source: id, text: source.text(), findings: Vec::new() };
+        let (root, errors) = DeTable::parse_recoverable(source.text());
+        let broken = !errors.is_empty();
+        for error in errors {
+            let span = error.span().map_or(Span::default(), span);
+            reader.error("E0701", span, format!("this is not TOML: {}", error.message().replace('\n', ", ")));
+        }
+        let model = read(&mut reader, Table::new("", Span::default(), root.get_ref()));
+        if broken {
+            // What a broken file lacks is a consequence: only the syntax errors are worth reading.
+            reader.findings.retain(|f| f.code == "E0701");
+        }
+        (model, reader.findings)
+    }
+
+    /// The place of a span of this file.
+    pub fn place(&self, span: Span) -> Place {
+        Place { source: self.source, span }
+    }
+
+    /// Reports an error.
+    pub fn error(&mut self, code: &'static str, span: Span, message: impl Into<String>) {
+        self.findings.push(Finding::error(code, self.place(span), message));
+    }
+
+    /// Reports that a value has the wrong kind.
+    pub(crate) fn wrong_kind(&mut self, value: &Spanned<DeValue<'_>>, path: &str, expected: &str) {
+        let found = match value.get_ref() {
+            DeValue::String(_) => "a string",
+            DeValue::Integer(_) => "an integer",
+            DeValue::Float(_) => "a decimal number",
+            DeValue::Boolean(_) => "a boolean",
+            DeValue::Datetime(_) => "a date",
+            DeValue::Array(_) => "a list",
+            DeValue::Table(_) => "a table",
+        };
+        self.error("E0703", span(value.span()), format!("`{path}` is {found}, and should be {expected}"));
+    }
+}
+
+/// A byte range of `toml` as a span of ours.
+pub(crate) fn span(range: std::ops::Range<usize>) -> Span {
+    // A `Source` is shorter than 4 GiB, so the ranges of its tree fit.
+    let at = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);
+    Span::new(at(range.start), at(range.end))
+}

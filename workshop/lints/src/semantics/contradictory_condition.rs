@@ -1,0 +1,129 @@
+//! Two conditions that exclude each other.
+
+use analysis::invariants::{Change, changes, literals};
+use pddl::Explanation;
+use pddl::model::{Condition, Term, Variables};
+
+use crate::analysis::place;
+use crate::finding::Findings;
+use crate::happening::happenings;
+use crate::lint::Check;
+use crate::reachability::{Schema, shortened};
+use crate::view::{ProblemView, is_here};
+use crate::{Finding, Level, Lint, Place};
+
+use super::exclusion::{find, words};
+
+pub(crate) static LINT: Lint = Lint {
+    name: "contradictory-condition",
+    level: Level::Default,
+    explanation: Explanation {
+        code: "W0857",
+        title: "conditions exclude each other",
+        meaning: "Two atoms of one condition are among a set of which at most one holds at a time: it is so \
+         initially, and no effect makes another one true without making the one that held false. The message \
+         names the set.",
+        why: "What has the condition can never come into play. Often one of the two was to be `not`, or is \
+         about another object, or an effect forgets to delete what it replaces elsewhere.",
+        wrong: &[
+            "\
+(define (domain hall)
+  (:requirements :typing)
+  (:types cart place)
+  (:predicates (at ?c - cart ?p - place) (moving ?c - cart))
+  (:action start
+    :parameters (?c - cart ?p - place)
+    :precondition (at ?c ?p)
+    :effect (and (not (at ?c ?p)) (moving ?c)))
+  (:action stop
+    :parameters (?c - cart ?p - place)
+    :precondition (and (moving ?c) (at ?c ?p))
+    :effect (and (not (moving ?c)) (at ?c ?p))))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:objects c - cart a b - place)
+  (:init (at c a))
+  (:goal (moving c)))",
+        ],
+        right: &[
+            "\
+(define (domain hall)
+  (:requirements :typing)
+  (:types cart place)
+  (:predicates (at ?c - cart ?p - place) (moving ?c - cart))
+  (:action start
+    :parameters (?c - cart ?p - place)
+    :precondition (at ?c ?p)
+    :effect (and (not (at ?c ?p)) (moving ?c)))
+  (:action stop
+    :parameters (?c - cart ?p - place)
+    :precondition (moving ?c)
+    :effect (and (not (moving ?c)) (at ?c ?p))))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:objects c - cart a b - place)
+  (:init (at c a))
+  (:goal (at c b)))",
+        ],
+    },
+    checks: &[Check::Problem(check)],
+};
+
+fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
+    let domain = view.domain.domain;
+    for happening in happenings(domain) {
+        if judge(view, &happening.schema, happening.variables, &happening.just_before, found) {
+            continue;
+        }
+        for effect in &happening.effects {
+            changes(effect, &mut |context, change| {
+                if !context.when.is_empty() && !matches!(change, Change::Assign(..)) {
+                    let mut all = happening.just_before.clone();
+                    all.extend(&context.when);
+                    judge(view, &happening.schema, happening.variables, &all, found);
+                }
+            });
+        }
+    }
+    for (id, method) in domain.methods.enumerate() {
+        judge(view, &Schema::Method(id), &method.variables, &[&method.precondition], found);
+    }
+}
+
+/// Reports the first contradiction; whether there is one.
+fn judge(
+    view: &ProblemView<'_, '_>,
+    schema: &Schema,
+    variables: &Variables,
+    conditions: &[&Condition],
+    found: &mut Findings,
+) -> bool {
+    let domain = view.domain.domain;
+    let (mut held, mut different) = (Vec::new(), Vec::new());
+    conditions.iter().for_each(|c| literals(c, &mut held, &mut different));
+    let Some((a, b, exclusion, instance)) = find(view.analysis(), domain, variables, &held, &different)
+    else {
+        return false;
+    };
+    if !is_here(b.span) || !is_here(place(domain, schema)) {
+        return true;
+    }
+    let term = |t: &Term| match t {
+        Term::Object(o) => view.problem.objects[*o].name.to_string(),
+        Term::Variable(v) => format!("?{}", variables[*v].name),
+    };
+    let reason = words(&exclusion.invariant, domain, &instance.iter().map(term).collect::<Vec<_>>());
+    let text = |span| shortened(view.domain.source.slice(span));
+    let message = format!(
+        "`{}` and `{}` of {} never hold together: {reason}",
+        text(a.span),
+        text(b.span),
+        view.words().schema(schema)
+    );
+    found.report(
+        Finding::new(&LINT, Place::domain(b.span), message).label(Place::domain(a.span), "excludes it"),
+    );
+    true
+}

@@ -1,0 +1,116 @@
+//! A divisor that is zero for ever.
+
+use analysis::invariants::{Change, changes};
+use pddl::Explanation;
+use pddl::model::{ArithmeticOperator, AssignedValue, Condition, ConditionKind, Expression, ExpressionKind};
+
+use crate::finding::Findings;
+use crate::happening::happenings;
+use crate::lint::Check;
+use crate::numbers::{Interval, Numbers, Value};
+use crate::reachability::shortened;
+use crate::view::{DomainView, ProblemView, is_here};
+use crate::{Finding, Level, Lint, Place};
+
+pub(crate) static LINT: Lint = Lint {
+    name: "division-by-zero",
+    level: Level::Default,
+    explanation: Explanation {
+        code: "W0860",
+        title: "division by zero",
+        meaning: "The divisor is zero in every state: a number, or fluents that are zero initially and that \
+         nothing changes.",
+        why: "The quotient has no value: a condition with it never holds, and an effect with it cannot happen.",
+        wrong: &[
+            "\
+(define (domain hall)
+  (:requirements :typing :durative-actions :numeric-fluents)
+  (:types place)
+  (:predicates (at ?p - place))
+  (:functions (way ?a ?b - place) (speed))
+  (:durative-action move
+    :parameters (?a ?b - place)
+    :duration (= ?duration (/ (way ?a ?b) (speed)))
+    :condition (at start (at ?a))
+    :effect (and (at start (not (at ?a))) (at end (at ?b)))))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:objects a b - place)
+  (:init (at a) (= (way a b) 5) (= (way b a) 5) (= (speed) 0))
+  (:goal (at b)))",
+        ],
+        right: &[
+            "\
+(define (domain hall)
+  (:requirements :typing :durative-actions :numeric-fluents)
+  (:types place)
+  (:predicates (at ?p - place))
+  (:functions (way ?a ?b - place) (speed))
+  (:durative-action move
+    :parameters (?a ?b - place)
+    :duration (= ?duration (/ (way ?a ?b) (speed)))
+    :condition (at start (at ?a))
+    :effect (and (at start (not (at ?a))) (at end (at ?b)))))",
+            "\
+(define (problem evening)
+  (:domain hall)
+  (:objects a b - place)
+  (:init (at a) (= (way a b) 5) (= (way b a) 5) (= (speed) 2))
+  (:goal (at b)))",
+        ],
+    },
+    checks: &[Check::Domain(in_domain), Check::Problem(in_problem)],
+};
+
+fn in_domain(view: &DomainView<'_>, found: &mut Findings) {
+    if view.is_complete() {
+        check(view, &view.analysis().numbers, found);
+    }
+}
+
+fn in_problem(view: &ProblemView<'_, '_>, found: &mut Findings) {
+    if view.is_complete() {
+        check(view.domain, &view.analysis().numbers, found);
+    }
+}
+
+fn check(view: &DomainView<'_>, numbers: &Numbers, found: &mut Findings) {
+    let mut look = |expression: &Expression| {
+        expression.each(&mut |part| {
+            let ExpressionKind::Arithmetic(ArithmeticOperator::Divide, operands) = &part.kind else { return };
+            for divisor in operands.iter().skip(1) {
+                let zero = Value::In(Interval::point(0.0));
+                if numbers.hull(divisor) == zero && is_here(divisor.span) {
+                    let text = shortened(view.source.slice(divisor.span));
+                    let message = format!("division by `{text}`, which is always 0");
+                    found.report(Finding::new(&LINT, Place::domain(divisor.span), message));
+                }
+            }
+        });
+    };
+    for happening in happenings(view.domain) {
+        happening.conditions.iter().for_each(|c| expressions(c, &mut look));
+        for effect in &happening.effects {
+            changes(effect, &mut |context, change| {
+                context.when.iter().for_each(|c| expressions(c, &mut look));
+                if let Change::Assign(_, _, AssignedValue::Number(value)) = change {
+                    look(value);
+                }
+            });
+        }
+    }
+    for action in &view.domain.durative_actions {
+        action.duration.iter().for_each(|c| look(&c.bound));
+    }
+    view.domain.axioms.iter().for_each(|a| expressions(&a.body, &mut look));
+}
+
+fn expressions(of: &Condition, look: &mut dyn FnMut(&Expression)) {
+    of.each(&mut |part| {
+        if let ConditionKind::Compare(_, left, right) = &part.kind {
+            look(left);
+            look(right);
+        }
+    });
+}

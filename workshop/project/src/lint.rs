@@ -1,0 +1,139 @@
+//! What lints say of a domain and its problems.
+//!
+//! Problem: what is a mistake in a domain often shows only with its problems, and one problem alone proves little.
+//! Idea: a domain is looked at together with all problems of the project that are for it; see [`lints::Linter`].
+//! Invariant: files with errors are not looked at. Nothing is kept here; [`Project::lint_findings`]
+//! keeps what everybody wants to read.
+
+use lints::{File, Level, Linter};
+
+use crate::{Project, Reading};
+use diagnostics::{Finding, Place, SourceId};
+
+/// A warning with a way to mend it.
+#[derive(Clone, Debug)]
+pub struct Linted {
+    /// What is said, where.
+    pub finding: Finding,
+    /// The lint's name, for a comment that silences it.
+    pub lint: &'static str,
+    /// How a machine can mend it.
+    pub fix: Option<Fix>,
+}
+
+/// Edits that mend what was found.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fix {
+    /// What they do, in a few words.
+    pub title: String,
+    /// What becomes which text; they do not overlap.
+    pub edits: Vec<(Place, String)>,
+}
+
+impl Project {
+    /// What lints up to `level` say of a domain and of all its problems, in order of files and places. Nothing, if
+    /// the file is no domain or has errors.
+    pub fn lint_family(&self, domain: SourceId, level: Level) -> Vec<Linted> {
+        let Some(mut linter) = self.linter(domain, level) else { return Vec::new() };
+        let mut said: Vec<Linted> = Vec::new();
+        for problem in self.dependents(domain) {
+            if let Some(file) = self.sound_problem(problem) {
+                said.extend(linter.problem(file).iter().map(|f| linted(f, domain, problem)));
+            }
+        }
+        said.extend(linter.finish().iter().map(|f| linted(f, domain, domain)));
+        said.sort_by_key(|l| (l.finding.place.source, l.finding.place.span));
+        said
+    }
+
+    /// What lints up to `level` say of a domain whatever its problems are.
+    pub fn lint_domain(&self, domain: SourceId, level: Level) -> Vec<Linted> {
+        let linter = self.linter(domain, level);
+        linter.map_or_else(Vec::new, |l| l.finish().iter().map(|f| linted(f, domain, domain)).collect())
+    }
+
+    /// What lints up to `level` say of a problem alone.
+    pub fn lint_problem(&self, problem: SourceId, level: Level) -> Vec<Linted> {
+        let linter = self.domain_of(problem).and_then(|domain| Some((domain, self.linter(domain, level)?)));
+        match (linter, self.sound_problem(problem)) {
+            (Some((domain, mut linter)), Some(file)) => {
+                linter.problem(file).iter().map(|f| linted(f, domain, problem)).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    fn linter(&self, domain: SourceId, level: Level) -> Option<Linter<'_>> {
+        match self.reading(domain)? {
+            Reading::Domain(analysis) if analysis.sound => {
+                Some(Linter::new(File { source: self.source(domain), model: &analysis.draft }, level))
+            }
+            _ => None,
+        }
+    }
+
+    fn sound_problem(&self, problem: SourceId) -> Option<File<'_, pddl::model::Problem>> {
+        match self.reading(problem)? {
+            Reading::Problem(analysis) if analysis.sound => {
+                Some(File { source: self.source(problem), model: &analysis.draft })
+            }
+            _ => None,
+        }
+    }
+}
+
+fn linted(finding: &lints::Finding, domain: SourceId, problem: SourceId) -> Linted {
+    let place = |at: lints::Place| {
+        let source = match at.file {
+            pddl::FileKind::Domain => domain,
+            pddl::FileKind::Problem => problem,
+        };
+        Place { source, span: at.span }
+    };
+    let mut said = Finding::warning(finding.lint.code(), place(finding.place), finding.message.clone())
+        .help_if(finding.help.clone().or_else(|| finding.fix.as_ref().map(|fix| fix.title.clone())));
+    for (at, text) in &finding.labels {
+        said = said.related(place(*at), text.clone());
+    }
+    let fix = finding.fix.as_ref().map(|fix| Fix {
+        title: fix.title.clone(),
+        edits: fix.edits.iter().map(|edit| (place(edit.place), edit.text.clone())).collect(),
+    });
+    Linted { finding: said, lint: finding.lint.name, fix }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Level;
+    use crate::Project;
+
+    const DOMAIN: &str = "(define (domain hall) (:predicates (lit) (ready))
+      (:action switch :parameters () :precondition (ready) :effect (lit)))";
+
+    #[test]
+    fn a_domain_is_judged_by_all_its_problems() {
+        let problem = |init: &str| {
+            format!("(define (problem p) (:domain hall) (:init {init}) (:goal (and (lit) (not (ready)))))")
+        };
+        let mut project = Project::new();
+        let domain = project.set("hall/domain.pddl", DOMAIN);
+        let first = project.set("hall/p01.pddl", problem(""));
+        // Of all that is said, what is about the condition that nothing fulfils, and the goal's `not`.
+        let codes = |project: &Project| {
+            let said = project.lint_family(domain, Level::Default);
+            let all = said.iter().map(|l| (l.finding.code, l.finding.place.source));
+            all.filter(|(code, _)| ["W0701", "W0705"].contains(code)).collect::<Vec<_>>()
+        };
+        assert_eq!(codes(&project), [("W0705", domain), ("W0701", first)]);
+        let second = project.set("hall/p02.pddl", problem("(ready)"));
+        assert_eq!(codes(&project), [("W0701", first), ("W0701", second)]);
+        let alone = project.lint_problem(second, Level::Default);
+        let fix = alone.iter().find_map(|l| l.fix.as_ref()).expect("a requirement can be declared");
+        assert_eq!(
+            (fix.edits[0].0.source, fix.title.as_str()),
+            (second, "declare `:negative-preconditions`")
+        );
+        project.set("hall/p02.pddl", "(define (problem p) (:domain hall) (:goal (dark)))");
+        assert_eq!(codes(&project), [("W0705", domain), ("W0701", first)]);
+    }
+}

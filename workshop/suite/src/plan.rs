@@ -1,0 +1,383 @@
+//! What the validator has to say about a plan, against what was expected.
+
+use crate::Fault;
+use crate::expected::{Verdict as Wanted, Why};
+use crate::judge::{Task, TaskFiles};
+use crate::suite::{PlanCase, Suite};
+use diagnostics::{Finding, Place, SourceId};
+use pddl::{Severity, Source, Span, parse_plan};
+use validator::{
+    Cause, Failure, File, NetworkFault, Number, Parent, StepFault, StepIndex, Unsatisfied, Verdict, explain,
+    validate,
+};
+
+/// What there is to say.
+#[derive(Clone, Debug)]
+pub(crate) enum Found {
+    Valid {
+        cost: Number,
+    },
+    Invalid {
+        fault: Fault,
+        /// From 1; `None` for what is not about one step.
+        step: Option<u64>,
+        missing: Vec<String>,
+        says: Says,
+    },
+    /// The plan's text has errors: codes and lines in order, and the first one.
+    Unreadable {
+        errors: Vec<(&'static str, u32)>,
+        says: Says,
+    },
+    Unsupported {
+        says: Says,
+    },
+}
+
+/// A sentence at its place.
+#[derive(Clone, Debug)]
+pub(crate) struct Says {
+    pub(crate) sentence: String,
+    pub(crate) place: Place,
+    pub(crate) notes: Vec<(Place, String)>,
+}
+
+impl Says {
+    /// Whether a text stands in one of the sentences.
+    fn says(&self, text: &str) -> bool {
+        self.sentence.contains(text) || self.notes.iter().any(|(_, note)| note.contains(text))
+    }
+}
+
+impl Suite {
+    /// Judges a plan.
+    pub(crate) fn found(&self, task: &Task<'_>, file: SourceId) -> Found {
+        let source = self.source(file);
+        let parsed = parse_plan(source, task.domain, task.problem);
+        let Some(plan) = parsed.model else {
+            let errors = parsed.diagnostics.iter().filter(|d| d.severity == Severity::Error);
+            let errors: Vec<_> = errors.map(|d| (d.code(), source.line_column(d.span.start).line)).collect();
+            let worst = parsed.diagnostics.iter().max_by_key(|d| d.severity);
+            let says = worst.map_or_else(
+                || Says {
+                    sentence: "no plan".to_owned(),
+                    place: place(file, Span::default()),
+                    notes: vec![],
+                },
+                |d| Says { sentence: d.message(), place: place(file, d.span), notes: vec![] },
+            );
+            return if errors.is_empty() {
+                Found::Unsupported { says }
+            } else {
+                Found::Unreadable { errors, says }
+            };
+        };
+        let verdict = validate(task.domain, task.problem, &plan);
+        let says = explain(task.domain, task.problem, &plan, &verdict).map_or_else(
+            || Says { sentence: String::new(), place: place(file, Span::default()), notes: vec![] },
+            |finding| {
+                let at = |at: validator::Place| place(of(at.file, task.files, file), at.span);
+                let notes = finding.notes.into_iter().map(|(place, text)| (at(place), text)).collect();
+                Says { sentence: finding.sentence, place: at(finding.place), notes }
+            },
+        );
+        let failure = match verdict {
+            Verdict::Valid(valid) => return Found::Valid { cost: valid.cost() },
+            Verdict::Unsupported(_) => return Found::Unsupported { says },
+            Verdict::IllFormed(_) => {
+                return Found::Invalid { fault: Fault::IllFormed, step: None, missing: vec![], says };
+            }
+            Verdict::Invalid(failure) => failure,
+        };
+        let (fault, step) = kind(&failure);
+        let mut missing = Vec::new();
+        match &failure {
+            Failure::Precondition { parts, .. }
+            | Failure::Invariant { parts, .. }
+            | Failure::Network { fault: NetworkFault::Precondition { parts, .. } } => {
+                Literals { suite: self, task, file: task.files.domain }.of(parts, &mut missing);
+            }
+            Failure::Goal { parts } => {
+                Literals { suite: self, task, file: task.files.problem }.of(parts, &mut missing);
+            }
+            Failure::Step { .. }
+            | Failure::Duration { .. }
+            | Failure::Interference { .. }
+            | Failure::Effect { .. }
+            | Failure::Change { .. }
+            | Failure::EndlessEvents { .. }
+            | Failure::Constraint { .. }
+            | Failure::Network { .. } => {}
+        }
+        Found::Invalid { fault, step, missing, says }
+    }
+
+    /// Runs the case of a plan.
+    pub(crate) fn plan(&self, task: &Task<'_>, file: SourceId, case: &PlanCase) -> Vec<Finding> {
+        let found = self.found(task, file);
+        let Some(at) = self.difference(file, case, &found) else { return Vec::new() };
+        let expected = describe_wanted(case);
+        let message = format!("expected {expected}, found {}", found.describe());
+        let mut finding = match &found {
+            Found::Valid { .. } => Finding::error("T0302", place(file, Span::default()), message),
+            Found::Invalid { says, .. } | Found::Unreadable { says, .. } | Found::Unsupported { says } => {
+                let mut finding = Finding::error("T0302", says.place, message);
+                finding.related.push((says.place, says.sentence.clone()));
+                finding.related.extend(says.notes.iter().cloned());
+                finding
+            }
+        };
+        if let Some(at) = at {
+            finding.related.push((self.written(at), "expected here".to_owned()));
+        }
+        if let (Found::Unreadable { errors, .. }, Wanted::Invalid, None) =
+            (&found, case.verdict, &case.details.why)
+            && let Some((code, _)) = errors.first()
+        {
+            let word = Fault::of_code(code).map_or(*code, Fault::word);
+            finding.help = Some(format!("if a plan that cannot be read is meant, write `why = \"{word}\"`"));
+        }
+        vec![finding]
+    }
+
+    /// Where what was found is not what was expected: `Some`, with the place in `expected.toml` if there is one.
+    fn difference(&self, file: SourceId, case: &PlanCase, found: &Found) -> Option<Option<Span>> {
+        let details = &case.details;
+        if let Found::Invalid { says, .. } | Found::Unreadable { says, .. } = found
+            && case.verdict == Wanted::Invalid
+            && let Some(unsaid) = details.says.iter().find(|wanted| !says.says(&wanted.value))
+        {
+            return Some(Some(unsaid.span));
+        }
+        match (case.verdict, found) {
+            (Wanted::Valid, Found::Valid { cost }) => {
+                let wrong = details.cost.filter(|wanted| wanted.value != *cost)?;
+                Some(Some(wrong.span))
+            }
+            (Wanted::Unsupported, Found::Unsupported { .. }) => None,
+            (Wanted::Invalid, Found::Invalid { fault, step, missing, says }) => {
+                if let Some(why) = details.why.as_ref().filter(|w| w.value != Why::Fault(*fault)) {
+                    return Some(Some(why.span));
+                }
+                if let Some(wrong) = details.step.filter(|wanted| Some(u64::from(wanted.value)) != *step) {
+                    return Some(Some(wrong.span));
+                }
+                let line = (says.place.source == file)
+                    .then(|| self.source(file).line_column(says.place.span.start).line);
+                if let Some(wrong) = details.line.filter(|wanted| Some(wanted.value) != line) {
+                    return Some(Some(wrong.span));
+                }
+                details.missing.iter().find(|wanted| !missing.contains(&wanted.value)).map(|w| Some(w.span))
+            }
+            (Wanted::Invalid, Found::Unreadable { errors, .. }) => {
+                let Some(why) = &details.why else { return Some(case.entry) };
+                let fits = |code: &str| match &why.value {
+                    Why::Code(wanted) => wanted == code,
+                    Why::Fault(wanted) => Fault::of_code(code) == Some(*wanted),
+                };
+                if !errors.iter().all(|(code, _)| fits(code)) {
+                    return Some(Some(why.span));
+                }
+                if let Some(wrong) =
+                    details.line.filter(|wanted| errors.iter().all(|(_, line)| *line != wanted.value))
+                {
+                    return Some(Some(wrong.span));
+                }
+                let none = details.step.map(|s| s.span).or(details.missing.first().map(|m| m.span));
+                none.map(Some)
+            }
+            _ => Some(case.entry),
+        }
+    }
+}
+
+fn place(source: SourceId, span: Span) -> Place {
+    Place { source, span }
+}
+
+fn of(file: File, task: TaskFiles, plan: SourceId) -> SourceId {
+    match file {
+        File::Domain => task.domain,
+        File::Problem => task.problem,
+        File::Plan => plan,
+    }
+}
+
+fn kind(failure: &Failure) -> (Fault, Option<u64>) {
+    let number = |cause: &Cause| cause.step().map(StepIndex::number);
+    match failure {
+        Failure::Step { step, fault } => {
+            let fault = match fault {
+                StepFault::UnknownAction => Fault::UnknownAction,
+                StepFault::Arity { .. } => Fault::Arity,
+                StepFault::Type { .. } => Fault::Type,
+                StepFault::NoDuration => Fault::Duration,
+            };
+            (fault, Some(step.number()))
+        }
+        Failure::Precondition { at, .. } => (Fault::Precondition, number(at)),
+        Failure::Duration { step, .. } => (Fault::Duration, Some(step.number())),
+        Failure::Invariant { step, .. } => (Fault::Invariant, Some(step.number())),
+        Failure::Interference { first, second, .. } => {
+            (Fault::Interference, number(second).or_else(|| number(first)))
+        }
+        Failure::Effect { at, fault } => {
+            let fault = match fault {
+                validator::EffectFault::Conflict { .. } => Fault::Conflict,
+                validator::EffectFault::Numeric(_) => Fault::Undefined,
+            };
+            (fault, number(at))
+        }
+        Failure::Change { .. } | Failure::EndlessEvents { .. } => (Fault::Change, None),
+        Failure::Constraint { .. } => (Fault::Constraint, None),
+        Failure::Network { fault } => (network(fault), None),
+        Failure::Goal { .. } => (Fault::Goal, None),
+    }
+}
+
+fn network(fault: &NetworkFault) -> Fault {
+    match fault {
+        NetworkFault::Subtasks { of: Parent::Root, .. } | NetworkFault::NoNetwork => Fault::Root,
+        NetworkFault::Subtasks { of: Parent::Task(_), .. } => Fault::Subtasks,
+        NetworkFault::Unknown { .. }
+        | NetworkFault::Arguments { .. }
+        | NetworkFault::Method { .. }
+        | NetworkFault::MethodArguments { .. } => Fault::Method,
+        NetworkFault::Cycle { .. } => Fault::Cycle,
+        NetworkFault::Shared { .. } => Fault::Shared,
+        NetworkFault::Orphan { .. } => Fault::Orphan,
+        NetworkFault::Constraints { .. } => Fault::MethodConstraint,
+        NetworkFault::Ordering { .. } => Fault::Ordering,
+        NetworkFault::Precondition { .. } => Fault::MethodPrecondition,
+        NetworkFault::NoDecomposition { .. } => Fault::Decomposition,
+    }
+}
+
+/// The literals that a condition lacks, as PDDL.
+struct Literals<'a> {
+    suite: &'a Suite,
+    task: &'a Task<'a>,
+    /// The file that the condition stands in.
+    file: SourceId,
+}
+
+impl Literals<'_> {
+    fn of(&self, parts: &[Unsatisfied], found: &mut Vec<String>) {
+        let Task { domain, problem, .. } = self.task;
+        let object = |id| problem.objects.get(id).map_or("?", |object| object.name.as_str()).to_owned();
+        for part in parts {
+            let (text, wanted) = match part {
+                Unsatisfied::Missing { atom, .. } => (validator::show_atom(domain, problem, atom), true),
+                Unsatisfied::Present { atom, .. } => (validator::show_atom(domain, problem, atom), false),
+                Unsatisfied::Type { object: one, types, wanted, .. } => {
+                    let names: Vec<&str> = types.0.iter().map(|&t| domain.types[t].name.as_str()).collect();
+                    let types = match names.as_slice() {
+                        [one] => (*one).to_owned(),
+                        several => format!("(either {})", several.join(" ")),
+                    };
+                    (format!("(sortof {} - {types})", object(*one)), *wanted)
+                }
+                Unsatisfied::Different { left, right, .. } => {
+                    (format!("(= {} {})", object(*left), object(*right)), true)
+                }
+                Unsatisfied::Same { object: one, .. } => {
+                    (format!("(= {} {})", object(*one), object(*one)), false)
+                }
+                Unsatisfied::Comparison { wanted, span, .. } => (self.written(*span), *wanted),
+                Unsatisfied::Fluent { fluent, value, wanted, .. } => {
+                    let fluent = validator::show_application(domain, problem, fluent);
+                    (format!("(= {fluent} {})", object(*value)), *wanted)
+                }
+                Unsatisfied::Alternatives { branches, .. } => {
+                    for branch in branches {
+                        self.of(branch, found);
+                    }
+                    continue;
+                }
+                Unsatisfied::Counterexample { parts, .. } => {
+                    self.of(parts, found);
+                    continue;
+                }
+                Unsatisfied::NoWitness { closest, .. } => {
+                    if let Some(near) = closest {
+                        self.of(&near.parts, found);
+                    }
+                    continue;
+                }
+            };
+            let text = literal(&if wanted { text } else { format!("(not {text})") });
+            if !found.contains(&text) {
+                found.push(text);
+            }
+        }
+    }
+
+    fn written(&self, span: Span) -> String {
+        let source: &Source = self.suite.source(self.file);
+        source.text().get(span.range()).unwrap_or("").to_owned()
+    }
+}
+
+/// PDDL in the one spelling that is compared: lower case, single spaces, none inside parentheses.
+pub(crate) fn literal(text: &str) -> String {
+    let spaced = text.to_lowercase().replace('(', " ( ").replace(')', " ) ");
+    let mut written = String::new();
+    for word in spaced.split_whitespace() {
+        if !(written.is_empty() || written.ends_with('(') || word == ")") {
+            written.push(' ');
+        }
+        written.push_str(word);
+    }
+    written
+}
+
+fn describe_wanted(case: &PlanCase) -> String {
+    let details = &case.details;
+    let mut more = Vec::new();
+    more.extend(details.cost.map(|cost| format!("cost {}", cost.value)));
+    more.extend(details.why.as_ref().map(|why| match &why.value {
+        Why::Fault(fault) => fault.to_string(),
+        Why::Code(code) => code.clone(),
+    }));
+    more.extend(details.step.map(|step| format!("step {}", step.value)));
+    more.extend(details.line.map(|line| format!("line {}", line.value)));
+    more.extend(details.missing.iter().map(|literal| format!("missing {}", literal.value)));
+    more.extend(details.says.iter().map(|text| format!("saying `{}`", text.value)));
+    with_details(case.verdict.word(), &more)
+}
+
+impl Found {
+    /// `invalid (precondition, step 2, missing (free))`
+    pub(crate) fn describe(&self) -> String {
+        match self {
+            Self::Valid { cost } => with_details("valid", &[format!("cost {cost}")]),
+            Self::Invalid { fault, step, missing, .. } => {
+                let mut more = vec![fault.to_string()];
+                more.extend(step.map(|step| format!("step {step}")));
+                more.extend(missing.iter().map(|literal| format!("missing {literal}")));
+                with_details("invalid", &more)
+            }
+            Self::Unreadable { errors, .. } => {
+                let errors: Vec<_> =
+                    errors.iter().map(|(code, line)| format!("{code} at line {line}")).collect();
+                with_details("a text that is no plan", &errors)
+            }
+            Self::Unsupported { .. } => "unsupported".to_owned(),
+        }
+    }
+}
+
+fn with_details(word: &str, details: &[String]) -> String {
+    if details.is_empty() { word.to_owned() } else { format!("{word} ({})", details.join(", ")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::literal;
+
+    #[test]
+    fn spelling_does_not_count() {
+        assert_eq!(literal(" ( NOT\n(at  ?x a ) )"), "(not (at ?x a))");
+        assert_eq!(literal("(>=(level)0.5)"), "(>= (level) 0.5)");
+    }
+}
