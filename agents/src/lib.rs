@@ -8,7 +8,7 @@
 //! use agents::{Runtime, compile, skills};
 //! use dsr::Time;
 //! use pddl::{Source, parse_domain, parse_problem};
-//! use vocabulary::Vocabulary;
+//! use vocabulary::Tokens;
 //!
 //! let words = Source::new("lab.pddl", "(define (domain lab) (:requirements :typing :vocabulary)
 //!     (:types symbol agent resource - object  robot wish - symbol)
@@ -16,7 +16,7 @@
 //!     (:predicates (wants ?r - robot ?w - wish) (says ?r - robot ?w - wish))
 //!     (:writes speech says wants))");
 //! let words = parse_domain(&words, &[]).model.expect("no errors");
-//! let vocabulary = Vocabulary::new(&words).expect("every token is binary");
+//! let vocabulary = Tokens::new(&words).expect("every token is binary");
 //! let rules = Source::new("speech.pddl", "(define (domain speech)
 //!     (:requirements :typing :durative-actions :agent-rules) (:import lab)
 //!     (:durative-action say

@@ -16,7 +16,7 @@ use hal::Device;
 use hal::sim::{ClinicianScript, PatientScript, RoomEvent, SimRoom};
 use pddl::parse_problem;
 use tokio::time::sleep;
-use vocabulary::{FunctionToken, Vocabulary};
+use vocabulary::{FunctionToken, Tokens};
 
 fn folder(path: &str) -> Vec<PathBuf> {
     let mut paths: Vec<_> =
@@ -30,10 +30,10 @@ fn every_agent_of_every_robot_compiles() {
     let mut count = 0;
     for robot in folder("robots") {
         let words = domain(&robot.join("vocabulary.pddl"), &[]);
-        let vocabulary = Vocabulary::new(&words).unwrap();
+        let tokens = Tokens::new(&words).unwrap();
         for file in fs::read_dir(robot.join("agents")).unwrap().map(|file| file.unwrap().path()) {
             let rules = domain(&file, &[&words]);
-            let agent = compile(&rules, &vocabulary, &agents::skills::standard())
+            let agent = compile(&rules, &tokens, &agents::skills::standard())
                 .unwrap_or_else(|errors| panic!("{}: {errors:#?}", file.display()));
             assert!(agent.rule_ids().count() > 0);
             count += 1;
@@ -44,7 +44,7 @@ fn every_agent_of_every_robot_compiles() {
 
 /// CLARC with a test's nodes, and a hand that writes what PELEA would.
 struct Session {
-    vocabulary: Vocabulary,
+    tokens: Tokens,
     graph: Graph,
     agents: Vec<Arc<Agent>>,
     room: SimRoom,
@@ -63,7 +63,7 @@ impl Words for AnyWords {
     }
 
     fn options(&self, part: &str) -> Vec<(String, String)> {
-        let (Some(part), Some(offers)) = (self.0.node(part), self.0.dictionary().label("offers")) else {
+        let (Some(part), Some(offers)) = (self.0.node(part), self.0.vocabulary().label("offers")) else {
             return Vec::new();
         };
         let edges = self.0.get(part).unwrap().edges().filter(|edge| edge.key.label == offers);
@@ -88,19 +88,19 @@ impl Session {
     fn new(graph: &PathBuf, patient: PatientScript) -> Self {
         let robot = root().join("../robots/clarc");
         let words = domain(&robot.join("vocabulary.pddl"), &[]);
-        let vocabulary = Vocabulary::new(&words).unwrap();
+        let tokens = Tokens::new(&words).unwrap();
         let problems = [&robot.join("world.pddl"), graph]
             .map(|path| parse_problem(&source(path), &words).model.unwrap());
-        let graph = vocabulary.populate(&problems.each_ref(), Time(0)).unwrap();
+        let graph = tokens.populate(&problems.each_ref(), Time(0)).unwrap();
         let agents = folder("robots/clarc/agents")
             .iter()
             .map(|file| {
                 let rules = domain(file, &[&words]);
-                Arc::new(compile(&rules, &vocabulary, &agents::skills::standard()).unwrap())
+                Arc::new(compile(&rules, &tokens, &agents::skills::standard()).unwrap())
             })
             .collect();
         let room = SimRoom::new(patient, ClinicianScript::default());
-        Self { vocabulary, graph, agents, room, clock: TokioClock::start() }
+        Self { tokens, graph, agents, room, clock: TokioClock::start() }
     }
 
     /// Runs the agents while `director` acts.
@@ -118,7 +118,7 @@ impl Session {
     /// The first node of a type, none of its subtypes.
     fn node(&self, node_type: &str) -> NodeId {
         let snapshot = self.graph.snapshot();
-        let wanted = self.vocabulary.dictionary().node_type(node_type).unwrap();
+        let wanted = self.tokens.vocabulary().node_type(node_type).unwrap();
         snapshot.nodes_of(wanted).find(|&id| snapshot.get(id).unwrap().node_type() == wanted).unwrap()
     }
 
@@ -127,15 +127,13 @@ impl Session {
     }
 
     fn pelea(&self, write: impl FnOnce(&mut Transaction)) {
-        let pelea = self.vocabulary.dictionary().agent("pelea").unwrap();
+        let pelea = self.tokens.vocabulary().agent("pelea").unwrap();
         self.graph.edit(pelea, self.clock.now(), write).unwrap();
     }
 
     /// `(assign (FUNCTION test part) value)`.
     fn assign(&self, function: &str, part: NodeId, value: NodeId) {
-        let Some(FunctionToken::Edge { label, attribute }) = self.vocabulary.function(function) else {
-            panic!()
-        };
+        let Some(FunctionToken::Edge { label, attribute }) = self.tokens.function(function) else { panic!() };
         let test = self.node("test");
         self.pelea(|tx| {
             tx.add_edge(test, label, part);
@@ -145,7 +143,7 @@ impl Session {
 
     /// Adds an edge, or removes it.
     fn edge(&self, add: bool, from: NodeId, label: &str, to: NodeId) {
-        let label = self.vocabulary.label(label).unwrap();
+        let label = self.tokens.label(label).unwrap();
         self.pelea(|tx| {
             if add {
                 tx.add_edge(from, label, to);
@@ -159,7 +157,7 @@ impl Session {
     fn enter_item(&self) -> NodeId {
         let (test, item) = (self.node("test"), self.node("item"));
         let snapshot = self.graph.snapshot();
-        let is_in = self.vocabulary.label("is_in").unwrap();
+        let is_in = self.tokens.label("is_in").unwrap();
         let old = snapshot.get(test).unwrap().edges().find(|edge| edge.key.label == is_in);
         if let Some(old) = old {
             self.edge(false, test, "is_in", old.key.to);

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use agents::{compile, skills};
 use pddl::{Source, parse_domain};
-use vocabulary::Vocabulary;
+use vocabulary::Tokens;
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().to_owned()
@@ -20,6 +20,6 @@ fn the_example_of_the_page_compiles() {
     let example = page.split("```pddl\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
     let parsed = parse_domain(&Source::new("docs/rules.md", example), &[&words]);
     assert!(parsed.diagnostics.is_empty(), "{:#?}", parsed.diagnostics);
-    let agent = compile(&parsed.model.unwrap(), &Vocabulary::new(&words).unwrap(), &skills::standard());
+    let agent = compile(&parsed.model.unwrap(), &Tokens::new(&words).unwrap(), &skills::standard());
     assert_eq!(agent.unwrap().rule_ids().count(), 1);
 }

@@ -20,7 +20,7 @@ fn mistakes_are_reported_where_they_are() {
     for file in files {
         let rules = domain(&file, &[&lab.words]);
         let text = source(&file);
-        let errors = compile(&rules, &lab.vocabulary, &agents::skills::standard())
+        let errors = compile(&rules, &lab.tokens, &agents::skills::standard())
             .err()
             .unwrap_or_else(|| panic!("{} compiles", file.display()));
         let mut lines = String::new();

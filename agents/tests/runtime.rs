@@ -241,7 +241,7 @@ fn an_agent_that_was_declared_dead_and_is_not_starts_again() {
     let mut bench = Bench::new(&["talker"]);
     bench.direct(1, &["+robot shall_say hello"]);
     bench.log();
-    let talker = bench.lab.graph.dictionary().agent("talker").unwrap();
+    let talker = bench.lab.graph.vocabulary().agent("talker").unwrap();
     bench.lab.graph.expire(talker, at(2)).unwrap();
     bench.settle(2);
     expect![[r#"

@@ -3,7 +3,7 @@
 //! What does not fit together is found here, before anything moves, and said with its place. `run` and `check`
 //! both come through here, so a mission that passes the check is a mission that runs.
 //!
-//! Codes: E10xx. E1001 dictionary, E1002 world and graph, E1003 rules, E1004 perception, E1005 methods,
+//! Codes: E10xx. E1001 vocabulary, E1002 world and graph, E1003 rules, E1004 perception, E1005 methods,
 //! E1006 planning problem, E1007 a condition of a scenario (`scenario`).
 
 use crate::console::Console;
@@ -23,11 +23,11 @@ use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use vocabulary::Vocabulary;
+use vocabulary::Tokens;
 
 /// A mission ready to run.
 pub(crate) struct Assembly {
-    pub(crate) vocabulary: Vocabulary,
+    pub(crate) vocabulary: Tokens,
     pub(crate) graph: Graph,
     pub(crate) agents: Vec<Arc<Agent>>,
     pub(crate) wheel: Wheel,
@@ -85,7 +85,7 @@ pub(crate) fn assemble(mission: &Mission) -> (Option<Assembly>, Vec<Finding>) {
 /// Compiles all layers; `None` if one has errors, which are added to `findings`.
 fn put_together(mission: &Mission, findings: &mut Vec<Finding>) -> Option<Assembly> {
     let layers = &mission.layers;
-    let vocabulary = Vocabulary::new(&layers.vocabulary.model).map_err(|errors| {
+    let vocabulary = Tokens::new(&layers.vocabulary.model).map_err(|errors| {
         findings.extend(errors.iter().map(|e| finding("E1001", layers.vocabulary.source, e.span, e)));
     });
     // Without words nothing else can be read.

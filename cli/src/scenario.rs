@@ -16,7 +16,7 @@ use mission::{Mission, MissionErrors};
 use pddl::Span;
 use std::collections::BTreeMap;
 use std::path::Path;
-use vocabulary::{Binding, Condition, Vocabulary};
+use vocabulary::{Binding, Condition, Tokens};
 
 /// A condition over the graph, ready to be held against it.
 pub(crate) struct Watch {
@@ -97,7 +97,7 @@ pub(crate) fn read(mission: &Mission, name: &str) -> Result<Scenario, ScenarioEr
 pub(crate) fn stage(
     scenario: Scenario,
     mission: &Mission,
-    vocabulary: &Vocabulary,
+    vocabulary: &Tokens,
 ) -> Result<Staged, ScenarioError> {
     let link = vocabulary.link(&mission.layers.nodes);
     let mut mistakes = Vec::new();

@@ -1,7 +1,7 @@
 //! A run is journaled, and `pelea dsr` looks at it: states, history, differences, questions, MCAP, torn and damaged files.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use dsr::{AgentId, DictionaryBuilder, Graph, Isometry3, Nature, Reflex, Time, Transaction};
+use dsr::{AgentId, Graph, Isometry3, Nature, Reflex, Time, Transaction, VocabularyBuilder};
 use pelea::{Console, Exit};
 use std::path::Path;
 
@@ -123,7 +123,7 @@ fn a_world_of_cortex_is_taken_over() {
 
 #[test]
 fn what_no_change_shows_is_told_and_foxglove_gets_what_it_knows() {
-    let mut builder = DictionaryBuilder::new();
+    let mut builder = VocabularyBuilder::new();
     let place = builder.node_type("place", None, Nature::Geometric).unwrap();
     let speech = builder.agent("speech").unwrap();
     let graph = Graph::new(builder.build());
@@ -214,12 +214,12 @@ fn what_no_change_shows_is_told_and_foxglove_gets_what_it_knows() {
 #[test]
 fn segments_of_another_history_are_noted_and_damaged_ones_are_errors() {
     let folder = tempfile::tempdir().unwrap();
-    let mut builder = DictionaryBuilder::new();
+    let mut builder = VocabularyBuilder::new();
     let place = builder.node_type("place", None, Nature::Symbolic).unwrap();
-    let dictionary = builder.build();
+    let vocabulary = builder.build();
     // Times that fall: versions order, not they.
     for times in [[0, 10, 20], [0, 10, 5]] {
-        let graph = Graph::new(dictionary.clone());
+        let graph = Graph::new(vocabulary.clone());
         let store = dsr::Folder::new(folder.path()).unwrap();
         let journal = graph.journal(store, dsr::Settings::default()).unwrap();
         for seconds in times {

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-use dsr::{AgentId, DictionaryBuilder, Graph, Isometry3, Nature, Snapshot, Time};
+use dsr::{AgentId, Graph, Isometry3, Nature, Snapshot, Time, VocabularyBuilder};
 
 const DEPTHS: [usize; 3] = [1, 10, 50];
 
@@ -41,7 +41,7 @@ fn pose(at: u64) -> Isometry3<f64> {
 
 /// Frames f0 … f50 below each other, each with a hundred poses, ten a second.
 fn chain() -> Snapshot {
-    let mut b = DictionaryBuilder::new();
+    let mut b = VocabularyBuilder::new();
     let frame = b.node_type("frame", None, Nature::Geometric).unwrap();
     let graph = Graph::new(b.build());
     graph

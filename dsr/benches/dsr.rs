@@ -68,9 +68,9 @@ fn looks(c: &mut Criterion) {
 
 fn subscriptions(c: &mut Criterion) {
     let ward = ward(10_000);
-    let dictionary = ward.graph.dictionary();
-    let mut pattern = PatternBuilder::new(&dictionary);
-    let next = pattern.variable("next", dictionary.node_type("place").unwrap());
+    let vocabulary = ward.graph.vocabulary();
+    let mut pattern = PatternBuilder::new(&vocabulary);
+    let next = pattern.variable("next", vocabulary.node_type("place").unwrap());
     pattern.edge("n0", ward.label, next).edge(next, ward.label, "n9");
     let pattern = Arc::new(pattern.build().unwrap());
     let now = ward.graph.snapshot();
@@ -90,17 +90,17 @@ fn subscriptions(c: &mut Criterion) {
     });
     drop(matches);
 
-    let place = dictionary.node_type("place").unwrap();
+    let place = vocabulary.node_type("place").unwrap();
     // Patterns of three nodes, of which one matches what changes: two of its nodes named, or none of them.
     let named = |at: usize| {
-        let mut pattern = PatternBuilder::new(&dictionary);
+        let mut pattern = PatternBuilder::new(&vocabulary);
         let between = pattern.variable("between", place);
         let (start, end) = (format!("n{}", 5 + 8 * at), format!("n{}", 10 + 8 * at));
         pattern.edge(start.as_str(), ward.label, between).edge(between, ward.label, end.as_str());
         pattern.build().unwrap()
     };
     let nameless = |at: usize| {
-        let mut pattern = PatternBuilder::new(&dictionary);
+        let mut pattern = PatternBuilder::new(&vocabulary);
         let [a, b, d] = ["a", "b", "d"].map(|name| pattern.variable(name, place));
         pattern.edge(a, ward.label, b).edge(b, ward.label, d);
         #[expect(clippy::cast_precision_loss, reason = "small")]
@@ -113,7 +113,7 @@ fn subscriptions(c: &mut Criterion) {
         follow(c, &ward, &format!("patterns/{count} without names, one concerned"), (0..count).map(nameless));
     }
     // One pattern with ten thousand matches: the change is one of them.
-    let mut open = PatternBuilder::new(&dictionary);
+    let mut open = PatternBuilder::new(&vocabulary);
     let [a, b, d] = ["a", "b", "d"].map(|name| open.variable(name, place));
     open.edge(a, ward.label, b).edge(b, ward.label, d);
     open.without(|p| _ = p.edge(a, ward.label, d));

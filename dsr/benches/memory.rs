@@ -2,7 +2,7 @@
 //! `cargo bench -p pelea-dsr --bench memory`; Linux only, elsewhere it says so.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a bench that fails says where, and prints")]
 
-use dsr::{AgentId, DictionaryBuilder, Graph, Kind, Nature, Time};
+use dsr::{AgentId, Graph, Kind, Nature, Time, VocabularyBuilder};
 
 /// Bytes resident now.
 fn resident() -> Option<usize> {
@@ -16,7 +16,7 @@ fn main() {
         return;
     };
     const NODES: usize = 1_000_000;
-    let mut b = DictionaryBuilder::new();
+    let mut b = VocabularyBuilder::new();
     let place = b.node_type("place", None, Nature::Geometric).unwrap();
     let label = b.label("next", place, place).unwrap();
     let numbers: Vec<_> =

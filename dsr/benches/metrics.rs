@@ -9,8 +9,8 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use dsr::{
-    AgentId, Comparison, Dictionary, DictionaryBuilder, Graph, Isometry3, LabelId, Nature, NodeId,
-    PatternBuilder, Time, Transaction, TypeId,
+    AgentId, Comparison, Graph, Isometry3, LabelId, Nature, NodeId, PatternBuilder, Time, Transaction,
+    TypeId, Vocabulary, VocabularyBuilder,
 };
 
 const PERSONS: u32 = 1_000;
@@ -34,7 +34,7 @@ fn round_table(at: u32) -> Isometry3<f64> {
 }
 
 fn crowd() -> Crowd {
-    let mut b = DictionaryBuilder::new();
+    let mut b = VocabularyBuilder::new();
     let frame = b.node_type("frame", None, Nature::Geometric).unwrap();
     let person = b.node_type("person", Some(frame), Nature::Symbolic).unwrap();
     let robot = b.node_type("robot", Some(frame), Nature::Symbolic).unwrap();
@@ -62,8 +62,8 @@ type Write = fn(&mut PatternBuilder<'_>, &Crowd);
 /// One frame or several move to and fro.
 fn follow(c: &mut Criterion, name: &str, write: Write, moves: impl Fn(&Crowd, bool, &mut Transaction)) {
     let crowd = crowd();
-    let dictionary: &Dictionary = &crowd.graph.dictionary();
-    let mut pattern = PatternBuilder::new(dictionary);
+    let vocabulary: &Vocabulary = &crowd.graph.vocabulary();
+    let mut pattern = PatternBuilder::new(vocabulary);
     write(&mut pattern, &crowd);
     let mut matches = crowd.graph.subscribe(pattern.build().unwrap());
     while matches.try_recv().is_some() {}

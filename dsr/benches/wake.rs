@@ -31,8 +31,8 @@ fn percentiles(mut times: Vec<Duration>) -> [Duration; 3] {
 
 fn main() {
     let ward = ward(10_000);
-    let dictionary = ward.graph.dictionary();
-    let place = dictionary.node_type("place").unwrap();
+    let vocabulary = ward.graph.vocabulary();
+    let place = vocabulary.node_type("place").unwrap();
     let (answer, answers): (Sender<Instant>, Receiver<Instant>) = channel();
 
     let (send, bare) = channel::<()>();
@@ -45,7 +45,7 @@ fn main() {
 
     // Each subscriber has a pair of nodes of its own, so that a commit wakes one thread.
     let deltas_pattern = |from: usize, to: usize| {
-        let mut pattern = PatternBuilder::new(&dictionary);
+        let mut pattern = PatternBuilder::new(&vocabulary);
         let between = pattern.variable("between", place);
         let (start, end) = (format!("n{from}"), format!("n{to}"));
         pattern.edge(start.as_str(), ward.label, between).edge(between, ward.label, end.as_str());

@@ -12,8 +12,8 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use dsr::{
-    AgentId, AttributeId, DictionaryBuilder, DictionaryError, Graph, Kind, Nature, NodeId, PatternBuilder,
-    Snapshot, Time, TransactionError, Value,
+    AgentId, AttributeId, Graph, Kind, Nature, NodeId, PatternBuilder, Snapshot, Time, TransactionError,
+    Value, VocabularyBuilder, VocabularyError,
 };
 
 const THREADS: usize = 8;
@@ -28,7 +28,7 @@ struct World {
 #[derive(Debug, thiserror::Error)]
 enum Failure {
     #[error(transparent)]
-    Dictionary(#[from] DictionaryError),
+    Vocabulary(#[from] VocabularyError),
     #[error(transparent)]
     Transaction(#[from] TransactionError),
     #[error(transparent)]
@@ -40,7 +40,7 @@ enum Failure {
 }
 
 fn world() -> Result<World, Failure> {
-    let mut builder = DictionaryBuilder::new();
+    let mut builder = VocabularyBuilder::new();
     let place = builder.node_type("place", None, Nature::Symbolic)?;
     let count = builder.attribute_on_node("count", place, Kind::Number)?;
     let graph = Graph::new(builder.build());
@@ -147,9 +147,9 @@ enum Beside {
 
 fn run(seconds: u64, beside: Beside) -> Result<(), Failure> {
     let world = world()?;
-    let dictionary = world.graph.dictionary();
-    let mut pattern = PatternBuilder::new(&dictionary);
-    let place = pattern.variable("place", dictionary.node_type("place").unwrap_or(dsr::TypeId::OBJECT));
+    let vocabulary = world.graph.vocabulary();
+    let mut pattern = PatternBuilder::new(&vocabulary);
+    let place = pattern.variable("place", vocabulary.node_type("place").unwrap_or(dsr::TypeId::OBJECT));
     pattern.present(place, world.count);
     let pattern = pattern.build()?;
     let stalled = matches!(beside, Beside::Stalled)

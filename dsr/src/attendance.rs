@@ -32,7 +32,7 @@ impl Attendance {
 
 impl Drop for Attendance {
     fn drop(&mut self) {
-        // Refused only for an agent of another dictionary, which holds nothing here.
+        // Refused only for an agent of another vocabulary, which holds nothing here.
         let _ = self.graph.expire(self.agent, self.graph.snapshot().time());
     }
 }

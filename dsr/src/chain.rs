@@ -22,10 +22,10 @@ use nalgebra::Isometry3;
 use smallvec::SmallVec;
 
 use crate::block::{Frames, Joint, place};
-use crate::dictionary::Nature;
 use crate::id::{NodeId, Time};
 use crate::pose::{Pose, Uncertain};
 use crate::state::State;
+use crate::vocabulary::Nature;
 
 /// Why there is no chain.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -197,7 +197,7 @@ impl State {
 
     fn known_frame(&self, id: NodeId) -> Result<(), ChainError> {
         let node = self.node(id).ok_or(ChainError::UnknownNode { node: id })?;
-        if self.dictionary.nature(node.node_type()) == Some(Nature::Geometric) {
+        if self.vocabulary.nature(node.node_type()) == Some(Nature::Geometric) {
             return Ok(());
         }
         Err(ChainError::NotGeometric { node: self.name(id) })

@@ -1,6 +1,6 @@
 //! Worlds of RoboComp's cortex as graphs of ours: its JSON files with `DSRModel` and `symbols`.
 //!
-//! Problem: their types, labels and attributes are whatever the file has; ours are declared. Idea: the dictionary is what
+//! Problem: their types, labels and attributes are whatever the file has; ours are declared. Idea: the vocabulary is what
 //! the file uses. Node types stand below `object`, geometric where an `RT` link touches one; a label goes between the
 //! types that it goes between; an attribute sits on the one type that has it, or on `object`. Lists of numbers become
 //! one attribute each (`size_0`, `size_1` …), since our attributes hold one value. An `RT` link is a transform: translation
@@ -25,10 +25,10 @@ use self::attributes::{Attributes, Found};
 use self::file::Model;
 use self::names::Names;
 use self::ring::Placed;
-use crate::dictionary::{Dictionary, DictionaryBuilder, DictionaryError, Nature};
 use crate::graph::Graph;
 use crate::id::{AgentId, LabelId, Time, TypeId};
 use crate::transaction::{HolderRef, Transaction, TransactionError};
+use crate::vocabulary::{Nature, Vocabulary, VocabularyBuilder, VocabularyError};
 
 /// A file of cortex.
 #[derive(Debug, Clone, Deserialize, Serialize)]
@@ -66,9 +66,9 @@ pub enum CortexError {
     /// An RT link without three numbers each.
     #[error("link `RT` from `{parent}` to `{child}` has no translation and rotation of three numbers")]
     NoPose { parent: String, child: String },
-    /// Tokens that no dictionary has.
+    /// Tokens that no vocabulary has.
     #[error(transparent)]
-    Dictionary(#[from] DictionaryError),
+    Vocabulary(#[from] VocabularyError),
     /// Not a graph that keeps the invariants: a second root, a cycle, a second parent.
     #[error(transparent)]
     Transaction(#[from] TransactionError),
@@ -109,8 +109,8 @@ struct Spaces {
 
 impl Spaces {
     fn new() -> Self {
-        let own = DictionaryBuilder::new().build();
-        let own: &Dictionary = &own;
+        let own = VocabularyBuilder::new().build();
+        let own: &Vocabulary = &own;
         let agents = own.agents().filter_map(|id| own.agent_name(id)).map(ToString::to_string);
         Self {
             // Our agents are nodes, too.
@@ -132,7 +132,7 @@ struct Kinds {
 
 impl Kinds {
     fn declare(
-        builder: &mut DictionaryBuilder,
+        builder: &mut VocabularyBuilder,
         (nodes, edges, joints): (&[Node], &[Edge], &[Joint]),
         names: &mut Spaces,
         notes: &mut Vec<String>,
@@ -169,7 +169,7 @@ impl CortexWorld {
         let (nodes, ids) = self.nodes(&mut names.nodes, &mut notes)?;
         let (edges, joints) = self.links(&nodes, &ids, unit, &mut notes)?;
 
-        let mut builder = DictionaryBuilder::new();
+        let mut builder = VocabularyBuilder::new();
         let kinds = Kinds::declare(&mut builder, (&nodes, &edges, &joints), &mut names, &mut notes)?;
         let used = (&*nodes, &*edges);
         let attributes = Attributes::declare(&mut builder, used, &kinds, &mut names.attributes, &mut notes)?;

@@ -1,6 +1,6 @@
 //! A state as plain data: for files, for people, and for comparing states byte by byte.
 //!
-//! Everything is by name, sorted, and complete: two states of one dictionary are the same exactly when their
+//! Everything is by name, sorted, and complete: two states of one vocabulary are the same exactly when their
 //! exports are. Reflexes are not in it; they belong to activities that run, and die with the process.
 
 use std::sync::Arc;
@@ -8,13 +8,13 @@ use std::sync::Arc;
 use nalgebra::{Isometry3, Quaternion, Translation3, Unit};
 use serde::{Deserialize, Serialize};
 
-use crate::dictionary::Dictionary;
 use crate::id::{AttributeId, EdgeKey, Holder, NodeId, Time, Version};
 use crate::pose::{Covariance, Pose};
 use crate::snapshot::{AttributeView, Snapshot};
 use crate::state::State;
 use crate::transaction::TransactionError;
 use crate::value::Value;
+use crate::vocabulary::Vocabulary;
 
 /// A state as plain data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -141,7 +141,7 @@ impl Snapshot {
         self.nodes().map(|node| ExportedNode {
             id: node.id,
             name: node.name().into(),
-            node_type: self.dictionary().type_name(node.node_type()).cloned().unwrap_or_default(),
+            node_type: self.vocabulary().type_name(node.node_type()).cloned().unwrap_or_default(),
             since: node.since(),
             attributes: node.attributes().map(|view| self.export_attribute(view)).collect(),
         })
@@ -151,7 +151,7 @@ impl Snapshot {
     pub(crate) fn exported_edges(&self) -> impl Iterator<Item = ExportedEdge> + '_ {
         self.edges().map(|edge| ExportedEdge {
             from: self.state().name(edge.key.from),
-            label: self.dictionary().label_name(edge.key.label).cloned().unwrap_or_default(),
+            label: self.vocabulary().label_name(edge.key.label).cloned().unwrap_or_default(),
             to: self.state().name(edge.key.to),
             since: edge.since(),
             attributes: edge.attributes().map(|view| self.export_attribute(view)).collect(),
@@ -181,7 +181,7 @@ impl Snapshot {
 
     fn export_attribute(&self, view: AttributeView<'_>) -> ExportedAttribute {
         ExportedAttribute {
-            name: self.dictionary().attribute_name(view.attribute).cloned().unwrap_or_default(),
+            name: self.vocabulary().attribute_name(view.attribute).cloned().unwrap_or_default(),
             value: match view.value {
                 Value::Number(number) => ExportedValue::Number(*number),
                 Value::Text(text) => ExportedValue::Text(text.clone()),
@@ -204,12 +204,12 @@ fn pose_of([x, y, z]: [f64; 3], [i, j, k, w]: [f64; 4], covariance: Option<Arc<C
     Pose { transform: Isometry3::from_parts(Translation3::new(x, y, z), rotation), covariance }
 }
 
-/// Why plain data is no state of this dictionary.
+/// Why plain data is no state of this vocabulary.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the fields are the names that the variant is about")]
 pub enum RestoreError {
-    /// The dictionary does not have the token.
-    #[error("the dictionary has no '{name}'")]
+    /// The vocabulary does not have the token.
+    #[error("the vocabulary has no '{name}'")]
     UnknownToken { name: Arc<str> },
     /// Something hangs on a node that is not there.
     #[error("no node '{name}'")]
@@ -217,10 +217,10 @@ pub enum RestoreError {
     /// Two nodes share an id or a name, or an id is not below `next`.
     #[error("node '{name}' has a name or an id that is not its own")]
     NodeClash { name: Arc<str> },
-    /// The nodes of agents and resources are not those of the dictionary.
+    /// The nodes of agents and resources are not those of the vocabulary.
     #[error("'{name}' does not stand for the agent or the resource of that name")]
     NotOfDictionary { name: Arc<str> },
-    /// An edge that the dictionary does not allow.
+    /// An edge that the vocabulary does not allow.
     #[error("'{label}' does not go from '{from}' to '{to}'")]
     WrongEdge { from: Arc<str>, label: Arc<str>, to: Arc<str> },
     /// A value of the wrong kind, or an attribute of the wrong holder.
@@ -244,25 +244,25 @@ pub enum RestoreError {
 const LAST: u64 = 1 << 53;
 
 /// Rebuilds a state, checking that it is one.
-pub(crate) fn restore(dictionary: Arc<Dictionary>, export: &Export) -> Result<State, RestoreError> {
+pub(crate) fn restore(vocabulary: Arc<Vocabulary>, export: &Export) -> Result<State, RestoreError> {
     if export.version.0 > LAST {
         return Err(RestoreError::NoVersion { found: export.version });
     }
-    let mut state = State::empty(dictionary);
+    let mut state = State::empty(vocabulary);
     let mark = state.mark();
-    let dictionary = Arc::clone(&state.dictionary);
+    let vocabulary = Arc::clone(&state.vocabulary);
     for node in &export.nodes {
         let id = node.id;
         let clash = id >= export.next || state.node(id).is_some() || state.names.get(&node.name).is_some();
         if clash || node.name.is_empty() {
             return Err(RestoreError::NodeClash { name: node.name.clone() });
         }
-        let node_type = dictionary
+        let node_type = vocabulary
             .node_type(&node.node_type)
             .ok_or_else(|| RestoreError::UnknownToken { name: node.node_type.clone() })?;
         state.insert_node(id, node.name.clone(), node_type, node.since);
     }
-    check_built_in(&dictionary, &state)?;
+    check_built_in(&vocabulary, &state)?;
     for edge in &export.edges {
         let key = edge_key(&state, edge)?;
         state.insert_edge(key, edge.since);
@@ -291,10 +291,10 @@ fn find(state: &State, name: &Arc<str>) -> Result<NodeId, RestoreError> {
     state.names.get(name).ok_or_else(|| RestoreError::UnknownNode { name: name.clone() })
 }
 
-fn check_built_in(dictionary: &Dictionary, state: &State) -> Result<(), RestoreError> {
-    let agents = dictionary.agents().map(|id| (dictionary.agent_name(id), dictionary.agent_node(id)));
+fn check_built_in(vocabulary: &Vocabulary, state: &State) -> Result<(), RestoreError> {
+    let agents = vocabulary.agents().map(|id| (vocabulary.agent_name(id), vocabulary.agent_node(id)));
     let resources =
-        dictionary.resources().map(|id| (dictionary.resource_name(id), dictionary.resource_node(id)));
+        vocabulary.resources().map(|id| (vocabulary.resource_name(id), vocabulary.resource_node(id)));
     for (name, id) in agents.chain(resources) {
         if let Some(name) = name
             && state.names.get(name) != id
@@ -307,7 +307,7 @@ fn check_built_in(dictionary: &Dictionary, state: &State) -> Result<(), RestoreE
 
 fn edge_key(state: &State, edge: &ExportedEdge) -> Result<EdgeKey, RestoreError> {
     let label = state
-        .dictionary
+        .vocabulary
         .label(&edge.label)
         .ok_or_else(|| RestoreError::UnknownToken { name: edge.label.clone() })?;
     let key = EdgeKey { from: find(state, &edge.from)?, label, to: find(state, &edge.to)? };
@@ -324,7 +324,7 @@ fn restore_attribute(
     exported: &ExportedAttribute,
 ) -> Result<(), RestoreError> {
     let attribute: AttributeId = state
-        .dictionary
+        .vocabulary
         .attribute(&exported.name)
         .ok_or_else(|| RestoreError::UnknownToken { name: exported.name.clone() })?;
     let value = match &exported.value {

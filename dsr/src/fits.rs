@@ -6,11 +6,11 @@
 //! `transaction::tree`, leases and waits by `transaction::lease`.
 
 use crate::block::Node;
-use crate::dictionary::Nature;
 use crate::id::{AttributeId, EdgeKey, Holder, NodeId, TypeId};
 use crate::pose::Pose;
 use crate::state::State;
 use crate::value::{Kind, Value};
+use crate::vocabulary::Nature;
 
 impl State {
     fn type_of(&self, id: NodeId) -> Option<TypeId> {
@@ -21,28 +21,28 @@ impl State {
     pub(crate) fn edge_fits(&self, key: EdgeKey) -> bool {
         let EdgeKey { from, label, to } = key;
         let types = self.type_of(from).zip(self.type_of(to));
-        let allowed = types.is_some_and(|(start, end)| self.dictionary.allows(label, start, end));
+        let allowed = types.is_some_and(|(start, end)| self.vocabulary.allows(label, start, end));
         from != to && allowed && self.edge(key).is_none()
     }
 
     /// Whether an attribute may have this value there.
     pub(crate) fn value_fits(&self, holder: Holder, attribute: AttributeId, value: &Value) -> bool {
-        let dictionary = &self.dictionary;
-        let sits = dictionary.holder(attribute).is_some_and(|declared| match holder {
+        let vocabulary = &self.vocabulary;
+        let sits = vocabulary.holder(attribute).is_some_and(|declared| match holder {
             Holder::Node(node) => {
-                self.type_of(node).is_some_and(|found| declared.takes_node(found, dictionary))
+                self.type_of(node).is_some_and(|found| declared.takes_node(found, vocabulary))
             }
             Holder::Edge(key) => {
                 let ends = self.type_of(key.from).zip(self.type_of(key.to));
                 self.edge(key).is_some()
-                    && ends.is_some_and(|ends| declared.takes_edge(key.label, ends, dictionary))
+                    && ends.is_some_and(|ends| declared.takes_edge(key.label, ends, vocabulary))
             }
         });
-        sits && match (dictionary.kind(attribute), value) {
+        sits && match (vocabulary.kind(attribute), value) {
             (Some(Kind::Number), Value::Number(number)) => number.is_finite(),
             (Some(Kind::Text), Value::Text(_)) | (Some(Kind::Bool), Value::Bool(_)) => true,
             (Some(Kind::Node(target)), Value::Node(node)) => {
-                self.type_of(*node).is_some_and(|found| dictionary.is_a(found, target))
+                self.type_of(*node).is_some_and(|found| vocabulary.is_a(found, target))
             }
             _ => false,
         }
@@ -51,7 +51,7 @@ impl State {
     /// Whether a pose may be given between these two, if no other parent is in the way.
     pub(crate) fn pose_fits(&self, parent: NodeId, child: NodeId, pose: &Pose) -> bool {
         let geometric = |id| {
-            let nature = self.type_of(id).and_then(|found| self.dictionary.nature(found));
+            let nature = self.type_of(id).and_then(|found| self.vocabulary.nature(found));
             nature == Some(Nature::Geometric)
         };
         parent != child && geometric(parent) && geometric(child) && pose.is_rigid()

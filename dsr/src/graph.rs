@@ -15,7 +15,6 @@ use std::sync::{Arc, Weak};
 use smallvec::SmallVec;
 
 use crate::delta::Delta;
-use crate::dictionary::Dictionary;
 use crate::export::{self, Export, RestoreError};
 use crate::id::{AgentId, ReflexId, Time, Version};
 use crate::journal::feed::{Feed, Rest};
@@ -30,6 +29,7 @@ use crate::state::State;
 use crate::subscription::{Committed, Deltas, Mailbox, Matches, Queue, Wake};
 use crate::transaction::apply::{transact, warm};
 use crate::transaction::{Edit, Transaction, TransactionError};
+use crate::vocabulary::Vocabulary;
 
 /// What a successful commit made.
 #[derive(Debug, Clone)]
@@ -51,7 +51,7 @@ pub struct Graph {
 }
 
 struct Shared {
-    dictionary: Arc<Dictionary>,
+    vocabulary: Arc<Vocabulary>,
     past: Past,
     kernel: Kernel<State, Writers>,
 }
@@ -111,23 +111,23 @@ impl Observed {
 }
 
 impl Graph {
-    /// A graph with the nodes that stand for the dictionary's agents and resources, at version 0.
-    pub fn new(dictionary: Arc<Dictionary>) -> Self {
-        Self::with(State::new(dictionary))
+    /// A graph with the nodes that stand for the vocabulary's agents and resources, at version 0.
+    pub fn new(vocabulary: Arc<Vocabulary>) -> Self {
+        Self::with(State::new(vocabulary))
     }
 
     /// The graph of an export.
-    pub fn restore(dictionary: Arc<Dictionary>, export: &Export) -> Result<Self, RestoreError> {
-        Ok(Self::with(export::restore(dictionary, export)?))
+    pub fn restore(vocabulary: Arc<Vocabulary>, export: &Export) -> Result<Self, RestoreError> {
+        Ok(Self::with(export::restore(vocabulary, export)?))
     }
 
     /// The graph of an export and the deltas published after it.
     pub fn replay<'d>(
-        dictionary: Arc<Dictionary>,
+        vocabulary: Arc<Vocabulary>,
         initial: &Export,
         deltas: impl IntoIterator<Item = &'d Delta>,
     ) -> Result<Self, ReplayError> {
-        let mut state = export::restore(dictionary, initial)?;
+        let mut state = export::restore(vocabulary, initial)?;
         for delta in deltas {
             replay::apply(&mut state, delta)?;
         }
@@ -135,21 +135,21 @@ impl Graph {
     }
 
     fn with(state: State) -> Self {
-        let dictionary = Arc::clone(&state.dictionary);
+        let vocabulary = Arc::clone(&state.vocabulary);
         let (version, queues, feeds) = (state.version, Routes::default(), Vec::new());
         let writers = Writers { version, queues, feeds };
         Self {
             shared: Arc::new(Shared {
-                dictionary,
+                vocabulary,
                 past: Past::default(),
                 kernel: Kernel::new(state, writers),
             }),
         }
     }
 
-    /// The dictionary.
-    pub fn dictionary(&self) -> Arc<Dictionary> {
-        Arc::clone(&self.shared.dictionary)
+    /// The vocabulary.
+    pub fn vocabulary(&self) -> Arc<Vocabulary> {
+        Arc::clone(&self.shared.vocabulary)
     }
 
     /// The present state. Never waits, whatever writers do.
@@ -320,12 +320,12 @@ impl std::fmt::Debug for Graph {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dictionary::{DictionaryBuilder, Nature};
+    use crate::vocabulary::{Nature, VocabularyBuilder};
 
     /// Would wait for ever if a reader needed anything that a writer has.
     #[test]
     fn a_snapshot_is_taken_while_a_writer_is_at_work() {
-        let mut builder = DictionaryBuilder::new();
+        let mut builder = VocabularyBuilder::new();
         let place = builder.node_type("place", None, Nature::Symbolic).expect("a new type");
         let graph = Graph::new(builder.build());
         let add = |name: &str| {

@@ -1,8 +1,8 @@
-//! Identifiers: small copyable names for what the dictionary declares and the graph holds.
+//! Identifiers: small copyable names for what the vocabulary declares and the graph holds.
 //!
 //! Problem: strings are what people write and read, but comparing them on every edit is slow and a bare
 //! integer may be passed in the wrong place. Idea: one newtype over `u32` per kind of thing.
-//! Invariant: an id means something only with the dictionary (or the graph) that handed it out. A foreign
+//! Invariant: an id means something only with the vocabulary (or the graph) that handed it out. A foreign
 //! id is refused by name of the error, never by a panic.
 
 use serde::{Deserialize, Serialize};

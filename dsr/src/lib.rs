@@ -2,7 +2,7 @@
 //!
 //! What the robot perceives and what it does are written with the same tokens, in one graph, and nobody sends
 //! commands: agents watch patterns and write what they do. This crate is that graph. It checks every transaction
-//! against a [`Dictionary`] and the invariants of both quivers, hands out immutable [`Snapshot`]s, tells
+//! against a [`Vocabulary`] and the invariants of both quivers, hands out immutable [`Snapshot`]s, tells
 //! subscribers which matches of their [`Pattern`]s appeared and disappeared, leases exclusive resources, and
 //! lets the [`Reflex`]es of broken activities write in the very commit that broke them.
 //!
@@ -10,21 +10,21 @@
 //! bytes. A [`Journal`] writes them to a [`Store`] on a thread of its own, and a [`Recording`] gives every version back.
 //!
 //! ```
-//! use dsr::{AgentId, DictionaryBuilder, Graph, Nature, PatternBuilder, Time};
+//! use dsr::{AgentId, VocabularyBuilder, Graph, Nature, PatternBuilder, Time};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! let mut builder = DictionaryBuilder::new();
+//! let mut builder = VocabularyBuilder::new();
 //! let robot = builder.node_type("robot", None, Nature::Geometric)?;
 //! let activity = builder.node_type("activity", None, Nature::Symbolic)?;
 //! let is = builder.label("is", robot, activity)?;
-//! let dictionary = builder.build();
+//! let vocabulary = builder.build();
 //!
-//! let graph = Graph::new(dictionary.clone());
+//! let graph = Graph::new(vocabulary.clone());
 //! graph.edit(AgentId::DSR, Time(0), |tx| {
 //!     tx.add_node("clarc", robot).add_node("speaking", activity);
 //! })?;
 //!
-//! let mut pattern = PatternBuilder::new(&dictionary);
+//! let mut pattern = PatternBuilder::new(&vocabulary);
 //! let who = pattern.variable("who", robot);
 //! pattern.edge(who, is, "speaking");
 //! let mut speakers = graph.subscribe(pattern.build()?);
@@ -40,7 +40,7 @@
 //! # }
 //! ```
 //!
-//! Map, from the ground up: `id`, `unit`, `value` → `dictionary` → `pages`, `block`, `names`, `members`, `state` (what a snapshot
+//! Map, from the ground up: `id`, `unit`, `value` → `vocabulary` → `pages`, `block`, `names`, `members`, `state` (what a snapshot
 //! is), `pose`, `track`, `undo` → `transaction` (edits, leases, the tree of transforms), `delta`, `fits`, `replay`, `export` → `chain`, `pattern`,
 //! `reflex` → `snapshot`, `diff`, `past`, `sentence`, `view`, `quiver` → `subscription`,
 //! `routes`, `kernel` (how readers and writers keep out of each other's way), `graph`, `attendance` → `journal`,
@@ -51,7 +51,6 @@ mod block;
 mod chain;
 mod cortex;
 mod delta;
-mod dictionary;
 mod diff;
 mod export;
 mod fits;
@@ -81,15 +80,12 @@ mod undo;
 mod unit;
 mod value;
 mod view;
+mod vocabulary;
 
 pub use attendance::Attendance;
 pub use chain::ChainError;
 pub use cortex::{CortexError, CortexUnit, CortexWorld, Imported};
 pub use delta::{Change, Delta};
-pub use dictionary::{
-    Degree, Dictionary, DictionaryBuilder, DictionaryError, End, HolderType, Nature, Permission, Signature,
-    Token,
-};
 pub use export::{
     Export, ExportedAttribute, ExportedEdge, ExportedNode, ExportedSample, ExportedTransform, ExportedValue,
     RestoreError,
@@ -119,3 +115,7 @@ pub use transaction::{Edit, HolderRef, Lease, Preemption, Priority, Transaction,
 pub use unit::Unit;
 pub use value::{Kind, NewValue, NodeRef, Value};
 pub use view::View;
+pub use vocabulary::{
+    Degree, End, HolderType, Nature, Permission, Signature, Token, Vocabulary, VocabularyBuilder,
+    VocabularyError,
+};

@@ -2,7 +2,7 @@
 //!
 //! Problem: agents should see the part of the graph that concerns them, not all of it, and the mapping from
 //! subgraphs to actions should be text, not code in each agent. Idea: a conjunction of edges, types, attribute guards,
-//! inequalities, distances and negated conjunctions over typed variables, checked against the dictionary when it
+//! inequalities, distances and negated conjunctions over typed variables, checked against the vocabulary when it
 //! is built, compiled once with a join order. A disjunction is a `Vec<Pattern>`.
 //!
 //! Semantics: a match gives each top-level variable a node of its type such that all parts hold. Variables need
@@ -38,10 +38,10 @@ pub(crate) use self::rigid::moved;
 use self::seed::Seedling;
 pub(crate) use self::seed::{Fixed, Route, Slices};
 pub use self::text::PatternTextError;
-use crate::dictionary::Dictionary;
 use crate::id::{AttributeId, LabelId, NodeId, TypeId};
 use crate::mentions::Mentions;
 use crate::value::Value;
+use crate::vocabulary::Vocabulary;
 
 /// A variable of a pattern.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -280,7 +280,7 @@ enum Constant {
     Named(Arc<str>),
 }
 
-/// A pattern as it was written, without a dictionary: plain data, for files and other processes. [`PatternSource::build`]
+/// A pattern as it was written, without a vocabulary: plain data, for files and other processes. [`PatternSource::build`]
 /// checks it as a [`PatternBuilder`] does. The format must limit how deeply it nests, as JSON's reader does.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct PatternSource {
@@ -292,9 +292,9 @@ pub struct PatternSource {
 }
 
 impl PatternSource {
-    /// The pattern of a dictionary.
-    pub fn build(self, dictionary: &Dictionary) -> Result<Pattern, PatternError> {
-        check::compile(dictionary, self)
+    /// The pattern of a vocabulary.
+    pub fn build(self, vocabulary: &Vocabulary) -> Result<Pattern, PatternError> {
+        check::compile(vocabulary, self)
     }
 }
 

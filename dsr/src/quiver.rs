@@ -78,9 +78,9 @@ impl Snapshot {
     /// The symbolic quiver.
     ///
     /// ```
-    /// use dsr::{AgentId, DictionaryBuilder, Graph, Nature, Time, TypeId};
+    /// use dsr::{AgentId, VocabularyBuilder, Graph, Nature, Time, TypeId};
     /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-    /// let mut builder = DictionaryBuilder::new();
+    /// let mut builder = VocabularyBuilder::new();
     /// let place = builder.node_type("place", None, Nature::Symbolic)?;
     /// let leads = builder.label("leads", place, place)?;
     /// let graph = Graph::new(builder.build());

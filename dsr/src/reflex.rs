@@ -18,13 +18,13 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::dictionary::Dictionary;
 use crate::id::{AgentId, LabelId, NodeId, ReflexId, ResourceId, Version};
 use crate::mentions::Mentions;
 use crate::pattern::{Pattern, PatternError, PatternSource, Variable};
 use crate::state::State;
 use crate::transaction::apply::{apply, judge, resource_name};
 use crate::transaction::{Edit, TransactionError};
+use crate::vocabulary::Vocabulary;
 
 /// A pattern with some of its variables fixed. With `P` = [`PatternSource`] it is plain data, as all of a [`Reflex`] is.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -69,10 +69,10 @@ pub struct Reflex<P = Arc<Pattern>> {
 }
 
 impl Reflex<PatternSource> {
-    /// The reflex of a dictionary.
-    pub fn build(self, dictionary: &Dictionary) -> Result<Reflex, PatternError> {
+    /// The reflex of a vocabulary.
+    pub fn build(self, vocabulary: &Vocabulary) -> Result<Reflex, PatternError> {
         let bound = |Bound { pattern, binding }: Bound<PatternSource>| {
-            let pattern = Arc::new(pattern.build(dictionary)?);
+            let pattern = Arc::new(pattern.build(vocabulary)?);
             match binding.iter().find(|(variable, _)| !pattern.gives(*variable)) {
                 Some((variable, _)) => Err(PatternError::OutOfScope { variable: *variable }),
                 None => Ok(Bound { pattern, binding }),
@@ -150,7 +150,7 @@ impl State {
         let mut leases = Vec::with_capacity(reflex.leases.len());
         for &resource in &reflex.leases {
             let name = self
-                .dictionary
+                .vocabulary
                 .resource_name(resource)
                 .ok_or(TransactionError::UnknownResource { id: resource })?;
             match self.lease(resource) {

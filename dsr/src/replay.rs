@@ -14,7 +14,7 @@ use crate::value::Value;
 /// Why deltas do not continue a state.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ReplayError {
-    /// The initial state is not one of this dictionary.
+    /// The initial state is not one of this vocabulary.
     #[error(transparent)]
     Restore(#[from] crate::export::RestoreError),
     /// A version is missing or comes twice.
@@ -122,13 +122,13 @@ fn redo(state: &mut State, change: &Change, since: Version) -> Option<()> {
         }
         Change::NodeRemoved { node, name, .. } => {
             fits(
-                state.dictionary.agent_of(*node).is_none() && state.dictionary.resource_of(*node).is_none(),
+                state.vocabulary.agent_of(*node).is_none() && state.vocabulary.resource_of(*node).is_none(),
             )?;
             fits(**state.names.of(*node)? == **name)?;
             state.remove_node(*node);
         }
         Change::NodeAdded { node, name, node_type } => {
-            state.dictionary.type_name(*node_type)?;
+            state.vocabulary.type_name(*node_type)?;
             fits(*node_type != TypeId::AGENT && *node_type != TypeId::RESOURCE && !name.is_empty())?;
             fits(*node >= state.next && *node < NodeId::NOWHERE && state.names.get(name).is_none())?;
             state.insert_node(*node, name.clone(), *node_type, since);
@@ -184,14 +184,14 @@ fn write(
 mod tests {
     use nalgebra::Isometry3;
 
-    use crate::dictionary::{DictionaryBuilder, Nature};
     use crate::graph::Graph;
     use crate::id::{AgentId, Time};
+    use crate::vocabulary::{Nature, VocabularyBuilder};
 
     /// Two sensors by turns: each twin, and a replay, is told of half of the samples or of all by deltas alone.
     #[test]
     fn samples_that_nobody_can_see_are_let_go_of_wherever_a_delta_is_applied() {
-        let mut builder = DictionaryBuilder::new();
+        let mut builder = VocabularyBuilder::new();
         let place = builder.node_type("place", None, Nature::Geometric).expect("a new type");
         let graph = Graph::new(builder.build());
         let set_up = |tx: &mut crate::Transaction| {
@@ -214,7 +214,7 @@ mod tests {
             // 250 samples of ten seconds are eight chunks of 32, and one at either end.
             assert!(most(&graph) <= Some(10), "{:?} after {at} samples", most(&graph));
         }
-        let replayed = Graph::replay(graph.dictionary(), &first, &deltas).expect("as it was");
+        let replayed = Graph::replay(graph.vocabulary(), &first, &deltas).expect("as it was");
         assert!(most(&replayed) <= Some(10));
         assert_eq!(replayed.snapshot().export(), graph.snapshot().export());
     }

@@ -4,11 +4,11 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 
 use crate::delta::{Change, Delta};
-use crate::dictionary::Dictionary;
 use crate::id::{EdgeKey, Holder, NodeId};
 use crate::pose::Pose;
 use crate::snapshot::{AttributeView, Snapshot};
 use crate::value::Value;
+use crate::vocabulary::Vocabulary;
 
 impl Snapshot {
     /// An edge as a sentence, with underscores as spaces; `None` if it is not there.
@@ -68,8 +68,8 @@ struct Teller<'a> {
 }
 
 impl Teller<'_> {
-    fn dictionary(&self) -> &Dictionary {
-        self.snapshot.dictionary()
+    fn vocabulary(&self) -> &Vocabulary {
+        self.snapshot.vocabulary()
     }
 
     fn node(&self, id: NodeId) -> String {
@@ -79,7 +79,7 @@ impl Teller<'_> {
 
     fn edge(&self, key: EdgeKey) -> String {
         let label =
-            self.dictionary().label_name(key.label).map_or_else(|| key.label.to_string(), |l| spaced(l));
+            self.vocabulary().label_name(key.label).map_or_else(|| key.label.to_string(), |l| spaced(l));
         format!("{} {label} {}", self.node(key.from), self.node(key.to))
     }
 
@@ -91,7 +91,7 @@ impl Teller<'_> {
     }
 
     fn attribute(&self, holder: Holder, attribute: crate::id::AttributeId) -> String {
-        let name = self.dictionary().attribute_name(attribute);
+        let name = self.vocabulary().attribute_name(attribute);
         format!(
             "{}: {}",
             self.holder(holder),

@@ -8,12 +8,12 @@ use nalgebra::Isometry3;
 
 use crate::block::{Cell, EdgeCell, Node};
 use crate::chain::ChainError;
-use crate::dictionary::Dictionary;
 use crate::id::{AgentId, AttributeId, EdgeKey, Holder, LabelId, NodeId, ResourceId, Time, TypeId, Version};
 use crate::pose::Pose;
 use crate::state::State;
 use crate::transaction::{Lease, Waiting};
 use crate::value::Value;
+use crate::vocabulary::Vocabulary;
 
 /// An immutable state of the graph.
 #[derive(Debug, Clone)]
@@ -141,9 +141,9 @@ impl Snapshot {
         self.state.time
     }
 
-    /// The dictionary of the graph.
-    pub fn dictionary(&self) -> &Arc<Dictionary> {
-        &self.state.dictionary
+    /// The vocabulary of the graph.
+    pub fn vocabulary(&self) -> &Arc<Vocabulary> {
+        &self.state.vocabulary
     }
 
     /// The node of that name.
@@ -168,8 +168,8 @@ impl Snapshot {
 
     /// The nodes of a type and its subtypes, by type and id.
     pub fn nodes_of(&self, node_type: TypeId) -> impl Iterator<Item = NodeId> + '_ {
-        let dictionary = &self.state.dictionary;
-        let subtypes = dictionary.types().filter(move |&sub| dictionary.is_a(sub, node_type));
+        let vocabulary = &self.state.vocabulary;
+        let subtypes = vocabulary.types().filter(move |&sub| vocabulary.is_a(sub, node_type));
         subtypes.flat_map(|sub| self.state.nodes_exactly(sub))
     }
 

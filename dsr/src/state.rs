@@ -11,7 +11,6 @@
 use std::sync::Arc;
 
 use crate::block::{Block, Cell, Edge, EdgeCell, Frames, Joint, NODES, Node, place};
-use crate::dictionary::Dictionary;
 use crate::id::{AgentId, AttributeId, EdgeKey, Holder, NodeId, Time, TypeId, Version};
 use crate::members::Members;
 use crate::names::Names;
@@ -21,10 +20,11 @@ use crate::reflex::Registry;
 use crate::track::Track;
 use crate::undo::{Log, Undo};
 use crate::value::Value;
+use crate::vocabulary::Vocabulary;
 
 #[derive(Debug, Clone)]
 pub(crate) struct State {
-    pub(crate) dictionary: Arc<Dictionary>,
+    pub(crate) vocabulary: Arc<Vocabulary>,
     pub(crate) version: Version,
     pub(crate) time: Time,
     /// The id of the next new node.
@@ -41,12 +41,12 @@ pub(crate) struct State {
 
 impl State {
     /// The state at version 0: the nodes that stand for agents and resources, nothing else.
-    pub(crate) fn new(dictionary: Arc<Dictionary>) -> Self {
-        let mut state = Self::empty(dictionary);
-        let dictionary = Arc::clone(&state.dictionary);
-        let agents = dictionary.agents().filter_map(|id| Some((dictionary.agent_name(id)?, TypeId::AGENT)));
+    pub(crate) fn new(vocabulary: Arc<Vocabulary>) -> Self {
+        let mut state = Self::empty(vocabulary);
+        let vocabulary = Arc::clone(&state.vocabulary);
+        let agents = vocabulary.agents().filter_map(|id| Some((vocabulary.agent_name(id)?, TypeId::AGENT)));
         let resources =
-            dictionary.resources().filter_map(|id| Some((dictionary.resource_name(id)?, TypeId::RESOURCE)));
+            vocabulary.resources().filter_map(|id| Some((vocabulary.resource_name(id)?, TypeId::RESOURCE)));
         for (index, (name, node_type)) in agents.chain(resources).enumerate() {
             state.insert_node(NodeId::at(index), name.clone(), node_type, Version(0));
         }
@@ -54,10 +54,10 @@ impl State {
         state
     }
 
-    pub(crate) fn empty(dictionary: Arc<Dictionary>) -> Self {
-        let types = dictionary.types().count();
+    pub(crate) fn empty(vocabulary: Arc<Vocabulary>) -> Self {
+        let types = vocabulary.types().count();
         Self {
-            dictionary,
+            vocabulary,
             version: Version(0),
             time: Time(0),
             next: NodeId(0),
@@ -477,7 +477,7 @@ impl State {
     }
 
     pub(crate) fn agent_name(&self, id: AgentId) -> Arc<str> {
-        self.dictionary.agent_name(id).cloned().unwrap_or_else(|| id.to_string().into())
+        self.vocabulary.agent_name(id).cloned().unwrap_or_else(|| id.to_string().into())
     }
 }
 

@@ -16,12 +16,12 @@ use serde::{Deserialize, Serialize};
 
 pub use self::error::TransactionError;
 pub use self::lease::{Lease, Preemption, Priority, Waiting};
-use crate::dictionary::Dictionary;
 use crate::id::{AgentId, AttributeId, LabelId, ReflexId, ResourceId, Time, TypeId, Version};
 use crate::pattern::{Pattern, PatternError, PatternSource};
 use crate::pose::Pose;
 use crate::reflex::Reflex;
 use crate::value::{NewValue, NodeRef};
+use crate::vocabulary::Vocabulary;
 
 /// Names the holder of an attribute in an edit.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -97,7 +97,7 @@ pub enum Edit {
 }
 
 /// A list of edits by one writer. With `P` = [`PatternSource`] it is plain data, which [`Transaction::build`] makes one of
-/// a dictionary.
+/// a vocabulary.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Transaction<P = Arc<Pattern>> {
     pub(crate) writer: AgentId,
@@ -108,10 +108,10 @@ pub struct Transaction<P = Arc<Pattern>> {
 }
 
 impl Transaction<PatternSource> {
-    /// The transaction of a dictionary.
-    pub fn build(self, dictionary: &Dictionary) -> Result<Transaction, PatternError> {
+    /// The transaction of a vocabulary.
+    pub fn build(self, vocabulary: &Vocabulary) -> Result<Transaction, PatternError> {
         let Self { writer, expected, edits, guards, dismissed } = self;
-        let guards = guards.into_iter().map(|guard| guard.build(dictionary)).collect::<Result<_, _>>()?;
+        let guards = guards.into_iter().map(|guard| guard.build(vocabulary)).collect::<Result<_, _>>()?;
         Ok(Transaction { writer, expected, edits, guards, dismissed })
     }
 }

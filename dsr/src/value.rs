@@ -11,11 +11,11 @@ use serde::{Deserialize, Serialize};
 use crate::id::{NodeId, TypeId};
 use crate::unit::Unit;
 
-/// What an attribute may hold, as the dictionary declares it.
+/// What an attribute may hold, as the vocabulary declares it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
-    /// A finite number, in the unit that the dictionary's author means.
+    /// A finite number, in the unit that the vocabulary's author means.
     Number,
     /// Text.
     Text,

@@ -72,11 +72,11 @@ impl<'s> View<'s> {
     }
 
     fn type_of(&self, node: NodeView<'_>) -> &'s str {
-        self.snapshot.dictionary().type_name(node.node_type()).map_or("", |name| name)
+        self.snapshot.vocabulary().type_name(node.node_type()).map_or("", |name| name)
     }
 
     fn label(&self, key: EdgeKey) -> &'s str {
-        self.snapshot.dictionary().label_name(key.label).map_or("", |name| name)
+        self.snapshot.vocabulary().label_name(key.label).map_or("", |name| name)
     }
 
     fn attributes(&self, holder: Holder) -> Vec<(&'s str, String)> {
@@ -88,7 +88,7 @@ impl<'s> View<'s> {
             }
         };
         let shown = views.into_iter().map(|view| {
-            let name = self.snapshot.dictionary().attribute_name(view.attribute).map_or("", |name| name);
+            let name = self.snapshot.vocabulary().attribute_name(view.attribute).map_or("", |name| name);
             let value = match view.value {
                 Value::Number(number) => number.to_string(),
                 Value::Text(text) => text.to_string(),

@@ -75,9 +75,9 @@ proptest! {
     fn a_chain_is_the_product_from_the_root(
         parents in prop::collection::vec((any::<prop::sample::Index>(), prop::array::uniform6(-3.0..3.0)), 1..25),
     ) {
-        let dictionary = world::dictionary();
-        let place = dictionary.node_type("place").unwrap();
-        let graph = Graph::new(dictionary);
+        let vocabulary = world::vocabulary();
+        let place = vocabulary.node_type("place").unwrap();
+        let graph = Graph::new(vocabulary);
         graph.edit(AgentId::DSR, Time(0), |tx| {
             tx.add_node("n0", place);
             for (at, (parent, [x, y, z, a, b, c])) in parents.iter().enumerate() {
@@ -230,6 +230,6 @@ fn a_chain_tells_its_error_if_it_is_known() {
     let (from, to) = (now.node("world").unwrap(), now.node("camera").unwrap());
     assert!(near(&pose(Some(150)).transform, &now.transform_at(from, to, Time(150)).unwrap()));
     assert!(matches!(now.pose_at(from, to, Time(201)), Err(ChainError::Extrapolation { .. })));
-    let restored = Graph::restore(graph.dictionary(), &now.export()).unwrap();
+    let restored = Graph::restore(graph.vocabulary(), &now.export()).unwrap();
     assert_eq!(restored.snapshot().pose(from, to), now.pose(from, to));
 }

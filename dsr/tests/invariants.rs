@@ -40,12 +40,12 @@ fn each_broken_invariant_is_named_and_changes_nothing() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// Ids of another dictionary cannot be written in a case file.
+/// Ids of another vocabulary cannot be written in a case file.
 #[test]
 fn foreign_ids_are_errors_not_panics() {
-    use dsr::{AgentId, DictionaryBuilder, Graph, Nature, Time, TransactionError as E};
-    let large = world::dictionary();
-    let mut small = DictionaryBuilder::new();
+    use dsr::{AgentId, Graph, Nature, Time, TransactionError as E, VocabularyBuilder};
+    let large = world::vocabulary();
+    let mut small = VocabularyBuilder::new();
     let place = small.node_type("place", None, Nature::Geometric).unwrap();
     let graph = Graph::new(small.build());
     let edit = |write: &dyn Fn(&mut dsr::Transaction)| {

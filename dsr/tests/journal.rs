@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 use std::num::NonZeroU64;
 
 use dsr::{
-    Damage, Dictionary, Durability, Graph, Memory, Played, Recording, RecordingError, Settings, Snapshot,
-    Version,
+    Damage, Durability, Graph, Memory, Played, Recording, RecordingError, Settings, Snapshot, Version,
+    Vocabulary,
 };
 use proptest::prelude::*;
 
@@ -60,7 +60,7 @@ fn recorded(history: &[Vec<usize>], settings: Settings) -> (BTreeMap<u64, String
         let lines: Vec<_> = edits.iter().map(|&at| EDITS[at]).collect();
         if let Ok(commit) = world::commit(&graph, "dsr", &lines.join("\n")) {
             // What goes on from an export is the same as what was exported, and so is what its journal begins with.
-            let restored = Graph::restore(graph.dictionary(), &commit.snapshot.export()).unwrap();
+            let restored = Graph::restore(graph.vocabulary(), &commit.snapshot.export()).unwrap();
             assert_eq!(bytes(&restored.snapshot()), bytes(&commit.snapshot));
             let begun = Memory::default();
             restored.journal(begun.clone(), Settings::default()).unwrap().close().unwrap();
@@ -120,14 +120,14 @@ proptest! {
 }
 
 #[test]
-fn a_dictionary_is_plain_data() {
-    let dictionary = world::dictionary();
-    let json = serde_json::to_string(&*dictionary).unwrap();
-    let read: Dictionary = serde_json::from_str(&json).unwrap();
+fn a_vocabulary_is_plain_data() {
+    let vocabulary = world::vocabulary();
+    let json = serde_json::to_string(&*vocabulary).unwrap();
+    let read: Vocabulary = serde_json::from_str(&json).unwrap();
     assert_eq!(serde_json::to_string(&read).unwrap(), json);
-    assert_eq!(format!("{:?}", read.label("is_in")), format!("{:?}", dictionary.label("is_in")));
+    assert_eq!(format!("{:?}", read.label("is_in")), format!("{:?}", vocabulary.label("is_in")));
     let wrong = json.replacen("\"parent\":3", "\"parent\":300", 1);
-    assert!(wrong != json && serde_json::from_str::<Dictionary>(&wrong).is_err());
+    assert!(wrong != json && serde_json::from_str::<Vocabulary>(&wrong).is_err());
 }
 
 #[test]

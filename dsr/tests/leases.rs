@@ -4,16 +4,16 @@
 use std::collections::{BTreeSet, VecDeque};
 
 use dsr::{
-    AgentId, Dictionary, DictionaryBuilder, Graph, LabelId, PatternBuilder, Preemption, Priority, ResourceId,
-    Snapshot, Time, Transaction, TransactionError,
+    AgentId, Graph, LabelId, PatternBuilder, Preemption, Priority, ResourceId, Snapshot, Time, Transaction,
+    TransactionError, Vocabulary, VocabularyBuilder,
 };
 use std::sync::Arc;
 
 const AGENTS: [&str; 3] = ["low", "middle", "high"];
 const RESOURCES: [&str; 3] = ["base", "camera", "speaker"];
 
-fn dictionary() -> Arc<Dictionary> {
-    let mut builder = DictionaryBuilder::new();
+fn vocabulary() -> Arc<Vocabulary> {
+    let mut builder = VocabularyBuilder::new();
     AGENTS.iter().for_each(|name| _ = builder.agent(name).unwrap());
     RESOURCES.iter().for_each(|name| _ = builder.resource(name).unwrap());
     builder.build()
@@ -58,7 +58,7 @@ fn see(now: &Snapshot) -> Seen {
         let lease = now.lease(resource).map(|l| (l.holder, l.preemption == Preemption::Yields));
         (lease, now.waiting(resource).into_iter().map(|w| w.agent).collect())
     };
-    Seen(now.dictionary().resources().map(of).collect())
+    Seen(now.vocabulary().resources().map(of).collect())
 }
 
 impl Seen {
@@ -106,7 +106,7 @@ fn check(before: &Seen, deed: Deed, now: &Snapshot, agents: &[AgentId]) {
     assert!(!seen.has_circle(agents), "a deadlock: {}", context());
     for (at, (lease, waiting)) in seen.0.iter().enumerate() {
         assert!(lease.is_some() || waiting.is_empty(), "free, and waited for: {}", context());
-        let resource = now.dictionary().resources().nth(at).unwrap();
+        let resource = now.vocabulary().resources().nth(at).unwrap();
         for other in now.waiting(resource) {
             assert_eq!(other.inherited, seen.worth(other.agent), "{}", context());
         }
@@ -163,7 +163,7 @@ fn finish(graph: &Graph, agents: &[AgentId]) {
             assert!(seen.0.iter().all(|(lease, waiting)| lease.is_none() && waiting.is_empty()), "{seen:?}");
             return;
         };
-        for (at, resource) in graph.dictionary().resources().enumerate() {
+        for (at, resource) in graph.vocabulary().resources().enumerate() {
             if seen.0[at].0.is_some_and(|(holder, _)| holder == going) {
                 perform(graph, Deed::Release(going, resource)).unwrap();
             }
@@ -174,12 +174,12 @@ fn finish(graph: &Graph, agents: &[AgentId]) {
 
 #[test]
 fn no_state_that_three_agents_and_three_resources_can_reach_is_wrong() {
-    let dictionary = dictionary();
-    let agents: Vec<_> = AGENTS.iter().map(|name| dictionary.agent(name).unwrap()).collect();
+    let vocabulary = vocabulary();
+    let agents: Vec<_> = AGENTS.iter().map(|name| vocabulary.agent(name).unwrap()).collect();
     let mut deeds = Vec::new();
     for &agent in &agents {
         deeds.push(Deed::Expire(agent));
-        for resource in dictionary.resources() {
+        for resource in vocabulary.resources() {
             deeds.extend([
                 Deed::Claim(agent, resource),
                 Deed::Await(agent, resource),
@@ -187,20 +187,20 @@ fn no_state_that_three_agents_and_three_resources_can_reach_is_wrong() {
             ]);
         }
     }
-    let start = Graph::new(Arc::clone(&dictionary));
+    let start = Graph::new(Arc::clone(&vocabulary));
     let mut known = BTreeSet::from([see(&start.snapshot()).whichever()]);
     let mut open = VecDeque::from([(see(&start.snapshot()), start.snapshot().export())]);
     let (mut circles, mut inherited) = (0, 0);
     while let Some((before, export)) = open.pop_front() {
         for &deed in &deeds {
-            let graph = Graph::restore(Arc::clone(&dictionary), &export).unwrap();
+            let graph = Graph::restore(Arc::clone(&vocabulary), &export).unwrap();
             match perform(&graph, deed) {
                 Ok(commit) => {
                     check(&before, deed, &commit.snapshot, &agents);
                     let now = see(&commit.snapshot);
                     let more =
                         |at: ResourceId| commit.snapshot.lease(at).is_some_and(|l| l.inherited > l.priority);
-                    inherited += u32::from(dictionary.resources().any(more));
+                    inherited += u32::from(vocabulary.resources().any(more));
                     if known.insert(now.whichever()) {
                         open.push_back((now, commit.snapshot.export()));
                     }
@@ -211,11 +211,11 @@ fn no_state_that_three_agents_and_three_resources_can_reach_is_wrong() {
                     let mut would = before.clone();
                     match deed {
                         Deed::Await(agent, resource) => {
-                            let at = dictionary.resources().position(|r| r == resource).unwrap();
+                            let at = vocabulary.resources().position(|r| r == resource).unwrap();
                             would.0[at].1.push(agent);
                         }
                         Deed::Claim(agent, resource) => {
-                            let at = dictionary.resources().position(|r| r == resource).unwrap();
+                            let at = vocabulary.resources().position(|r| r == resource).unwrap();
                             would.0[at].0 = Some((agent, true));
                         }
                         other => panic!("{other:?} closes no circle"),
@@ -226,15 +226,15 @@ fn no_state_that_three_agents_and_three_resources_can_reach_is_wrong() {
                 Err(other) => panic!("{deed:?}: {other}"),
             }
         }
-        finish(&Graph::restore(Arc::clone(&dictionary), &export).unwrap(), &agents);
+        finish(&Graph::restore(Arc::clone(&vocabulary), &export).unwrap(), &agents);
     }
     assert!(known.len() > 300 && circles > 100 && inherited > 100, "{} {circles} {inherited}", known.len());
 }
 
-fn ids(dictionary: &Dictionary) -> ([AgentId; 3], [ResourceId; 3]) {
+fn ids(vocabulary: &Vocabulary) -> ([AgentId; 3], [ResourceId; 3]) {
     (
-        AGENTS.map(|name| dictionary.agent(name).unwrap()),
-        RESOURCES.map(|name| dictionary.resource(name).unwrap()),
+        AGENTS.map(|name| vocabulary.agent(name).unwrap()),
+        RESOURCES.map(|name| vocabulary.resource(name).unwrap()),
     )
 }
 
@@ -244,7 +244,7 @@ fn holder(graph: &Graph, resource: ResourceId) -> Option<AgentId> {
 
 #[test]
 fn equals_come_in_the_order_in_which_they_asked() {
-    let mut builder = DictionaryBuilder::new();
+    let mut builder = VocabularyBuilder::new();
     let agents: Vec<_> = (0..6).map(|at| builder.agent(&format!("a{at}")).unwrap()).collect();
     let speaker = builder.resource("speaker").unwrap();
     let graph = Graph::new(builder.build());
@@ -268,9 +268,9 @@ fn equals_come_in_the_order_in_which_they_asked() {
 /// going on.
 #[test]
 fn a_middling_claim_does_not_take_from_a_low_one_what_a_high_one_waits_for() {
-    let dictionary = dictionary();
-    let ([low, middle, high], [base, camera, _]) = ids(&dictionary);
-    let graph = Graph::new(dictionary);
+    let vocabulary = vocabulary();
+    let ([low, middle, high], [base, camera, _]) = ids(&vocabulary);
+    let graph = Graph::new(vocabulary);
     perform(&graph, Deed::Claim(low, camera)).unwrap();
     perform(&graph, Deed::Await(low, base)).unwrap();
     let taken = perform(&graph, Deed::Claim(middle, camera)).unwrap();
@@ -293,9 +293,9 @@ fn a_middling_claim_does_not_take_from_a_low_one_what_a_high_one_waits_for() {
 
 #[test]
 fn a_circle_is_refused_with_all_who_are_in_it() {
-    let dictionary = dictionary();
-    let ([low, middle, high], [base, camera, speaker]) = ids(&dictionary);
-    let graph = Graph::new(dictionary);
+    let vocabulary = vocabulary();
+    let ([low, middle, high], [base, camera, speaker]) = ids(&vocabulary);
+    let graph = Graph::new(vocabulary);
     for (agent, resource) in [(low, base), (middle, camera), (high, speaker)] {
         perform(&graph, Deed::Await(agent, resource)).unwrap();
     }
@@ -313,10 +313,10 @@ fn a_circle_is_refused_with_all_who_are_in_it() {
 /// A pattern sees who waits; the lease of an agent whose thread panics goes to them in one commit.
 #[test]
 fn the_lease_of_a_dead_agent_goes_to_who_waits() {
-    let dictionary = dictionary();
-    let ([low, _, high], [.., speaker]) = ids(&dictionary);
-    let graph = Graph::new(Arc::clone(&dictionary));
-    let mut pattern = PatternBuilder::new(&dictionary);
+    let vocabulary = vocabulary();
+    let ([low, _, high], [.., speaker]) = ids(&vocabulary);
+    let graph = Graph::new(Arc::clone(&vocabulary));
+    let mut pattern = PatternBuilder::new(&vocabulary);
     let who = pattern.variable("who", dsr::TypeId::AGENT);
     pattern.edge(who, LabelId::AWAITS, "speaker");
     let mut queue = graph.subscribe(pattern.build().unwrap());

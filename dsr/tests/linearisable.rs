@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Barrier, Mutex};
 
 use dsr::{
-    AgentId, AttributeId, DictionaryBuilder, Graph, Kind as ValueKind, Nature, NodeId, Snapshot, Time,
-    Transaction, TransactionError,
+    AgentId, AttributeId, Graph, Kind as ValueKind, Nature, NodeId, Snapshot, Time, Transaction,
+    TransactionError, VocabularyBuilder,
 };
 use history::{Kind, Numbers, Operation, order_of_versions, some_order, sum};
 
@@ -54,7 +54,7 @@ struct Board {
 
 impl Board {
     fn new() -> Self {
-        let mut builder = DictionaryBuilder::new();
+        let mut builder = VocabularyBuilder::new();
         let counter = builder.node_type("counter", None, Nature::Symbolic).unwrap();
         let number = builder.attribute_on_node("number", counter, ValueKind::Number).unwrap();
         let graph = Graph::new(builder.build());

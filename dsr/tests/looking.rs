@@ -4,8 +4,8 @@
 mod world;
 
 use dsr::{
-    AgentId, Covariance, Delta, DictionaryBuilder, Export, Graph, Kind, Nature, NewValue, Pattern,
-    PatternBuilder, PatternTextError, Pose, Snapshot, Time, Transaction, Version,
+    AgentId, Covariance, Delta, Export, Graph, Kind, Nature, NewValue, Pattern, PatternBuilder,
+    PatternTextError, Pose, Snapshot, Time, Transaction, Version, VocabularyBuilder,
 };
 use expect_test::expect;
 use proptest::prelude::*;
@@ -76,7 +76,7 @@ proptest! {
         let changes = before.diff(&after);
         prop_assert!(before.diff(&before).is_empty());
         // Between states that share nothing, the same.
-        let restored = Graph::restore(graph.dictionary(), &after.export()).unwrap().snapshot();
+        let restored = Graph::restore(graph.vocabulary(), &after.export()).unwrap().snapshot();
         prop_assert_eq!(&before.diff(&restored), &changes);
         let delta = Delta {
             version: Version(version + 1),
@@ -85,7 +85,7 @@ proptest! {
             changes,
             reflexes: Vec::new(),
         };
-        let made = Graph::replay(graph.dictionary(), &before.export(), [&delta]).unwrap();
+        let made = Graph::replay(graph.vocabulary(), &before.export(), [&delta]).unwrap();
         prop_assert_eq!(timeless(&made.snapshot()), timeless(&after));
     }
 }
@@ -114,9 +114,9 @@ fn patterns_are_text() {
     let lines = "node anna person\nedge anna is_with clarc\nedge clarc is speaking\nset barthel score number 7\n\
         set-edge barthel is_in feeding says text hello\nset barthel patient node anna";
     world::commit(&graph, "dsr", lines).unwrap();
-    let (snapshot, dictionary) = (graph.snapshot(), graph.dictionary());
+    let (snapshot, vocabulary) = (graph.snapshot(), graph.vocabulary());
     let ask = |text: &str| -> Vec<String> {
-        let pattern = Pattern::parse(&dictionary, text).unwrap();
+        let pattern = Pattern::parse(&vocabulary, text).unwrap();
         let names = |row: dsr::Binding| {
             row.iter().map(|id| snapshot.name(*id).unwrap().to_owned()).collect::<Vec<_>>().join(" ")
         };
@@ -147,17 +147,17 @@ fn patterns_are_text() {
 #[test]
 fn only_the_variables_of_a_pattern_are_fixed() {
     let graph = world::ward();
-    let (snapshot, dictionary) = (graph.snapshot(), graph.dictionary());
-    let (person, is) = (dictionary.node_type("person").unwrap(), dictionary.label("is").unwrap());
-    let mut builder = PatternBuilder::new(&dictionary);
+    let (snapshot, vocabulary) = (graph.snapshot(), graph.vocabulary());
+    let (person, is) = (vocabulary.node_type("person").unwrap(), vocabulary.label("is").unwrap());
+    let mut builder = PatternBuilder::new(&vocabulary);
     let who = builder.variable("who", person);
     let local = builder.without(|builder| {
-        let what = builder.variable("what", dictionary.node_type("activity").unwrap());
+        let what = builder.variable("what", vocabulary.node_type("activity").unwrap());
         builder.edge(who, is, what);
         what
     });
     let pattern = builder.build().unwrap();
-    let mut larger = PatternBuilder::new(&dictionary);
+    let mut larger = PatternBuilder::new(&vocabulary);
     let foreign = ["a", "b"].map(|name| larger.variable(name, person))[1];
     let carlos = snapshot.node("carlos").unwrap();
     assert!(pattern.holds_with(&snapshot, &[(who, carlos)]));
@@ -171,7 +171,7 @@ fn only_the_variables_of_a_pattern_are_fixed() {
 
 #[test]
 fn what_is_no_pattern_is_told_with_its_place() {
-    let dictionary = world::dictionary();
+    let vocabulary = world::vocabulary();
     let mut told = String::new();
     for text in [
         "",
@@ -198,11 +198,11 @@ fn what_is_no_pattern_is_told_with_its_place() {
         "(and (robot ?r) (not (person ?r)))",
         "(person)",
     ] {
-        let error: PatternTextError = Pattern::parse(&dictionary, text).unwrap_err();
+        let error: PatternTextError = Pattern::parse(&vocabulary, text).unwrap_err();
         told += &format!("{text}\n    {error}\n");
     }
     let deep = "(not ".repeat(50) + &")".repeat(50);
-    assert!(matches!(Pattern::parse(&dictionary, &deep), Err(PatternTextError::TooDeep { .. })));
+    assert!(matches!(Pattern::parse(&vocabulary, &deep), Err(PatternTextError::TooDeep { .. })));
     expect![[r#"
 
             byte 0: `(` is missing
@@ -322,7 +322,7 @@ fn a_state_is_sentences_and_pictures() {
 
 #[test]
 fn whatever_a_name_has_in_it_the_xml_is_well_formed() {
-    let mut builder = DictionaryBuilder::new();
+    let mut builder = VocabularyBuilder::new();
     let kind = builder.node_type("a type\u{ffff}", None, Nature::Geometric).unwrap();
     let level = builder.attribute_on_node("battery level\n\"1\"", kind, Kind::Text).unwrap();
     let graph = Graph::new(builder.build());

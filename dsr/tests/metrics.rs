@@ -2,19 +2,19 @@
 #![allow(clippy::unwrap_used, reason = "a test that fails says where")]
 
 use dsr::{
-    AgentId, Comparison, DictionaryBuilder, DictionaryError, Graph, Isometry3, Kind, Matches, Metric, Nature,
-    PatternBuilder, PatternError, Threshold, Time, TransactionError, Unit, Value,
+    AgentId, Comparison, Graph, Isometry3, Kind, Matches, Metric, Nature, PatternBuilder, PatternError,
+    Threshold, Time, TransactionError, Unit, Value, VocabularyBuilder, VocabularyError,
 };
 
 fn room() -> Graph {
-    let mut builder = DictionaryBuilder::new();
+    let mut builder = VocabularyBuilder::new();
     let place = builder.node_type("place", None, Nature::Geometric).unwrap();
     let reach = builder.attribute_on_node("reach", place, Kind::Number).unwrap();
     builder.measured_in(reach, Unit::Metre).unwrap();
     builder.attribute_on_node("count", place, Kind::Number).unwrap();
     let name = builder.attribute_on_node("name", place, Kind::Text).unwrap();
     let refused = builder.measured_in(name, Unit::Metre).unwrap_err();
-    assert_eq!(refused, DictionaryError::NotMeasured { name: "name".into() });
+    assert_eq!(refused, VocabularyError::NotMeasured { name: "name".into() });
     let graph = Graph::new(builder.build());
     graph
         .edit(AgentId::DSR, Time(0), |tx| {
@@ -33,8 +33,8 @@ fn walk(graph: &Graph, x: f64, y: f64) {
 }
 
 fn watch(graph: &Graph, write: impl FnOnce(&mut PatternBuilder<'_>)) -> Matches {
-    let dictionary = graph.dictionary();
-    let mut pattern = PatternBuilder::new(&dictionary);
+    let vocabulary = graph.vocabulary();
+    let mut pattern = PatternBuilder::new(&vocabulary);
     write(&mut pattern);
     let mut matches = graph.subscribe(pattern.build().unwrap());
     while matches.try_recv().is_some() {}
@@ -49,8 +49,8 @@ fn holds(matches: &mut Matches) -> bool {
 #[test]
 fn a_quantity_is_kept_in_the_unit_of_its_attribute() {
     let graph = room();
-    let dictionary = graph.dictionary();
-    let attribute = |name| dictionary.attribute(name).unwrap();
+    let vocabulary = graph.vocabulary();
+    let attribute = |name| vocabulary.attribute(name).unwrap();
     let set = |name, number, unit| {
         graph.edit(AgentId::DSR, Time(0), |tx| {
             tx.set_attribute("robot", attribute(name), (number, unit));
@@ -68,8 +68,8 @@ fn a_quantity_is_kept_in_the_unit_of_its_attribute() {
     assert!(set("reach", f64::MAX, Unit::Metre).is_ok());
     assert!(matches!(set("reach", f64::NAN, Unit::Metre), Err(TransactionError::NotFinite { .. })));
     assert!(matches!(set("name", 1.0, Unit::Metre), Err(TransactionError::WrongKind { .. })));
-    // What is written down of a dictionary has its units.
-    let read: dsr::Dictionary = serde_json::from_str(&serde_json::to_string(&*dictionary).unwrap()).unwrap();
+    // What is written down of a vocabulary has its units.
+    let read: dsr::Vocabulary = serde_json::from_str(&serde_json::to_string(&*vocabulary).unwrap()).unwrap();
     assert_eq!(read.unit(attribute("reach")), Some(Unit::Metre));
     assert_eq!(read.unit(attribute("count")), None);
 }
@@ -90,8 +90,8 @@ fn a_threshold_with_hysteresis_does_not_flutter() {
     walk(&graph, 1.2, 0.0);
     assert!(holds(&mut close) && !close.pattern().holds(&graph.snapshot()));
     // Whoever was not told of every step, and goes on from the newest state, remembers what it has.
-    let dictionary = graph.dictionary();
-    let mut pattern = PatternBuilder::new(&dictionary);
+    let vocabulary = graph.vocabulary();
+    let mut pattern = PatternBuilder::new(&vocabulary);
     pattern.distance("robot", "person", Comparison::LessOrEqual, near);
     walk(&graph, 0.5, 0.0);
     let one = std::num::NonZeroUsize::new(1).unwrap();
@@ -128,7 +128,7 @@ fn a_negated_threshold_does_not_flutter_either() {
 #[test]
 fn bearing_and_reach_follow_frames_and_attributes() {
     let graph = room();
-    let reach = graph.dictionary().attribute("reach").unwrap();
+    let reach = graph.vocabulary().attribute("reach").unwrap();
     let mut ahead =
         watch(&graph, |p| _ = p.metric(Metric::Bearing, "robot", "person", Comparison::Less, 0.5));
     let mut within = watch(&graph, |p| _ = p.reachable("robot", "person", reach));
@@ -159,13 +159,13 @@ fn bearing_and_reach_follow_frames_and_attributes() {
 #[test]
 fn texts_measure_too() {
     let graph = room();
-    let (dictionary, reach) = (graph.dictionary(), graph.dictionary().attribute("reach").unwrap());
+    let (vocabulary, reach) = (graph.vocabulary(), graph.vocabulary().attribute("reach").unwrap());
     let mut texts = [
         "(< (bearing robot person) 0.5)",
         "(<= (distance robot person) (reach robot))",
         "(<= (distance robot person) 1 1.5)",
     ]
-    .map(|text| graph.subscribe(dsr::Pattern::parse(&dictionary, text).unwrap()));
+    .map(|text| graph.subscribe(dsr::Pattern::parse(&vocabulary, text).unwrap()));
     let near = Threshold { appears: 1.0, disappears: 1.5 };
     let mut written = [
         watch(&graph, |p| _ = p.metric(Metric::Bearing, "robot", "person", Comparison::Less, 0.5)),
@@ -188,9 +188,9 @@ fn texts_measure_too() {
 #[test]
 fn a_threshold_that_makes_no_sense_is_refused() {
     let graph = room();
-    let dictionary = graph.dictionary();
+    let vocabulary = graph.vocabulary();
     let build = |comparison, appears, disappears| {
-        let mut pattern = PatternBuilder::new(&dictionary);
+        let mut pattern = PatternBuilder::new(&vocabulary);
         pattern.distance("robot", "person", comparison, Threshold { appears, disappears });
         pattern.build().map(|_| ())
     };
@@ -204,7 +204,7 @@ fn a_threshold_that_makes_no_sense_is_refused() {
         let refused = build(comparison, appears, disappears);
         assert!(matches!(refused, Err(PatternError::WrongThreshold { .. })), "{comparison:?}");
     }
-    let mut pattern = PatternBuilder::new(&dictionary);
-    pattern.reachable("robot", "person", dictionary.attribute("name").unwrap());
+    let mut pattern = PatternBuilder::new(&vocabulary);
+    pattern.reachable("robot", "person", vocabulary.attribute("name").unwrap());
     assert!(matches!(pattern.build(), Err(PatternError::WrongKind { .. })));
 }

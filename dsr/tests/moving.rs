@@ -10,8 +10,8 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use dsr::{
-    Comparison, Delivery, Dictionary, DictionaryBuilder, Graph, Kind, Matches, Metric, Nature, NodeId,
-    Pattern, PatternBuilder, Snapshot, Threshold,
+    Comparison, Delivery, Graph, Kind, Matches, Metric, Nature, NodeId, Pattern, PatternBuilder, Snapshot,
+    Threshold, Vocabulary, VocabularyBuilder,
 };
 use proptest::prelude::*;
 
@@ -32,8 +32,8 @@ const NODES: [(&str, &str); 10] = [
 /// What others may hang below.
 const PARENTS: [&str; 5] = ["hall", "room", "arm", "one", "anna"];
 
-fn dictionary() -> Arc<Dictionary> {
-    let mut b = DictionaryBuilder::new();
+fn vocabulary() -> Arc<Vocabulary> {
+    let mut b = VocabularyBuilder::new();
     let place = b.node_type("place", None, Nature::Geometric).unwrap();
     let robot = b.node_type("robot", Some(place), Nature::Symbolic).unwrap();
     let person = b.node_type("person", Some(place), Nature::Symbolic).unwrap();
@@ -45,7 +45,7 @@ fn dictionary() -> Arc<Dictionary> {
 
 /// Everybody, in one tree: hall > room > one > arm > cup, the rest in the room.
 fn house() -> Graph {
-    let graph = Graph::new(dictionary());
+    let graph = Graph::new(vocabulary());
     let mut lines: Vec<_> = NODES.iter().map(|(name, kind)| format!("node {name} {kind}")).collect();
     lines.extend(["hall room", "room one", "one arm", "arm cup", "room two"].map(|edge| hang(edge, "5 5")));
     lines.extend(["room anna", "room bea", "hall carl", "anna pen"].map(|edge| hang(edge, "0 5")));
@@ -136,21 +136,21 @@ impl Level {
 }
 
 fn nodes(s: &Snapshot, kind: &str) -> Vec<NodeId> {
-    s.nodes_of(s.dictionary().node_type(kind).unwrap()).collect()
+    s.nodes_of(s.vocabulary().node_type(kind).unwrap()).collect()
 }
 
 fn with(s: &Snapshot, who: NodeId, robot: NodeId) -> bool {
-    s.has_edge(who, s.dictionary().label("with").unwrap(), robot)
+    s.has_edge(who, s.vocabulary().label("with").unwrap(), robot)
 }
 
 fn reachable(s: &Snapshot, robot: NodeId, what: NodeId) -> bool {
-    s.reachable(robot, what, s.dictionary().attribute("reach").unwrap()).is_ok_and(|reached| reached)
+    s.reachable(robot, what, s.vocabulary().attribute("reach").unwrap()).is_ok_and(|reached| reached)
 }
 
 /// Whether a row of nodes for the variables is a match, by itself.
 type Condition = fn(&Snapshot, &[NodeId], Level) -> bool;
 
-fn patterns(d: &Dictionary) -> Vec<(&'static str, Pattern, Condition)> {
+fn patterns(d: &Vocabulary) -> Vec<(&'static str, Pattern, Condition)> {
     let kind = |name: &str| d.node_type(name).unwrap();
     let (label, reach) = (d.label("with").unwrap(), d.attribute("reach").unwrap());
     let less = Comparison::Less;
@@ -304,7 +304,7 @@ struct Watched {
 
 impl Watched {
     fn all(graph: &Graph, mailbox: impl Into<dsr::Mailbox> + Copy) -> Vec<Self> {
-        let patterns = patterns(&graph.dictionary()).into_iter();
+        let patterns = patterns(&graph.vocabulary()).into_iter();
         let mut all: Vec<_> = patterns
             .map(|(name, pattern, condition)| {
                 let (matches, expected) = (graph.subscribe_with(pattern, mailbox), BTreeSet::new());

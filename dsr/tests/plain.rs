@@ -12,7 +12,7 @@ use dsr::{
 
 /// With every kind of part.
 fn pattern(graph: &dsr::Graph) -> Pattern {
-    let d = graph.dictionary();
+    let d = graph.vocabulary();
     let (label, attribute) = (|name| d.label(name).unwrap(), |name| d.attribute(name).unwrap());
     let kind = |name| d.node_type(name).unwrap();
     let mut p = PatternBuilder::new(&d);
@@ -47,7 +47,7 @@ fn a_transaction_is_the_same_from_another_process() {
     for graph in [&here, &there] {
         world::commit(graph, "dsr", set_up).unwrap();
     }
-    let d = here.dictionary();
+    let d = here.vocabulary();
     let (speech, speaker) = (world::agent(&d, "speech"), d.resource("speaker").unwrap());
     let kept = Arc::new(pattern(&here));
     let who = (kept.variable("who").unwrap(), here.snapshot().node("carlos").unwrap());
@@ -63,7 +63,7 @@ fn a_transaction_is_the_same_from_another_process() {
     });
     let sent = serde_json::to_string(&tx).unwrap();
     let read: Transaction<PatternSource> = serde_json::from_str(&sent).unwrap();
-    let built = read.build(&there.dictionary()).unwrap();
+    let built = read.build(&there.vocabulary()).unwrap();
     assert_eq!(serde_json::to_string(&built).unwrap(), sent);
     let (one, two) = (here.commit(&tx, Time(1)).unwrap(), there.commit(&built, Time(1)).unwrap());
     assert_eq!((one.delta, one.guards), (two.delta, two.guards));
@@ -84,12 +84,12 @@ fn what_is_read_is_checked() {
     let graph = world::ward();
     let json = serde_json::to_string(&pattern(&graph)).unwrap();
     let source = |json: &str| serde_json::from_str::<PatternSource>(json).unwrap();
-    assert!(source(&json).build(&graph.dictionary()).is_ok());
-    let other = dsr::DictionaryBuilder::new().build();
+    assert!(source(&json).build(&graph.vocabulary()).is_ok());
+    let other = dsr::VocabularyBuilder::new().build();
     assert!(matches!(source(&json).build(&other), Err(PatternError::UnknownType { .. })));
     let strange = json.replace("\"index\":2", "\"index\":7");
     assert_ne!(strange, json);
-    assert!(source(&strange).build(&graph.dictionary()).is_err());
+    assert!(source(&strange).build(&graph.vocabulary()).is_err());
     // A part that declares a variable of the pattern, and a variable that nobody declares.
     let local = r#"{"variable":{"scope":"local","index":0}}"#;
     let again = json.replace(
@@ -97,8 +97,8 @@ fn what_is_read_is_checked() {
         r#""variables":[{"variable":{"scope":"top","index":0}}]"#,
     );
     assert_ne!(again, json);
-    assert!(matches!(source(&again).build(&graph.dictionary()), Err(PatternError::Misdeclared { .. })));
+    assert!(matches!(source(&again).build(&graph.vocabulary()), Err(PatternError::Misdeclared { .. })));
     let never = json.replace(&format!(r#""variables":[{local}]"#), r#""variables":[]"#);
     assert_ne!(never, json);
-    assert!(source(&never).build(&graph.dictionary()).is_err());
+    assert!(source(&never).build(&graph.vocabulary()).is_err());
 }

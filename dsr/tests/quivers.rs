@@ -4,7 +4,7 @@
 
 use std::collections::BTreeSet;
 
-use dsr::{AgentId, DictionaryBuilder, Graph, LabelId, Nature, NodeId, Snapshot, Time, TypeId};
+use dsr::{AgentId, Graph, LabelId, Nature, NodeId, Snapshot, Time, TypeId, VocabularyBuilder};
 use petgraph::Direction;
 use petgraph::algo::{dijkstra, is_cyclic_directed, kosaraju_scc, tarjan_scc};
 use petgraph::graphmap::DiGraphMap;
@@ -15,7 +15,7 @@ const NODES: usize = 8;
 
 /// A node is added and taken away again, so that ids have a gap.
 fn graph(edges: &[(usize, usize, bool)]) -> Graph {
-    let mut builder = DictionaryBuilder::new();
+    let mut builder = VocabularyBuilder::new();
     let place = builder.node_type("place", None, Nature::Symbolic).unwrap();
     let labels = ["leads", "sees"].map(|name| builder.label(name, place, place).unwrap());
     let graph = Graph::new(builder.build());

@@ -9,8 +9,8 @@ use std::num::NonZeroUsize;
 use std::sync::Arc;
 
 use dsr::{
-    Comparison, Covariance, Delivery, Dictionary, Event, Graph, HolderTerm, NodeId, Operand, Pattern,
-    PatternBuilder, Snapshot, Term,
+    Comparison, Covariance, Delivery, Event, Graph, HolderTerm, NodeId, Operand, Pattern, PatternBuilder,
+    Snapshot, Term, Vocabulary,
 };
 use proptest::prelude::*;
 
@@ -291,7 +291,7 @@ fn history() -> impl Strategy<Value = Vec<Vec<String>>> {
 type Brute = fn(&Snapshot, &[NodeId]) -> bool;
 
 /// Patterns, and the same conditions written as plain code over all assignments.
-fn patterns(d: &Dictionary) -> Vec<(Pattern, Brute)> {
+fn patterns(d: &Vocabulary) -> Vec<(Pattern, Brute)> {
     let kind = |name: &str| d.node_type(name).unwrap();
     let label = |name: &str| d.label(name).unwrap();
     let attribute = |name: &str| d.attribute(name).unwrap();
@@ -325,7 +325,7 @@ fn patterns(d: &Dictionary) -> Vec<(Pattern, Brute)> {
         10.0,
     );
     list.push((p.build().unwrap(), |s, n| {
-        let a = |name| s.attribute(n[0], s.dictionary().attribute(name).unwrap());
+        let a = |name| s.attribute(n[0], s.vocabulary().attribute(name).unwrap());
         a("patient").and_then(dsr::Value::as_node) == Some(n[1])
             && a("score").and_then(dsr::Value::as_number).is_some_and(|score| score < 10.0)
     }));
@@ -342,8 +342,8 @@ fn patterns(d: &Dictionary) -> Vec<(Pattern, Brute)> {
         });
     });
     list.push((p.build().unwrap(), |s, n| {
-        let place = s.dictionary().node_type("place").unwrap();
-        let robot = s.dictionary().node_type("robot").unwrap();
+        let place = s.vocabulary().node_type("place").unwrap();
+        let robot = s.vocabulary().node_type("robot").unwrap();
         !s.nodes_of(place).any(|friend| {
             edge(s, Some(n[0]), "knows", Some(friend))
                 && !s.nodes_of(robot).any(|robot| edge(s, Some(friend), "is_with", Some(robot)))
@@ -358,7 +358,7 @@ fn patterns(d: &Dictionary) -> Vec<(Pattern, Brute)> {
         p.distinct(who, other);
     });
     list.push((p.build().unwrap(), |s, n| {
-        let person = s.dictionary().node_type("person").unwrap();
+        let person = s.vocabulary().node_type("person").unwrap();
         !s.nodes_of(person).any(|other| other != n[0])
     }));
 
@@ -392,9 +392,9 @@ fn patterns(d: &Dictionary) -> Vec<(Pattern, Brute)> {
         );
     });
     list.push((p.build().unwrap(), |s, n| {
-        let key = dsr::EdgeKey { from: n[0], label: s.dictionary().label("is_in").unwrap(), to: n[1] };
-        let has = |name| s.attribute(n[0], s.dictionary().attribute(name).unwrap()).is_some();
-        s.attribute(key, s.dictionary().attribute("says").unwrap())
+        let key = dsr::EdgeKey { from: n[0], label: s.vocabulary().label("is_in").unwrap(), to: n[1] };
+        let has = |name| s.attribute(n[0], s.vocabulary().attribute(name).unwrap()).is_some();
+        s.attribute(key, s.vocabulary().attribute("says").unwrap())
             .and_then(dsr::Value::as_text)
             .is_some_and(|text| text != "xxx")
             && !(has("urgent") && has("patient") && edge(s, Some(n[0]), "knows", Some(n[1])))
@@ -405,7 +405,7 @@ fn patterns(d: &Dictionary) -> Vec<(Pattern, Brute)> {
     let (test, part) = (p.variable("test", kind("test")), p.variable("part", kind("part")));
     p.edge(test, label("is_in"), part).guard(test, attribute("score"), Comparison::Equal, 5.0);
     list.push((p.build().unwrap(), |s, n| {
-        let score = s.attribute(n[0], s.dictionary().attribute("score").unwrap());
+        let score = s.attribute(n[0], s.vocabulary().attribute("score").unwrap());
         edge(s, Some(n[0]), "is_in", Some(n[1])) && score.and_then(dsr::Value::as_number) == Some(5.0)
     }));
 
@@ -417,7 +417,7 @@ fn patterns(d: &Dictionary) -> Vec<(Pattern, Brute)> {
         p.edge(test, label("is_in"), part).guard(test, attribute("score"), Comparison::Greater, 5.0);
     });
     list.push((p.build().unwrap(), |s, n| {
-        let (test, score) = (s.dictionary().node_type("test").unwrap(), s.dictionary().attribute("score"));
+        let (test, score) = (s.vocabulary().node_type("test").unwrap(), s.vocabulary().attribute("score"));
         let high = |id| s.attribute(id, score.unwrap()).and_then(dsr::Value::as_number) > Some(5.0);
         !s.nodes_of(test).any(|test| edge(s, Some(test), "is_in", Some(n[0])) && high(test))
     }));
@@ -432,7 +432,7 @@ fn patterns(d: &Dictionary) -> Vec<(Pattern, Brute)> {
         p.edge(c, label("is"), what).edge(b, label("is"), what);
     });
     list.push((p.build().unwrap(), |s, n| {
-        let activity = s.dictionary().node_type("activity").unwrap();
+        let activity = s.vocabulary().node_type("activity").unwrap();
         let is = |who, what| edge(s, Some(who), "is", Some(what));
         edge(s, Some(n[0]), "knows", Some(n[1]))
             && edge(s, Some(n[1]), "is_with", Some(n[2]))
@@ -445,8 +445,8 @@ fn patterns(d: &Dictionary) -> Vec<(Pattern, Brute)> {
     let says = HolderTerm::edge(test, label("is_in"), part);
     p.guard(says, attribute("says"), Comparison::Equal, dsr::Value::text("yyy"));
     list.push((p.build().unwrap(), |s, n| {
-        let key = dsr::EdgeKey { from: n[0], label: s.dictionary().label("is_in").unwrap(), to: n[1] };
-        let says = s.attribute(key, s.dictionary().attribute("says").unwrap());
+        let key = dsr::EdgeKey { from: n[0], label: s.vocabulary().label("is_in").unwrap(), to: n[1] };
+        let says = s.attribute(key, s.vocabulary().attribute("says").unwrap());
         says.and_then(dsr::Value::as_text) == Some("yyy")
     }));
 
@@ -459,8 +459,8 @@ fn patterns(d: &Dictionary) -> Vec<(Pattern, Brute)> {
     p.guard(of(b, c), attribute("of"), Comparison::NotEqual, Operand::Attribute(of(a, b), attribute("of")));
     list.push((p.build().unwrap(), |s, n| {
         let of = |from, to| {
-            let key = dsr::EdgeKey { from, label: s.dictionary().label("knows").unwrap(), to };
-            s.attribute(key, s.dictionary().attribute("of").unwrap()).and_then(dsr::Value::as_node)
+            let key = dsr::EdgeKey { from, label: s.vocabulary().label("knows").unwrap(), to };
+            s.attribute(key, s.vocabulary().attribute("of").unwrap()).and_then(dsr::Value::as_node)
         };
         of(n[0], n[1]) == Some(n[3]) && of(n[1], n[2]).is_some_and(|other| other != n[3])
     }));
@@ -468,7 +468,7 @@ fn patterns(d: &Dictionary) -> Vec<(Pattern, Brute)> {
 }
 
 fn edge(s: &Snapshot, from: Option<NodeId>, label: &str, to: Option<NodeId>) -> bool {
-    matches!((from, to), (Some(from), Some(to)) if s.has_edge(from, s.dictionary().label(label).unwrap(), to))
+    matches!((from, to), (Some(from), Some(to)) if s.has_edge(from, s.vocabulary().label(label).unwrap(), to))
 }
 
 /// All assignments of nodes of the right types for which the condition holds, in order.
@@ -485,10 +485,10 @@ fn brute(pattern: &Pattern, condition: Brute, snapshot: &Snapshot) -> Vec<Vec<No
 
 /// Runs a history and compares, after each transaction and at the end, everything that must agree.
 fn check(history: &[Vec<String>]) -> Result<(), TestCaseError> {
-    let graph = Graph::new(world::dictionary());
+    let graph = Graph::new(world::vocabulary());
     let initial = graph.snapshot().export();
     let feed = graph.subscribe_deltas();
-    let patterns = patterns(&graph.dictionary());
+    let patterns = patterns(&graph.vocabulary());
     let mut watchers: Vec<_> = patterns.iter().map(|(p, _)| graph.subscribe(p.clone())).collect();
     // One that never listens until the end, with room for two commits.
     let two = NonZeroUsize::new(2).unwrap();
@@ -500,7 +500,7 @@ fn check(history: &[Vec<String>]) -> Result<(), TestCaseError> {
     let (mut model, mut deltas) = (Model::default(), Vec::new());
     // The same history where nobody listens and snapshots are held only now and then, so that most transactions
     // are applied and taken back in place.
-    let alone = Graph::new(world::dictionary());
+    let alone = Graph::new(world::vocabulary());
     let mut held = Vec::new();
     // Everybody is there at first, so that most edits have something to work on.
     let everybody: Vec<_> = NODES.iter().map(|(name, kind)| format!("node {name} {kind}")).collect();
@@ -577,9 +577,9 @@ fn check(history: &[Vec<String>]) -> Result<(), TestCaseError> {
     // Through JSON, as a journal would.
     let json = serde_json::to_string(&deltas).unwrap();
     let read: Vec<dsr::Delta> = serde_json::from_str(&json).unwrap();
-    let replayed = Graph::replay(graph.dictionary(), &initial, &read).unwrap();
+    let replayed = Graph::replay(graph.vocabulary(), &initial, &read).unwrap();
     prop_assert_eq!(world::bytes(&replayed), world::bytes(&graph));
-    let restored = Graph::restore(graph.dictionary(), &graph.snapshot().export()).unwrap();
+    let restored = Graph::restore(graph.vocabulary(), &graph.snapshot().export()).unwrap();
     prop_assert_eq!(world::bytes(&restored), world::bytes(&graph));
     Ok(())
 }

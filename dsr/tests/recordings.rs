@@ -1,4 +1,4 @@
-//! What is found in a folder: other histories, dictionaries and formats, half a file, one that is gone. All of it is named,
+//! What is found in a folder: other histories, vocabularies and formats, half a file, one that is gone. All of it is named,
 //! and what can be read is.
 #![allow(clippy::unwrap_used, reason = "a test that fails says where")]
 
@@ -7,8 +7,8 @@ mod world;
 use std::path::Path;
 
 use dsr::{
-    AgentId, Damage, DictionaryBuilder, Durability, Folder, Graph, Memory, Nature, Recording, RecordingError,
-    Settings, Snapshot, Time, Version,
+    AgentId, Damage, Durability, Folder, Graph, Memory, Nature, Recording, RecordingError, Settings,
+    Snapshot, Time, Version, VocabularyBuilder,
 };
 use proptest::prelude::*;
 
@@ -28,7 +28,7 @@ fn scores(
 ) -> (Memory, Vec<(Version, Time)>) {
     let memory = Memory::default();
     let journal = graph.journal(memory.clone(), settings(segment_bytes)).unwrap();
-    let score = graph.dictionary().attribute("score").unwrap();
+    let score = graph.vocabulary().attribute("score").unwrap();
     let mut versions = vec![(graph.snapshot().version(), graph.snapshot().time())];
     for (round, time) in times.into_iter().enumerate() {
         #[expect(clippy::cast_precision_loss, reason = "small")]
@@ -182,10 +182,10 @@ fn copies_with_other_names_are_no_segments() {
 }
 
 #[test]
-fn a_segment_with_another_dictionary_is_left_out() {
+fn a_segment_with_another_vocabulary_is_left_out() {
     let (ours, versions) = scores(&world::ward(), [50, 60], 1);
     let theirs = Memory::default();
-    Graph::new(DictionaryBuilder::new().build())
+    Graph::new(VocabularyBuilder::new().build())
         .journal(theirs.clone(), settings(1))
         .unwrap()
         .close()
@@ -251,7 +251,7 @@ fn a_file_that_cannot_be_read_is_named_and_one_that_is_gone_is_not_missed() {
 #[test]
 fn any_number_of_starts_without_a_commit_is_gone_through() {
     let memory = Memory::default();
-    let mut builder = DictionaryBuilder::new();
+    let mut builder = VocabularyBuilder::new();
     let thing = builder.node_type("thing", None, Nature::Symbolic).unwrap();
     let graph = Graph::new(builder.build());
     graph.journal(memory.clone(), settings(1)).unwrap().close().unwrap();

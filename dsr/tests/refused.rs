@@ -4,9 +4,9 @@
 mod world;
 
 use dsr::{
-    AgentId, AttributeId, Change, Delta, DictionaryBuilder, EdgeKey, Export, ExportedEdge, ExportedTransform,
-    Graph, Holder, Isometry3, LabelId, Nature, NodeId, Pose, ReplayError, RestoreError, Snapshot, Time,
-    TransactionError, TypeId, Value, Version,
+    AgentId, AttributeId, Change, Delta, EdgeKey, Export, ExportedEdge, ExportedTransform, Graph, Holder,
+    Isometry3, LabelId, Nature, NodeId, Pose, ReplayError, RestoreError, Snapshot, Time, TransactionError,
+    TypeId, Value, Version, VocabularyBuilder,
 };
 use nalgebra::{Quaternion, UnitQuaternion};
 
@@ -30,7 +30,7 @@ fn a_rotation_that_is_none_is_refused_live_as_when_it_is_read() {
     assert_eq!(world::bytes(&graph), before);
     let mut export = graph.snapshot().export();
     export.transforms[0].rotation = [0.0, 0.0, 0.0, 2.0];
-    let restored = Graph::restore(graph.dictionary(), &export);
+    let restored = Graph::restore(graph.vocabulary(), &export);
     assert!(matches!(restored, Err(RestoreError::WrongTransform { .. })));
 }
 
@@ -38,7 +38,7 @@ fn replay(graph: &Graph, changes: Vec<Change>) -> Result<Graph, ReplayError> {
     let now = graph.snapshot();
     let version = Version(now.version().0 + 1);
     let delta = Delta { version, time: Time(0), writer: AgentId::DSR, changes, reflexes: Vec::new() };
-    Graph::replay(graph.dictionary(), &now.export(), [&delta])
+    Graph::replay(graph.vocabulary(), &now.export(), [&delta])
 }
 
 fn id(now: &Snapshot, name: &str) -> NodeId {
@@ -49,11 +49,11 @@ fn id(now: &Snapshot, name: &str) -> NodeId {
 fn a_delta_that_no_graph_made_does_not_fit() {
     let graph = world::ward();
     let now = graph.snapshot();
-    let dictionary = graph.dictionary();
+    let vocabulary = graph.vocabulary();
     let next = now.export().next;
     let node = |name: &str| id(&now, name);
     let edge = |from, label, to| EdgeKey { from: node(from), label, to: node(to) };
-    let attribute = |name| dictionary.attribute(name).unwrap();
+    let attribute = |name| vocabulary.attribute(name).unwrap();
     let added = |holder: NodeId, attribute: AttributeId, new: Value| Change::AttributeAdded {
         holder: Holder::Node(holder),
         attribute,
@@ -73,7 +73,7 @@ fn a_delta_that_no_graph_made_does_not_fit() {
         vec![gone("speech", TypeId::AGENT)],
         vec![gone("speaker", TypeId::RESOURCE)],
         vec![comes("second", TypeId::AGENT)],
-        vec![comes("", dictionary.node_type("part").unwrap())],
+        vec![comes("", vocabulary.node_type("part").unwrap())],
         vec![added(node("clarc"), attribute("score"), Value::Number(1.0))],
         vec![added(node("barthel"), attribute("score"), Value::Number(f64::NAN))],
         vec![added(node("barthel"), attribute("patient"), Value::Node(node("clarc")))],
@@ -101,7 +101,7 @@ fn an_export_that_no_graph_made_is_refused() {
     let with = |change: &dyn Fn(&mut Export)| {
         let mut export = graph.snapshot().export();
         change(&mut export);
-        Graph::restore(graph.dictionary(), &export).map(|_| ()).unwrap_err()
+        Graph::restore(graph.vocabulary(), &export).map(|_| ()).unwrap_err()
     };
     let edge = |from: &str, label: &str, to: &str| {
         let since = Version(0);
@@ -129,7 +129,7 @@ fn an_export_that_no_graph_made_is_refused() {
 /// long chain of frames, with a circle at its end: each of its nodes leads there.
 #[test]
 fn what_is_refused_is_refused_soon() {
-    let mut builder = DictionaryBuilder::new();
+    let mut builder = VocabularyBuilder::new();
     let place = builder.node_type("place", None, Nature::Geometric).unwrap();
     for at in 0..20 {
         builder.agent(format!("a{at}").as_str()).unwrap();
@@ -149,7 +149,7 @@ fn what_is_refused_is_refused_soon() {
             });
         }
     }
-    let refused = Graph::restore(graph.dictionary(), &export).map(|_| ());
+    let refused = Graph::restore(graph.vocabulary(), &export).map(|_| ());
     assert_eq!(refused.unwrap_err(), RestoreError::WrongLeases);
 
     const DEEP: usize = 20_000;
@@ -166,10 +166,10 @@ fn what_is_refused_is_refused_soon() {
         samples: Vec::new(),
     };
     export.transforms = (1..=DEEP).map(|child| below(child - 1, child)).collect();
-    assert!(Graph::restore(graph.dictionary(), &export).is_ok(), "deep is not wrong");
+    assert!(Graph::restore(graph.vocabulary(), &export).is_ok(), "deep is not wrong");
     export.transforms.push(below(2, 0));
     assert!(matches!(
-        Graph::restore(graph.dictionary(), &export).map(|_| ()),
+        Graph::restore(graph.vocabulary(), &export).map(|_| ()),
         Err(RestoreError::Unsound(TransactionError::Cycle { .. }))
     ));
 }

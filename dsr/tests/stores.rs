@@ -140,7 +140,7 @@ impl Store for Gated {
     }
 }
 
-/// The disk stalls at one append after the other: of the commit's frame, and of the dictionary and the state of the
+/// The disk stalls at one append after the other: of the commit's frame, and of the vocabulary and the state of the
 /// segment that begins behind it, each a header and a payload.
 #[test]
 fn commits_that_are_left_out_while_a_segment_ends_or_begins_are_a_gap() {
@@ -283,7 +283,7 @@ fn a_journal_goes_on_behind_the_one_before_and_outlives_its_graph() {
     let store = Folder::new(folder.path()).unwrap();
     assert!(!store.is_fresh());
     let journal = graph.journal(store, Settings::default()).unwrap();
-    let score = graph.dictionary().attribute("score").unwrap();
+    let score = graph.vocabulary().attribute("score").unwrap();
     graph.edit(AgentId::DSR, Time(9), |tx| _ = tx.set_attribute("barthel", score, 2.0)).unwrap();
     journal.close().unwrap();
 

@@ -109,11 +109,11 @@ fn only_those_whom_a_commit_may_concern_are_told() {
 }
 
 fn scored(graph: &Graph) -> Pattern {
-    let dictionary = graph.dictionary();
-    let mut pattern = PatternBuilder::new(&dictionary);
-    let test = pattern.variable("test", dictionary.node_type("test").unwrap());
+    let vocabulary = graph.vocabulary();
+    let mut pattern = PatternBuilder::new(&vocabulary);
+    let test = pattern.variable("test", vocabulary.node_type("test").unwrap());
     let holder = HolderTerm::node(test);
-    pattern.guard(holder, dictionary.attribute("score").unwrap(), Comparison::Equal, 1.0);
+    pattern.guard(holder, vocabulary.attribute("score").unwrap(), Comparison::Equal, 1.0);
     pattern.build().unwrap()
 }
 

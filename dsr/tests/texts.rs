@@ -78,7 +78,7 @@ impl Said {
 
     fn holds(&self, row: &BTreeMap<&'static str, NodeId>, s: &Snapshot) -> bool {
         let node = |word: &str| row.get(word).copied().or_else(|| s.node(word));
-        let d = s.dictionary();
+        let d = s.vocabulary();
         let value = |word: &str, attribute| s.attribute(node(word)?, d.attribute(attribute).unwrap());
         match self {
             Self::Is(kind, a) => {
@@ -149,7 +149,7 @@ proptest! {
         let graph = world::ward();
         let mut watched = Vec::new();
         for said in &texts {
-            match Pattern::parse(&graph.dictionary(), &said.to_string()) {
+            match Pattern::parse(&graph.vocabulary(), &said.to_string()) {
                 Ok(pattern) => watched.push((said, graph.subscribe(pattern.clone()), pattern)),
                 // Refused is what never holds, inside of a `not` or outside.
                 Err(error) => {

@@ -11,8 +11,8 @@ use dsr::{AgentId, Comparison, Event, Graph, NodeRef, PatternBuilder, Time};
 #[test]
 fn no_increment_is_lost_and_every_commit_is_told_in_order() {
     let graph = world::ward();
-    let dictionary = graph.dictionary();
-    let score = dictionary.attribute("score").unwrap();
+    let vocabulary = graph.vocabulary();
+    let score = vocabulary.attribute("score").unwrap();
     let barthel = graph.snapshot().node("barthel").unwrap();
     let feed = graph.subscribe_deltas();
     let start = graph.snapshot().version().0;
@@ -44,8 +44,8 @@ fn no_increment_is_lost_and_every_commit_is_told_in_order() {
 #[test]
 fn readers_see_whole_commits_in_order() {
     let graph = world::ward();
-    let dictionary = graph.dictionary();
-    let (score, urgent) = (dictionary.attribute("score").unwrap(), dictionary.attribute("urgent").unwrap());
+    let vocabulary = graph.vocabulary();
+    let (score, urgent) = (vocabulary.attribute("score").unwrap(), vocabulary.attribute("urgent").unwrap());
     let barthel = graph.snapshot().node("barthel").unwrap();
     let (writers, readers, rounds) = (4_u32, 4, 200_u32);
     let start = graph.snapshot().version().0;
@@ -89,10 +89,10 @@ fn readers_see_whole_commits_in_order() {
 #[test]
 fn a_blocked_subscriber_is_woken_by_a_match_and_by_the_end() {
     let graph = world::ward();
-    let dictionary = graph.dictionary();
-    let mut pattern = PatternBuilder::new(&dictionary);
-    let test = pattern.variable("test", dictionary.node_type("test").unwrap());
-    pattern.guard(test, dictionary.attribute("score").unwrap(), Comparison::GreaterOrEqual, 100.0);
+    let vocabulary = graph.vocabulary();
+    let mut pattern = PatternBuilder::new(&vocabulary);
+    let test = pattern.variable("test", vocabulary.node_type("test").unwrap());
+    pattern.guard(test, vocabulary.attribute("score").unwrap(), Comparison::GreaterOrEqual, 100.0);
     let mut full = graph.subscribe(pattern.build().unwrap());
     let wakes = Arc::new(AtomicUsize::new(0));
     let counter = Arc::clone(&wakes);

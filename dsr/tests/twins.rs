@@ -63,9 +63,9 @@ fn deed() -> impl Strategy<Value = Deed> {
 }
 
 fn transaction(graph: &Graph, deed: &Deed, guards: &[ReflexId]) -> Transaction {
-    let dictionary = graph.dictionary();
-    let agent = |at: usize| world::agent(&dictionary, AGENTS[at]);
-    let resource = |at: usize| dictionary.resource(RESOURCES[at]).unwrap();
+    let vocabulary = graph.vocabulary();
+    let agent = |at: usize| world::agent(&vocabulary, AGENTS[at]);
+    let resource = |at: usize| vocabulary.resource(RESOURCES[at]).unwrap();
     let by = |at: usize| Transaction::new(agent(at));
     match *deed {
         Deed::Lines(lines) => world::transaction(graph, "dsr", lines),
@@ -91,12 +91,12 @@ fn transaction(graph: &Graph, deed: &Deed, guards: &[ReflexId]) -> Transaction {
             tx
         }
         Deed::Guard(who, lease) => {
-            let mut pattern = PatternBuilder::new(&dictionary);
-            pattern.edge("carlos", dictionary.label("is_with").unwrap(), "clarc");
+            let mut pattern = PatternBuilder::new(&vocabulary);
+            pattern.edge("carlos", vocabulary.label("is_with").unwrap(), "clarc");
             let keep = Bound { pattern: Arc::new(pattern.build().unwrap()), binding: Vec::new() };
             let mut tx = by(who);
             // Only `speech` and `pelea` may write it; the reflex of the other has nothing to write.
-            let is = dictionary.label("is").unwrap();
+            let is = vocabulary.label("is").unwrap();
             let stop = Edit::RemoveEdge { from: "clarc".into(), label: is, to: "speaking".into() };
             tx.guard(Reflex {
                 owner: agent(who),
@@ -120,7 +120,7 @@ fn transaction(graph: &Graph, deed: &Deed, guards: &[ReflexId]) -> Transaction {
         }
         Deed::Many(of) => {
             let mut tx = world::transaction(graph, "dsr", "");
-            let kind = dictionary.node_type("part").unwrap();
+            let kind = vocabulary.node_type("part").unwrap();
             let version = graph.snapshot().version().0;
             (0..50 * of).for_each(|at| _ = tx.add_node(format!("part-{version}-{at}"), kind));
             tx
@@ -151,10 +151,10 @@ proptest! {
                 }
             }
             // A state that a graph made is one that it takes back.
-            let restored = Graph::restore(alone.dictionary(), &alone.snapshot().export()).unwrap();
+            let restored = Graph::restore(alone.vocabulary(), &alone.snapshot().export()).unwrap();
             prop_assert_eq!(world::bytes(&restored), world::bytes(&alone));
         }
-        let replayed = Graph::replay(held.dictionary(), &first, &deltas).unwrap();
+        let replayed = Graph::replay(held.vocabulary(), &first, &deltas).unwrap();
         prop_assert_eq!(world::bytes(&replayed), world::bytes(&alone));
         let last = alone.snapshot();
         journal.close().unwrap();

@@ -14,7 +14,7 @@ use std::collections::VecDeque;
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use vocabulary::Vocabulary;
+use vocabulary::Tokens;
 
 struct Barthel {
     graph: Graph,
@@ -40,12 +40,12 @@ fn barthel() -> Barthel {
     let problem = |path, domain| parse_problem(&read(path), domain).model.unwrap();
     let world = problem("robots/clarc/world.pddl", &clarc);
     let nodes = problem("domains/barthel/graph.pddl", &clarc);
-    let vocabulary = Vocabulary::new(&clarc).unwrap();
-    let graph = vocabulary.populate(&[&world, &nodes], Time(0)).unwrap();
+    let tokens = Tokens::new(&clarc).unwrap();
+    let graph = tokens.populate(&[&world, &nodes], Time(0)).unwrap();
     let names: Vec<Name> =
         perception.axioms.iter().map(|a| perception.predicates[a.predicate].name.clone()).collect();
-    let perception = Arc::new(Perception::new(&perception, &vocabulary).unwrap());
-    let methods = Arc::new(Methods::new(&methods, &vocabulary).unwrap());
+    let perception = Arc::new(Perception::new(&perception, &tokens).unwrap());
+    let methods = Arc::new(Methods::new(&methods, &tokens).unwrap());
     let problem = problem("domains/barthel/problem.pddl", &barthel);
     let model = Arc::new(Model::new(barthel, problem, &names).unwrap());
     let fallback = Step { action: Name::new("fall-back"), arguments: vec![Name::new("person")] };
@@ -67,7 +67,7 @@ impl Barthel {
                 match effect {
                     Effect::Write(edits) => {
                         let mut transaction =
-                            Transaction::new(self.graph.dictionary().agent("pelea").unwrap());
+                            Transaction::new(self.graph.vocabulary().agent("pelea").unwrap());
                         transaction.extend(edits);
                         let commit = self.graph.commit(&transaction, Time(0)).unwrap();
                         events.push_back(Event::Written(commit.version));
@@ -92,10 +92,10 @@ impl Barthel {
     }
 
     fn write(&self, agent: &str, from: &str, label: &str, to: &str, add: bool) {
-        let dictionary = self.graph.dictionary();
-        let (from, label, to) = (from.into(), dictionary.label(label).unwrap(), to.into());
+        let vocabulary = self.graph.vocabulary();
+        let (from, label, to) = (from.into(), vocabulary.label(label).unwrap(), to.into());
         let edit = if add { Edit::AddEdge { from, label, to } } else { Edit::RemoveEdge { from, label, to } };
-        let mut transaction = Transaction::new(dictionary.agent(agent).unwrap());
+        let mut transaction = Transaction::new(vocabulary.agent(agent).unwrap());
         transaction.push(edit);
         self.graph.commit(&transaction, Time(0)).unwrap();
     }

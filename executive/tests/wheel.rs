@@ -10,7 +10,7 @@ use pddl::model::{Domain, Name};
 use pddl::{Source, parse_domain, parse_problem};
 use std::collections::VecDeque;
 use std::sync::Arc;
-use vocabulary::Vocabulary;
+use vocabulary::Tokens;
 
 /// A wheel over the lamps, with everything around it.
 struct Bench {
@@ -46,12 +46,12 @@ impl Bench {
         let problem = Source::new("problem", include_str!("../test_data/lamps/problem.pddl"));
         let problem = parse_problem(&problem, &lamps).model.unwrap();
 
-        let vocabulary = Vocabulary::new(&lab).unwrap();
-        let graph = vocabulary.populate(&[&world], Time(0)).unwrap();
+        let tokens = Tokens::new(&lab).unwrap();
+        let graph = tokens.populate(&[&world], Time(0)).unwrap();
         let perceived = [Name::new("bright"), Name::new("dead")];
         let model = Arc::new(Model::new(lamps, problem, &perceived).unwrap());
-        let perception = Arc::new(Perception::new(&perception, &vocabulary).unwrap());
-        let methods = Arc::new(Methods::new(&methods, &vocabulary).unwrap());
+        let perception = Arc::new(Perception::new(&perception, &tokens).unwrap());
+        let methods = Arc::new(Methods::new(&methods, &tokens).unwrap());
         let fallback = Step { action: Name::new(fallback), arguments: vec![Name::new("a")] };
         let wheel =
             Wheel::new(model, perception, methods, Policy { fallback, expansions: 1_000, attempts: 2 });
@@ -92,18 +92,18 @@ impl Bench {
     }
 
     fn agent(&self, name: &str) -> AgentId {
-        self.graph.dictionary().agent(name).unwrap()
+        self.graph.vocabulary().agent(name).unwrap()
     }
 
     /// The lighter, or whoever, makes a token true.
     fn write(&mut self, agent: &str, lamp: &str, state: &str) {
-        let is = self.graph.dictionary().label("is").unwrap();
+        let is = self.graph.vocabulary().label("is").unwrap();
         self.edit(agent, Edit::AddEdge { from: lamp.into(), label: is, to: state.into() });
     }
 
     /// Or false.
     fn take(&mut self, agent: &str, lamp: &str, state: &str) {
-        let is = self.graph.dictionary().label("is").unwrap();
+        let is = self.graph.vocabulary().label("is").unwrap();
         self.edit(agent, Edit::RemoveEdge { from: lamp.into(), label: is, to: state.into() });
     }
 
@@ -300,7 +300,7 @@ fn a_deadline_that_passes_while_a_plan_is_made_stops_nothing() {
 fn missed_changes_are_made_up_for_by_one_look() {
     let mut bench = Bench::new();
     bench.plan();
-    let is = bench.graph.dictionary().label("is").unwrap();
+    let is = bench.graph.vocabulary().label("is").unwrap();
     bench.commit("lighter", vec![Edit::AddEdge { from: "a".into(), label: is, to: "lit".into() }]);
     while bench.deltas.try_recv().is_some() {}
     bench.turn(Event::Seen(bench.graph.snapshot()));

@@ -10,13 +10,13 @@
 //! use dsr::{AgentId, Time};
 //! use high_to_low::{Methods, Refinement, Status};
 //! use pddl::{Source, parse_domain, parse_problem};
-//! use vocabulary::Vocabulary;
+//! use vocabulary::Tokens;
 //!
 //! let words = Source::new("words", "(define (domain words) (:requirements :typing :vocabulary)
 //!     (:types lamp state - object) (:constants wanted lit - state)
 //!     (:predicates (is ?l - lamp ?s - state)))");
 //! let words = parse_domain(&words, &[]).model.unwrap();
-//! let vocabulary = Vocabulary::new(&words).unwrap();
+//! let vocabulary = Tokens::new(&words).unwrap();
 //! let world = Source::new("w", "(define (problem w) (:domain words) (:objects l - lamp) (:init) (:goal (and)))");
 //! let world = parse_problem(&world, &words).model.unwrap();
 //! let graph = vocabulary.populate(&[&world], Time(0)).unwrap();

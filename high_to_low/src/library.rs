@@ -9,7 +9,7 @@ use pddl::model::{
     Comparison, Domain, DurationConstraint, DurativeAction, ExpressionKind, Idx, Name, SubtaskHead, TaskId,
     Term, TimeSpecifier, VariableId, Variables,
 };
-use vocabulary::{Binding, Condition, Effect, LinkError, Vocabulary};
+use vocabulary::{Binding, Condition, Effect, LinkError, Tokens};
 
 /// The tasks, methods and intentions of a mission.
 #[derive(Clone, Debug)]
@@ -152,8 +152,8 @@ impl Methods {
     ///
     /// # Errors
     /// Everything that is wrong with it, each with its place.
-    pub fn new(domain: &Domain, vocabulary: &Vocabulary) -> Result<Self, Vec<MethodsError>> {
-        let mut compiler = Compiler { domain, vocabulary, errors: Vec::new() };
+    pub fn new(domain: &Domain, tokens: &Tokens) -> Result<Self, Vec<MethodsError>> {
+        let mut compiler = Compiler { domain, tokens, errors: Vec::new() };
         let intentions = domain.durative_actions.iter().filter_map(|a| compiler.intention(a)).collect();
         let methods: Vec<_> = domain.methods.iter().filter_map(|m| compiler.method(m)).collect();
         let tasks = domain.tasks.enumerate().map(|(id, task)| compiler.task(id, task)).collect();
@@ -172,7 +172,7 @@ impl Methods {
 
 struct Compiler<'a> {
     domain: &'a Domain,
-    vocabulary: &'a Vocabulary,
+    tokens: &'a Tokens,
     errors: Vec<MethodsError>,
 }
 
@@ -187,7 +187,7 @@ impl Compiler<'_> {
     }
 
     fn method(&mut self, method: &pddl::model::Method) -> Option<Method> {
-        let link = self.vocabulary.link(self.domain);
+        let link = self.tokens.link(self.domain);
         let precondition = self.keep(link.condition(
             &method.variables,
             std::iter::once(&method.precondition).chain(&method.network.constraints),
@@ -220,7 +220,7 @@ impl Compiler<'_> {
     }
 
     fn intention(&mut self, action: &DurativeAction) -> Option<Intention> {
-        let link = self.vocabulary.link(self.domain);
+        let link = self.tokens.link(self.domain);
         let variables = &action.variables;
         for timed in &action.conditions {
             if !matches!(timed.when, TimeSpecifier::Start | TimeSpecifier::OverAll) {

@@ -7,10 +7,10 @@ use expect_test::{Expect, expect};
 use high_to_low::{Methods, Refinement, Status, Step};
 use pddl::model::{Domain, Name};
 use pddl::{Source, parse_domain, parse_problem};
-use vocabulary::Vocabulary;
+use vocabulary::Tokens;
 
 const WORDS: &str = "(define (domain house)
-  (:requirements :typing :equality :fluents :vocabulary)
+  (:requirements :typing :equality :fluents :tokens)
   (:types agent resource symbol - object robot part state utterance device - symbol)
   (:constants pelea speech panel - agent broken - state speaker screen - device)
   (:predicates (is ?d - device ?s - state) (is_in ?r - robot ?p - part)
@@ -67,11 +67,11 @@ struct House {
 impl House {
     fn new(task: &str, arguments: &[&str]) -> Self {
         let words = domain(WORDS, &[]);
-        let vocabulary = Vocabulary::new(&words).unwrap();
+        let tokens = Tokens::new(&words).unwrap();
         let world = parse_problem(&Source::new("world", WORLD), &words).model.unwrap();
-        let graph = vocabulary.populate(&[&world], Time(0)).unwrap();
+        let graph = tokens.populate(&[&world], Time(0)).unwrap();
         let methods = METHODS.replace("(:import house)", "(:import house) (:constants one - utterance)");
-        let methods = Methods::new(&domain(&methods, &[&words]), &vocabulary).unwrap();
+        let methods = Methods::new(&domain(&methods, &[&words]), &tokens).unwrap();
         let arguments: Vec<_> = arguments.iter().map(|a| Name::new(a)).collect();
         let refinement = Refinement::new(&methods, &graph.snapshot(), task, &arguments).unwrap();
         Self { graph, methods, refinement, now: Time(0) }
@@ -95,7 +95,7 @@ impl House {
     /// What an agent does that has said or shown what was wanted.
     fn perform(&mut self, wanted: &str, done: &str, part: &str, utterance: &str) {
         let snapshot = self.graph.snapshot();
-        let label = |name| snapshot.dictionary().label(name).unwrap();
+        let label = |name| snapshot.vocabulary().label(name).unwrap();
         let gone = Edit::RemoveEdge { from: "r".into(), label: label(wanted), to: part.into() };
         let told = Edit::AddEdge { from: utterance.into(), label: label(done), to: part.into() };
         self.write(&[gone, told]);
@@ -184,7 +184,7 @@ fn a_missed_deadline_doubts_the_device_and_the_next_method_is_chosen_knowing_tha
 fn what_must_not_happen_breaks_an_intention_off_at_once() {
     let mut house = House::new("tell", &["r", "hall", "one"]);
     house.step();
-    let is = house.graph.dictionary().label("is").unwrap();
+    let is = house.graph.vocabulary().label("is").unwrap();
     house.write(&[Edit::AddEdge { from: "speaker".into(), label: is, to: "broken".into() }]);
     expect![[r#"
         (say r hall one) failed: (say r hall one) was broken off, speaker is broken
@@ -270,7 +270,7 @@ fn what_cannot_start_says_why() {
 #[test]
 fn what_is_wrong_with_a_methods_file_is_said_with_its_place() {
     let words = domain(WORDS, &[]);
-    let vocabulary = Vocabulary::new(&words).unwrap();
+    let tokens = Tokens::new(&words).unwrap();
     let text = "(define (domain m) (:requirements :typing :durative-actions :hierarchy :agent-rules)
   (:import house)
   (:predicates (nearby ?r - robot))
@@ -281,7 +281,7 @@ fn what_is_wrong_with_a_methods_file_is_said_with_its_place() {
   (:method m :parameters () :task (t) :ordered-subtasks (jump))
   (:task u :parameters ()))";
     let source = Source::new("m", text);
-    let errors = Methods::new(&domain(text, &[&words]), &vocabulary).unwrap_err();
+    let errors = Methods::new(&domain(text, &[&words]), &tokens).unwrap_err();
     let lines: Vec<_> = errors
         .iter()
         .map(|e| {
@@ -292,7 +292,7 @@ fn what_is_wrong_with_a_methods_file_is_said_with_its_place() {
     expect![[r#"
         5:58: the deadline of an intention is `(<= ?duration SECONDS)` with a number of seconds
         6:25: what shall hold at the end of an intention is its `at end` effect, not a condition
-        6:69: `nearby` is no token of vocabulary `house`
+        6:69: `nearby` is no token of tokens `house`
         6:94: an intention knows `at start`, `at end` and `at timeout`, not `at failure`
         8:57: `jump` is an action; a method's primitives are durative actions, which say what shall be seen
         9:3: task `u` has no method"#]]

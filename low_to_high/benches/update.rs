@@ -8,7 +8,7 @@ use dsr::{AgentId, Graph, Time};
 use low_to_high::{LowToHigh, Perception};
 use pddl::model::{Domain, Problem};
 use pddl::{Source, parse_domain, parse_problem};
-use vocabulary::Vocabulary;
+use vocabulary::Tokens;
 
 fn source(path: &str) -> Source {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
@@ -23,21 +23,21 @@ fn problem(path: &str, domain: &Domain) -> Problem {
     parse_problem(&source(path), domain).model.expect("the repository's own texts have no errors")
 }
 
-fn barthel() -> (Vocabulary, Arc<Perception>, Graph) {
+fn barthel() -> (Tokens, Arc<Perception>, Graph) {
     let words = domain("robots/clarc/vocabulary.pddl", &[]);
     let planning = domain("domains/barthel/domain.pddl", &[]);
     let perception = domain("domains/barthel/perception.pddl", &[&words, &planning]);
     let world = problem("robots/clarc/world.pddl", &words);
     let test = problem("domains/barthel/graph.pddl", &words);
-    let vocabulary = Vocabulary::new(&words).expect("fits the graph");
-    let perception = Arc::new(Perception::new(&perception, &vocabulary).expect("made of tokens"));
-    let graph = vocabulary.populate(&[&world, &test], Time(0)).expect("fits the vocabulary");
-    (vocabulary, perception, graph)
+    let tokens = Tokens::new(&words).expect("fits the graph");
+    let perception = Arc::new(Perception::new(&perception, &tokens).expect("made of tokens"));
+    let graph = tokens.populate(&[&world, &test], Time(0)).expect("fits the vocabulary");
+    (tokens, perception, graph)
 }
 
 fn bench(criterion: &mut Criterion) {
-    let (vocabulary, perception, graph) = barthel();
-    let label = |name: &str| vocabulary.label(name).expect("declared");
+    let (tokens, perception, graph) = barthel();
+    let label = |name: &str| tokens.label(name).expect("declared");
     let (said, shown) = (label("was_said_in"), label("was_shown_in"));
     graph
         .edit(AgentId::DSR, Time(1), |tx| {

@@ -194,10 +194,10 @@ impl<'a> Explaining<'a> {
 
     /// Whether the axiom's parameters range over these nodes.
     fn is_about(&self, axiom: &Axiom, tuple: &[NodeId]) -> bool {
-        let dictionary = self.query.snapshot.dictionary();
+        let vocabulary = self.query.snapshot.vocabulary();
         axiom.scope.parameters().zip(tuple).all(|(variable, &node)| {
             let of = self.query.snapshot.get(node).map(|view| view.node_type());
-            of.is_some_and(|of| axiom.scope.slot(variable).types.iter().any(|&id| dictionary.is_a(of, id)))
+            of.is_some_and(|of| axiom.scope.slot(variable).types.iter().any(|&id| vocabulary.is_a(of, id)))
         })
     }
 
@@ -261,8 +261,8 @@ impl<'a> Explaining<'a> {
         say: impl FnOnce(&Speaker<'_>) -> Sentence,
     ) -> Sentence {
         let name_of = |variable| self.query.snapshot.name(environment.node(variable)?).map(str::to_owned);
-        let dictionary = &self.seen.perception.dictionary;
-        say(&Speaker { dictionary, scope: &axiom.scope, name_of: &name_of })
+        let vocabulary = &self.seen.perception.vocabulary;
+        say(&Speaker { vocabulary, scope: &axiom.scope, name_of: &name_of })
     }
 }
 

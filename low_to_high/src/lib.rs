@@ -10,7 +10,7 @@
 //! use dsr::{AgentId, Time};
 //! use low_to_high::{LowToHigh, Perception};
 //! use pddl::{Source, parse_domain, parse_problem};
-//! use vocabulary::Vocabulary;
+//! use vocabulary::Tokens;
 //!
 //! let read = |text: &str, imports: &[&_]| parse_domain(&Source::new("", text), imports).model.expect("no errors");
 //! let words = read("(define (domain words) (:requirements :typing :vocabulary)
@@ -23,7 +23,7 @@
 //!     (:objects clarc - robot ann - person) (:init) (:goal (and)))");
 //! let world = parse_problem(&world, &words).model.expect("no errors");
 //!
-//! let vocabulary = Vocabulary::new(&words).expect("every token is binary");
+//! let vocabulary = Tokens::new(&words).expect("every token is binary");
 //! let graph = vocabulary.populate(&[&world], Time(0)).expect("fits the vocabulary");
 //! let perception = Perception::new(&perception, &vocabulary).expect("made of tokens");
 //! let mut seen = LowToHigh::new(Arc::new(perception), &graph.snapshot());

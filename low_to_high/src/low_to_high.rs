@@ -141,12 +141,12 @@ impl LowToHigh {
         before: &mut Before,
     ) {
         let perception = Arc::clone(&self.perception);
-        let dictionary = &perception.dictionary;
+        let vocabulary = &perception.vocabulary;
         for &at in &component.axioms {
             let axiom = &perception.axioms[at];
             let names = &self.names;
             let affected =
-                touched.affected(axiom, &|id| names.get(&id).cloned(), &|a, b| dictionary.is_a(a, b));
+                touched.affected(axiom, &|id| names.get(&id).cloned(), &|a, b| vocabulary.is_a(a, b));
             match affected {
                 Affected::Nothing => {}
                 _ if component.recursive => return self.derive_component(component, snapshot, before),

@@ -5,10 +5,10 @@
 
 use std::sync::Arc;
 
-use dsr::Dictionary;
+use dsr::Vocabulary;
 use pddl::Span;
 use pddl::model::{Domain, IndexVec, Name, PredicateId};
-use vocabulary::{Conjunction, LinkErrorKind, Literal, Located, MAX_ALTERNATIVES, Vocabulary};
+use vocabulary::{Conjunction, LinkErrorKind, Literal, Located, MAX_ALTERNATIVES, Tokens};
 
 use crate::axiom::Axiom;
 use crate::strata::{Component, components};
@@ -64,7 +64,7 @@ pub(crate) struct Derived {
 /// The axioms of a test, compiled for the graphs of one vocabulary.
 #[derive(Debug)]
 pub struct Perception {
-    pub(crate) dictionary: Arc<Dictionary>,
+    pub(crate) vocabulary: Arc<Vocabulary>,
     /// By the perception's own ids; those that nothing derives have no axioms.
     pub(crate) predicates: IndexVec<PredicateId, Derived>,
     pub(crate) axioms: Vec<Axiom>,
@@ -75,8 +75,8 @@ pub struct Perception {
 impl Perception {
     /// Compiles the axioms of a domain that imports the vocabulary and the planner's domain; all that cannot be
     /// evaluated is reported.
-    pub fn new(domain: &Domain, vocabulary: &Vocabulary) -> Result<Self, Vec<PerceptionError>> {
-        let link = vocabulary.link(domain);
+    pub fn new(domain: &Domain, tokens: &Tokens) -> Result<Self, Vec<PerceptionError>> {
+        let link = tokens.link(domain);
         let mut errors = Vec::new();
         let mut axioms = Vec::new();
         let mut spans = Vec::new();
@@ -92,7 +92,7 @@ impl Perception {
             .collect();
         for axiom in &domain.axioms {
             let name = predicates[axiom.predicate].name.clone();
-            if vocabulary.is_token(&name) {
+            if tokens.is_token(&name) {
                 errors.push(Located::new(axiom.span, PerceptionErrorKind::DerivesToken { name }));
                 continue;
             }
@@ -121,7 +121,7 @@ impl Perception {
         let derived = |id: PredicateId| domain.axioms.iter().any(|axiom| axiom.predicate == id);
         for axiom in &axioms {
             for part in &axiom.body {
-                never_holds(part, &derived, vocabulary.name(), &mut errors);
+                never_holds(part, &derived, tokens.name(), &mut errors);
             }
         }
         let components = components(&axioms).unwrap_or_else(|(at, denied)| {
@@ -135,7 +135,7 @@ impl Perception {
             errors.dedup();
             return Err(errors);
         }
-        Ok(Self { dictionary: Arc::clone(vocabulary.dictionary()), predicates, axioms, components })
+        Ok(Self { vocabulary: Arc::clone(tokens.vocabulary()), predicates, axioms, components })
     }
 
     /// The predicates that some axiom derives, in the order of their declaration.

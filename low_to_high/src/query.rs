@@ -284,8 +284,8 @@ impl Query<'_> {
 
     fn admits(&self, environment: &Environment, variable: VariableId, node: NodeId) -> bool {
         let Some(view) = self.snapshot.get(node) else { return false };
-        let dictionary = self.snapshot.dictionary();
-        environment.types[variable.index()].iter().any(|&id| dictionary.is_a(view.node_type(), id))
+        let vocabulary = self.snapshot.vocabulary();
+        environment.types[variable.index()].iter().any(|&id| vocabulary.is_a(view.node_type(), id))
     }
 }
 

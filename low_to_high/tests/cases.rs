@@ -11,7 +11,7 @@ use dsr::Time;
 use low_to_high::{Fact, LowToHigh, Perception, Role};
 use pddl::model::{Domain, Name};
 use pddl::{Source, parse_domain, parse_problem};
-use vocabulary::Vocabulary;
+use vocabulary::Tokens;
 
 #[test]
 fn cases() {
@@ -39,9 +39,9 @@ fn case(text: &str) -> Result<String, String> {
         let parsed = parse_problem(source, &words);
         problems.push(parsed.model.ok_or_else(|| diagnostics(source, &parsed.diagnostics))?);
     }
-    let vocabulary = Vocabulary::new(&words).expect("tested in its own crate");
-    let graph = vocabulary.populate(&problems.iter().collect::<Vec<_>>(), Time(0)).expect("tested there");
-    let perception = Perception::new(&perception, &vocabulary)
+    let tokens = Tokens::new(&words).expect("tested in its own crate");
+    let graph = tokens.populate(&problems.iter().collect::<Vec<_>>(), Time(0)).expect("tested there");
+    let perception = Perception::new(&perception, &tokens)
         .map_err(|errors| errors.iter().map(|error| place(source, error.span, error)).collect::<String>())?;
 
     let mut out = String::new();

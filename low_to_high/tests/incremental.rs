@@ -10,10 +10,10 @@ use dsr::{AgentId, Edit, Graph, HolderRef, Isometry3, NewValue, NodeRef, Snapsho
 use low_to_high::{Fact, LowToHigh, Perception};
 use pddl::{parse_domain, parse_problem};
 use proptest::prelude::*;
-use vocabulary::{FunctionToken, Vocabulary};
+use vocabulary::{FunctionToken, Tokens};
 
 struct World {
-    vocabulary: Vocabulary,
+    tokens: Tokens,
     perception: Arc<Perception>,
     graph: Graph,
 }
@@ -25,10 +25,10 @@ fn world() -> World {
     let planning = parse_domain(source(1), &[]).model.expect("the case is well formed");
     let problem = parse_problem(source(2), &words).model.expect("the case is well formed");
     let perception = parse_domain(source(3), &[&words, &planning]).model.expect("the case is well formed");
-    let vocabulary = Vocabulary::new(&words).expect("the case is well formed");
-    let perception = Arc::new(Perception::new(&perception, &vocabulary).expect("the case is well formed"));
-    let graph = vocabulary.populate(&[&problem], Time(0)).expect("the case is well formed");
-    World { vocabulary, perception, graph }
+    let tokens = Tokens::new(&words).expect("the case is well formed");
+    let perception = Arc::new(Perception::new(&perception, &tokens).expect("the case is well formed"));
+    let graph = tokens.populate(&[&problem], Time(0)).expect("the case is well formed");
+    World { tokens, perception, graph }
 }
 
 /// An edit by small numbers, read against whatever the world has.
@@ -53,10 +53,10 @@ fn random() -> impl Strategy<Value = Random> {
 }
 
 fn edits(world: &World, snapshot: &Snapshot, random: &Random) -> Vec<Edit> {
-    let dictionary = world.vocabulary.dictionary();
+    let vocabulary = world.tokens.vocabulary();
     let of = |name: &str, at: usize| {
         let all: Vec<_> =
-            snapshot.nodes_of(dictionary.node_type(name).expect("the case is well formed")).collect();
+            snapshot.nodes_of(vocabulary.node_type(name).expect("the case is well formed")).collect();
         NodeRef::Id(all[at % all.len()])
     };
     let id = |node: &NodeRef| match node {
@@ -78,7 +78,7 @@ fn edits(world: &World, snapshot: &Snapshot, random: &Random) -> Vec<Edit> {
             ];
             let (name, start, end) = LABELS[label % LABELS.len()];
             let (label, from, to) =
-                (dictionary.label(name).expect("the case is well formed"), of(start, *from), of(end, *to));
+                (vocabulary.label(name).expect("the case is well formed"), of(start, *from), of(end, *to));
             if from == to {
                 return Vec::new();
             }
@@ -89,7 +89,7 @@ fn edits(world: &World, snapshot: &Snapshot, random: &Random) -> Vec<Edit> {
             }]
         }
         Random::Label { part, utterance } => {
-            let Some(FunctionToken::Edge { label, attribute }) = world.vocabulary.function("label") else {
+            let Some(FunctionToken::Edge { label, attribute }) = world.tokens.function("label") else {
                 unreachable!("declared in the case")
             };
             let (from, to) = (of("test", 0), of("part", *part));
@@ -106,7 +106,7 @@ fn edits(world: &World, snapshot: &Snapshot, random: &Random) -> Vec<Edit> {
             }
         }
         Random::Score { item, score } => {
-            let attribute = dictionary.attribute("score").expect("the case is well formed");
+            let attribute = vocabulary.attribute("score").expect("the case is well formed");
             let holder = HolderRef::Node(of("item", *item));
             vec![match score {
                 None => Edit::ClearAttribute { holder, attribute },
@@ -128,7 +128,7 @@ fn edits(world: &World, snapshot: &Snapshot, random: &Random) -> Vec<Edit> {
                 return vec![Edit::RemoveNode { node: node.into() }];
             }
             const TYPES: [&str; 6] = ["item", "phase", "option", "person", "utterance", "clinician"];
-            let node_type = dictionary.node_type(TYPES[of % TYPES.len()]).expect("the case is well formed");
+            let node_type = vocabulary.node_type(TYPES[of % TYPES.len()]).expect("the case is well formed");
             vec![Edit::AddNode { name: name.into(), node_type }]
         }
     }

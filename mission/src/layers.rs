@@ -1,8 +1,8 @@
 //! The PDDL layers of a mission, each with its source, and the tokens that `mission.toml` names.
 //!
-//! The nodes of the initial graph are declared in three files (constants of the dictionary, objects of
+//! The nodes of the initial graph are declared in three files (constants of the vocabulary, objects of
 //! the world, objects of the graph), and perception, methods and scenarios may name any of them. So
-//! there is one more domain, [`Layers::nodes`]: the dictionary with all of them as constants, under the
+//! there is one more domain, [`Layers::nodes`]: the vocabulary with all of them as constants, under the
 //! ids that they have in `graph.pddl`.
 
 use pddl::model::{Domain, FunctionId, Idx, ObjectId, PredicateId, Problem, TypeId};
@@ -18,7 +18,7 @@ pub struct Layer<M> {
     pub model: M,
 }
 
-/// The tokens of `mission.toml`, as ids of the dictionary.
+/// The tokens of `mission.toml`, as ids of the vocabulary.
 #[derive(Clone, Copy, Debug)]
 pub struct Tokens {
     /// The node of the report.
@@ -44,7 +44,7 @@ pub struct Tokens {
 /// Everything that is PDDL in a mission.
 #[derive(Clone, Debug)]
 pub struct Layers {
-    /// The robot's dictionary.
+    /// The robot's vocabulary.
     pub vocabulary: Layer<Domain>,
     /// The world before anybody is seen.
     pub world: Layer<Problem>,
@@ -52,7 +52,7 @@ pub struct Layers {
     pub agents: Vec<Layer<Domain>>,
     /// The test as nodes and edges; its objects are all nodes of the initial graph.
     pub graph: Layer<Problem>,
-    /// The dictionary with all nodes of the initial graph as constants.
+    /// The vocabulary with all nodes of the initial graph as constants.
     pub nodes: Domain,
     /// The planning domain.
     pub domain: Layer<Domain>,

@@ -1,6 +1,6 @@
 //! Reading a mission folder: one pass over its files, all mistakes collected.
 //!
-//! The order is that of what needs what: manifest → dictionary → world, agents, graph → planning
+//! The order is that of what needs what: manifest → vocabulary → world, agents, graph → planning
 //! domain and problem → perception, methods → words. A file that cannot be read stops only what
 //! needs it.
 

@@ -21,7 +21,7 @@ pub struct Mention {
 /// Where the files of a mission are, as paths that [`crate::Files`] understands.
 #[derive(Clone, Debug)]
 pub struct Paths {
-    /// The robot's dictionary.
+    /// The robot's vocabulary.
     pub vocabulary: String,
     /// The world before anybody is seen.
     pub world: String,

@@ -1,4 +1,4 @@
-; The dictionary: every token that may stand in CLARC's Deep State Representation.
+; The vocabulary: every token that may stand in CLARC's Deep State Representation.
 ;
 ; A type is a kind of node (below `frame`: a node with a pose), a binary predicate the label of an
 ; edge, a function an attribute: unary of a node, binary of a pair of nodes. `:writes` says which

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use dsr::{Bound, Dictionary, HolderTerm, NodeId, Operand, Pattern, PatternBuilder, PatternError, Variable};
+use dsr::{Bound, HolderTerm, NodeId, Operand, Pattern, PatternBuilder, PatternError, Variable, Vocabulary};
 use pddl::model::VariableId;
 use rustc_hash::FxHashMap;
 
@@ -22,12 +22,12 @@ pub struct Alternative {
 impl Alternative {
     /// Compiles a conjunction whose visible variables have these types.
     pub(crate) fn compile(
-        dictionary: &Dictionary,
+        vocabulary: &Vocabulary,
         scope: &Scope,
         visible: &[(VariableId, dsr::TypeId)],
         conjunction: &Conjunction,
     ) -> Result<Self, PatternError> {
-        let mut builder = PatternBuilder::new(dictionary);
+        let mut builder = PatternBuilder::new(vocabulary);
         let mut variables = FxHashMap::default();
         let mut own = Vec::new();
         for &(variable, id) in visible {

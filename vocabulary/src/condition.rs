@@ -10,7 +10,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use dsr::{Dictionary, Keep, Mentions, NodeId, PatternError, Snapshot};
+use dsr::{Keep, Mentions, NodeId, PatternError, Snapshot, Vocabulary};
 use pddl::Span;
 use pddl::model::VariableId;
 
@@ -26,7 +26,7 @@ use crate::unmet::Unmet;
 /// A compiled condition of one schema.
 #[derive(Debug, Clone)]
 pub struct Condition {
-    pub(crate) dictionary: Arc<Dictionary>,
+    pub(crate) vocabulary: Arc<Vocabulary>,
     pub(crate) scope: Scope,
     alternatives: Vec<Alternative>,
     mentions: Mentions,
@@ -44,22 +44,22 @@ pub(crate) struct Part {
 impl Condition {
     /// Compiles a formula; `visible` are the variables whose bindings matter, ascending.
     pub(crate) fn compile(
-        dictionary: &Arc<Dictionary>,
+        vocabulary: &Arc<Vocabulary>,
         scope: &Scope,
         formula: &Formula,
         visible: &[VariableId],
     ) -> Result<Self, LinkError> {
-        let alternatives = alternatives(dictionary, scope, formula, visible)?;
+        let alternatives = alternatives(vocabulary, scope, formula, visible)?;
         let mut parts = Vec::new();
         for part in formula.conjuncts() {
-            let alternatives = alternatives_of_part(dictionary, scope, part)?;
+            let alternatives = alternatives_of_part(vocabulary, scope, part)?;
             parts.push(Part { formula: part.clone(), alternatives });
         }
         let mut mentions = Mentions::default();
         for alternative in &alternatives {
             mentions.extend(alternative.pattern().mentions());
         }
-        Ok(Self { dictionary: Arc::clone(dictionary), scope: scope.clone(), alternatives, mentions, parts })
+        Ok(Self { vocabulary: Arc::clone(vocabulary), scope: scope.clone(), alternatives, mentions, parts })
     }
 
     /// The variables of its schema.
@@ -131,7 +131,7 @@ pub(crate) fn completions(
 }
 
 fn alternatives(
-    dictionary: &Dictionary,
+    vocabulary: &Vocabulary,
     scope: &Scope,
     formula: &Formula,
     visible: &[VariableId],
@@ -146,19 +146,19 @@ fn alternatives(
     let mut found = Vec::new();
     for types in &typings {
         for conjunction in &disjuncts {
-            found.push(Alternative::compile(dictionary, scope, types, conjunction).map_err(refused)?);
+            found.push(Alternative::compile(vocabulary, scope, types, conjunction).map_err(refused)?);
         }
     }
     Ok(found)
 }
 
 fn alternatives_of_part(
-    dictionary: &Dictionary,
+    vocabulary: &Vocabulary,
     scope: &Scope,
     part: &Formula,
 ) -> Result<Vec<Alternative>, LinkError> {
     let free: Vec<_> = part.free().into_iter().filter(|&variable| scope.is_node(variable)).collect();
-    alternatives(dictionary, scope, part, &free)
+    alternatives(vocabulary, scope, part, &free)
 }
 
 /// The place of the first literal.

@@ -1,20 +1,20 @@
-//! PDDL read as graph: dictionary, conditions as patterns, effects as edits.
+//! PDDL read as graph: vocabulary, conditions as patterns, effects as edits.
 //!
 //! The robot's vocabulary, the agents' rules, the methods and the perception of every test are PDDL; the world is a
-//! graph of binary tokens. This crate is the one place where the two meet: a [`Vocabulary`] is a domain read as a
-//! [`dsr::Dictionary`], and a [`Link`] reads what any domain that imports it says as graph: a [`Condition`] is
+//! graph of binary tokens. This crate is the one place where the two meet: a [`Tokens`] is a domain read as a
+//! [`dsr::Vocabulary`], and a [`Link`] reads what any domain that imports it says as graph: a [`Condition`] is
 //! patterns, an [`Effect`] is edits, an expectation is the condition that an effect can be *seen*.
 //!
 //! ```
 //! use dsr::{AgentId, Time};
 //! use pddl::{Source, parse_domain, parse_problem};
-//! use vocabulary::{Binding, Vocabulary};
+//! use vocabulary::{Binding, Tokens};
 //!
 //! let words = Source::new("words.pddl", "(define (domain words) (:requirements :typing :vocabulary)
 //!     (:types robot state - object) (:constants speaking - state)
 //!     (:predicates (is ?r - robot ?s - state)))");
 //! let words = parse_domain(&words, &[]).model.expect("no errors");
-//! let vocabulary = Vocabulary::new(&words).expect("every token is binary");
+//! let vocabulary = Tokens::new(&words).expect("every token is binary");
 //!
 //! let world = Source::new("world.pddl", "(define (problem world) (:domain words)
 //!     (:objects clarc - robot) (:init (is clarc speaking)) (:goal (and)))");
@@ -39,7 +39,7 @@
 //! assert_eq!(why.to_string(), "clarc is not speaking");
 //! ```
 //!
-//! Map, from the ground up: `located` (errors with places) → `tokens` (the names), `dictionary` (reading them),
+//! Map, from the ground up: `located` (errors with places) → `tokens` (the names), `vocabulary` (reading them),
 //! `permission` → `populate`, `pose` (the initial graph) → `scope`, `formula`, `translate`, `number`, `disjuncts`
 //! (conditions as logic over tokens) → `binding`, `condition`, `alternative`, `unmet` (as patterns) → `effect`,
 //! `lower_effect`, `expectation` (as edits) → `sentence` (all of it in words) → `link` (the door for importing
@@ -48,7 +48,7 @@
 mod alternative;
 mod binding;
 mod condition;
-mod dictionary;
+mod declarations;
 mod disjuncts;
 mod effect;
 mod expectation;
@@ -69,7 +69,7 @@ mod unmet;
 pub use alternative::Alternative;
 pub use binding::{Binding, Datum};
 pub use condition::Condition;
-pub use dictionary::{VocabularyError, VocabularyErrorKind};
+pub use declarations::{TokenError, TokenErrorKind};
 pub use disjuncts::{Conjunction, MAX_ALTERNATIVES};
 pub use effect::{Effect, EffectError, is_redundant};
 pub use formula::{Formula, Holder, Literal, Right, Term};
@@ -79,5 +79,5 @@ pub use populate::{PopulateError, PopulateErrorKind};
 pub use pose::PoseComponent;
 pub use scope::{Scope, Slot};
 pub use sentence::{Sentence, Speaker, describe_edit};
-pub use tokens::{FunctionToken, Sort, ValueSort, Vocabulary};
+pub use tokens::{FunctionToken, Sort, Tokens, ValueSort};
 pub use unmet::Unmet;

@@ -15,7 +15,7 @@ use crate::formula::Formula;
 use crate::located::Located;
 use crate::lower_effect;
 use crate::scope::{Scope, Slot};
-use crate::tokens::{Sort, Vocabulary};
+use crate::tokens::{Sort, Tokens};
 use crate::translate::{Derived, Translator};
 
 /// Why a condition or an effect cannot be read as graph.
@@ -78,18 +78,18 @@ pub type LinkError = Located<LinkErrorKind>;
 /// A vocabulary and a domain that imports it.
 #[derive(Debug, Clone, Copy)]
 pub struct Link<'a> {
-    pub(crate) vocabulary: &'a Vocabulary,
+    pub(crate) tokens: &'a Tokens,
     pub(crate) domain: &'a Domain,
 }
 
 impl<'a> Link<'a> {
-    pub(crate) fn new(vocabulary: &'a Vocabulary, domain: &'a Domain) -> Self {
-        Self { vocabulary, domain }
+    pub(crate) fn new(tokens: &'a Tokens, domain: &'a Domain) -> Self {
+        Self { tokens, domain }
     }
 
     /// The vocabulary.
-    pub fn vocabulary(&self) -> &'a Vocabulary {
-        self.vocabulary
+    pub fn tokens(&self) -> &'a Tokens {
+        self.tokens
     }
 
     /// The importing domain.
@@ -109,7 +109,7 @@ impl<'a> Link<'a> {
         let mut slot = Slot { name: variable.name.clone(), types: Vec::new(), value: None };
         for &id in &variable.types.0 {
             let name = &self.domain.types[id].name;
-            match self.vocabulary.sort(name) {
+            match self.tokens.sort(name) {
                 Some(Sort::Node(id)) => slot.types.push(id),
                 Some(Sort::Value(sort)) => slot.value = Some(sort),
                 None => errors.push(Located::new(
@@ -117,16 +117,16 @@ impl<'a> Link<'a> {
                     LinkErrorKind::UnknownType {
                         variable: variable.name.clone(),
                         name: name.clone(),
-                        vocabulary: self.vocabulary.name.clone(),
+                        vocabulary: self.tokens.name.clone(),
                     },
                 )),
             }
         }
-        let dictionary = &self.vocabulary.dictionary;
+        let vocabulary = &self.tokens.vocabulary;
         let all = slot.types.clone();
         slot.types.sort_unstable();
         slot.types.dedup();
-        slot.types.retain(|&id| !all.iter().any(|&other| other != id && dictionary.is_a(id, other)));
+        slot.types.retain(|&id| !all.iter().any(|&other| other != id && vocabulary.is_a(id, other)));
         slot
     }
 
@@ -187,11 +187,11 @@ impl<'a> Link<'a> {
         bound.extend(formula.free());
         bound.sort_unstable();
         bound.dedup();
-        Condition::compile(&self.vocabulary.dictionary, scope, formula, &bound).map_err(|error| vec![error])
+        Condition::compile(&self.tokens.vocabulary, scope, formula, &bound).map_err(|error| vec![error])
     }
 
     pub(crate) fn not_an_attribute(&self, name: &Name, span: Span) -> LinkError {
-        let (name, vocabulary) = (name.clone(), self.vocabulary.name.clone());
+        let (name, vocabulary) = (name.clone(), self.tokens.name.clone());
         Located::new(span, LinkErrorKind::NotAnAttribute { name, vocabulary })
     }
 }

@@ -96,12 +96,12 @@ impl Lowering<'_> {
             visible.extend(&self.quantified);
             visible.sort_unstable();
             visible.dedup();
-            let dictionary = &self.translator.link.vocabulary.dictionary;
+            let vocabulary = &self.translator.link.tokens.vocabulary;
             // A quantified variable of a value was reported; compiling would only say so again.
             if visible.iter().any(|&variable| !self.translator.scope.is_node(variable)) {
                 return;
             }
-            match Condition::compile(dictionary, self.translator.scope, &formula, &visible) {
+            match Condition::compile(vocabulary, self.translator.scope, &formula, &visible) {
                 Ok(guard) => Some(guard),
                 Err(error) => return self.errors.push(error),
             }
@@ -116,8 +116,8 @@ pub(crate) fn edge(
     atom: &model::Atom,
 ) -> Option<(Term, dsr::LabelId, Term)> {
     let name = &translator.link.domain.predicates[atom.predicate].name;
-    if translator.link.vocabulary.label(name).is_none() {
-        let (name, vocabulary) = (name.clone(), translator.link.vocabulary.name.clone());
+    if translator.link.tokens.label(name).is_none() {
+        let (name, vocabulary) = (name.clone(), translator.link.tokens.name.clone());
         translator.error(atom.span, LinkErrorKind::NotAToken { name, vocabulary });
         return None;
     }
@@ -136,7 +136,7 @@ pub(crate) fn assignment(
     span: Span,
 ) -> Option<Change> {
     let name = translator.link.domain.functions[application.function].name.clone();
-    match translator.link.vocabulary.function(&name) {
+    match translator.link.tokens.function(&name) {
         Some(FunctionToken::Transform) => return transform(translator, application, value, span),
         Some(FunctionToken::Distance) => {
             translator.error(span, LinkErrorKind::Computed { name });
@@ -154,7 +154,7 @@ pub(crate) fn assignment(
         }
         (AssignOperator::Assign, AssignedValue::Object(term)) => {
             let given = given(translator, *term);
-            let fits = match (&given, translator.link.vocabulary.dictionary.kind(attribute)) {
+            let fits = match (&given, translator.link.tokens.vocabulary.kind(attribute)) {
                 (Given::Node(_), Some(dsr::Kind::Node(_)))
                 | (Given::Value(dsr::Value::Bool(_)), Some(dsr::Kind::Bool)) => true,
                 (Given::Result(variable), Some(kind)) => {

@@ -6,7 +6,7 @@
 use dsr::{End, Permission, Token};
 use pddl::model::{TokenPattern, TokenSymbol};
 
-use crate::dictionary::{Reader, VocabularyErrorKind};
+use crate::declarations::{Reader, TokenErrorKind};
 use crate::tokens::FunctionToken;
 
 pub(crate) fn read(reader: &mut Reader<'_>) {
@@ -14,7 +14,7 @@ pub(crate) fn read(reader: &mut Reader<'_>) {
     for permission in &domain.permissions {
         let Some(&agent) = reader.agents.get(&permission.agent) else {
             let name = permission.agent.clone();
-            reader.error(permission.span, VocabularyErrorKind::NotAnAgent { name });
+            reader.error(permission.span, TokenErrorKind::NotAnAgent { name });
             continue;
         };
         for pattern in &permission.tokens {
@@ -42,7 +42,7 @@ fn tokens(reader: &mut Reader<'_>, pattern: &TokenPattern) -> Vec<Token> {
                 }
                 Some(FunctionToken::Transform) => vec![Token::Transform],
                 Some(FunctionToken::Distance | FunctionToken::Pose(_)) => {
-                    reader.error(pattern.span, VocabularyErrorKind::Computed { name });
+                    reader.error(pattern.span, TokenErrorKind::Computed { name });
                     Vec::new()
                 }
                 None => Vec::new(),

@@ -12,7 +12,7 @@ use pddl::Span;
 use pddl::model::{Fact, FluentFact, FluentValue, Name, ObjectId, Problem};
 
 use crate::pose::PoseNumbers;
-use crate::tokens::{Constant, FunctionToken, Sort, Vocabulary};
+use crate::tokens::{Constant, FunctionToken, Sort, Tokens};
 
 /// Why an initial state does not fit the graph.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -59,11 +59,11 @@ pub struct PopulateError {
 /// An edit and where it comes from.
 type Placed = (usize, Span, Edit);
 
-impl Vocabulary {
+impl Tokens {
     /// The graph in which everything holds that the problems say, at version 1.
     pub fn populate(&self, problems: &[&Problem], time: Time) -> Result<Graph, Vec<PopulateError>> {
         let edits = self.initial(problems)?;
-        let graph = Graph::new(Arc::clone(&self.dictionary));
+        let graph = Graph::new(Arc::clone(&self.vocabulary));
         let mut transaction = Transaction::new(AgentId::DSR);
         transaction.extend(edits.iter().map(|(_, _, edit)| edit.clone()));
         match graph.commit(&transaction, time) {
@@ -77,7 +77,7 @@ impl Vocabulary {
         let refused = |count: usize| {
             let mut transaction = Transaction::new(AgentId::DSR);
             transaction.extend(edits[..count].iter().map(|(_, _, edit)| edit.clone()));
-            Graph::new(Arc::clone(&self.dictionary)).commit(&transaction, Time(0)).err()
+            Graph::new(Arc::clone(&self.vocabulary)).commit(&transaction, Time(0)).err()
         };
         // Unfinished trees of poses may be refused as well, so the last prefix that is accepted counts.
         let accepted = (0..edits.len()).rev().find(|&count| refused(count).is_none()).unwrap_or(0);
@@ -87,7 +87,7 @@ impl Vocabulary {
 
     fn initial(&self, problems: &[&Problem]) -> Result<Vec<Placed>, Vec<PopulateError>> {
         let mut populating = Populating {
-            vocabulary: self,
+            tokens: self,
             problem: 0,
             nodes: IndexMap::new(),
             poses: IndexMap::new(),
@@ -114,7 +114,7 @@ impl Vocabulary {
 }
 
 struct Populating<'v> {
-    vocabulary: &'v Vocabulary,
+    tokens: &'v Tokens,
     problem: usize,
     nodes: IndexMap<Name, TypeId>,
     /// By parent and child.
@@ -129,7 +129,7 @@ impl Populating<'_> {
     }
 
     fn foreign(&mut self, span: Span) {
-        let vocabulary = self.vocabulary.name.clone();
+        let vocabulary = self.tokens.name.clone();
         self.error(span, PopulateErrorKind::Foreign { vocabulary });
     }
 
@@ -143,15 +143,15 @@ impl Populating<'_> {
     }
 
     fn problem(&mut self, problem: &Problem) {
-        for object in problem.objects.iter().skip(self.vocabulary.domain.constants.len()) {
+        for object in problem.objects.iter().skip(self.tokens.domain.constants.len()) {
             let (name, span) = (object.name.clone(), object.span);
             let &[of] = object.types.0.as_slice() else {
                 self.error(span, PopulateErrorKind::SeveralTypes { name });
                 continue;
             };
-            let domain = &self.vocabulary.domain;
+            let domain = &self.tokens.domain;
             let found = domain.types.enumerate().find(|(id, _)| *id == of);
-            let sort = found.and_then(|(_, declared)| self.vocabulary.sort(&declared.name));
+            let sort = found.and_then(|(_, declared)| self.tokens.sort(&declared.name));
             match (sort, self.nodes.get(&name)) {
                 (None, _) => self.foreign(span),
                 (Some(Sort::Value(_)), _) => self.error(span, PopulateErrorKind::ValueObject { name }),
@@ -170,8 +170,8 @@ impl Populating<'_> {
     }
 
     fn fact(&mut self, problem: &Problem, fact: &Fact) {
-        let name = self.vocabulary.domain.predicates.get(fact.predicate).map(|predicate| &predicate.name);
-        let label = name.and_then(|name| self.vocabulary.label(name));
+        let name = self.tokens.domain.predicates.get(fact.predicate).map(|predicate| &predicate.name);
+        let label = name.and_then(|name| self.tokens.label(name));
         let arguments = self.names(problem, &fact.arguments);
         let (Some(label), [from, to]) = (label, arguments.as_slice()) else {
             return self.foreign(fact.span);
@@ -181,12 +181,12 @@ impl Populating<'_> {
 
     fn fluent(&mut self, problem: &Problem, fluent: &FluentFact) {
         let span = fluent.span;
-        let Some(function) = self.vocabulary.domain.functions.get(fluent.application.function) else {
+        let Some(function) = self.tokens.domain.functions.get(fluent.application.function) else {
             return self.foreign(span);
         };
         let name = function.name.clone();
         let arguments = self.names(problem, &fluent.application.arguments);
-        let (holder, attribute) = match (self.vocabulary.function(&name), arguments.as_slice()) {
+        let (holder, attribute) = match (self.tokens.function(&name), arguments.as_slice()) {
             (Some(FunctionToken::Node { attribute }), [of]) => (HolderRef::Node(node(of)), attribute),
             (Some(FunctionToken::Edge { label, attribute }), [from, to]) => {
                 self.push(span, Edit::AddEdge { from: node(from), label, to: node(to) });
@@ -209,7 +209,7 @@ impl Populating<'_> {
         let value = match fluent.value {
             FluentValue::Number(number) => NewValue::Number(number),
             FluentValue::Object(id) => match self.names(problem, &[id]).as_slice() {
-                [object] => match self.vocabulary.value(object) {
+                [object] => match self.tokens.value(object) {
                     Some(value) => value.clone().into(),
                     None => NewValue::Node(node(object)),
                 },

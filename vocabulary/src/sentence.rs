@@ -7,7 +7,7 @@
 use std::fmt;
 
 use dsr::{
-    AttributeId, Comparison, Dictionary, Edit, HolderRef, LabelId, NewValue, NodeRef, Snapshot, Value,
+    AttributeId, Comparison, Edit, HolderRef, LabelId, NewValue, NodeRef, Snapshot, Value, Vocabulary,
 };
 use pddl::model::VariableId;
 use serde::Serialize;
@@ -36,7 +36,7 @@ impl fmt::Display for Sentence {
 /// Puts formulas of one schema into words.
 pub struct Speaker<'a> {
     /// The names of labels, attributes and types.
-    pub dictionary: &'a Dictionary,
+    pub vocabulary: &'a Vocabulary,
     /// The variables.
     pub scope: &'a Scope,
     /// The name of the node for which a variable stands, if it does for one.
@@ -88,7 +88,7 @@ impl Speaker<'_> {
     }
 
     fn types(&self, variable: VariableId) -> String {
-        let name = |&id: &dsr::TypeId| self.dictionary.type_name(id).map_or("node", |name| name).to_owned();
+        let name = |&id: &dsr::TypeId| self.vocabulary.type_name(id).map_or("node", |name| name).to_owned();
         self.scope.slot(variable).types.iter().map(name).collect::<Vec<_>>().join(" or ")
     }
 
@@ -107,7 +107,7 @@ impl Speaker<'_> {
         let not = |affirmed: bool| if affirmed { "" } else { "not " };
         match literal {
             Literal::Edge { from, label, to } => {
-                edge(self.dictionary, &term(from), *label, &term(to), affirmed)
+                edge(self.vocabulary, &term(from), *label, &term(to), affirmed)
             }
             Literal::Present { holder, attribute } => {
                 format!("{} is {}defined", self.attribute(holder, *attribute, article), not(affirmed))
@@ -139,7 +139,7 @@ impl Speaker<'_> {
     }
 
     fn attribute(&self, holder: &Holder, attribute: AttributeId, article: &str) -> String {
-        let name = attribute_name(self.dictionary, attribute);
+        let name = attribute_name(self.vocabulary, attribute);
         match holder {
             Holder::Node(node) => format!("{name} of {}", self.term(node, article)),
             Holder::Edge { from, to, .. } => {
@@ -151,13 +151,13 @@ impl Speaker<'_> {
 
 /// An edit in words, as the graph will be after it; `None` for what is not about tokens.
 pub fn describe_edit(snapshot: &Snapshot, edit: &Edit) -> Option<Sentence> {
-    let dictionary = snapshot.dictionary();
+    let vocabulary = snapshot.vocabulary();
     let node = |node: &NodeRef| match node {
         NodeRef::Id(id) => snapshot.name(*id).map_or_else(|| id.to_string(), spaced),
         NodeRef::Name(name) => spaced(name),
     };
     let attribute = |holder: &HolderRef, attribute: AttributeId| {
-        let name = attribute_name(dictionary, attribute);
+        let name = attribute_name(vocabulary, attribute);
         match holder {
             HolderRef::Node(on) => format!("{name} of {}", node(on)),
             HolderRef::Edge { from, to, .. } => format!("{name} of {} and {}", node(from), node(to)),
@@ -165,12 +165,12 @@ pub fn describe_edit(snapshot: &Snapshot, edit: &Edit) -> Option<Sentence> {
     };
     let text = match edit {
         // The edges that carry an attribute are told by their attribute.
-        Edit::AddEdge { label, .. } if carries(dictionary, *label) => return None,
-        Edit::RemoveEdge { from, label, to } if carries(dictionary, *label) => {
-            format!("{} of {} and {} is not defined", label_text(dictionary, *label), node(from), node(to))
+        Edit::AddEdge { label, .. } if carries(vocabulary, *label) => return None,
+        Edit::RemoveEdge { from, label, to } if carries(vocabulary, *label) => {
+            format!("{} of {} and {} is not defined", label_text(vocabulary, *label), node(from), node(to))
         }
-        Edit::AddEdge { from, label, to } => edge(dictionary, &node(from), *label, &node(to), true),
-        Edit::RemoveEdge { from, label, to } => edge(dictionary, &node(from), *label, &node(to), false),
+        Edit::AddEdge { from, label, to } => edge(vocabulary, &node(from), *label, &node(to), true),
+        Edit::RemoveEdge { from, label, to } => edge(vocabulary, &node(from), *label, &node(to), false),
         Edit::SetAttribute { holder, attribute: id, value } => {
             let value = match value {
                 NewValue::Number(number) => number.to_string(),
@@ -196,14 +196,14 @@ pub fn describe_edit(snapshot: &Snapshot, edit: &Edit) -> Option<Sentence> {
 }
 
 /// Whether edges with the label only carry an attribute of the same name.
-fn carries(dictionary: &Dictionary, label: LabelId) -> bool {
-    dictionary.label_name(label).is_some_and(|name| dictionary.attribute(name).is_some())
+fn carries(vocabulary: &Vocabulary, label: LabelId) -> bool {
+    vocabulary.label_name(label).is_some_and(|name| vocabulary.attribute(name).is_some())
 }
 
-fn edge(dictionary: &Dictionary, from: &str, label: LabelId, to: &str, affirmed: bool) -> String {
+fn edge(vocabulary: &Vocabulary, from: &str, label: LabelId, to: &str, affirmed: bool) -> String {
     const AUXILIARIES: [&str; 13] =
         ["is", "was", "are", "were", "has", "have", "had", "can", "could", "must", "may", "will", "does"];
-    let label = label_text(dictionary, label);
+    let label = label_text(vocabulary, label);
     if affirmed {
         return format!("{from} {label} {to}");
     }
@@ -241,12 +241,12 @@ fn value_text(value: &Value) -> String {
     }
 }
 
-fn label_text(dictionary: &Dictionary, label: LabelId) -> String {
-    dictionary.label_name(label).map_or_else(|| label.to_string(), |name| spaced(name))
+fn label_text(vocabulary: &Vocabulary, label: LabelId) -> String {
+    vocabulary.label_name(label).map_or_else(|| label.to_string(), |name| spaced(name))
 }
 
-fn attribute_name(dictionary: &Dictionary, attribute: AttributeId) -> String {
-    dictionary.attribute_name(attribute).map_or_else(|| attribute.to_string(), |name| spaced(name))
+fn attribute_name(vocabulary: &Vocabulary, attribute: AttributeId) -> String {
+    vocabulary.attribute_name(attribute).map_or_else(|| attribute.to_string(), |name| spaced(name))
 }
 
 fn spaced(name: &str) -> String {

@@ -12,12 +12,12 @@
 //! | binary function `distance` - number | computed by the graph from the poses |
 //! | binary functions `rt_x` … `rt_yaw` - number | parts of an initial pose, in `:init` only |
 //!
-//! Ids of PDDL differ from domain to domain; names link them. Invariant: every id in a [`Vocabulary`] is of its
-//! dictionary.
+//! Ids of PDDL differ from domain to domain; names link them. Invariant: every id in a [`Tokens`] is of its
+//! vocabulary.
 
 use std::sync::Arc;
 
-use dsr::{AttributeId, Dictionary, LabelId, TypeId, Value};
+use dsr::{AttributeId, LabelId, TypeId, Value, Vocabulary};
 use indexmap::IndexMap;
 use pddl::Span;
 use pddl::model::{Domain, Name};
@@ -73,11 +73,11 @@ pub(crate) enum Constant {
     Value(Value),
 }
 
-/// A domain of PDDL read as the dictionary of a graph.
+/// A domain of PDDL read as the vocabulary of a graph.
 #[derive(Debug, Clone)]
-pub struct Vocabulary {
+pub struct Tokens {
     pub(crate) name: Name,
-    pub(crate) dictionary: Arc<Dictionary>,
+    pub(crate) vocabulary: Arc<Vocabulary>,
     pub(crate) types: FxHashMap<Name, Sort>,
     pub(crate) labels: FxHashMap<Name, LabelId>,
     pub(crate) functions: FxHashMap<Name, FunctionToken>,
@@ -87,15 +87,15 @@ pub struct Vocabulary {
     pub(crate) domain: Arc<Domain>,
 }
 
-impl Vocabulary {
+impl Tokens {
     /// The name of the domain.
     pub fn name(&self) -> &Name {
         &self.name
     }
 
-    /// The dictionary for graphs.
-    pub fn dictionary(&self) -> &Arc<Dictionary> {
-        &self.dictionary
+    /// The vocabulary for graphs.
+    pub fn vocabulary(&self) -> &Arc<Vocabulary> {
+        &self.vocabulary
     }
 
     /// What the type of that name is.

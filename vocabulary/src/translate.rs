@@ -98,14 +98,14 @@ impl<'a> Translator<'a> {
         if let Some(literal) = self.edge(atom) {
             return Formula::Literal(literal, atom.span);
         }
-        if self.link.vocabulary.label(name).is_none() {
+        if self.link.tokens.label(name).is_none() {
             if self.derived == Derived::Allowed {
                 let arguments = atom.arguments.iter().map(|&term| self.node(term, atom.span)).collect();
                 let Some(arguments) = arguments else { return Formula::always() };
                 let literal = Literal::Derived { predicate: atom.predicate, name: name.clone(), arguments };
                 return Formula::Literal(literal, atom.span);
             }
-            let (name, vocabulary) = (name.clone(), self.link.vocabulary.name.clone());
+            let (name, vocabulary) = (name.clone(), self.link.tokens.name.clone());
             self.error(atom.span, LinkErrorKind::NotAToken { name, vocabulary });
         }
         Formula::always()
@@ -113,7 +113,7 @@ impl<'a> Translator<'a> {
 
     /// The edge that an atom is, if its predicate is a label.
     pub(crate) fn edge(&mut self, atom: &Atom) -> Option<Literal> {
-        let label = self.link.vocabulary.label(&self.link.domain.predicates[atom.predicate].name)?;
+        let label = self.link.tokens.label(&self.link.domain.predicates[atom.predicate].name)?;
         let &[from, to] = atom.arguments.as_slice() else { return None };
         let (from, to) = (self.node(from, atom.span)?, self.node(to, atom.span)?);
         Some(Literal::Edge { from, label, to })
@@ -148,7 +148,7 @@ impl<'a> Translator<'a> {
             model::Term::Variable(variable) => TermOrValue::Term(Term::Variable(variable)),
             model::Term::Object(id) => {
                 let name = &self.link.domain.constants[id].name;
-                match self.link.vocabulary.value(name) {
+                match self.link.tokens.value(name) {
                     Some(value) => TermOrValue::Value(value.clone()),
                     None => TermOrValue::Term(Term::Named(name.clone())),
                 }
@@ -174,7 +174,7 @@ impl<'a> Translator<'a> {
         for &argument in &application.arguments {
             arguments.push(self.node(argument, span)?);
         }
-        let kind = match (self.link.vocabulary.function(&name), arguments.as_slice()) {
+        let kind = match (self.link.tokens.function(&name), arguments.as_slice()) {
             (Some(FunctionToken::Node { attribute }), [node]) => {
                 return Some((Holder::Node(node.clone()), attribute));
             }
@@ -200,7 +200,7 @@ impl<'a> Translator<'a> {
             ExpressionKind::Number(number) => Some(Number::Constant(*number)),
             ExpressionKind::Fluent(application) => {
                 let name = &self.link.domain.functions[application.function].name;
-                if self.link.vocabulary.function(name) == Some(FunctionToken::Distance)
+                if self.link.tokens.function(name) == Some(FunctionToken::Distance)
                     && let &[a, b] = application.arguments.as_slice()
                 {
                     return Some(Number::Distance(

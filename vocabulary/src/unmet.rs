@@ -60,7 +60,7 @@ impl Unmet {
     fn of(condition: &Condition, wanted: &Formula, snapshot: &Snapshot, binding: &Binding) -> Self {
         let name_of = |variable| snapshot.name(binding.node(variable)?).map(str::to_owned);
         let speaker =
-            Speaker { dictionary: &condition.dictionary, scope: &condition.scope, name_of: &name_of };
+            Speaker { vocabulary: &condition.vocabulary, scope: &condition.scope, name_of: &name_of };
         Self {
             sentence: speaker.say(&wanted.clone().negated()),
             wanted: speaker.say(wanted),

@@ -9,7 +9,7 @@ use case_file::{diagnostics, place, sources};
 use dsr::{Snapshot, Time};
 use pddl::model::{Domain, Idx, Problem, VariableId, Variables};
 use pddl::{Source, parse_domain, parse_problem};
-use vocabulary::{Binding, Vocabulary, describe_edit, is_redundant};
+use vocabulary::{Binding, Tokens, describe_edit, is_redundant};
 
 #[test]
 fn cases() {
@@ -22,7 +22,7 @@ fn case(text: &str) -> Result<String, String> {
     let (_, source) = &sources[0];
     let words = parse_domain(source, &[]);
     let words = words.model.ok_or_else(|| diagnostics(source, &words.diagnostics))?;
-    let vocabulary = Vocabulary::new(&words)
+    let vocabulary = Tokens::new(&words)
         .map_err(|errors| errors.iter().map(|error| place(source, error.span, error)).collect::<String>())?;
 
     let mut problems: Vec<(&Source, Problem)> = Vec::new();
@@ -48,7 +48,7 @@ fn case(text: &str) -> Result<String, String> {
 }
 
 /// Every action of `rules`: its bindings, what it would write for each, and whether that can be seen already.
-fn tried(source: &Source, vocabulary: &Vocabulary, rules: &Domain, snapshot: &Snapshot) -> String {
+fn tried(source: &Source, vocabulary: &Tokens, rules: &Domain, snapshot: &Snapshot) -> String {
     let link = vocabulary.link(rules);
     let mut out = String::new();
     for action in &rules.actions {

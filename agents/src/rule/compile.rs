@@ -10,7 +10,7 @@ use pddl::model::{
     Comparison, Condition, Domain, DurativeAction, Effect, EffectKind, ExpressionKind, Name, SkillCall, Term,
     TimeSpecifier, TypeSet, VariableId,
 };
-use vocabulary::{Link, Sort, ValueSort, Vocabulary};
+use vocabulary::{Link, Sort, Tokens, ValueSort};
 
 use super::regress::{Beginning, conjuncts};
 use super::{Agent, Argument, Rule, RuleError, RuleErrorKind};
@@ -20,9 +20,9 @@ use crate::skill::{DatumKind, Outcome, Signature, Skill, Skills};
 ///
 /// # Errors
 /// Every mistake in the file, in the order of the file.
-pub fn compile(domain: &Domain, vocabulary: &Vocabulary, skills: &Skills) -> Result<Agent, Vec<RuleError>> {
+pub fn compile(domain: &Domain, tokens: &Tokens, skills: &Skills) -> Result<Agent, Vec<RuleError>> {
     let mut errors = Vec::new();
-    let id = vocabulary.dictionary().agent(&domain.name);
+    let id = tokens.vocabulary().agent(&domain.name);
     if id.is_none() {
         let span = domain.durative_actions.iter().next().map_or(Span::default(), |action| action.span);
         let kind = RuleErrorKind::UnknownAgent { agent: domain.name.clone() };
@@ -32,9 +32,9 @@ pub fn compile(domain: &Domain, vocabulary: &Vocabulary, skills: &Skills) -> Res
     for action in &domain.durative_actions {
         let mut compiler = Compiler {
             domain,
-            vocabulary,
+            tokens,
             skills,
-            link: vocabulary.link(domain),
+            link: tokens.link(domain),
             action,
             beginning: Beginning::of(action),
             errors: &mut errors,
@@ -49,7 +49,7 @@ pub fn compile(domain: &Domain, vocabulary: &Vocabulary, skills: &Skills) -> Res
 
 struct Compiler<'a> {
     domain: &'a Domain,
-    vocabulary: &'a Vocabulary,
+    tokens: &'a Tokens,
     skills: &'a Skills,
     link: Link<'a>,
     action: &'a DurativeAction,
@@ -169,7 +169,7 @@ impl Compiler<'_> {
     }
 
     fn kind(&self, node_type: &Name) -> Option<DatumKind> {
-        match self.vocabulary.sort(node_type)? {
+        match self.tokens.sort(node_type)? {
             Sort::Node(_) => Some(DatumKind::Node),
             Sort::Value(ValueSort::Pose) => Some(DatumKind::Pose),
             Sort::Value(_) => None,
@@ -200,7 +200,7 @@ impl Compiler<'_> {
                 Term::Object(object) => self.domain.constants[object].name.clone(),
                 Term::Variable(variable) => Name::new(&format!("?{}", self.action.variables[variable].name)),
             };
-            match self.vocabulary.dictionary().resource(&term) {
+            match self.tokens.vocabulary().resource(&term) {
                 Some(resource) if !claims.contains(&resource) => claims.push(resource),
                 Some(_) => {}
                 None => self.report(self.action.name_span, RuleErrorKind::NotAResource { term }),

@@ -10,7 +10,7 @@ use agents::{Action, Agent, Call, Ended, InstanceId, Runtime, Skill, Skills, com
 use dsr::{Delta, Deltas, Event, Graph, Snapshot, Time, Transaction};
 use pddl::model::Domain;
 use pddl::{Source, parse_domain, parse_problem};
-use vocabulary::Vocabulary;
+use vocabulary::Tokens;
 
 pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
@@ -30,7 +30,7 @@ pub(crate) fn domain(path: &Path, imports: &[&Domain]) -> Domain {
 /// The vocabulary of the lab, and a graph with a robot and a person in view.
 pub(crate) struct Lab {
     pub(crate) words: Domain,
-    pub(crate) vocabulary: Vocabulary,
+    pub(crate) tokens: Tokens,
     pub(crate) graph: Graph,
 }
 
@@ -38,26 +38,26 @@ impl Lab {
     pub(crate) fn new() -> Self {
         let data = root().join("test_data");
         let words = domain(&data.join("lab.pddl"), &[]);
-        let vocabulary = Vocabulary::new(&words).unwrap();
+        let tokens = Tokens::new(&words).unwrap();
         let world = parse_problem(&source(&data.join("world.pddl")), &words).model.unwrap();
-        let graph = vocabulary.populate(&[&world], Time(0)).unwrap();
-        Self { words, vocabulary, graph }
+        let graph = tokens.populate(&[&world], Time(0)).unwrap();
+        Self { words, tokens, graph }
     }
 
     pub(crate) fn agent(&self, name: &str) -> Arc<Agent> {
         let rules = domain(&root().join("test_data/ok").join(name).with_extension("pddl"), &[&self.words]);
         let skills: Skills = agents::skills::standard();
-        Arc::new(compile(&rules, &self.vocabulary, &skills).unwrap_or_else(|errors| panic!("{errors:?}")))
+        Arc::new(compile(&rules, &self.tokens, &skills).unwrap_or_else(|errors| panic!("{errors:?}")))
     }
 
     /// Writes as the director: `+robot shall_say hello`, `-person is_with robot`.
     pub(crate) fn direct(&self, edits: &[&str], seconds: u64) {
-        let dictionary = self.graph.dictionary();
-        let mut transaction = Transaction::new(dictionary.agent("director").unwrap());
+        let vocabulary = self.graph.vocabulary();
+        let mut transaction = Transaction::new(vocabulary.agent("director").unwrap());
         for edit in edits {
             let (sign, sentence) = edit.split_at(1);
             let words: Vec<&str> = sentence.split(' ').collect();
-            let label = dictionary.label(words[1]).unwrap();
+            let label = vocabulary.label(words[1]).unwrap();
             match sign {
                 "+" => transaction.add_edge(words[0], label, words[2]),
                 "-" => transaction.remove_edge(words[0], label, words[2]),
@@ -197,6 +197,6 @@ fn runtime_name(runtime: &Runtime) -> String {
 pub(crate) fn told(delta: &Delta, after: &Snapshot) -> String {
     let lines: Vec<String> =
         delta.sentences(after).into_iter().filter(|line| !line.contains(" holds ")).collect();
-    let writer = after.dictionary().agent_name(delta.writer).unwrap().to_string();
+    let writer = after.vocabulary().agent_name(delta.writer).unwrap().to_string();
     format!("v{} {writer}: {}", delta.version.0, lines.join(", "))
 }

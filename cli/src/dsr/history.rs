@@ -100,7 +100,7 @@ pub(super) fn diff(arguments: &DiffArguments, console: &mut Console<'_>) -> Resu
 
 pub(super) fn query(arguments: &QueryArguments, console: &mut Console<'_>) -> Result<Exit, Failed> {
     let (recording, exit) = open(&arguments.journal, console)?;
-    let pattern = Pattern::parse(recording.dictionary(), &arguments.pattern)
+    let pattern = Pattern::parse(recording.vocabulary(), &arguments.pattern)
         .map_err(|error| Failed(Exit::Unreadable, format!("the pattern cannot be read: {error}")))?;
     let any = if arguments.history {
         history(&recording, &pattern, console)?

@@ -129,9 +129,9 @@ fn open(path: &Path, console: &mut Console<'_>) -> Result<(Recording, Exit), Fai
     Ok((recording, exit))
 }
 
-/// Who committed; nobody if the journal's dictionary does not know it.
+/// Who committed; nobody if the journal's vocabulary does not know it.
 fn writer<'r>(recording: &'r Recording, delta: &Delta) -> &'r str {
-    recording.dictionary().agent_name(delta.writer).map_or("", |name| name)
+    recording.vocabulary().agent_name(delta.writer).map_or("", |name| name)
 }
 
 /// A commit, as records and messages tell it.

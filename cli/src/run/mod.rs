@@ -237,7 +237,7 @@ async fn pelea(
     steps: broadcast::Sender<Step>,
     epoch: Instant,
 ) -> Ending {
-    let writer = graph.dictionary().agent("pelea").unwrap_or(AgentId::DSR);
+    let writer = graph.vocabulary().agent("pelea").unwrap_or(AgentId::DSR);
     let tell = move |time: dsr::Time, narration: Narration| {
         if let Narration::Started { step, .. } = &narration {
             // Nobody listens where no disruption waits for a step.

@@ -99,11 +99,11 @@ impl Telling {
 
 fn commit(delta: &dsr::Delta, after: &Snapshot) -> Commit {
     let (mut now, mut no_longer, mut edges) = (Vec::new(), Vec::new(), Vec::new());
-    let dictionary = after.dictionary();
+    let vocabulary = after.vocabulary();
     let node = |id| after.name(id).unwrap_or_default().to_owned();
-    let label = |id| dictionary.label_name(id).map_or_else(String::new, ToString::to_string);
+    let label = |id| vocabulary.label_name(id).map_or_else(String::new, ToString::to_string);
     // The function of two nodes is an edge that carries a value: told with its value, or not at all.
-    let carries_value = |id| id == LabelId::HOLDS || dictionary.attribute(&label(id)).is_some();
+    let carries_value = |id| id == LabelId::HOLDS || vocabulary.attribute(&label(id)).is_some();
     for (change, sentence) in delta.changes.iter().zip(delta.sentences(after)) {
         match change {
             Change::EdgeAdded { edge } => {
@@ -130,7 +130,7 @@ fn commit(delta: &dsr::Delta, after: &Snapshot) -> Commit {
             _ => {}
         }
     }
-    let writer = dictionary.agent_name(delta.writer).map_or_else(String::new, ToString::to_string);
+    let writer = vocabulary.agent_name(delta.writer).map_or_else(String::new, ToString::to_string);
     Commit { writer, now, no_longer, reflex: !delta.reflexes.is_empty(), edges }
 }
 

@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a bench that fails says where")]
 
 use dsr::{
-    AgentId, AttributeId, DictionaryBuilder, Graph, HolderRef, Isometry3, Kind, LabelId, Nature, NodeId,
-    Time, Transaction,
+    AgentId, AttributeId, Graph, HolderRef, Isometry3, Kind, LabelId, Nature, NodeId, Time, Transaction,
+    VocabularyBuilder,
 };
 
 pub(crate) struct Ward {
@@ -17,7 +17,7 @@ pub(crate) struct Ward {
 
 /// `count` nodes in a chain of edges, the first fifty also in a chain of transforms.
 pub(crate) fn ward(count: usize) -> Ward {
-    let mut b = DictionaryBuilder::new();
+    let mut b = VocabularyBuilder::new();
     let place = b.node_type("place", None, Nature::Geometric).unwrap();
     let label = b.label("next", place, place).unwrap();
     let score = b.attribute_on_node("score", place, Kind::Number).unwrap();

@@ -8,9 +8,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::names::Names;
 use super::{CortexError, Edge, Kinds, Node};
-use crate::dictionary::DictionaryBuilder;
 use crate::id::{AttributeId, TypeId};
 use crate::value::{Kind, NewValue};
+use crate::vocabulary::VocabularyBuilder;
 
 /// A value of the file.
 pub(super) struct Found {
@@ -85,7 +85,7 @@ impl Attributes {
 
     /// Declares what is used.
     pub(super) fn declare(
-        builder: &mut DictionaryBuilder,
+        builder: &mut VocabularyBuilder,
         (nodes, edges): (&[Node], &[Edge]),
         kinds: &Kinds,
         names: &mut Names,

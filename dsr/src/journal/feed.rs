@@ -227,13 +227,13 @@ mod tests {
     use nalgebra::{Isometry3, Matrix6};
 
     use super::*;
-    use crate::dictionary::{DictionaryBuilder, Nature};
     use crate::graph::Graph;
     use crate::id::{AgentId, NodeId, Time};
+    use crate::vocabulary::{Nature, VocabularyBuilder};
 
     #[test]
     fn what_the_thread_holds_is_counted_until_it_comes_again() {
-        let mut builder = DictionaryBuilder::new();
+        let mut builder = VocabularyBuilder::new();
         let thing = builder.node_type("thing", None, Nature::Symbolic).unwrap();
         let graph = Graph::new(builder.build());
         let mut names = 0..;

@@ -17,7 +17,7 @@ pub(super) const LONGEST: u32 = 1 << 30;
 /// What a frame holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// The number of the format and the dictionary. The first frame of a segment.
+    /// The number of the format and the vocabulary. The first frame of a segment.
     Start,
     /// A part of the state with which the segment begins.
     State,

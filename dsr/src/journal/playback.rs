@@ -61,7 +61,7 @@ impl<'r> Replay<'r> {
         }
         let offset = found.frames.get(1).map_or(0, |frame| frame.offset);
         let export = gathered.whole().ok_or_else(changed)?;
-        let state = export::restore(Arc::clone(&found.dictionary), &export).map_err(|error| {
+        let state = export::restore(Arc::clone(&found.vocabulary), &export).map_err(|error| {
             RecordingError::Misfit { segment: found.name.clone(), offset, error: error.into() }
         })?;
         Ok(Self { segments, segment, bytes, frame, rest: 0..0, state: Arc::new(state) })

@@ -1,20 +1,20 @@
 //! What frames hold, as bytes: postcard, one record after the other.
 //!
 //! A state is written as its export, part by part, so that a large one is never a second time in memory; reading
-//! goes through the checks of an export, so that bytes which are no state of the dictionary are refused by name.
+//! goes through the checks of an export, so that bytes which are no state of the vocabulary are refused by name.
 
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use crate::delta::Delta;
-use crate::dictionary::Dictionary;
 use crate::export::{
     Export, ExportedAttribute, ExportedEdge, ExportedNode, ExportedSample, ExportedTransform,
 };
 use crate::id::{NodeId, Time, Version};
 use crate::pose::Covariance;
 use crate::snapshot::Snapshot;
+use crate::vocabulary::Vocabulary;
 
 /// The number of the format. Another one is refused.
 const FORMAT: u32 = 2;
@@ -45,15 +45,15 @@ fn put(record: &impl Serialize, bytes: &mut Vec<u8>) {
 }
 
 /// `goes_on`: the same journal wrote the segment before.
-pub(super) fn put_start(goes_on: bool, dictionary: &Dictionary, bytes: &mut Vec<u8>) {
-    put(&(FORMAT, goes_on, dictionary), bytes);
+pub(super) fn put_start(goes_on: bool, vocabulary: &Vocabulary, bytes: &mut Vec<u8>) {
+    put(&(FORMAT, goes_on, vocabulary), bytes);
 }
 
 pub(super) fn put_delta(delta: &Delta, bytes: &mut Vec<u8>) {
     put(delta, bytes);
 }
 
-/// Whether the journal goes on with this segment, and the bytes of the dictionary.
+/// Whether the journal goes on with this segment, and the bytes of the vocabulary.
 pub(super) fn start(payload: &[u8]) -> Result<(bool, &[u8]), Malformed> {
     let (format, rest) = postcard::take_from_bytes::<u32>(payload).map_err(|_| Malformed::Bytes)?;
     if format != FORMAT {
@@ -62,7 +62,7 @@ pub(super) fn start(payload: &[u8]) -> Result<(bool, &[u8]), Malformed> {
     postcard::take_from_bytes(rest).map_err(|_| Malformed::Bytes)
 }
 
-pub(super) fn dictionary(bytes: &[u8]) -> Result<Dictionary, Malformed> {
+pub(super) fn vocabulary(bytes: &[u8]) -> Result<Vocabulary, Malformed> {
     postcard::from_bytes(bytes).map_err(|_| Malformed::Bytes)
 }
 

@@ -7,7 +7,7 @@
 //! Invariant: in a recording versions rise, and where a segment ends with the version with which the next begins, it ends
 //! with its state. The history is the one that ends in the newest segment: who begins anew, or goes on from an older version,
 //! in the same folder begins another, and the segments that do not lead to the newest are named, left out, and can be read
-//! alone. What is not seen: a segment that ends before the next begins may be of another history with the same dictionary;
+//! alone. What is not seen: a segment that ends before the next begins may be of another history with the same vocabulary;
 //! nothing was recorded in between by which to tell, and a replay shows a [`Played::Jump`](super::Played::Jump) there.
 //!
 //! Cost: opening is one pass over the bytes, and a replay of the segments that meet, one at a time; a version is its segment's
@@ -20,11 +20,11 @@ use std::sync::Arc;
 use super::playback::Replay;
 use super::segment::{Reader, Segment, Source};
 use super::store;
-use crate::dictionary::Dictionary;
 use crate::graph::Graph;
 use crate::id::{Time, Version};
 use crate::replay::ReplayError;
 use crate::snapshot::Snapshot;
+use crate::vocabulary::Vocabulary;
 
 /// How often a folder is looked at again whose segments were all let go of between its names and their bytes.
 const TRIES: u32 = 8;
@@ -73,7 +73,7 @@ pub enum Damage {
     #[error("`{segment}` ends before its state does: there is nothing to read in it")]
     Unfinished { segment: Arc<str> },
     /// It is of a graph with other tokens than the newest segment.
-    #[error("`{segment}` has another dictionary than the segments behind it and is left out")]
+    #[error("`{segment}` has another vocabulary than the segments behind it and is left out")]
     OtherDictionary { segment: Arc<str> },
     /// Who wrote the segments behind it did not go on from its end.
     #[error("`{segment}` goes to version {}, the segments behind it begin at {}: it is of another history \
@@ -90,7 +90,7 @@ pub enum Damage {
 /// A journal that was written.
 #[derive(Debug)]
 pub struct Recording {
-    dictionary: Arc<Dictionary>,
+    vocabulary: Arc<Vocabulary>,
     segments: Vec<Segment>,
     damage: Vec<Damage>,
 }
@@ -150,12 +150,12 @@ impl Recording {
             let first = known.min_by_key(told);
             return Err(first.map_or(RecordingError::Empty, |damage| RecordingError::Damaged { damage }));
         };
-        Ok(Self { dictionary: Arc::clone(&newest.dictionary), segments, damage })
+        Ok(Self { vocabulary: Arc::clone(&newest.vocabulary), segments, damage })
     }
 
-    /// The dictionary of the graph.
-    pub fn dictionary(&self) -> &Arc<Dictionary> {
-        &self.dictionary
+    /// The vocabulary of the graph.
+    pub fn vocabulary(&self) -> &Arc<Vocabulary> {
+        &self.vocabulary
     }
 
     /// What could not be read.

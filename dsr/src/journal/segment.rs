@@ -2,7 +2,7 @@
 //!
 //! Problem: a file may be torn, damaged, from another program or another graph, and what else was recorded must stay
 //! readable. Idea: whatever is wrong with a segment is a [`Damage`] of that segment. Invariant: a segment that is kept
-//! begins with a dictionary and a whole state, and the versions of its deltas follow each other. Cost: one pass over the
+//! begins with a vocabulary and a whole state, and the versions of its deltas follow each other. Cost: one pass over the
 //! bytes, after which each frame is known with the earliest time in it; and a replay of each segment on whose end another program
 //! has gone on.
 
@@ -16,8 +16,8 @@ use super::frame::{self, Flaw, Frame, Kind};
 use super::playback;
 use super::record::{self, Malformed};
 use super::recording::{Damage, RecordingError};
-use crate::dictionary::Dictionary;
 use crate::id::{Time, Version};
+use crate::vocabulary::Vocabulary;
 
 /// Where the bytes of a segment are.
 #[derive(Debug)]
@@ -31,7 +31,7 @@ pub(super) enum Source {
 pub(super) struct Segment {
     pub(super) name: Arc<str>,
     source: Source,
-    pub(super) dictionary: Arc<Dictionary>,
+    pub(super) vocabulary: Arc<Vocabulary>,
     /// The journal that wrote it wrote the one before.
     goes_on: bool,
     pub(super) frames: Vec<Frame>,
@@ -58,8 +58,8 @@ impl Segment {
 /// Gathers segments, and what is wrong with them.
 #[derive(Default)]
 pub(super) struct Reader {
-    /// The dictionaries so far, as bytes and read; mostly one.
-    dictionaries: Vec<(Vec<u8>, Arc<Dictionary>)>,
+    /// The vocabularies so far, as bytes and read; mostly one.
+    vocabularies: Vec<(Vec<u8>, Arc<Vocabulary>)>,
     segments: Vec<Segment>,
     damage: Vec<Damage>,
 }
@@ -98,8 +98,8 @@ impl Reader {
             return None;
         }
         let begun = record::start(start.payload(bytes))
-            .and_then(|(goes_on, dictionary)| Ok((goes_on, self.dictionary(dictionary)?)));
-        let (goes_on, dictionary) = match begun {
+            .and_then(|(goes_on, vocabulary)| Ok((goes_on, self.vocabulary(vocabulary)?)));
+        let (goes_on, vocabulary) = match begun {
             Ok(begun) => begun,
             Err(Malformed::Format(format)) => {
                 self.damage.push(Damage::Format { segment: name.clone(), format });
@@ -122,16 +122,16 @@ impl Reader {
         frames.truncate(earliest.len());
         let (first, last) = (at.first?, at.last?);
         let source = at.whole.then(source)?;
-        Some(Segment { name: name.clone(), source, dictionary, goes_on, frames, earliest, first, last })
+        Some(Segment { name: name.clone(), source, vocabulary, goes_on, frames, earliest, first, last })
     }
 
-    fn dictionary(&mut self, payload: &[u8]) -> Result<Arc<Dictionary>, Malformed> {
-        if let Some((_, known)) = self.dictionaries.iter().find(|(bytes, _)| bytes == payload) {
+    fn vocabulary(&mut self, payload: &[u8]) -> Result<Arc<Vocabulary>, Malformed> {
+        if let Some((_, known)) = self.vocabularies.iter().find(|(bytes, _)| bytes == payload) {
             return Ok(Arc::clone(known));
         }
-        let dictionary = Arc::new(record::dictionary(payload)?);
-        self.dictionaries.push((payload.to_vec(), Arc::clone(&dictionary)));
-        Ok(dictionary)
+        let vocabulary = Arc::new(record::vocabulary(payload)?);
+        self.vocabularies.push((payload.to_vec(), Arc::clone(&vocabulary)));
+        Ok(vocabulary)
     }
 
     /// The segments of the history that the newest one goes on with, and what is wrong with all of them.
@@ -142,7 +142,7 @@ impl Reader {
             let name = segment.name.clone();
             if let Some(next) = kept.last() {
                 let (last, first) = (segment.last.0, next.first.0);
-                if !Arc::ptr_eq(&next.dictionary, &segment.dictionary) {
+                if !Arc::ptr_eq(&next.vocabulary, &segment.vocabulary) {
                     self.damage.push(Damage::OtherDictionary { segment: name });
                     continue;
                 }

@@ -140,7 +140,7 @@ impl<S: Store> Writer<S> {
         self.segment = Segment { begun: self.segment.begun + 1, ..Segment::default() };
         let mut buffer = std::mem::take(&mut self.buffer);
         buffer.clear();
-        record::put_start(goes_on, state.dictionary(), &mut buffer);
+        record::put_start(goes_on, state.vocabulary(), &mut buffer);
         self.frame(Kind::Start, &mut buffer)?;
         record::put_state(state, &mut buffer, |buffer| {
             if buffer.len() >= FRAME { self.frame(Kind::State, buffer) } else { Ok(()) }
@@ -221,15 +221,15 @@ impl<S: Store> Writer<S> {
 #[allow(clippy::unwrap_used, reason = "a test that fails says where")]
 mod tests {
     use super::*;
-    use crate::dictionary::{DictionaryBuilder, Nature};
     use crate::graph::Graph;
     use crate::id::{AgentId, Time, Version};
     use crate::journal::{Memory, Recording};
+    use crate::vocabulary::{Nature, VocabularyBuilder};
 
     /// A commit that no frame can hold is a gap, and what comes after it is there; so is a node an error.
     #[test]
     fn what_is_too_long_for_a_frame_is_left_out_and_told() {
-        let mut builder = DictionaryBuilder::new();
+        let mut builder = VocabularyBuilder::new();
         let thing = builder.node_type("thing", None, Nature::Symbolic).unwrap();
         let graph = Graph::new(builder.build());
         let add = |names: std::ops::Range<u64>| {

@@ -6,13 +6,13 @@ use super::{
     Atom, Carrier, Comparison, Conjunction, HolderTerm, Limit, Metric, Operand, Pattern, PatternError,
     PatternSource, Right, Scope, Term, Threshold, Variable,
 };
-use crate::dictionary::Dictionary;
 use crate::id::{AttributeId, LabelId, TypeId};
+use crate::vocabulary::Vocabulary;
 
 /// Collects the parts of a pattern.
 #[derive(Debug)]
 pub struct PatternBuilder<'d> {
-    dictionary: &'d Dictionary,
+    vocabulary: &'d Vocabulary,
     variables: Vec<(Arc<str>, TypeId)>,
     locals: Vec<TypeId>,
     /// The conjunction being written, innermost last; the first is the pattern itself.
@@ -20,10 +20,10 @@ pub struct PatternBuilder<'d> {
 }
 
 impl<'d> PatternBuilder<'d> {
-    /// The pattern that always has one match, for dictionary `dictionary`.
-    pub fn new(dictionary: &'d Dictionary) -> Self {
+    /// The pattern that always has one match, for vocabulary `vocabulary`.
+    pub fn new(vocabulary: &'d Vocabulary) -> Self {
         Self {
-            dictionary,
+            vocabulary,
             variables: Vec::new(),
             locals: Vec::new(),
             open: vec![Conjunction { variables: Vec::new(), atoms: Vec::new() }],
@@ -125,11 +125,11 @@ impl<'d> PatternBuilder<'d> {
         result
     }
 
-    /// Checks the pattern against the dictionary and compiles it.
+    /// Checks the pattern against the vocabulary and compiles it.
     pub fn build(self) -> Result<Pattern, PatternError> {
-        let Self { dictionary, variables, locals, mut open } = self;
+        let Self { vocabulary, variables, locals, mut open } = self;
         let body = open.pop().expect("the pattern's own conjunction is never popped before");
-        PatternSource { variables, locals, body }.build(dictionary)
+        PatternSource { variables, locals, body }.build(vocabulary)
     }
 
     fn top(&mut self) -> &mut Conjunction<Term> {

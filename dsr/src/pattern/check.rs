@@ -1,4 +1,4 @@
-//! From what was written to what can be matched: terms become slots, and what the dictionary could never allow
+//! From what was written to what can be matched: terms become slots, and what the vocabulary could never allow
 //! is refused now rather than never matched.
 
 use std::sync::Arc;
@@ -8,10 +8,10 @@ use super::{
     Atom, Carrier, Comparison, Conjunction, Constant, Limit, Pattern, PatternSource, Right, SLOTS, Scope,
     Slot, Term, Threshold, Variable, negated, rigid, seed,
 };
-use crate::dictionary::{Dictionary, HolderType, Nature};
 use crate::id::{AttributeId, LabelId, NodeId, TypeId};
 use crate::mentions::Mentions;
 use crate::value::{Kind, Value};
+use crate::vocabulary::{HolderType, Nature, Vocabulary};
 
 type Name = Arc<str>;
 
@@ -28,13 +28,13 @@ pub enum PatternError {
     /// A number that is infinite or none.
     #[error("attribute '{attribute}' is held against a number that is not finite")]
     NotFinite { attribute: Name },
-    /// The type is of another dictionary.
+    /// The type is of another vocabulary.
     #[error("no type {id}")]
     UnknownType { id: TypeId },
-    /// The label is of another dictionary.
+    /// The label is of another vocabulary.
     #[error("no label {id}")]
     UnknownLabel { id: LabelId },
-    /// The attribute is of another dictionary.
+    /// The attribute is of another vocabulary.
     #[error("no attribute {id}")]
     UnknownAttribute { id: AttributeId },
     /// A local variable outside the negated part that declares it, or a variable of another pattern.
@@ -85,7 +85,7 @@ fn bounded(body: &Conjunction<Term>) -> Result<(), PatternError> {
     Ok(())
 }
 
-pub(super) fn compile(dictionary: &Dictionary, source: PatternSource) -> Result<Pattern, PatternError> {
+pub(super) fn compile(vocabulary: &Vocabulary, source: PatternSource) -> Result<Pattern, PatternError> {
     bounded(&source.body)?;
     let (variables, locals) = (source.variables.clone(), source.locals.clone());
     let count = variables.len() + locals.len();
@@ -95,11 +95,11 @@ pub(super) fn compile(dictionary: &Dictionary, source: PatternSource) -> Result<
     let types: Vec<_> = variables.iter().map(|(_, id)| *id).chain(locals.iter().copied()).collect();
     let mut mentions = Mentions::default();
     for &id in &types {
-        dictionary.type_name(id).ok_or(PatternError::UnknownType { id })?;
-        dictionary.types().filter(|&sub| dictionary.is_a(sub, id)).for_each(|sub| mentions.add_type(sub));
+        vocabulary.type_name(id).ok_or(PatternError::UnknownType { id })?;
+        vocabulary.types().filter(|&sub| vocabulary.is_a(sub, id)).for_each(|sub| mentions.add_type(sub));
     }
     let mut checker = Checker {
-        dictionary,
+        vocabulary,
         types,
         tops: variables.len(),
         constants: Vec::new(),
@@ -118,17 +118,17 @@ pub(super) fn compile(dictionary: &Dictionary, source: PatternSource) -> Result<
     }
     if !constants.is_empty() {
         // A constant's node may come or go, and its type is not known here.
-        dictionary.types().for_each(|id| mentions.add_type(id));
+        vocabulary.types().for_each(|id| mentions.add_type(id));
     }
     let mut bound = Mask::default();
     (types.len()..count).for_each(|slot| bound.insert(slot_at(slot)));
     let order = plan(&body, bound);
     let type_of = |slot: Slot| types.get(usize::from(slot.0)).copied();
-    let parts = negated::parts(&body, bound, &type_of, dictionary);
+    let parts = negated::parts(&body, bound, &type_of, vocabulary);
     (0..variables.len()).for_each(|slot| bound.insert(slot_at(slot)));
     let judgement = plan(&body, bound);
     let (seeds, mut measured) = (seed::seedlings(&body), Vec::new());
-    rigid::measured(&body, &type_of, dictionary, &mut measured);
+    rigid::measured(&body, &type_of, vocabulary, &mut measured);
     Ok(Pattern {
         source: Arc::new(source),
         variables,
@@ -150,7 +150,7 @@ fn slot_at(index: usize) -> Slot {
 }
 
 struct Checker<'d> {
-    dictionary: &'d Dictionary,
+    vocabulary: &'d Vocabulary,
     /// The types of the variables, by slot.
     types: Vec<TypeId>,
     tops: usize,
@@ -206,7 +206,7 @@ impl Checker<'_> {
             Atom::IsA(node, id) => {
                 // A node has one type as long as it is there, so the types of the variables, and all types where there
                 // are constants, mention already what can change this.
-                self.dictionary.type_name(*id).ok_or(PatternError::UnknownType { id: *id })?;
+                self.vocabulary.type_name(*id).ok_or(PatternError::UnknownType { id: *id })?;
                 let slot = self.term(node)?;
                 if let Some(declared) = self.type_of(slot).filter(|_| !self.may_be(slot, *id)) {
                     let (first, second) = (self.type_name(declared), self.type_name(*id));
@@ -233,7 +233,7 @@ impl Checker<'_> {
 
     /// Whether it gives a variable a type that it has anyway.
     fn says_nothing(&self, atom: &Atom<Slot>) -> bool {
-        matches!(*atom, Atom::IsA(slot, id) if self.type_of(slot).is_some_and(|own| self.dictionary.is_a(own, id)))
+        matches!(*atom, Atom::IsA(slot, id) if self.type_of(slot).is_some_and(|own| self.vocabulary.is_a(own, id)))
     }
 
     /// Whether a metric can be held against this.
@@ -253,7 +253,7 @@ impl Checker<'_> {
             }
             Limit::Attribute(attribute) => {
                 self.carrier(&Carrier::Node(from.clone()), attribute)?;
-                match (self.dictionary.kind(attribute), self.dictionary.attribute_name(attribute)) {
+                match (self.vocabulary.kind(attribute), self.vocabulary.attribute_name(attribute)) {
                     (Some(kind), Some(name)) if kind != Kind::Number => {
                         Err(PatternError::WrongKind { attribute: name.clone(), kind })
                     }
@@ -264,10 +264,10 @@ impl Checker<'_> {
     }
 
     fn edge(&mut self, from: &Term, label: LabelId, to: &Term) -> Result<(Slot, Slot), PatternError> {
-        let name = self.dictionary.label_name(label).ok_or(PatternError::UnknownLabel { id: label })?.clone();
+        let name = self.vocabulary.label_name(label).ok_or(PatternError::UnknownLabel { id: label })?.clone();
         let (from, to) = (self.term(from)?, self.term(to)?);
         let (start, end) = (self.type_of(from), self.type_of(to));
-        let signatures = self.dictionary.signatures(label);
+        let signatures = self.vocabulary.signatures(label);
         if !signatures.iter().any(|s| self.may_be(from, s.from) && self.may_be(to, s.to)) {
             let name_of = |id: Option<TypeId>| id.map_or_else(|| "constant".into(), |id| self.type_name(id));
             return Err(PatternError::WrongSignature { label: name, from: name_of(start), to: name_of(end) });
@@ -283,7 +283,7 @@ impl Checker<'_> {
     ) -> Result<Carrier<Slot>, PatternError> {
         let unknown = PatternError::UnknownAttribute { id: attribute };
         let (Some(name), Some(declared)) =
-            (self.dictionary.attribute_name(attribute).cloned(), self.dictionary.holder(attribute))
+            (self.vocabulary.attribute_name(attribute).cloned(), self.vocabulary.holder(attribute))
         else {
             return Err(unknown);
         };
@@ -315,9 +315,9 @@ impl Checker<'_> {
         comparison: Comparison,
         operand: &Right<Term>,
     ) -> Result<Right<Slot>, PatternError> {
-        let dictionary = self.dictionary;
+        let vocabulary = self.vocabulary;
         let unknown = PatternError::UnknownAttribute { id: attribute };
-        let (Some(name), Some(kind)) = (dictionary.attribute_name(attribute), dictionary.kind(attribute))
+        let (Some(name), Some(kind)) = (vocabulary.attribute_name(attribute), vocabulary.kind(attribute))
         else {
             return Err(unknown);
         };
@@ -341,13 +341,13 @@ impl Checker<'_> {
                 let slot = self.term(term)?;
                 match (kind, self.type_of(slot)) {
                     (Kind::Node(_), None) => Ok(Right::Term(slot)),
-                    (Kind::Node(target), Some(id)) if dictionary.overlap(target, id) => Ok(Right::Term(slot)),
+                    (Kind::Node(target), Some(id)) if vocabulary.overlap(target, id) => Ok(Right::Term(slot)),
                     _ => Err(wrong()),
                 }
             }
             Right::Attribute(holder, other) => {
                 let holder = self.carrier(holder, *other)?;
-                match (kind, dictionary.kind(*other)) {
+                match (kind, vocabulary.kind(*other)) {
                     (Kind::Node(_), Some(Kind::Node(_))) => {}
                     (kind, Some(other)) if kind == other => {}
                     _ => return Err(wrong()),
@@ -410,16 +410,16 @@ impl Checker<'_> {
 
     /// Whether what stands in the slot could be of the type; of a constant anything can be said.
     fn may_be(&self, slot: Slot, node_type: TypeId) -> bool {
-        self.type_of(slot).is_none_or(|id| self.dictionary.overlap(id, node_type))
+        self.type_of(slot).is_none_or(|id| self.vocabulary.overlap(id, node_type))
     }
 
     fn maybe_geometric(&self, id: TypeId) -> bool {
-        let geometric = |id| self.dictionary.nature(id) == Some(Nature::Geometric);
-        self.dictionary.types().any(|sub| self.dictionary.is_a(sub, id) && geometric(sub))
+        let geometric = |id| self.vocabulary.nature(id) == Some(Nature::Geometric);
+        self.vocabulary.types().any(|sub| self.vocabulary.is_a(sub, id) && geometric(sub))
     }
 
     fn type_name(&self, id: TypeId) -> Name {
-        self.dictionary.type_name(id).cloned().unwrap_or_else(|| id.to_string().into())
+        self.vocabulary.type_name(id).cloned().unwrap_or_else(|| id.to_string().into())
     }
 }
 

@@ -235,9 +235,9 @@ impl Run<'_> {
                 }
             }
             Step::Scan(slot) => {
-                let dictionary = &self.state.dictionary;
+                let vocabulary = &self.state.vocabulary;
                 let Some(wanted) = self.pattern.type_of(*slot) else { return ControlFlow::Continue(()) };
-                for sub in dictionary.types().filter(|&sub| dictionary.is_a(sub, wanted)) {
+                for sub in vocabulary.types().filter(|&sub| vocabulary.is_a(sub, wanted)) {
                     for node in self.state.nodes_exactly(sub) {
                         self.looked.set(self.looked.get() + 1);
                         slots[usize::from(slot.0)] = node;
@@ -294,7 +294,7 @@ impl Run<'_> {
     /// Whether the node is there and of the variable's type.
     fn admits(&self, slot: Slot, node: NodeId) -> bool {
         match (self.pattern.type_of(slot), self.state.node(node)) {
-            (Some(wanted), Some(node)) => self.state.dictionary.is_a(node.node_type(), wanted),
+            (Some(wanted), Some(node)) => self.state.vocabulary.is_a(node.node_type(), wanted),
             _ => false,
         }
     }
@@ -325,7 +325,7 @@ impl Run<'_> {
             }
             Atom::IsA(slot, wanted) => {
                 let found = self.state.node(get(slots, *slot));
-                found.is_some_and(|node| self.state.dictionary.is_a(node.node_type(), *wanted))
+                found.is_some_and(|node| self.state.vocabulary.is_a(node.node_type(), *wanted))
             }
             Atom::Metric { metric, from, to, comparison, limit } => {
                 let (from, to) = (get(slots, *from), get(slots, *to));

@@ -20,9 +20,9 @@ use super::held::Held;
 use super::plan::{Mask, Step, free, plan};
 use super::rigid::{End, Groups};
 use super::{Atom, Conjunction, Fixed, Limit, Pattern, Slot};
-use crate::dictionary::Dictionary;
 use crate::id::{NodeId, TypeId};
 use crate::state::State;
+use crate::vocabulary::Vocabulary;
 
 /// A negated part of a pattern, not of another part, that measures something of its own.
 #[derive(Debug, Clone)]
@@ -45,7 +45,7 @@ pub(super) fn parts(
     body: &Conjunction<Slot>,
     constants: Mask,
     type_of: &impl Fn(Slot) -> Option<TypeId>,
-    dictionary: &Dictionary,
+    vocabulary: &Vocabulary,
 ) -> Vec<Part> {
     let part = |(at, atom): (usize, &Atom<Slot>)| {
         let Atom::Without(inner) = atom else { return None };
@@ -63,7 +63,7 @@ pub(super) fn parts(
                         } else if !own.iter().any(|(end, _)| end.slot == slot) {
                             let mut bound = constants.union(outside);
                             bound.insert(slot);
-                            own.push((End::new(slot, type_of(slot), dictionary), plan(inner, bound)));
+                            own.push((End::new(slot, type_of(slot), vocabulary), plan(inner, bound)));
                         }
                     }
                 }

@@ -21,9 +21,9 @@ use smallvec::SmallVec;
 
 use super::{Atom, Conjunction, Fixed, Pattern, Slices, Slot};
 use crate::delta::Change;
-use crate::dictionary::{Dictionary, Nature};
 use crate::id::{NodeId, TypeId};
 use crate::state::State;
+use crate::vocabulary::{Nature, Vocabulary};
 
 /// One of the two ends of a metric.
 #[derive(Debug, Clone)]
@@ -34,12 +34,12 @@ pub(super) struct End {
 }
 
 impl End {
-    pub(super) fn new(slot: Slot, wanted: Option<TypeId>, dictionary: &Dictionary) -> Self {
+    pub(super) fn new(slot: Slot, wanted: Option<TypeId>, vocabulary: &Vocabulary) -> Self {
         let fits = |sub: &TypeId| {
-            wanted.is_some_and(|wanted| dictionary.is_a(*sub, wanted))
-                && dictionary.nature(*sub) == Some(Nature::Geometric)
+            wanted.is_some_and(|wanted| vocabulary.is_a(*sub, wanted))
+                && vocabulary.nature(*sub) == Some(Nature::Geometric)
         };
-        Self { slot, types: dictionary.types().filter(fits).collect() }
+        Self { slot, types: vocabulary.types().filter(fits).collect() }
     }
 }
 
@@ -47,15 +47,15 @@ impl End {
 pub(super) fn measured(
     part: &Conjunction<Slot>,
     type_of: &impl Fn(Slot) -> Option<TypeId>,
-    dictionary: &Dictionary,
+    vocabulary: &Vocabulary,
     into: &mut Vec<[End; 2]>,
 ) {
     for atom in &part.atoms {
         match atom {
             Atom::Metric { from, to, .. } if from != to => {
-                into.push([*from, *to].map(|slot| End::new(slot, type_of(slot), dictionary)));
+                into.push([*from, *to].map(|slot| End::new(slot, type_of(slot), vocabulary)));
             }
-            Atom::Without(part) => measured(part, type_of, dictionary, into),
+            Atom::Without(part) => measured(part, type_of, vocabulary, into),
             _ => {}
         }
     }

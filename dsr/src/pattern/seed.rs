@@ -209,9 +209,9 @@ impl Pattern {
                 Seed::Loose(slot) => {
                     let wanted = self.type_of(slot);
                     let subtypes = state
-                        .dictionary
+                        .vocabulary
                         .types()
-                        .filter(|&sub| wanted.is_some_and(|wanted| state.dictionary.is_a(sub, wanted)));
+                        .filter(|&sub| wanted.is_some_and(|wanted| state.vocabulary.is_a(sub, wanted)));
                     routes.extend(subtypes.map(Route::Type));
                 }
             }
@@ -310,7 +310,7 @@ impl Pattern {
             (
                 Seed::Loose(slot),
                 Change::NodeAdded { node, node_type, .. } | Change::NodeRemoved { node, node_type, .. },
-            ) if self.type_of(slot).is_some_and(|wanted| state.dictionary.is_a(*node_type, wanted)) => {
+            ) if self.type_of(slot).is_some_and(|wanted| state.vocabulary.is_a(*node_type, wanted)) => {
                 self.fix(&[(slot, *node)], state)
             }
             _ => Growth::Nothing,

@@ -14,9 +14,9 @@ use super::{
     Comparison, HolderTerm, Metric, Operand, Pattern, PatternBuilder, PatternError, SLOTS, Term, Threshold,
     Variable,
 };
-use crate::dictionary::{Dictionary, HolderType};
 use crate::id::{AttributeId, TypeId};
 use crate::value::{Kind, Value};
+use crate::vocabulary::{HolderType, Vocabulary};
 
 /// Why a text is no pattern, with the byte where it goes wrong.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -28,7 +28,7 @@ pub enum PatternTextError {
     /// Deeper than anybody would write.
     #[error("byte {at}: nested too deeply")]
     TooDeep { at: usize },
-    /// What begins a part is no token of the dictionary and no word of the language.
+    /// What begins a part is no token of the vocabulary and no word of the language.
     #[error(
         "byte {at}: `{word}` is no label, attribute or type, and not one of `and`, `not`, `distinct`, `=`, `<` …"
     )]
@@ -42,7 +42,7 @@ pub enum PatternTextError {
     /// A node of two types of which none is below the other.
     #[error("byte {at}: `{word}` is a `{first}` and so never a `{second}`")]
     Disjoint { at: usize, word: String, first: String, second: String },
-    /// It says what the dictionary never allows.
+    /// It says what the vocabulary never allows.
     #[error("byte {at}: {error}")]
     Wrong { at: usize, error: PatternError },
 }
@@ -68,7 +68,7 @@ impl Form<'_> {
 impl Pattern {
     /// Reads a pattern, in the language of `pelea dsr query`, as the head of this module has it (`docs/dsr.md`). Variables are those that stand outside of
     /// any `not`, in their order.
-    pub fn parse(dictionary: &Dictionary, text: &str) -> Result<Self, PatternTextError> {
+    pub fn parse(vocabulary: &Vocabulary, text: &str) -> Result<Self, PatternTextError> {
         let mut reader = Reader { text, at: 0 };
         let form = reader.form(0)?;
         reader.space();
@@ -76,9 +76,9 @@ impl Pattern {
             return Err(PatternTextError::Missing { at: reader.at, wanted: "the end" });
         }
         let attempt = |limit| {
-            let mut builder = PatternBuilder::new(dictionary);
+            let mut builder = PatternBuilder::new(vocabulary);
             let mut writer =
-                Writer { dictionary, known: BTreeMap::new(), limit, written: 0, last: form.at() };
+                Writer { vocabulary, known: BTreeMap::new(), limit, written: 0, last: form.at() };
             let written = writer.conjunction(&mut builder, std::slice::from_ref(&form));
             let wrong = |error| PatternTextError::Wrong { at: writer.last, error };
             (written.and_then(|()| builder.build().map_err(wrong)), writer.written)
@@ -149,7 +149,7 @@ impl<'t> Reader<'t> {
 }
 
 struct Writer<'d, 't> {
-    dictionary: &'d Dictionary,
+    vocabulary: &'d Vocabulary,
     /// The variables that may stand here, with their types.
     known: BTreeMap<&'t str, (Variable, TypeId)>,
     /// How many parts are to be written, and were.
@@ -172,15 +172,15 @@ fn split<'f, 't>(form: &'f Form<'t>) -> Result<(usize, &'t str, &'f [Form<'t>]),
 }
 
 /// The type and the node of `(TYPE a)`. Where a word names several things, a label and an attribute come first.
-fn typed<'f, 't>(forms: &'f [Form<'t>], dictionary: &Dictionary) -> Option<(TypeId, &'f Form<'t>)> {
+fn typed<'f, 't>(forms: &'f [Form<'t>], vocabulary: &Vocabulary) -> Option<(TypeId, &'f Form<'t>)> {
     let [Form::Word(_, head), node] = forms else { return None };
-    let is_other = dictionary.label(head).is_some() || dictionary.attribute(head).is_some();
-    let node_type = dictionary.node_type(head).filter(|_| !is_other)?;
+    let is_other = vocabulary.label(head).is_some() || vocabulary.attribute(head).is_some();
+    let node_type = vocabulary.node_type(head).filter(|_| !is_other)?;
     Some((node_type, node))
 }
 
 /// The variables that stand in forms outside of any `not`, and the narrowest type that each is given there.
-fn variables<'t>(forms: &[Form<'t>], dictionary: &Dictionary, found: &mut Vec<(&'t str, TypeId)>) {
+fn variables<'t>(forms: &[Form<'t>], vocabulary: &Vocabulary, found: &mut Vec<(&'t str, TypeId)>) {
     for form in forms {
         // More than a pattern may have, so that there is no use in looking for the rest.
         if found.len() > SLOTS {
@@ -191,10 +191,10 @@ fn variables<'t>(forms: &[Form<'t>], dictionary: &Dictionary, found: &mut Vec<(&
                 found.push((word, TypeId::OBJECT));
             }
             Form::List(_, forms) if !matches!(&forms[..], [Form::Word(_, "not"), ..]) => {
-                variables(forms, dictionary, found);
-                if let Some((narrow, Form::Word(_, word))) = typed(forms, dictionary)
+                variables(forms, vocabulary, found);
+                if let Some((narrow, Form::Word(_, word))) = typed(forms, vocabulary)
                     && let Some((_, known)) = found.iter_mut().find(|(known, _)| known == word)
-                    && dictionary.is_a(narrow, *known)
+                    && vocabulary.is_a(narrow, *known)
                 {
                     *known = narrow;
                 }
@@ -211,7 +211,7 @@ impl<'d, 't> Writer<'d, 't> {
         forms: &[Form<'t>],
     ) -> Result<(), PatternTextError> {
         let mut here = Vec::new();
-        variables(forms, self.dictionary, &mut here);
+        variables(forms, self.vocabulary, &mut here);
         here.retain(|(word, _)| !self.known.contains_key(word));
         let count = self.known.len() + here.len();
         if count > SLOTS {
@@ -267,17 +267,17 @@ impl<'d, 't> Writer<'d, 't> {
                 _ => Err(arity("two sides")),
             };
         }
-        if let (Some(label), [from, to]) = (self.dictionary.label(head), rest) {
+        if let (Some(label), [from, to]) = (self.vocabulary.label(head), rest) {
             let (from, to) = (self.term(from)?, self.term(to)?);
             builder.edge(from, label, to);
             return Ok(());
         }
-        if self.dictionary.attribute(head).is_some() {
+        if self.vocabulary.attribute(head).is_some() {
             let (holder, attribute) = self.attribute(form)?;
             builder.present(holder, attribute);
             return Ok(());
         }
-        match (self.dictionary.label(head), self.dictionary.node_type(head), rest) {
+        match (self.vocabulary.label(head), self.vocabulary.node_type(head), rest) {
             (Some(_), _, _) => Err(arity("two nodes")),
             (None, Some(node_type), [node]) => self.is_a(builder, node, node_type),
             (None, Some(_), _) => Err(arity("one node")),
@@ -294,9 +294,9 @@ impl<'d, 't> Writer<'d, 't> {
         let term = self.term(node)?;
         if let Form::Word(at, word) = node
             && let Some((_, known)) = self.known.get(word)
-            && !self.dictionary.overlap(*known, node_type)
+            && !self.vocabulary.overlap(*known, node_type)
         {
-            let name = |id| self.dictionary.type_name(id).map_or_else(String::new, ToString::to_string);
+            let name = |id| self.vocabulary.type_name(id).map_or_else(String::new, ToString::to_string);
             let (word, first, second) = ((*word).to_owned(), name(*known), name(node_type));
             return Err(PatternTextError::Disjoint { at: *at, word, first, second });
         }
@@ -312,7 +312,7 @@ impl<'d, 't> Writer<'d, 't> {
         right: &Form<'t>,
     ) -> Result<(), PatternTextError> {
         let (holder, attribute) = self.attribute(left)?;
-        let operand = self.operand(right, self.dictionary.kind(attribute))?;
+        let operand = self.operand(right, self.vocabulary.kind(attribute))?;
         builder.guard(holder, attribute, comparison, operand);
         Ok(())
     }
@@ -383,9 +383,9 @@ impl<'d, 't> Writer<'d, 't> {
     fn attribute(&self, form: &Form<'t>) -> Result<(HolderTerm, AttributeId), PatternTextError> {
         let (at, head, rest) = split(form)?;
         let unknown = || PatternTextError::Unknown { at, word: head.to_owned() };
-        let attribute = self.dictionary.attribute(head).ok_or_else(unknown)?;
+        let attribute = self.vocabulary.attribute(head).ok_or_else(unknown)?;
         let arity = |wanted| PatternTextError::Arity { at, word: head.to_owned(), wanted };
-        match (self.dictionary.holder(attribute).ok_or_else(unknown)?, rest) {
+        match (self.vocabulary.holder(attribute).ok_or_else(unknown)?, rest) {
             (HolderType::Node(_), [node]) => Ok((HolderTerm::Node(self.term(node)?), attribute)),
             (HolderType::Edge { label, .. }, [from, to]) => {
                 let (from, to) = (self.term(from)?, self.term(to)?);

@@ -13,11 +13,11 @@ use smallvec::SmallVec;
 use super::Seat;
 use crate::block::Node;
 use crate::delta::{Change, Delta};
-use crate::dictionary::Dictionary;
 use crate::id::{AttributeId, EdgeKey, Holder, LabelId, NodeId, TypeId};
 use crate::pattern::{Clue, Ordered, Route, Tip, ValueKey, Way, moved};
 use crate::state::State;
 use crate::value::Value;
+use crate::vocabulary::Vocabulary;
 
 type Seats = SmallVec<[Seat; 2]>;
 
@@ -282,7 +282,7 @@ impl Fan {
         let exact = |id, node: Option<Node<'_>>| node.map(Node::node_type).or_else(|| gone.type_of(id));
         let Some(exact) = exact(edge.from, from).zip(exact(edge.to, to)) else { return };
         let fitting = self.fitting.entry(exact).or_insert_with(|| {
-            let fits = |wanted: &&Ends| fit(&state.dictionary, exact, **wanted);
+            let fits = |wanted: &&Ends| fit(&state.vocabulary, exact, **wanted);
             self.classes.keys().filter(fits).copied().collect()
         });
         for wanted in fitting.iter() {
@@ -322,6 +322,6 @@ impl Fan {
     }
 }
 
-fn fit(dictionary: &Dictionary, exact: Ends, wanted: Ends) -> bool {
-    dictionary.is_a(exact.0, wanted.0) && dictionary.is_a(exact.1, wanted.1)
+fn fit(vocabulary: &Vocabulary, exact: Ends, wanted: Ends) -> bool {
+    vocabulary.is_a(exact.0, wanted.0) && vocabulary.is_a(exact.1, wanted.1)
 }

@@ -11,12 +11,12 @@ use super::error::TransactionError;
 use super::{Edit, HolderRef, Transaction, degree, tree};
 use crate::block::Node;
 use crate::delta::{self, Change, Delta};
-use crate::dictionary::{Dictionary, Nature, Token};
 use crate::id::{AgentId, AttributeId, EdgeKey, Holder, LabelId, NodeId, ReflexId, Time, TypeId, Version};
 use crate::pose::Pose;
 use crate::state::{Side, State};
 use crate::undo::Mark;
 use crate::value::{Kind, NewValue, NodeRef, Value};
+use crate::vocabulary::{Nature, Token, Vocabulary};
 
 /// What a transaction made of a state.
 pub(crate) struct Outcome {
@@ -31,7 +31,7 @@ pub(crate) fn transact(
     time: Time,
 ) -> Result<Outcome, TransactionError> {
     let writer = transaction.writer;
-    state.dictionary.agent_name(writer).ok_or(TransactionError::UnknownAgent { id: writer })?;
+    state.vocabulary.agent_name(writer).ok_or(TransactionError::UnknownAgent { id: writer })?;
 
     let start = state.begin();
     let done = run(state, transaction, start);
@@ -184,7 +184,7 @@ pub(crate) fn apply(
             Ok(())
         }
         Edit::Expire { agent } => {
-            state.dictionary.agent_name(*agent).ok_or(TransactionError::UnknownAgent { id: *agent })?;
+            state.vocabulary.agent_name(*agent).ok_or(TransactionError::UnknownAgent { id: *agent })?;
             if writer != AgentId::DSR && writer != *agent {
                 let (writer, owner) = (state.agent_name(writer), state.agent_name(*agent));
                 return Err(TransactionError::NotOwner { writer, owner });
@@ -203,7 +203,7 @@ fn add_node(
     node_type: TypeId,
     since: Version,
 ) -> Result<(), TransactionError> {
-    state.dictionary.type_name(node_type).ok_or(TransactionError::UnknownType { id: node_type })?;
+    state.vocabulary.type_name(node_type).ok_or(TransactionError::UnknownType { id: node_type })?;
     if name.is_empty() {
         return Err(TransactionError::EmptyName);
     }
@@ -223,7 +223,7 @@ fn add_node(
 
 fn remove_node(state: &mut State, writer: AgentId, node: &NodeRef) -> Result<(), TransactionError> {
     let (id, node) = resolve(state, node)?;
-    if state.dictionary.agent_of(id).is_some() || state.dictionary.resource_of(id).is_some() {
+    if state.vocabulary.agent_of(id).is_some() || state.vocabulary.resource_of(id).is_some() {
         return Err(TransactionError::Reserved { name: state.name(id) });
     }
     let node_type = node.node_type();
@@ -239,16 +239,16 @@ fn edge_to_write(
     label: LabelId,
     to: &NodeRef,
 ) -> Result<EdgeKey, TransactionError> {
-    let dictionary = &state.dictionary;
-    let name = dictionary.label_name(label).ok_or(TransactionError::UnknownLabel { id: label })?;
+    let vocabulary = &state.vocabulary;
+    let name = vocabulary.label_name(label).ok_or(TransactionError::UnknownLabel { id: label })?;
     let ((from, start), (to, end)) = (typed(state, from)?, typed(state, to)?);
-    if Dictionary::is_reserved(label) {
+    if Vocabulary::is_reserved(label) {
         return Err(TransactionError::Reserved { name: name.clone() });
     }
     if from == to {
         return Err(TransactionError::Loop { node: state.name(from), label: name.clone() });
     }
-    if !dictionary.allows(label, start, end) {
+    if !vocabulary.allows(label, start, end) {
         return Err(TransactionError::WrongSignature {
             label: name.clone(),
             from: state.name(from),
@@ -268,9 +268,9 @@ fn attribute_to_write(
     holder: &HolderRef,
     attribute: AttributeId,
 ) -> Result<Holder, TransactionError> {
-    let dictionary = &state.dictionary;
+    let vocabulary = &state.vocabulary;
     let unknown = TransactionError::UnknownAttribute { id: attribute };
-    let (Some(name), Some(declared)) = (dictionary.attribute_name(attribute), dictionary.holder(attribute))
+    let (Some(name), Some(declared)) = (vocabulary.attribute_name(attribute), vocabulary.holder(attribute))
     else {
         return Err(unknown);
     };
@@ -280,7 +280,7 @@ fn attribute_to_write(
     match holder {
         HolderRef::Node(node) => {
             let (id, node_type) = typed(state, node)?;
-            if !declared.takes_node(node_type, dictionary) {
+            if !declared.takes_node(node_type, vocabulary) {
                 return Err(wrong(format!("'{}' ({})", state.name(id), type_name(state, node_type))));
             }
             permitted(state, writer, token, (Named::Node(id), node_type), None)?;
@@ -288,12 +288,12 @@ fn attribute_to_write(
         }
         HolderRef::Edge { from, label, to } => {
             let label_name =
-                dictionary.label_name(*label).ok_or(TransactionError::UnknownLabel { id: *label })?;
+                vocabulary.label_name(*label).ok_or(TransactionError::UnknownLabel { id: *label })?;
             let ((from, start), (to, end)) = (typed(state, from)?, typed(state, to)?);
-            if Dictionary::is_reserved(*label) {
+            if Vocabulary::is_reserved(*label) {
                 return Err(TransactionError::Reserved { name: label_name.clone() });
             }
-            if !declared.takes_edge(*label, (start, end), dictionary) {
+            if !declared.takes_edge(*label, (start, end), vocabulary) {
                 return Err(wrong(format!("'{}' {label_name} '{}'", state.name(from), state.name(to))));
             }
             let ends = ((Named::Node(from), start), Some((Named::Node(to), end)));
@@ -305,15 +305,15 @@ fn attribute_to_write(
 
 /// The value as it is stored, if the attribute may hold it.
 fn fitting(state: &State, attribute: AttributeId, value: &NewValue) -> Result<Value, TransactionError> {
-    let dictionary = &state.dictionary;
+    let vocabulary = &state.vocabulary;
     let unknown = TransactionError::UnknownAttribute { id: attribute };
-    let (Some(name), Some(kind)) = (dictionary.attribute_name(attribute), dictionary.kind(attribute)) else {
+    let (Some(name), Some(kind)) = (vocabulary.attribute_name(attribute), vocabulary.kind(attribute)) else {
         return Err(unknown);
     };
     match (kind, value) {
         (Kind::Number, NewValue::Number(number)) if number.is_finite() => Ok(Value::Number(*number)),
         (Kind::Number, NewValue::Quantity(number, unit)) => {
-            let expected = dictionary.unit(attribute);
+            let expected = vocabulary.unit(attribute);
             let converted = expected.and_then(|wanted| unit.convert(*number, wanted));
             match converted {
                 Some(number) if number.is_finite() => Ok(Value::Number(number)),
@@ -326,7 +326,7 @@ fn fitting(state: &State, attribute: AttributeId, value: &NewValue) -> Result<Va
         (Kind::Bool, NewValue::Bool(truth)) => Ok(Value::Bool(*truth)),
         (Kind::Node(expected), NewValue::Node(node)) => {
             let (id, node_type) = typed(state, node)?;
-            if dictionary.is_a(node_type, expected) {
+            if vocabulary.is_a(node_type, expected) {
                 return Ok(Value::Node(id));
             }
             Err(TransactionError::WrongTarget {
@@ -384,7 +384,7 @@ fn transform_to_write(
 ) -> Result<(NodeId, NodeId), TransactionError> {
     let ((parent, above), (child, below)) = (typed(state, parent)?, typed(state, child)?);
     for (node, node_type) in [(parent, above), (child, below)] {
-        if state.dictionary.nature(node_type) != Some(Nature::Geometric) {
+        if state.vocabulary.nature(node_type) != Some(Nature::Geometric) {
             let (node, node_type) = (state.name(node), type_name(state, node_type));
             return Err(TransactionError::NotGeometric { node, node_type });
         }
@@ -419,13 +419,13 @@ fn permitted(
 ) -> Result<(), TransactionError> {
     let from_name = || from.0.name(state);
     let to_name = || to.map_or("", |(name, _)| name.name(state));
-    if state.dictionary.permits(writer, token, (&from_name, from.1), to.map(|to| (&to_name as _, to.1))) {
+    if state.vocabulary.permits(writer, token, (&from_name, from.1), to.map(|to| (&to_name as _, to.1))) {
         return Ok(());
     }
     let token = match token {
         Token::Label(id) => format!("label '{}'", label_name(state, id)),
         Token::Attribute(id) => {
-            let name = state.dictionary.attribute_name(id);
+            let name = state.vocabulary.attribute_name(id);
             format!("attribute '{}'", name.map_or("?", |name| name))
         }
         Token::Transform => "transforms".to_owned(),
@@ -453,17 +453,17 @@ fn resolve<'a>(state: &'a State, node: &NodeRef) -> Result<(NodeId, Node<'a>), T
 }
 
 pub(super) fn known_resource(state: &State, id: crate::id::ResourceId) -> Result<(), TransactionError> {
-    state.dictionary.resource_name(id).map(|_| ()).ok_or(TransactionError::UnknownResource { id })
+    state.vocabulary.resource_name(id).map(|_| ()).ok_or(TransactionError::UnknownResource { id })
 }
 
 fn type_name(state: &State, id: TypeId) -> Arc<str> {
-    state.dictionary.type_name(id).cloned().unwrap_or_else(|| id.to_string().into())
+    state.vocabulary.type_name(id).cloned().unwrap_or_else(|| id.to_string().into())
 }
 
 fn label_name(state: &State, id: LabelId) -> Arc<str> {
-    state.dictionary.label_name(id).cloned().unwrap_or_else(|| id.to_string().into())
+    state.vocabulary.label_name(id).cloned().unwrap_or_else(|| id.to_string().into())
 }
 
 pub(crate) fn resource_name(state: &State, id: crate::id::ResourceId) -> Arc<str> {
-    state.dictionary.resource_name(id).cloned().unwrap_or_else(|| id.to_string().into())
+    state.vocabulary.resource_name(id).cloned().unwrap_or_else(|| id.to_string().into())
 }

@@ -1,7 +1,7 @@
 //! How many edges of a label a node may have: judged once, at the end of a transaction, so that one edge can take the
 //! place of another in any order.
 //!
-//! Cost: two binary searches per edge that came; nothing in a dictionary without limits.
+//! Cost: two binary searches per edge that came; nothing in a vocabulary without limits.
 
 use super::error::TransactionError;
 use crate::block::Node;
@@ -11,12 +11,12 @@ use crate::undo::{Mark, Undo};
 
 /// Whether the edges that came since the mark are too many somewhere.
 pub(super) fn check(state: &State, mark: Mark) -> Result<(), TransactionError> {
-    if !state.dictionary.has_limits() {
+    if !state.vocabulary.has_limits() {
         return Ok(());
     }
     for entry in state.log.since(mark) {
         let Undo::EdgeAdded(key) = entry else { continue };
-        let degree = state.dictionary.degree(key.label);
+        let degree = state.vocabulary.degree(key.label);
         let count = |node, edges: fn(Node<'_>, LabelId) -> usize| {
             state.node(node).map_or(0, |node| edges(node, key.label))
         };
@@ -26,7 +26,7 @@ pub(super) fn check(state: &State, mark: Mark) -> Result<(), TransactionError> {
             let most = most.filter(|&most| found > most as usize)?;
             Some((state.name(node), most))
         };
-        let label = || state.dictionary.label_name(key.label).cloned().unwrap_or_default();
+        let label = || state.vocabulary.label_name(key.label).cloned().unwrap_or_default();
         if let Some((node, most)) = too_many(key.from, leaving, degree.leaving) {
             return Err(TransactionError::TooManyLeave { node, label: label(), most });
         }

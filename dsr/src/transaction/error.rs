@@ -13,22 +13,22 @@ type Name = Arc<str>;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the fields are the names that the variant is about")]
 pub enum TransactionError {
-    /// The writer is of another dictionary.
+    /// The writer is of another vocabulary.
     #[error("no agent {id}")]
     UnknownAgent { id: AgentId },
     /// No such node.
     #[error("no node '{node}'")]
     UnknownNode { node: NodeRef },
-    /// The type is of another dictionary.
+    /// The type is of another vocabulary.
     #[error("no type {id}")]
     UnknownType { id: TypeId },
-    /// The label is of another dictionary.
+    /// The label is of another vocabulary.
     #[error("no label {id}")]
     UnknownLabel { id: LabelId },
-    /// The attribute is of another dictionary.
+    /// The attribute is of another vocabulary.
     #[error("no attribute {id}")]
     UnknownAttribute { id: AttributeId },
-    /// The resource is of another dictionary.
+    /// The resource is of another vocabulary.
     #[error("no resource {id}")]
     UnknownResource { id: ResourceId },
     /// A node without a name.
@@ -70,10 +70,10 @@ pub enum TransactionError {
     /// A rotation that is no unit quaternion.
     #[error("the pose of '{child}' in '{parent}' has a rotation that is no unit quaternion")]
     NotRigid { parent: Name, child: Name },
-    /// More edges of a label would leave a node than the dictionary allows.
+    /// More edges of a label would leave a node than the vocabulary allows.
     #[error("at most {most} '{label}' may leave '{node}'")]
     TooManyLeave { node: Name, label: Name, most: u32 },
-    /// More edges of a label would reach a node than the dictionary allows.
+    /// More edges of a label would reach a node than the vocabulary allows.
     #[error("at most {most} '{label}' may reach '{node}'")]
     TooManyReach { node: Name, label: Name, most: u32 },
     /// The writer does not own the token there.

@@ -83,10 +83,10 @@ const AWAITED: Terms = [AttributeId::AWAITS_PRIORITY, AttributeId::AWAITS_YIELDS
 
 impl State {
     pub(crate) fn lease(&self, resource: ResourceId) -> Option<Lease> {
-        let node = self.dictionary.resource_node(resource)?;
+        let node = self.vocabulary.resource_node(resource)?;
         let &(label, from) = self.node(node)?.sources(LabelId::HOLDS).first()?;
         let (priority, preemption, claimed) = self.terms(EdgeKey { from, label, to: node }, HELD);
-        let holder = self.dictionary.agent_of(from)?;
+        let holder = self.vocabulary.agent_of(from)?;
         let inherited = priority.max(self.pressure(holder, None, 0).unwrap_or(priority));
         Some(Lease { holder, priority, preemption, claimed, inherited })
     }
@@ -99,11 +99,11 @@ impl State {
     }
 
     fn waits(&self, resource: ResourceId, depth: usize) -> Vec<Waiting> {
-        let node = self.dictionary.resource_node(resource);
+        let node = self.vocabulary.resource_node(resource);
         let Some((to, node)) = node.and_then(|id| Some((id, self.node(id)?))) else { return Vec::new() };
         let waiting = node.sources(LabelId::AWAITS).iter().filter_map(|&(label, from)| {
             let (priority, preemption, asked) = self.terms(EdgeKey { from, label, to }, AWAITED);
-            let agent = self.dictionary.agent_of(from)?;
+            let agent = self.vocabulary.agent_of(from)?;
             let inherited = priority.max(self.pressure(agent, None, depth).unwrap_or(priority));
             Some(Waiting { agent, priority, preemption, asked, inherited })
         });
@@ -113,7 +113,7 @@ impl State {
     /// The highest priority of those who wait for what an agent holds, but for one resource.
     fn pressure(&self, agent: AgentId, but: Option<ResourceId>, depth: usize) -> Option<Priority> {
         // Waits have no circle, so no walk along them is longer than there are agents; an export might say otherwise.
-        if depth > self.dictionary.agents().count() {
+        if depth > self.vocabulary.agents().count() {
             return None;
         }
         let held = self.leases_of(agent).into_iter().filter(|&resource| Some(resource) != but);
@@ -122,12 +122,12 @@ impl State {
 
     /// Whether leases and waits are as the edits of this module leave them: read from a file, they need not be.
     pub(crate) fn leases_are_sound(&self) -> bool {
-        let held_once = self.dictionary.resources().all(|resource| {
-            let node = self.dictionary.resource_node(resource).and_then(|id| self.node(id));
+        let held_once = self.vocabulary.resources().all(|resource| {
+            let node = self.vocabulary.resource_node(resource).and_then(|id| self.node(id));
             node.is_none_or(|node| node.sources(LabelId::HOLDS).len() <= 1)
         });
         let waits = |agent| {
-            let node = self.dictionary.agent_node(agent).and_then(|id| self.node(id));
+            let node = self.vocabulary.agent_node(agent).and_then(|id| self.node(id));
             node.map_or(0, |node| node.edges(LabelId::AWAITS).len())
         };
         let is_blocked_by_another = |agent| {
@@ -136,19 +136,19 @@ impl State {
                 && self.holder_of(awaited).is_some()
                 && self.refuse_circle(agent, awaited).is_ok()
         };
-        held_once && self.dictionary.agents().all(is_blocked_by_another)
+        held_once && self.vocabulary.agents().all(is_blocked_by_another)
     }
 
     fn holder_of(&self, resource: ResourceId) -> Option<AgentId> {
-        let node = self.node(self.dictionary.resource_node(resource)?)?;
+        let node = self.node(self.vocabulary.resource_node(resource)?)?;
         let &(_, from) = node.sources(LabelId::HOLDS).first()?;
-        self.dictionary.agent_of(from)
+        self.vocabulary.agent_of(from)
     }
 
     /// What an agent waits for.
     pub(crate) fn wait_of(&self, agent: AgentId) -> Option<ResourceId> {
-        let node = self.node(self.dictionary.agent_node(agent)?)?;
-        self.dictionary.resource_of(node.edges(LabelId::AWAITS).first()?.to)
+        let node = self.node(self.vocabulary.agent_node(agent)?)?;
+        self.vocabulary.resource_of(node.edges(LabelId::AWAITS).first()?.to)
     }
 
     fn terms(&self, edge: EdgeKey, [priority, yields, version]: Terms) -> (Priority, Preemption, Version) {
@@ -184,8 +184,8 @@ impl State {
     }
 
     fn agent_edge(&self, agent: AgentId, label: LabelId, resource: ResourceId) -> Option<EdgeKey> {
-        let from = self.dictionary.agent_node(agent)?;
-        Some(EdgeKey { from, label, to: self.dictionary.resource_node(resource)? })
+        let from = self.vocabulary.agent_node(agent)?;
+        Some(EdgeKey { from, label, to: self.vocabulary.resource_node(resource)? })
     }
 
     /// Takes a lease for an agent, or says who has it.
@@ -302,7 +302,7 @@ impl State {
     }
 
     fn overdue(&self) -> Option<(AgentId, ResourceId)> {
-        self.dictionary.resources().find_map(|resource| {
+        self.vocabulary.resources().find_map(|resource| {
             let next = *self.waiting(resource).first()?;
             let lease = self.lease(resource)?;
             self.gives_way(&lease, resource, next.inherited).then_some((lease.holder, resource))
@@ -332,7 +332,7 @@ impl State {
     fn refuse_circle(&self, agent: AgentId, resource: ResourceId) -> Result<(), TransactionError> {
         let (mut circle, mut awaited) = (Vec::new(), resource);
         // As many steps as there are agents: a longer walk has met one twice, and then not this one.
-        for _ in self.dictionary.agents() {
+        for _ in self.vocabulary.agents() {
             let Some(holder) = self.holder_of(awaited) else { return Ok(()) };
             circle.push((resource_name(self, awaited), self.agent_name(holder)));
             if holder == agent {
@@ -348,9 +348,9 @@ impl State {
 
     /// The resources that an agent holds, ascending.
     pub(crate) fn leases_of(&self, agent: AgentId) -> Vec<ResourceId> {
-        let Some(node) = self.dictionary.agent_node(agent).and_then(|id: NodeId| self.node(id)) else {
+        let Some(node) = self.vocabulary.agent_node(agent).and_then(|id: NodeId| self.node(id)) else {
             return Vec::new();
         };
-        node.edges(LabelId::HOLDS).iter().filter_map(|edge| self.dictionary.resource_of(edge.to)).collect()
+        node.edges(LabelId::HOLDS).iter().filter_map(|edge| self.vocabulary.resource_of(edge.to)).collect()
     }
 }

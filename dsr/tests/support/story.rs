@@ -12,10 +12,10 @@ use std::sync::{Arc, LazyLock};
 
 use arbitrary::{Arbitrary, Result, Unstructured};
 use dsr::{
-    AgentId, Change, Covariance, Degree, Delta, DictionaryBuilder, Edit, Export, ExportedAttribute,
-    ExportedValue, Graph, Holder, HolderRef, Isometry3, Kind, Matrix6, Memory, Nature, NewValue, NodeId,
-    NodeRef, Permission, Pose, Preemption, Priority, Recording, ResourceId, Settings, Snapshot, Time, Token,
-    Transaction, Unit, Value, Version,
+    AgentId, Change, Covariance, Degree, Delta, Edit, Export, ExportedAttribute, ExportedValue, Graph,
+    Holder, HolderRef, Isometry3, Kind, Matrix6, Memory, Nature, NewValue, NodeId, NodeRef, Permission, Pose,
+    Preemption, Priority, Recording, ResourceId, Settings, Snapshot, Time, Token, Transaction, Unit, Value,
+    Version, VocabularyBuilder,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -37,7 +37,7 @@ struct World {
 }
 
 static WORLD: LazyLock<World> = LazyLock::new(|| {
-    let mut b = DictionaryBuilder::new();
+    let mut b = VocabularyBuilder::new();
     let place = b.node_type("place", None, Nature::Geometric).expect("new");
     let robot = b.node_type("robot", Some(place), Nature::Geometric).expect("new");
     let thing = b.node_type("thing", None, Nature::Symbolic).expect("new");
@@ -186,7 +186,7 @@ fn read(bytes: Vec<u8>) -> Option<Snapshot> {
 /// A state is one that can be exported and restored.
 fn hold(snapshot: &Snapshot) {
     let export = snapshot.export();
-    let graph = Graph::restore(snapshot.dictionary().clone(), &export).expect("a state is a state");
+    let graph = Graph::restore(snapshot.vocabulary().clone(), &export).expect("a state is a state");
     assert_eq!(graph.snapshot().export(), export);
 }
 
@@ -204,7 +204,7 @@ fn look(snapshot: &Snapshot, time: Time) {
         }
     }
     let _ = (snapshot.view().lines(), snapshot.view().graphml());
-    for resource in snapshot.dictionary().resources() {
+    for resource in snapshot.vocabulary().resources() {
         let _ = (snapshot.lease(resource), snapshot.waiting(resource));
     }
 }
@@ -229,7 +229,7 @@ fn go_on(graph: &Graph, dice: &mut Unstructured<'_>) -> Result<Vec<Delta>> {
     let mut deltas = Vec::new();
     for _ in 0..dice.int_in_range(0..=8)? {
         let before = graph.snapshot();
-        let agents: Vec<_> = graph.dictionary().agents().collect();
+        let agents: Vec<_> = graph.vocabulary().agents().collect();
         let writer = if dice.ratio(1, 2)? { AgentId::DSR } else { *dice.choose(&agents)? };
         let edits = (0..dice.int_in_range(1..=4)?).map(|_| edit(dice)).collect::<Result<Vec<_>>>()?;
         let time = time(dice)?;
@@ -253,7 +253,7 @@ fn commit(graph: &Graph, writer: AgentId, edits: &[Edit], time: Time, deltas: &m
     let Ok(commit) = graph.commit(&transaction, time) else { return false };
     if commit.version != before.version() {
         hold(&commit.snapshot);
-        let replayed = Graph::replay(graph.dictionary(), &before.export(), [&*commit.delta]);
+        let replayed = Graph::replay(graph.vocabulary(), &before.export(), [&*commit.delta]);
         assert_eq!(replayed.expect("it was committed").snapshot().export(), commit.snapshot.export());
         deltas.push((*commit.delta).clone());
     }

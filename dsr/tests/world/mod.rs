@@ -8,15 +8,15 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use dsr::{
-    AgentId, Covariance, Degree, Dictionary, DictionaryBuilder, End, Graph, HolderRef, Isometry3, Kind,
-    Matches, Matrix6, Nature, NewValue, NodeRef, PatternBuilder, Permission, Pose, Preemption, Priority,
-    Time, Token, Transaction, TypeId,
+    AgentId, Covariance, Degree, End, Graph, HolderRef, Isometry3, Kind, Matches, Matrix6, Nature, NewValue,
+    NodeRef, PatternBuilder, Permission, Pose, Preemption, Priority, Time, Token, Transaction, TypeId,
+    Vocabulary, VocabularyBuilder,
 };
 
 /// Types: `place` > (`robot`, `person`, `part`), `activity`, `test`. Agents: `speech` may say what is and what
 /// has finished at `speaking`; `person_agent` writes `is_with` and the pose of persons; `pelea` writes tests.
-pub(crate) fn dictionary() -> Arc<Dictionary> {
-    let mut b = DictionaryBuilder::new();
+pub(crate) fn vocabulary() -> Arc<Vocabulary> {
+    let mut b = VocabularyBuilder::new();
     let place = b.node_type("place", None, Nature::Geometric).unwrap();
     let robot = b.node_type("robot", Some(place), Nature::Symbolic).unwrap();
     let person = b.node_type("person", Some(place), Nature::Symbolic).unwrap();
@@ -57,7 +57,7 @@ pub(crate) fn dictionary() -> Arc<Dictionary> {
 
 /// The ward with its nodes: world > clarc > camera, world > carlos; barthel with two parts.
 pub(crate) fn ward() -> Graph {
-    let graph = Graph::new(dictionary());
+    let graph = Graph::new(vocabulary());
     let lines = "node world place\nnode clarc robot\nnode camera place\nnode carlos person\n\
         node speaking activity\nnode listening activity\nnode barthel test\nnode feeding part\n\
         node bathing part\ntransform world clarc 1 0 0 0\ntransform clarc camera 0 0 1.5 0\n\
@@ -72,25 +72,25 @@ pub(crate) fn commit(graph: &Graph, writer: &str, lines: &str) -> Result<dsr::Co
 }
 
 pub(crate) fn transaction(graph: &Graph, writer: &str, lines: &str) -> Transaction {
-    let dictionary = graph.dictionary();
-    let mut transaction = Transaction::new(agent(&dictionary, writer));
+    let vocabulary = graph.vocabulary();
+    let mut transaction = Transaction::new(agent(&vocabulary, writer));
     for line in lines.lines().map(str::trim).filter(|line| !line.is_empty()) {
-        edit(&dictionary, &mut transaction, line);
+        edit(&vocabulary, &mut transaction, line);
     }
     transaction
 }
 
-pub(crate) fn agent(dictionary: &Dictionary, name: &str) -> AgentId {
-    dictionary.agent(name).unwrap_or_else(|| panic!("no agent {name}"))
+pub(crate) fn agent(vocabulary: &Vocabulary, name: &str) -> AgentId {
+    vocabulary.agent(name).unwrap_or_else(|| panic!("no agent {name}"))
 }
 
 /// Appends the edit that a line writes.
-pub(crate) fn edit(dictionary: &Dictionary, transaction: &mut Transaction, line: &str) {
+pub(crate) fn edit(vocabulary: &Vocabulary, transaction: &mut Transaction, line: &str) {
     let words: Vec<_> = line.split_whitespace().collect();
-    let label = |name| dictionary.label(name).unwrap_or_else(|| panic!("no label {name}"));
-    let attribute = |name| dictionary.attribute(name).unwrap_or_else(|| panic!("no attribute {name}"));
-    let node_type = |name| dictionary.node_type(name).unwrap_or_else(|| panic!("no type {name}"));
-    let resource = |name| dictionary.resource(name).unwrap_or_else(|| panic!("no resource {name}"));
+    let label = |name| vocabulary.label(name).unwrap_or_else(|| panic!("no label {name}"));
+    let attribute = |name| vocabulary.attribute(name).unwrap_or_else(|| panic!("no attribute {name}"));
+    let node_type = |name| vocabulary.node_type(name).unwrap_or_else(|| panic!("no type {name}"));
+    let resource = |name| vocabulary.resource(name).unwrap_or_else(|| panic!("no resource {name}"));
     let number = |word: &str| word.parse::<f64>().unwrap();
     match words[..] {
         ["node", name, kind] => transaction.add_node(name, node_type(kind)),
@@ -123,7 +123,7 @@ pub(crate) fn edit(dictionary: &Dictionary, transaction: &mut Transaction, line:
         }
         ["release", r] => transaction.release(resource(r)),
         ["expect", version] => transaction.expect_version(dsr::Version(version.parse().unwrap())),
-        ["expire", name] => transaction.push(dsr::Edit::Expire { agent: agent(dictionary, name) }),
+        ["expire", name] => transaction.push(dsr::Edit::Expire { agent: agent(vocabulary, name) }),
         _ => panic!("no edit: {line}"),
     };
 }
@@ -160,11 +160,11 @@ pub(crate) fn bytes(graph: &Graph) -> String {
 /// Subscribes, looks at what is there, and counts from then on how often it is told of something.
 pub(crate) fn watch(
     graph: &Graph,
-    write: impl Fn(&mut PatternBuilder<'_>, &Dictionary),
+    write: impl Fn(&mut PatternBuilder<'_>, &Vocabulary),
 ) -> (Matches, Arc<AtomicU32>) {
-    let dictionary = graph.dictionary();
-    let mut pattern = PatternBuilder::new(&dictionary);
-    write(&mut pattern, &dictionary);
+    let vocabulary = graph.vocabulary();
+    let mut pattern = PatternBuilder::new(&vocabulary);
+    write(&mut pattern, &vocabulary);
     let mut matches = graph.subscribe(pattern.build().unwrap());
     while matches.try_recv().is_some() {}
     let told = Arc::new(AtomicU32::new(0));

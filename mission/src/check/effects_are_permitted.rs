@@ -36,7 +36,7 @@ pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
                     "`{}` of `{}` writes `{}`, and may not",
                     rule.name, agent.model.name, written.token
                 );
-                let help = format!("add it to (:writes {} …) in the dictionary", agent.model.name);
+                let help = format!("add it to (:writes {} …) in the vocabulary", agent.model.name);
                 findings.push(Finding::error("C0601", place, message).help(help));
             }
         }

@@ -1,6 +1,6 @@
 //! C0501, C0502: a name of another layer that is no node of the graph.
 //!
-//! **What** Each object of `problem.pddl` whose type the dictionary has is a node of the initial graph,
+//! **What** Each object of `problem.pddl` whose type the vocabulary has is a node of the initial graph,
 //! of that type; so is each constant of `perception.pddl` and `methods.hddl`.
 //! **Why** Perception speaks of nodes; about an object that is none, nothing is ever perceived.
 //! **Example** `drinks - item` in the problem, `drink - item` in the graph.

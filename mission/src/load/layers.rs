@@ -99,7 +99,7 @@ fn agents(
     parsed.into_iter().collect()
 }
 
-/// The dictionary with the objects of `problem` (its own constants come first there) as constants.
+/// The vocabulary with the objects of `problem` (its own constants come first there) as constants.
 fn with_nodes(vocabulary: &Domain, problem: &Problem) -> Domain {
     Domain { constants: problem.objects.clone(), ..vocabulary.clone() }
 }

@@ -190,7 +190,7 @@ impl<'a> Graph<'a> {
 
     fn incoming(&self, item: &str, label: &str) -> Vec<EdgeKey> {
         let node = self.snapshot.node(item).and_then(|id| self.snapshot.get(id));
-        let label = self.snapshot.dictionary().label(label);
+        let label = self.snapshot.vocabulary().label(label);
         node.into_iter().flat_map(|n| n.incoming()).filter(|e| Some(e.label) == label).collect()
     }
 
@@ -208,8 +208,8 @@ impl<'a> Graph<'a> {
     /// A binary function is a label whose edges carry the attribute of the same name.
     fn score(&self, item: &str, option: &str) -> Option<f64> {
         let name = &self.mission.manifest.report.score.name;
-        let dictionary = self.snapshot.dictionary();
-        let (label, attribute) = (dictionary.label(name)?, dictionary.attribute(name)?);
+        let vocabulary = self.snapshot.vocabulary();
+        let (label, attribute) = (vocabulary.label(name)?, vocabulary.attribute(name)?);
         let node = |name: &str| -> Option<NodeId> { self.snapshot.node(name) };
         let edge = EdgeKey { from: node(item)?, label, to: node(option)? };
         self.snapshot.attribute(edge, attribute)?.as_number()

@@ -1,8 +1,8 @@
 //! A PDDL condition inside a TOML string.
 //!
 //! `pddl` reads files, not fragments. So the fragment becomes the goal of a small problem over the
-//! dictionary, and the spans of what is found are moved back: first off the text around it, then into
-//! the TOML literal. Invariant: a condition that was read names only tokens that the dictionary has and
+//! vocabulary, and the spans of what is found are moved back: first off the text around it, then into
+//! the TOML literal. Invariant: a condition that was read names only tokens that the vocabulary has and
 //! nodes that the initial graph has.
 
 use pddl::model::{Condition, Variables};
@@ -46,7 +46,7 @@ pub(super) fn read(reader: &mut Reader<'_>, layers: &Layers, text: &Text) -> Opt
     for diagnostic in parsed.diagnostics {
         let mut finding = diagnostic.finding(reader.source);
         finding.place.span = moved(finding.place.span);
-        // Other places are in the dictionary or in the text around the condition.
+        // Other places are in the vocabulary or in the text around the condition.
         finding.related.clear();
         reader.findings.push(finding);
     }

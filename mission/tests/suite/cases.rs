@@ -68,7 +68,7 @@ fn the_mission_that_the_cases_edit_is_good() {
     let mission = Mission::load(&files, "tea/mission.toml").unwrap();
     let scenario = mission.scenario(&files, "plain").unwrap();
     assert_eq!(scenario.title, "Green tea");
-    let unknown = mission.scenario(&files, "plane").unwrap_err();
+    let unknown = mission.scenario(&files, "plian").unwrap_err();
     assert!(unknown.to_string().contains("did you mean `plain`?"), "{unknown}");
 }
 

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use dsr::{AgentId, DictionaryBuilder, Graph, HolderRef, Kind, LabelId, Nature, Time};
+use dsr::{AgentId, Graph, HolderRef, Kind, LabelId, Nature, Time, VocabularyBuilder};
 use expect_test::expect;
 use mission::report::{Report, Times};
 use mission::scenario::{Outcome, Replan};
@@ -11,15 +11,15 @@ use crate::tea;
 
 /// The tea mission's graph, with one edge `from -label-> drink` if asked for.
 fn graph(edge: Option<(&str, &str)>) -> Graph {
-    let mut builder = DictionaryBuilder::new();
+    let mut builder = VocabularyBuilder::new();
     let [item, option, question] =
         ["item", "option", "question"].map(|n| builder.node_type(n, None, Nature::Symbolic).unwrap());
     let score = builder.label("score", item, option).unwrap();
     let worth = builder.attribute_on_edge("score", score, (item, option), Kind::Number).unwrap();
     builder.label("was_chosen_in", option, item).unwrap();
     builder.label("was_unanswered_in", question, item).unwrap();
-    let dictionary = builder.build();
-    let graph = Graph::new(dictionary.clone());
+    let vocabulary = builder.build();
+    let graph = Graph::new(vocabulary.clone());
     let edit = |label: LabelId, from: &str, to: &str, at: u64| {
         graph.edit(AgentId::DSR, Time(at), |tx| {
             tx.add_edge(from, label, to);
@@ -40,7 +40,7 @@ fn graph(edge: Option<(&str, &str)>) -> Graph {
             .unwrap();
     }
     if let Some((from, label)) = edge {
-        edit(dictionary.label(label).unwrap(), from, "drink", 2).unwrap();
+        edit(vocabulary.label(label).unwrap(), from, "drink", 2).unwrap();
     }
     graph
 }

@@ -7,6 +7,6 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let Ok(world) = serde_json::from_slice::<CortexWorld>(bytes) else { return };
     let Ok(imported) = world.import(CortexUnit::Millimetres) else { return };
     let export = imported.graph.snapshot().export();
-    let restored = Graph::restore(imported.graph.dictionary(), &export).expect("a state is a state");
+    let restored = Graph::restore(imported.graph.vocabulary(), &export).expect("a state is a state");
     assert_eq!(restored.snapshot().export(), export);
 });

@@ -83,7 +83,7 @@ impl<'a> DomainView<'a> {
     }
 
     /// Whether it only declares: for others that import it.
-    pub(crate) fn is_dictionary(&self) -> bool {
+    pub(crate) fn is_vocabulary(&self) -> bool {
         self.schemas().next().is_none()
     }
 

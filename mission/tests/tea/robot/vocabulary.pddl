@@ -1,4 +1,4 @@
-; The dictionary of a waiter: enough of one to order tea.
+; The vocabulary of a waiter: enough of one to order tea.
 (define (domain waiter)
   (:requirements :typing :fluents :vocabulary)
   (:types

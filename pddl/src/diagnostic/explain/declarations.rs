@@ -31,7 +31,7 @@ pub(super) const EXPLANATIONS: &[Explanation] = &[
          name.",
         wrong: &[
             "\
-(define (domain dictionary)
+(define (domain vocabulary)
   (:requirements :typing :vocabulary)
   (:types robot state)
   (:predicates (is ?r - robot ?s - state))
@@ -39,12 +39,12 @@ pub(super) const EXPLANATIONS: &[Explanation] = &[
             "\
 (define (domain rules)
   (:requirements :typing)
-  (:import dictionary)
+  (:import vocabulary)
   (:predicates (is ?r - robot)))",
         ],
         right: &[
             "\
-(define (domain dictionary)
+(define (domain vocabulary)
   (:requirements :typing :vocabulary)
   (:types robot state)
   (:predicates (is ?r - robot ?s - state))
@@ -52,7 +52,7 @@ pub(super) const EXPLANATIONS: &[Explanation] = &[
             "\
 (define (domain rules)
   (:requirements :typing)
-  (:import dictionary)
+  (:import vocabulary)
   (:predicates (silent ?r - robot)))",
         ],
     },

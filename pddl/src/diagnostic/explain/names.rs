@@ -294,13 +294,13 @@ root 1
          type.",
         why: "The agent would be allowed to write something that does not exist, and not what was meant.",
         wrong: &["\
-(define (domain dictionary)
+(define (domain vocabulary)
   (:requirements :typing :vocabulary)
   (:types robot state)
   (:predicates (is ?r - robot ?s - state))
   (:writes speech iz))"],
         right: &["\
-(define (domain dictionary)
+(define (domain vocabulary)
   (:requirements :typing :vocabulary)
   (:types robot state)
   (:predicates (is ?r - robot ?s - state))
@@ -314,7 +314,7 @@ root 1
          that imports it, and in the folders of the robots.",
         wrong: &[
             "\
-(define (domain dictionary)
+(define (domain vocabulary)
   (:requirements :typing :vocabulary)
   (:types robot state)
   (:predicates (is ?r - robot ?s - state))
@@ -327,7 +327,7 @@ root 1
         ],
         right: &[
             "\
-(define (domain dictionary)
+(define (domain vocabulary)
   (:requirements :typing :vocabulary)
   (:types robot state)
   (:predicates (is ?r - robot ?s - state))
@@ -335,7 +335,7 @@ root 1
             "\
 (define (domain rules)
   (:requirements :typing)
-  (:import dictionary)
+  (:import vocabulary)
   (:predicates (silent ?r - robot)))",
         ],
     },

@@ -52,7 +52,7 @@ pub(crate) static LINT: Lint = Lint {
 };
 
 fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
-    if !view.is_complete() || view.domain.is_dictionary() {
+    if !view.is_complete() || view.domain.is_vocabulary() {
         return;
     }
     for (id, constant) in view.domain.domain.constants.enumerate() {

@@ -56,7 +56,7 @@ pub(crate) static LINT: Lint = Lint {
 };
 
 fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
-    if !view.is_complete() || view.domain.is_dictionary() {
+    if !view.is_complete() || view.domain.is_vocabulary() {
         return;
     }
     let (domain, problem) = (view.domain.usage(), view.usage());

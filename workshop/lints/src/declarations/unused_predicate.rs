@@ -39,7 +39,7 @@ pub(crate) static LINT: Lint = Lint {
 };
 
 fn check(view: &DomainView<'_>, found: &mut Findings) {
-    if !view.is_complete() || view.is_dictionary() {
+    if !view.is_complete() || view.is_vocabulary() {
         return;
     }
     let usage = view.usage();

@@ -43,7 +43,7 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
     // What is an `object` somewhere may be of any type.
     // Conditions name types as well where they are predicates.
     let named = view.domain.features().iter().any(|(f, _)| *f == Feature::TypePredicates);
-    if named || !view.is_complete() || view.is_dictionary() || view.usage().types[TypeTable::OBJECT] {
+    if named || !view.is_complete() || view.is_vocabulary() || view.usage().types[TypeTable::OBJECT] {
         return;
     }
     let (types, used) = (&view.domain.types, &view.usage().types);

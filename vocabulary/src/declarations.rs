@@ -1,12 +1,12 @@
-//! Reading a domain as a dictionary.
+//! Reading a domain as a vocabulary.
 //!
 //! Idea: types first, parents before children, then constants, predicates, functions and permissions; whatever does
-//! not fit the graph is a [`VocabularyError`] at its place, and all of them are reported. Invariant: a vocabulary
+//! not fit the graph is a [`TokenError`] at its place, and all of them are reported. Invariant: a vocabulary
 //! exists only if there was none.
 
 use std::sync::Arc;
 
-use dsr::{AgentId, DictionaryBuilder, DictionaryError, Kind, LabelId, Nature, TypeId, Value};
+use dsr::{AgentId, Kind, LabelId, Nature, TypeId, Value, VocabularyBuilder, VocabularyError};
 use indexmap::IndexMap;
 use pddl::Span;
 use pddl::model::{Domain, Function, FunctionValue, Idx, Name, Predicate, TypeSet, Variables};
@@ -15,12 +15,12 @@ use rustc_hash::FxHashMap;
 use crate::located::Located;
 use crate::permission;
 use crate::pose::PoseComponent;
-use crate::tokens::{Constant, FunctionToken, Sort, ValueSort, Vocabulary};
+use crate::tokens::{Constant, FunctionToken, Sort, Tokens, ValueSort};
 
 /// Why a declaration does not fit the graph.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the fields are the names that the variant is about")]
-pub enum VocabularyErrorKind {
+pub enum TokenErrorKind {
     /// Node types form a tree.
     #[error("type `{name}` has several parents; the graph's types have one each")]
     SeveralParents { name: Name },
@@ -73,18 +73,18 @@ pub enum VocabularyErrorKind {
     Computed { name: Name },
     /// The graph refuses it.
     #[error(transparent)]
-    Dictionary(#[from] DictionaryError),
+    Vocabulary(#[from] VocabularyError),
 }
 
 /// A declaration that does not fit the graph.
-pub type VocabularyError = Located<VocabularyErrorKind>;
+pub type TokenError = Located<TokenErrorKind>;
 
-impl Vocabulary {
-    /// Reads a domain as a dictionary; all that does not fit is reported.
-    pub fn new(domain: &Domain) -> Result<Self, Vec<VocabularyError>> {
+impl Tokens {
+    /// Reads a domain as a vocabulary; all that does not fit is reported.
+    pub fn new(domain: &Domain) -> Result<Self, Vec<TokenError>> {
         let mut reader = Reader {
             domain,
-            builder: DictionaryBuilder::new(),
+            builder: VocabularyBuilder::new(),
             errors: Vec::new(),
             types: FxHashMap::default(),
             labels: FxHashMap::default(),
@@ -105,7 +105,7 @@ impl Vocabulary {
         }
         Ok(Self {
             name: domain.name.clone(),
-            dictionary: builder.build(),
+            vocabulary: builder.build(),
             types,
             labels,
             functions,
@@ -115,11 +115,11 @@ impl Vocabulary {
     }
 }
 
-/// A dictionary in the making.
+/// A vocabulary in the making.
 pub(crate) struct Reader<'d> {
     pub(crate) domain: &'d Domain,
-    pub(crate) builder: DictionaryBuilder,
-    errors: Vec<VocabularyError>,
+    pub(crate) builder: VocabularyBuilder,
+    errors: Vec<TokenError>,
     types: FxHashMap<Name, Sort>,
     pub(crate) labels: FxHashMap<Name, LabelId>,
     pub(crate) functions: FxHashMap<Name, FunctionToken>,
@@ -128,12 +128,12 @@ pub(crate) struct Reader<'d> {
 }
 
 impl Reader<'_> {
-    pub(crate) fn error(&mut self, span: Span, kind: impl Into<VocabularyErrorKind>) {
+    pub(crate) fn error(&mut self, span: Span, kind: impl Into<TokenErrorKind>) {
         self.errors.push(Located::new(span, kind.into()));
     }
 
     /// Keeps what the builder gives, or reports why it does not.
-    pub(crate) fn take<T>(&mut self, span: Span, result: Result<T, DictionaryError>) -> Option<T> {
+    pub(crate) fn take<T>(&mut self, span: Span, result: Result<T, VocabularyError>) -> Option<T> {
         result.map_err(|error| self.error(span, error)).ok()
     }
 
@@ -165,7 +165,7 @@ impl Reader<'_> {
             [] => Name::new("object"),
             [parent] => self.type_name(parent),
             _ => {
-                self.error(span, VocabularyErrorKind::SeveralParents { name: name.clone() });
+                self.error(span, TokenErrorKind::SeveralParents { name: name.clone() });
                 self.type_name(declared.parents[0])
             }
         };
@@ -176,7 +176,7 @@ impl Reader<'_> {
         };
         let under_built_in = matches!(parent.as_str(), "agent" | "resource");
         if under_built_in || (own.is_some() && parent.as_str() != "object") {
-            self.error(span, VocabularyErrorKind::BuiltInType { name: name.clone(), below: parent.clone() });
+            self.error(span, TokenErrorKind::BuiltInType { name: name.clone(), below: parent.clone() });
         }
         if let Some(id) = own {
             self.types.insert(name, Sort::Node(id));
@@ -194,7 +194,7 @@ impl Reader<'_> {
             (Some(sort), _) => sort,
             (None, None) => return false,
             (None, Some(Sort::Value(sort))) => {
-                self.error(span, VocabularyErrorKind::UnknownValueType { name: name.clone() });
+                self.error(span, TokenErrorKind::UnknownValueType { name: name.clone() });
                 Sort::Value(sort)
             }
             (None, Some(Sort::Node(parent))) => {
@@ -211,7 +211,7 @@ impl Reader<'_> {
         for constant in &self.domain.constants {
             let (name, span) = (constant.name.clone(), constant.span);
             let &[of] = constant.types.0.as_slice() else {
-                self.error(span, VocabularyErrorKind::SeveralTypes { name });
+                self.error(span, TokenErrorKind::SeveralTypes { name });
                 continue;
             };
             let entry = match self.types.get(&self.domain.types[of].name).copied() {
@@ -220,12 +220,12 @@ impl Reader<'_> {
                     (ValueSort::Flag, "true") => Constant::Value(Value::Bool(true)),
                     (ValueSort::Flag, "false") => Constant::Value(Value::Bool(false)),
                     _ => {
-                        self.error(span, VocabularyErrorKind::ValueConstant { name });
+                        self.error(span, TokenErrorKind::ValueConstant { name });
                         continue;
                     }
                 },
                 Some(Sort::Node(TypeId::AGENT)) => {
-                    // `dsr` is the graph itself, an agent of every dictionary.
+                    // `dsr` is the graph itself, an agent of every vocabulary.
                     let made =
                         if name.as_str() == "dsr" { Ok(AgentId::DSR) } else { self.builder.agent(&name) };
                     if let Some(agent) = self.take(span, made) {
@@ -247,11 +247,11 @@ impl Reader<'_> {
     fn predicate(&mut self, predicate: &Predicate) {
         let (name, span) = (predicate.name.clone(), predicate.span);
         if predicate.derived {
-            return self.error(span, VocabularyErrorKind::Derived { name });
+            return self.error(span, TokenErrorKind::Derived { name });
         }
         let [from, to] = predicate.variables.parameters() else {
             let arity = predicate.variables.parameters;
-            return self.error(span, VocabularyErrorKind::NotBinary { name, arity });
+            return self.error(span, TokenErrorKind::NotBinary { name, arity });
         };
         let (Some(starts), Some(ends)) = (
             self.node_types(&name, &from.name, &from.types, span),
@@ -283,7 +283,7 @@ impl Reader<'_> {
                 Some(Sort::Node(id)) => found.push(*id),
                 Some(Sort::Value(_)) => {
                     let (name, variable) = (name.clone(), variable.clone());
-                    self.error(span, VocabularyErrorKind::ValueArgument { name, variable });
+                    self.error(span, TokenErrorKind::ValueArgument { name, variable });
                     return None;
                 }
                 None => return None,
@@ -295,7 +295,7 @@ impl Reader<'_> {
     fn function(&mut self, function: &Function) {
         let (name, span) = (function.name.clone(), function.span);
         if self.domain.predicate(&name).is_some() {
-            return self.error(span, VocabularyErrorKind::TwoMeanings { name });
+            return self.error(span, TokenErrorKind::TwoMeanings { name });
         }
         if let Some(token) = self.computed(function) {
             self.functions.insert(name, token);
@@ -318,7 +318,7 @@ impl Reader<'_> {
             }
             _ => {
                 let arity = function.variables.parameters;
-                return self.error(span, VocabularyErrorKind::FunctionArity { name, arity });
+                return self.error(span, TokenErrorKind::FunctionArity { name, arity });
             }
         };
         if let Some(token) = token {
@@ -341,7 +341,7 @@ impl Reader<'_> {
         };
         if !fits || !self.between_frames(&function.variables) {
             let name = name.clone();
-            self.error(function.span, VocabularyErrorKind::ReservedFunction { name, expected });
+            self.error(function.span, TokenErrorKind::ReservedFunction { name, expected });
         }
         Some(token)
     }
@@ -371,7 +371,7 @@ impl Reader<'_> {
             FunctionValue::Object(types) => types,
         };
         let &[of] = types.0.as_slice() else {
-            self.error(span, VocabularyErrorKind::FunctionKind { name });
+            self.error(span, TokenErrorKind::FunctionKind { name });
             return None;
         };
         match self.types.get(&self.domain.types[of].name)? {
@@ -379,7 +379,7 @@ impl Reader<'_> {
             Sort::Value(ValueSort::Text) => Some(Kind::Text),
             Sort::Value(ValueSort::Flag) => Some(Kind::Bool),
             Sort::Value(ValueSort::Pose) => {
-                self.error(span, VocabularyErrorKind::PoseFunction { name });
+                self.error(span, TokenErrorKind::PoseFunction { name });
                 None
             }
         }
@@ -391,7 +391,7 @@ impl Reader<'_> {
             let types = self.node_types(&function.name, &variable.name, &variable.types, function.span)?;
             let [of] = *types.as_slice() else {
                 let (name, variable) = (function.name.clone(), variable.name.clone());
-                self.error(function.span, VocabularyErrorKind::FunctionArgument { name, variable });
+                self.error(function.span, TokenErrorKind::FunctionArgument { name, variable });
                 return None;
             };
             found.push(of);

@@ -1,4 +1,4 @@
-//! Building a dictionary: names in, ids out, and no id that could be wrong later.
+//! Building a vocabulary: names in, ids out, and no id that could be wrong later.
 //!
 //! A type is declared after its parent, so the hierarchy cannot have a cycle. Declaring a label again adds a
 //! signature. Agents and resources become nodes of every graph, so they share one space of names.
@@ -8,7 +8,7 @@ use std::sync::Arc;
 use rustc_hash::FxHashMap;
 
 use super::{
-    Attribute, Degree, Dictionary, HolderType, Label, Nature, NodeType, Permission, Signature, Token,
+    Attribute, Degree, HolderType, Label, Nature, NodeType, Permission, Signature, Token, Vocabulary,
 };
 use crate::id::{AgentId, AttributeId, LabelId, ResourceId, TypeId};
 use crate::unit::Unit;
@@ -16,7 +16,7 @@ use crate::value::Kind;
 
 /// Why a declaration is refused.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum DictionaryError {
+pub enum VocabularyError {
     /// A name is empty.
     #[error("a name is empty")]
     EmptyName,
@@ -90,23 +90,23 @@ pub enum DictionaryError {
 
 /// Declares tokens one by one.
 #[derive(Debug)]
-pub struct DictionaryBuilder {
-    /// What will be the dictionary; its permissions are spelled out at the end.
-    made: Dictionary,
+pub struct VocabularyBuilder {
+    /// What will be the vocabulary; its permissions are spelled out at the end.
+    made: Vocabulary,
     permissions: Vec<(AgentId, Permission)>,
 }
 
-impl Default for DictionaryBuilder {
+impl Default for VocabularyBuilder {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl DictionaryBuilder {
-    /// A dictionary with what is built into every one.
+impl VocabularyBuilder {
+    /// A vocabulary with what is built into every one.
     pub fn new() -> Self {
         let mut new = Self {
-            made: Dictionary {
+            made: Vocabulary {
                 types: Vec::new(),
                 labels: Vec::new(),
                 attributes: Vec::new(),
@@ -154,10 +154,10 @@ impl DictionaryBuilder {
         name: &str,
         parent: Option<TypeId>,
         nature: Nature,
-    ) -> Result<TypeId, DictionaryError> {
+    ) -> Result<TypeId, VocabularyError> {
         let name = named(name)?;
         if self.made.type_names.contains_key(&name) {
-            return Err(DictionaryError::DuplicateType { name });
+            return Err(VocabularyError::DuplicateType { name });
         }
         let parent = parent.unwrap_or(TypeId::OBJECT);
         self.known_type(parent)?;
@@ -170,12 +170,12 @@ impl DictionaryBuilder {
     }
 
     /// Declares a label, or one more signature of it.
-    pub fn label(&mut self, name: &str, from: TypeId, to: TypeId) -> Result<LabelId, DictionaryError> {
+    pub fn label(&mut self, name: &str, from: TypeId, to: TypeId) -> Result<LabelId, VocabularyError> {
         let name = named(name)?;
         self.known_type(from)?;
         self.known_type(to)?;
         let id = match self.made.label_names.get(&name) {
-            Some(&id) if Dictionary::is_reserved(id) => return Err(DictionaryError::Reserved { name }),
+            Some(&id) if Vocabulary::is_reserved(id) => return Err(VocabularyError::Reserved { name }),
             Some(&id) => id,
             None => {
                 let id = LabelId::at(self.made.labels.len());
@@ -202,7 +202,7 @@ impl DictionaryBuilder {
         name: &str,
         holder: TypeId,
         kind: Kind,
-    ) -> Result<AttributeId, DictionaryError> {
+    ) -> Result<AttributeId, VocabularyError> {
         self.known_type(holder)?;
         self.attribute(name, HolderType::Node(holder), kind)
     }
@@ -214,17 +214,17 @@ impl DictionaryBuilder {
         label: LabelId,
         (from, to): (TypeId, TypeId),
         kind: Kind,
-    ) -> Result<AttributeId, DictionaryError> {
+    ) -> Result<AttributeId, VocabularyError> {
         let name = named(name)?;
         self.known_type(from)?;
         self.known_type(to)?;
-        let entry = self.made.labels.get(label.index()).ok_or(DictionaryError::UnknownLabel { id: label })?;
-        if Dictionary::is_reserved(label) {
-            return Err(DictionaryError::Reserved { name });
+        let entry = self.made.labels.get(label.index()).ok_or(VocabularyError::UnknownLabel { id: label })?;
+        if Vocabulary::is_reserved(label) {
+            return Err(VocabularyError::Reserved { name });
         }
         let fits = |s: &Signature| self.descends(from, s.from) && self.descends(to, s.to);
         if !entry.signatures.iter().any(fits) {
-            return Err(DictionaryError::NoSuchSignature {
+            return Err(VocabularyError::NoSuchSignature {
                 attribute: name,
                 label: entry.name.clone(),
                 from: self.made.types[from.index()].name.clone(),
@@ -235,11 +235,11 @@ impl DictionaryBuilder {
     }
 
     /// Says how many edges of a label a node may have: one place where somebody is, two hands.
-    pub fn limit(&mut self, label: LabelId, degree: Degree) -> Result<(), DictionaryError> {
+    pub fn limit(&mut self, label: LabelId, degree: Degree) -> Result<(), VocabularyError> {
         let entry =
-            self.made.labels.get_mut(label.index()).ok_or(DictionaryError::UnknownLabel { id: label })?;
-        if Dictionary::is_reserved(label) {
-            return Err(DictionaryError::Reserved { name: entry.name.clone() });
+            self.made.labels.get_mut(label.index()).ok_or(VocabularyError::UnknownLabel { id: label })?;
+        if Vocabulary::is_reserved(label) {
+            return Err(VocabularyError::Reserved { name: entry.name.clone() });
         }
         entry.degree = degree;
         self.made.limited = self.made.labels.iter().any(|label| label.degree != Degree::default());
@@ -247,22 +247,22 @@ impl DictionaryBuilder {
     }
 
     /// Says what a numeric attribute is measured in.
-    pub fn measured_in(&mut self, attribute: AttributeId, unit: Unit) -> Result<(), DictionaryError> {
+    pub fn measured_in(&mut self, attribute: AttributeId, unit: Unit) -> Result<(), VocabularyError> {
         let id = attribute;
         let entry =
-            self.made.attributes.get_mut(id.index()).ok_or(DictionaryError::UnknownAttribute { id })?;
+            self.made.attributes.get_mut(id.index()).ok_or(VocabularyError::UnknownAttribute { id })?;
         if entry.kind != Kind::Number {
-            return Err(DictionaryError::NotMeasured { name: entry.name.clone() });
+            return Err(VocabularyError::NotMeasured { name: entry.name.clone() });
         }
         if id.index() <= AttributeId::ASKED.index() {
-            return Err(DictionaryError::Reserved { name: entry.name.clone() });
+            return Err(VocabularyError::Reserved { name: entry.name.clone() });
         }
         entry.unit = Some(unit);
         Ok(())
     }
 
     /// Declares a writer. It becomes a node of type `agent` in every graph.
-    pub fn agent(&mut self, name: &str) -> Result<AgentId, DictionaryError> {
+    pub fn agent(&mut self, name: &str) -> Result<AgentId, VocabularyError> {
         let name = self.free_node(name)?;
         let id = AgentId::at(self.made.agents.len());
         self.made.agents.push(name.clone());
@@ -271,7 +271,7 @@ impl DictionaryBuilder {
     }
 
     /// Declares an exclusive resource. It becomes a node of type `resource` in every graph.
-    pub fn resource(&mut self, name: &str) -> Result<ResourceId, DictionaryError> {
+    pub fn resource(&mut self, name: &str) -> Result<ResourceId, VocabularyError> {
         let name = self.free_node(name)?;
         let id = ResourceId::at(self.made.resources.len());
         self.made.resources.push(name.clone());
@@ -280,21 +280,21 @@ impl DictionaryBuilder {
     }
 
     /// Lets an agent write a token. Without any permission an agent may only claim and release.
-    pub fn permit(&mut self, agent: AgentId, permission: Permission) -> Result<(), DictionaryError> {
+    pub fn permit(&mut self, agent: AgentId, permission: Permission) -> Result<(), VocabularyError> {
         if agent.index() >= self.made.agents.len() {
-            return Err(DictionaryError::UnknownAgent { id: agent });
+            return Err(VocabularyError::UnknownAgent { id: agent });
         }
         match permission.token {
-            Token::Label(id) if Dictionary::is_reserved(id) => {
-                return Err(DictionaryError::Reserved { name: self.made.labels[id.index()].name.clone() });
+            Token::Label(id) if Vocabulary::is_reserved(id) => {
+                return Err(VocabularyError::Reserved { name: self.made.labels[id.index()].name.clone() });
             }
             Token::Label(id) if id.index() >= self.made.labels.len() => {
-                return Err(DictionaryError::UnknownLabel { id });
+                return Err(VocabularyError::UnknownLabel { id });
             }
             Token::Attribute(id) => match self.made.attributes.get(id.index()) {
-                None => return Err(DictionaryError::UnknownAttribute { id }),
+                None => return Err(VocabularyError::UnknownAttribute { id }),
                 Some(entry) if id.index() <= AttributeId::ASKED.index() => {
-                    return Err(DictionaryError::Reserved { name: entry.name.clone() });
+                    return Err(VocabularyError::Reserved { name: entry.name.clone() });
                 }
                 Some(_) => {}
             },
@@ -305,12 +305,12 @@ impl DictionaryBuilder {
         Ok(())
     }
 
-    /// Closes the dictionary.
-    pub fn build(self) -> Arc<Dictionary> {
+    /// Closes the vocabulary.
+    pub fn build(self) -> Arc<Vocabulary> {
         Arc::new(self.close())
     }
 
-    pub(super) fn close(mut self) -> Dictionary {
+    pub(super) fn close(mut self) -> Vocabulary {
         self.number_types();
         let mut permissions: FxHashMap<_, Vec<_>> = FxHashMap::default();
         for (agent, Permission { token, from, to }) in &self.permissions {
@@ -331,7 +331,7 @@ impl DictionaryBuilder {
                 }
             }
         }
-        Dictionary { permissions, ..self.made }
+        Vocabulary { permissions, ..self.made }
     }
 
     fn add_type(&mut self, name: Arc<str>, parent: Option<TypeId>, nature: Nature) -> TypeId {
@@ -346,10 +346,10 @@ impl DictionaryBuilder {
         name: &str,
         holder: HolderType,
         kind: Kind,
-    ) -> Result<AttributeId, DictionaryError> {
+    ) -> Result<AttributeId, VocabularyError> {
         let name = named(name)?;
         if self.made.attribute_names.contains_key(&name) {
-            return Err(DictionaryError::DuplicateAttribute { name });
+            return Err(VocabularyError::DuplicateAttribute { name });
         }
         if let Kind::Node(target) = kind {
             self.known_type(target)?;
@@ -364,14 +364,14 @@ impl DictionaryBuilder {
         id
     }
 
-    fn known_type(&self, id: TypeId) -> Result<(), DictionaryError> {
-        if id.index() < self.made.types.len() { Ok(()) } else { Err(DictionaryError::UnknownType { id }) }
+    fn known_type(&self, id: TypeId) -> Result<(), VocabularyError> {
+        if id.index() < self.made.types.len() { Ok(()) } else { Err(VocabularyError::UnknownType { id }) }
     }
 
-    fn free_node(&self, name: &str) -> Result<Arc<str>, DictionaryError> {
+    fn free_node(&self, name: &str) -> Result<Arc<str>, VocabularyError> {
         let name = named(name)?;
         if self.made.agent_names.contains_key(&name) || self.made.resource_names.contains_key(&name) {
-            return Err(DictionaryError::DuplicateNode { name });
+            return Err(VocabularyError::DuplicateNode { name });
         }
         Ok(name)
     }
@@ -407,6 +407,6 @@ impl DictionaryBuilder {
     }
 }
 
-fn named(name: &str) -> Result<Arc<str>, DictionaryError> {
-    if name.is_empty() { Err(DictionaryError::EmptyName) } else { Ok(name.into()) }
+fn named(name: &str) -> Result<Arc<str>, VocabularyError> {
+    if name.is_empty() { Err(VocabularyError::EmptyName) } else { Ok(name.into()) }
 }

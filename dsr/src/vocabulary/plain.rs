@@ -1,6 +1,6 @@
-//! A dictionary as plain data: what a journal begins with, so that it can be read without the program that wrote it.
+//! A vocabulary as plain data: what a journal begins with, so that it can be read without the program that wrote it.
 //!
-//! Lists in the order of the ids, without what is built into every dictionary. Invariant: reading declares everything
+//! Lists in the order of the ids, without what is built into every vocabulary. Invariant: reading declares everything
 //! again through the builder, so what was read has been checked, and has the ids that it had.
 
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::{
-    Degree, Dictionary, DictionaryBuilder, DictionaryError, HolderType, Nature, Permission, Signature,
+    Degree, HolderType, Nature, Permission, Signature, Vocabulary, VocabularyBuilder, VocabularyError,
 };
 use crate::id::{AgentId, AttributeId, LabelId, TypeId};
 use crate::unit::Unit;
@@ -48,15 +48,15 @@ struct PlainAttribute {
 }
 
 impl Plain {
-    fn of(dictionary: &Dictionary) -> Self {
-        let mut permissions: Vec<_> = dictionary.permissions.iter().collect();
+    fn of(vocabulary: &Vocabulary) -> Self {
+        let mut permissions: Vec<_> = vocabulary.permissions.iter().collect();
         permissions.sort_by_key(|(key, _)| **key);
         let permissions = permissions.into_iter().flat_map(|(&(agent, token), ends)| {
             ends.iter().map(move |(from, to)| (agent, Permission::between(token, from.clone(), to.clone())))
         });
-        let types = dictionary.types.iter().skip(TypeId::RESOURCE.index() + 1);
-        let labels = dictionary.labels.iter().skip(LabelId::AWAITS.index() + 1);
-        let attributes = dictionary.attributes.iter().skip(AttributeId::ASKED.index() + 1);
+        let types = vocabulary.types.iter().skip(TypeId::RESOURCE.index() + 1);
+        let labels = vocabulary.labels.iter().skip(LabelId::AWAITS.index() + 1);
+        let attributes = vocabulary.attributes.iter().skip(AttributeId::ASKED.index() + 1);
         Self {
             types: types
                 .map(|entry| PlainType {
@@ -80,14 +80,14 @@ impl Plain {
                     unit: entry.unit,
                 })
                 .collect(),
-            agents: dictionary.agents.iter().skip(AgentId::DSR.index() + 1).cloned().collect(),
-            resources: dictionary.resources.clone(),
+            agents: vocabulary.agents.iter().skip(AgentId::DSR.index() + 1).cloned().collect(),
+            resources: vocabulary.resources.clone(),
             permissions: permissions.collect(),
         }
     }
 
-    fn build(&self) -> Result<Dictionary, DictionaryError> {
-        let mut builder = DictionaryBuilder::new();
+    fn build(&self) -> Result<Vocabulary, VocabularyError> {
+        let mut builder = VocabularyBuilder::new();
         for PlainType { name, parent, nature } in &self.types {
             builder.node_type(name, Some(*parent), *nature)?;
         }
@@ -121,13 +121,13 @@ impl Plain {
     }
 }
 
-impl Serialize for Dictionary {
+impl Serialize for Vocabulary {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         Plain::of(self).serialize(serializer)
     }
 }
 
-impl<'de> Deserialize<'de> for Dictionary {
+impl<'de> Deserialize<'de> for Vocabulary {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         Plain::deserialize(deserializer)?.build().map_err(D::Error::custom)
     }

@@ -1,13 +1,13 @@
 //! Permissions: which agent may write which token, and where.
 //!
-//! A token belongs to the agents that the dictionary names; with an end fixed, an agent owns a label only
+//! A token belongs to the agents that the vocabulary names; with an end fixed, an agent owns a label only
 //! there: `speech` may say what *is* `speaking`, and nothing else that *is*.
 
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Dictionary, NameOf};
+use super::{NameOf, Vocabulary};
 use crate::id::{AttributeId, LabelId, TypeId};
 
 /// What can be written.
@@ -43,11 +43,11 @@ impl End {
         Self::Named(name.into())
     }
 
-    pub(super) fn admits(&self, dictionary: &Dictionary, (name, node_type): (NameOf<'_>, TypeId)) -> bool {
+    pub(super) fn admits(&self, vocabulary: &Vocabulary, (name, node_type): (NameOf<'_>, TypeId)) -> bool {
         match self {
             Self::Any => true,
             Self::Named(wanted) => **wanted == *name(),
-            Self::OfType(wanted) => dictionary.is_a(node_type, *wanted),
+            Self::OfType(wanted) => vocabulary.is_a(node_type, *wanted),
         }
     }
 }

@@ -1,12 +1,12 @@
-//! The dictionary: every token that may stand in the graph, and who may write it.
+//! The vocabulary: every token that may stand in the graph, and who may write it.
 //!
 //! Problem: agents that invent terms of their own cannot understand each other. The paper's authors name the
-//! missing common dictionary as the first thing they could not do. Idea: types in a single-parent hierarchy,
+//! missing common vocabulary as the first thing they could not do. Idea: types in a single-parent hierarchy,
 //! labels with the signatures they allow, attributes with their holder and kind, writers with the tokens they
-//! own, exclusive resources. Invariant: a built dictionary never changes, and every id in it is valid.
+//! own, exclusive resources. Invariant: a built vocabulary never changes, and every id in it is valid.
 //! Cost: `is_a` is two comparisons (an interval per type, numbered depth first); a permission is one hash look-up.
 //!
-//! Built into every dictionary: types `object`, `agent`, `resource`; labels from agent to resource, `holds` with
+//! Built into every vocabulary: types `object`, `agent`, `resource`; labels from agent to resource, `holds` with
 //! its attributes `priority`, `yields` and `claim`, and `awaits` with `awaits_priority`, `awaits_yields` and `asked`; the
 //! agent `dsr`.
 
@@ -19,7 +19,7 @@ use std::sync::Arc;
 use rustc_hash::FxHashMap;
 use serde::{Deserialize, Serialize};
 
-pub use self::builder::{DictionaryBuilder, DictionaryError};
+pub use self::builder::{VocabularyBuilder, VocabularyError};
 pub use self::permission::{End, Permission, Token};
 use crate::id::{AgentId, AttributeId, LabelId, NodeId, ResourceId, TypeId};
 use crate::unit::Unit;
@@ -69,18 +69,18 @@ pub enum HolderType {
 }
 
 impl HolderType {
-    pub(crate) fn takes_node(self, node_type: TypeId, dictionary: &Dictionary) -> bool {
-        matches!(self, Self::Node(on) if dictionary.is_a(node_type, on))
+    pub(crate) fn takes_node(self, node_type: TypeId, vocabulary: &Vocabulary) -> bool {
+        matches!(self, Self::Node(on) if vocabulary.is_a(node_type, on))
     }
 
     pub(crate) fn takes_edge(
         self,
         label: LabelId,
         (from, to): (TypeId, TypeId),
-        dictionary: &Dictionary,
+        vocabulary: &Vocabulary,
     ) -> bool {
         matches!(self, Self::Edge { label: on, signature }
-            if on == label && dictionary.is_a(from, signature.from) && dictionary.is_a(to, signature.to))
+            if on == label && vocabulary.is_a(from, signature.from) && vocabulary.is_a(to, signature.to))
     }
 }
 
@@ -109,9 +109,9 @@ struct Attribute {
     unit: Option<Unit>,
 }
 
-/// Every token of the graph. Made by a [`DictionaryBuilder`], shared behind an `Arc`, never changed.
+/// Every token of the graph. Made by a [`VocabularyBuilder`], shared behind an `Arc`, never changed.
 #[derive(Debug)]
-pub struct Dictionary {
+pub struct Vocabulary {
     types: Vec<NodeType>,
     labels: Vec<Label>,
     attributes: Vec<Attribute>,
@@ -127,7 +127,7 @@ pub struct Dictionary {
     permissions: FxHashMap<(AgentId, Token), Vec<(End, End)>>,
 }
 
-impl Dictionary {
+impl Vocabulary {
     /// The type of that name.
     pub fn node_type(&self, name: &str) -> Option<TypeId> {
         self.type_names.get(name).copied()
@@ -153,7 +153,7 @@ impl Dictionary {
         self.resource_names.get(name).copied()
     }
 
-    /// The name of a type; `None` if the id is of another dictionary.
+    /// The name of a type; `None` if the id is of another vocabulary.
     pub fn type_name(&self, id: TypeId) -> Option<&Arc<str>> {
         self.types.get(id.index()).map(|entry| &entry.name)
     }
@@ -266,7 +266,7 @@ impl Dictionary {
         self.attributes.get(id.index())?.unit
     }
 
-    /// The node that stands for an agent in every graph of this dictionary.
+    /// The node that stands for an agent in every graph of this vocabulary.
     pub fn agent_node(&self, id: AgentId) -> Option<NodeId> {
         (id.index() < self.agents.len()).then_some(NodeId(id.0))
     }
@@ -276,7 +276,7 @@ impl Dictionary {
         (node.index() < self.agents.len()).then_some(AgentId(node.0))
     }
 
-    /// The node that stands for a resource in every graph of this dictionary.
+    /// The node that stands for a resource in every graph of this vocabulary.
     pub fn resource_node(&self, id: ResourceId) -> Option<NodeId> {
         (id.index() < self.resources.len()).then(|| NodeId::at(self.agents.len() + id.index()))
     }
