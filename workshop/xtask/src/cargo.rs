@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 /// The workspace's root.
 pub(crate) fn root() -> PathBuf {
     let here = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
-    here.parent().map_or(here.clone(), PathBuf::from)
+    here.ancestors().nth(2).map_or(here.clone(), PathBuf::from)
 }
 
 /// Whether `cargo nextest` answers.
