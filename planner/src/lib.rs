@@ -24,7 +24,7 @@
 //! |---|---|
 //! | `ground` | from schemas to facts and operators |
 //! | `number` | exact numbers, expressions over fluents |
-//! | `obstacle` | why there is no plan |
+//! | `unsolvability` | why there is no plan |
 //! | `task` | the grounded task, states, successors, axioms, the delete relaxation |
 //! | `heuristics` | estimators, one file each |
 //! | `search` | search algorithms, configurations, the entry point |
@@ -37,7 +37,6 @@ mod ids;
 #[allow(clippy::unwrap_used, reason = "a test")]
 mod lifted_tests;
 mod number;
-mod obstacle;
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test")]
 mod random_numbers;
@@ -49,16 +48,13 @@ mod task;
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test")]
 mod test_support;
+mod unsolvability;
 mod watch;
 
 pub use ground::{Feature, GroundError, GroundOptions, Origin, ground};
 pub use heuristics::{Costs, HeuristicKind, Properties, Supported};
 pub use ids::{FactId, FluentId, OperatorId};
 pub use number::Number;
-pub use obstacle::{
-    Exclusive, Explanation, Extent, Giver, Hindrance, Nearest, Need, Never, NeverCompares, Part, Pattern,
-    Reason, ReasonId, Space, Wanted, Why, Words, explain,
-};
 pub use search::{
     Attempt, BfwsSettings, Budget, Count, Distance, EagerSettings, Engine, Exploration, Improved,
     LazySettings, Limit, Order, Outcome, Plan, Preference, Pruning, Quality, Query, Repair, Repaired, Report,
@@ -67,4 +63,8 @@ pub use search::{
 pub use task::{
     AtomStatus, AxiomRule, ConditionalEffect, ConditionalEffects, Fact, Goal, GroundAtom, Impossible,
     Literals, LiteralsRef, Mutexes, ObjectValue, Operator, Operators, State, Task, Variable,
+};
+pub use unsolvability::{
+    Exclusive, Explanation, Extent, Giver, Hindrance, Nearest, Need, Never, NeverCompares, Part, Pattern,
+    Reason, ReasonId, Space, Wanted, Why, Words, explain,
 };

@@ -3,7 +3,7 @@
 use super::{GroundAtom, ObjectValue, Operator, Task};
 use crate::ground::ValuePredicates;
 use crate::ids::{FactId, OperatorId};
-use crate::obstacle::Pattern;
+use crate::unsolvability::Pattern;
 use pddl::model::{
     ActionId, Domain, FunctionId, GroundApplication, IndexVec, Name, ObjectId, PredicateId, Problem,
 };
