@@ -109,7 +109,7 @@ fn a_run_can_be_looked_at_afterwards() {
 fn a_world_of_cortex_is_taken_over() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("world").display().to_string();
-    let world = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dsr/tests/cortex/kitchen.json");
+    let world = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dsr/formats/tests/cortex/kitchen.json");
     let world = world.display().to_string();
     let (exit, said, notes) = pelea(&["dsr", "import", &world, "-o", &output]);
     assert!(exit == Exit::Yes && said.starts_with("5 nodes and 1 edges"), "{said}");

@@ -42,14 +42,12 @@
 //!
 //! Map, from the ground up: `id`, `unit`, `value` → `vocabulary` → `pages`, `block`, `names`, `members`, `state` (what a snapshot
 //! is), `pose`, `track`, `undo` → `transaction` (edits, leases, the tree of transforms), `delta`, `fits`, `replay`, `export` → `chain`, `pattern`,
-//! `reflex` → `snapshot`, `diff`, `past`, `sentence`, `view`, `quiver` → `subscription`,
-//! `routes`, `kernel` (how readers and writers keep out of each other's way), `graph`, `attendance` → `journal`,
-//! `cortex` (worlds of others).
+//! `reflex` → `snapshot`, `diff`, `past`, `sentence`, `quiver` → `subscription`,
+//! `routes`, `kernel` (how readers and writers keep out of each other's way), `graph`, `attendance` → `journal`.
 
 mod attendance;
 mod block;
 mod chain;
-mod cortex;
 mod delta;
 mod diff;
 mod export;
@@ -79,12 +77,10 @@ mod transaction;
 mod undo;
 mod unit;
 mod value;
-mod view;
 mod vocabulary;
 
 pub use attendance::Attendance;
 pub use chain::ChainError;
-pub use cortex::{CortexError, CortexUnit, CortexWorld, Imported};
 pub use delta::{Change, Delta};
 pub use export::{
     Export, ExportedAttribute, ExportedEdge, ExportedNode, ExportedSample, ExportedTransform, ExportedValue,
@@ -114,7 +110,6 @@ pub use track::HORIZON;
 pub use transaction::{Edit, HolderRef, Lease, Preemption, Priority, Transaction, TransactionError, Waiting};
 pub use unit::Unit;
 pub use value::{Kind, NewValue, NodeRef, Value};
-pub use view::View;
 pub use vocabulary::{
     Degree, End, HolderType, Nature, Permission, Signature, Token, Vocabulary, VocabularyBuilder,
     VocabularyError,

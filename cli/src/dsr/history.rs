@@ -1,10 +1,11 @@
 //! `pelea dsr log`, `diff` and `query`: what happened, what differs, and where a pattern matches.
 
-use super::{Failed, Moment, Told, open, seconds, state, writer};
+use super::{Failed, Moment, open, state};
 use crate::console::Console;
 use crate::exit::Exit;
 use clap::Args;
 use dsr::{Binding, Change, Delta, Mentions, Pattern, Played, Recording, Snapshot};
+use formats::{CommitRecord, seconds};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -51,7 +52,7 @@ pub(crate) struct QueryArguments {
 #[derive(Serialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
 enum Record<'a> {
-    Commit(&'a Told<'a>),
+    Commit(&'a CommitRecord<'a>),
     Jump { from: u64, to: u64 },
     Difference { from: u64, to: u64, sentences: &'a [String], changes: &'a [Change] },
     Match { version: u64, time: f64, holds: bool, bindings: &'a Names<'a> },
@@ -69,18 +70,16 @@ pub(super) fn log(arguments: &LogArguments, console: &mut Console<'_>) -> Result
                 continue;
             }
         };
-        let writer = writer(&recording, &delta);
-        if arguments.by.as_ref().is_some_and(|by| by != writer) {
+        let record = CommitRecord::new(&recording, &delta, &replay.snapshot());
+        let CommitRecord { version, time, writer, ref sentences, .. } = record;
+        let wanted = |text: &String| sentences.iter().any(|sentence| sentence.contains(text.as_str()));
+        if arguments.by.as_ref().is_some_and(|by| by != writer)
+            || !arguments.about.as_ref().is_none_or(wanted)
+        {
             continue;
         }
-        let told = Told::new(&recording, &delta, &replay.snapshot());
-        let wanted = |text: &String| told.sentences.iter().any(|sentence| sentence.contains(text.as_str()));
-        if !arguments.about.as_ref().is_none_or(wanted) {
-            continue;
-        }
-        let Told { version, time, ref sentences, .. } = told;
         console.result(&format!("{version:>6} {time:>10.3} s  {writer}: {}", sentences.join("; ")));
-        console.record(&Record::Commit(&told));
+        console.record(&Record::Commit(&record));
     }
     Ok(exit)
 }

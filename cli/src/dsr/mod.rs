@@ -5,9 +5,8 @@
 //! `graph` (the export), `log` and `diff` a line of the kind `commit` or `difference` each, `query` a line of the kind
 //! `match` each.
 
-mod foxglove;
+mod export;
 mod history;
-mod mcap;
 mod show;
 mod world;
 
@@ -15,11 +14,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::render::Message;
 use clap::Subcommand;
-use dsr::{
-    Change, Damage, Delta, Folder, Graph, Journal, Recording, RecordingError, ReflexId, Settings, Snapshot,
-    Time, Version,
-};
-use serde::Serialize;
+use dsr::{Damage, Folder, Graph, Journal, Recording, RecordingError, Settings, Snapshot, Time, Version};
 use std::path::Path;
 use std::str::FromStr;
 
@@ -35,7 +30,7 @@ pub(crate) enum Command {
     /// Where a pattern matches.
     Query(history::QueryArguments),
     /// The whole history for Foxglove and other tools that read MCAP.
-    Export(mcap::Arguments),
+    Export(export::Arguments),
     /// Take over a world of RoboComp's cortex.
     Import(world::Arguments),
 }
@@ -46,7 +41,7 @@ pub(crate) fn run(command: &Command, console: &mut Console<'_>) -> Exit {
         Command::Log(arguments) => history::log(arguments, console),
         Command::Diff(arguments) => history::diff(arguments, console),
         Command::Query(arguments) => history::query(arguments, console),
-        Command::Export(arguments) => mcap::run(arguments, console),
+        Command::Export(arguments) => export::run(arguments, console),
         Command::Import(arguments) => world::run(arguments, console),
     };
     done.unwrap_or_else(|failed| failed.show(console))
@@ -129,38 +124,6 @@ fn open(path: &Path, console: &mut Console<'_>) -> Result<(Recording, Exit), Fai
     Ok((recording, exit))
 }
 
-/// Who committed; nobody if the journal's vocabulary does not know it.
-fn writer<'r>(recording: &'r Recording, delta: &Delta) -> &'r str {
-    recording.vocabulary().agent_name(delta.writer).map_or("", |name| name)
-}
-
-/// A commit, as records and messages tell it.
-#[derive(Serialize)]
-struct Told<'a> {
-    version: u64,
-    time: f64,
-    writer: &'a str,
-    /// What changed, and which reflexes fired.
-    sentences: Vec<String>,
-    changes: &'a [Change],
-    /// The reflexes that fired.
-    reflexes: &'a [ReflexId],
-}
-
-impl<'a> Told<'a> {
-    fn new(recording: &'a Recording, delta: &'a Delta, after: &Snapshot) -> Self {
-        let fired = delta.reflexes.iter().map(|reflex| format!("reflex {} fired", reflex.0));
-        Self {
-            version: delta.version.0,
-            time: seconds(delta.time),
-            writer: writer(recording, delta),
-            sentences: delta.sentences(after).into_iter().chain(fired).collect(),
-            changes: &delta.changes,
-            reflexes: &delta.reflexes,
-        }
-    }
-}
-
 /// Begins a journal of `graph` in a folder that holds none. A folder that cannot take it is a result that cannot be
 /// written, whatever the reason.
 pub(crate) fn begin(folder: &Path, graph: &Graph) -> Result<Journal, Failed> {
@@ -171,12 +134,10 @@ pub(crate) fn begin(folder: &Path, graph: &Graph) -> Result<Journal, Failed> {
     graph.journal(store, Settings::default()).map_err(|error| unwritable(folder, &error))
 }
 
-fn unwritable(folder: &Path, why: &dyn std::fmt::Display) -> Failed {
-    Failed(Exit::Unwritable, format!("cannot write a journal to `{}`: {why}", folder.display()))
+fn unwritable_file(path: &Path, why: &dyn std::fmt::Display) -> Failed {
+    Failed(Exit::Unwritable, format!("cannot write `{}`: {why}", path.display()))
 }
 
-/// Nanoseconds as seconds, to the millisecond.
-#[expect(clippy::cast_precision_loss, reason = "for people")]
-fn seconds(time: Time) -> f64 {
-    (time.0 as f64 / 1e6).round() / 1e3
+fn unwritable(folder: &Path, why: &dyn std::fmt::Display) -> Failed {
+    Failed(Exit::Unwritable, format!("cannot write a journal to `{}`: {why}", folder.display()))
 }

@@ -1,10 +1,11 @@
 //! `pelea dsr show`: one state.
 
-use super::{Failed, Moment, open, seconds, state};
+use super::{Failed, Moment, open, state};
 use crate::console::{Console, Form};
 use crate::exit::Exit;
 use clap::{Args, ValueEnum};
 use dsr::Export;
+use formats::{View, seconds};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -55,7 +56,7 @@ pub(super) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Result<Ex
     let (recording, exit) = open(&arguments.journal, console)?;
     let snapshot = state(&recording, arguments.at)?;
     let view = match &arguments.around {
-        None => snapshot.view(),
+        None => View::whole(&snapshot),
         Some(name) => {
             let unknown = || {
                 let text = format!("no node `{name}` in version {}", snapshot.version().0);
@@ -65,7 +66,7 @@ pub(super) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Result<Ex
                     nearest.map_or(text.clone(), |nearest| format!("{text}; is it `{nearest}`?")),
                 )
             };
-            snapshot.around(snapshot.node(name).ok_or_else(unknown)?, arguments.steps)
+            View::around(&snapshot, snapshot.node(name).ok_or_else(unknown)?, arguments.steps)
         }
     };
     console.record(&Record { kind: "graph", export: view.export() });
@@ -73,11 +74,11 @@ pub(super) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Result<Ex
         Picture::Text => {
             let (version, time) = (snapshot.version().0, seconds(snapshot.time()));
             console.result(&format!("version {version}, at {time:.3} s: {} nodes", view.nodes().count()));
-            view.lines().iter().for_each(|line| console.result(line));
+            formats::lines(&view).iter().for_each(|line| console.result(line));
         }
-        Picture::Dot => console.result(view.dot().trim_end()),
-        Picture::Svg => console.result(view.svg().trim_end()),
-        Picture::Graphml => console.result(view.graphml().trim_end()),
+        Picture::Dot => console.result(formats::dot(&view).trim_end()),
+        Picture::Svg => console.result(formats::svg(&view).trim_end()),
+        Picture::Graphml => console.result(formats::graphml(&view).trim_end()),
         Picture::Json => {}
     }
     Ok(exit)

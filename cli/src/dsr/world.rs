@@ -5,7 +5,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::files;
 use clap::{Args, ValueEnum};
-use dsr::{CortexUnit, CortexWorld};
+use formats::{CortexUnit, CortexWorld};
 use serde::Serialize;
 use std::path::PathBuf;
 

@@ -203,7 +203,10 @@ fn look(snapshot: &Snapshot, time: Time) {
             assert!(known.is_ok() || together.is_err(), "who answers knows when");
         }
     }
-    let _ = (snapshot.view().lines(), snapshot.view().graphml());
+    let _ = snapshot.sentences();
+    for node in snapshot.nodes() {
+        let _ = (snapshot.place_sentence(node.id), snapshot.attribute_sentences(Holder::Node(node.id)));
+    }
     for resource in snapshot.vocabulary().resources() {
         let _ = (snapshot.lease(resource), snapshot.waiting(resource));
     }

@@ -1,32 +1,19 @@
-//! `pelea dsr export`: the whole history as MCAP, with JSON messages and their schemas.
+//! A whole recording as MCAP, with JSON messages and their schemas.
 //!
-//! `/dsr/state` has the state with which the journal begins and the one after each gap, `/dsr/commit` every commit with its
-//! sentences, changes and reflexes. `/tf` has the poses and `/dsr/log` the sentences once more, as Foxglove shows them
-//! (`foxglove`). Log times are those of the commits.
+//! The channel `/dsr/state` has the state with which the recording begins, and the state after each gap. `/dsr/commit` has
+//! every commit with its sentences, changes and reflexes. `/tf` has the poses and `/dsr/log` the sentences once more, in
+//! the schemas that Foxglove shows by itself (module `foxglove`). A message has the time of its commit.
 
-use super::foxglove::{LOG, Log, TRANSFORMS, Transforms};
-use super::{Failed, Told, open};
-use crate::console::Console;
-use crate::exit::Exit;
-use ::mcap::records::MessageHeader;
-use ::mcap::{WriteOptions, Writer};
-use clap::Args;
-use dsr::{Delta, Played, Recording, Snapshot, Time};
-use serde::Serialize;
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io::BufWriter;
-use std::path::{Path, PathBuf};
+use std::io::{Seek, Write};
 
-/// Arguments of `pelea dsr export`.
-#[derive(Debug, Args)]
-pub(crate) struct Arguments {
-    /// A journal: the folder of `pelea run --journal`, or a file in it.
-    journal: PathBuf,
-    /// Where the MCAP file goes.
-    #[arg(short, long, value_name = "FILE")]
-    output: PathBuf,
-}
+use dsr::{Delta, Played, Recording, RecordingError, Snapshot, Time};
+use mcap::WriteOptions;
+use mcap::records::MessageHeader;
+use serde::Serialize;
+
+use crate::commit::CommitRecord;
+use crate::foxglove::{LOG, Log, TRANSFORMS, Transforms};
 
 const COMMIT: &str = r#"{"title": "dsr.Commit", "type": "object",
  "required": ["version", "time", "writer", "sentences", "changes", "reflexes"],
@@ -52,37 +39,38 @@ const STATE: &str = r#"{"title": "dsr.State", "type": "object", "required": ["ve
     "rotation": {"type": "array", "items": {"type": "number"}},
     "samples": {"type": "array", "items": {"type": "object"}}}}}}}"#;
 
-pub(super) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Result<Exit, Failed> {
-    let (recording, exit) = open(&arguments.journal, console)?;
-    let written = write(&recording, &arguments.output)?;
-    console.note(&format!("{written} messages written to `{}`", arguments.output.display()));
-    Ok(exit)
+/// Why a recording was not written.
+#[derive(Debug, thiserror::Error)]
+pub enum McapWriteError {
+    /// The recording cannot be read to its end.
+    #[error(transparent)]
+    Recording(#[from] RecordingError),
+    /// The output failed.
+    #[error(transparent)]
+    Mcap(#[from] mcap::McapError),
 }
 
-fn write(recording: &Recording, path: &Path) -> Result<u64, Failed> {
-    let failed = |error: ::mcap::McapError| {
-        Failed(Exit::Unwritable, format!("cannot write `{}`: {error}", path.display()))
-    };
-    let mut output = File::create(path).map_err(Into::into).and_then(Output::new).map_err(failed)?;
+/// Writes the recording and returns the number of messages.
+pub fn write_mcap(recording: &Recording, output: impl Write + Seek) -> Result<u64, McapWriteError> {
+    let mut output = Output::new(output)?;
     let mut replay = recording.replay()?;
-    output.state(&replay.snapshot()).map_err(failed)?;
+    output.state(&replay.snapshot())?;
     while let Some(played) = replay.next() {
         let snapshot = replay.snapshot();
         match played? {
-            Played::Jump { .. } => output.state(&snapshot),
+            Played::Jump { .. } => output.state(&snapshot)?,
             Played::Commit(delta) => {
-                output.commit(&delta, &Told::new(recording, &delta, &snapshot), &snapshot)
+                output.commit(&delta, &CommitRecord::new(recording, &delta, &snapshot), &snapshot)?;
             }
         }
-        .map_err(failed)?;
     }
-    output.writer.finish().map_err(failed)?;
+    output.writer.finish()?;
     Ok(output.count)
 }
 
 /// The file, with its channels.
-struct Output {
-    writer: Writer<BufWriter<File>>,
+struct Output<W: Write + Seek> {
+    writer: mcap::Writer<W>,
     states: u16,
     commits: u16,
     frames: u16,
@@ -90,10 +78,10 @@ struct Output {
     count: u64,
 }
 
-impl Output {
-    fn new(file: File) -> ::mcap::McapResult<Self> {
+impl<W: Write + Seek> Output<W> {
+    fn new(output: W) -> mcap::McapResult<Self> {
         let options = WriteOptions::new().compression(None).profile("").library("pelea");
-        let mut writer = options.create(BufWriter::new(file))?;
+        let mut writer = options.create(output)?;
         let mut channel = |topic: &str, (name, schema): (&str, &str)| {
             let schema = writer.add_schema(name, "jsonschema", schema.as_bytes())?;
             writer.add_channel(schema, topic, "json", &BTreeMap::new())
@@ -104,20 +92,25 @@ impl Output {
         Ok(Self { writer, states, commits, frames, logs, count: 0 })
     }
 
-    fn state(&mut self, snapshot: &Snapshot) -> ::mcap::McapResult<()> {
+    fn state(&mut self, snapshot: &Snapshot) -> mcap::McapResult<()> {
         let time = snapshot.time();
         self.put(self.states, time, &snapshot.export())?;
         Transforms::of_state(snapshot).map_or(Ok(()), |frames| self.put(self.frames, time, &frames))
     }
 
-    fn commit(&mut self, delta: &Delta, told: &Told<'_>, snapshot: &Snapshot) -> ::mcap::McapResult<()> {
-        self.put(self.commits, delta.time, told)?;
-        self.put(self.logs, delta.time, &Log::of_commit(delta, &told.sentences, told.writer))?;
+    fn commit(
+        &mut self,
+        delta: &Delta,
+        record: &CommitRecord<'_>,
+        snapshot: &Snapshot,
+    ) -> mcap::McapResult<()> {
+        self.put(self.commits, delta.time, record)?;
+        self.put(self.logs, delta.time, &Log::of_commit(delta, &record.sentences, record.writer))?;
         let moved = Transforms::of_commit(delta, snapshot);
         moved.map_or(Ok(()), |frames| self.put(self.frames, delta.time, &frames))
     }
 
-    fn put(&mut self, channel_id: u16, Time(time): Time, message: &impl Serialize) -> ::mcap::McapResult<()> {
+    fn put(&mut self, channel_id: u16, Time(time): Time, message: &impl Serialize) -> mcap::McapResult<()> {
         // The format's counter wraps, too.
         let sequence = u32::try_from(self.count % (1 << 32)).unwrap_or_default();
         let header = MessageHeader { channel_id, sequence, log_time: time, publish_time: time };

@@ -1,14 +1,18 @@
 //! A picture of a state: nodes in rows, so that most edges point down.
 //!
-//! Where everything stands is in `layers`. Edges from one node to another are one line with their labels; transforms are
-//! dashed. A label stands on its line, on a piece of paper of its own, which needs nothing of a viewer but rectangles.
+//! The module `layers` computes the layout. All edges from one node to another share a line, which carries all their
+//! labels; transforms are dashed. A label lies on a white rectangle over its line, so a viewer needs no masks.
+
+mod layers;
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use super::layers::{Layout, Line, NODE, Point, Run, lay_out};
-use super::{View, escaped};
-use crate::id::NodeId;
+use dsr::NodeId;
+
+use self::layers::{Layout, Line, NODE, Point, Run, lay_out};
+use crate::view::View;
+use crate::xml::escaped;
 
 /// Edges between two nodes, in one direction.
 struct Bundle {
@@ -17,7 +21,8 @@ struct Bundle {
     is_transform: bool,
 }
 
-pub(super) fn draw(view: &View<'_>) -> String {
+/// Draws the view as an SVG picture.
+pub fn svg(view: &View<'_>) -> String {
     let index: BTreeMap<NodeId, usize> = view.nodes().enumerate().map(|(at, node)| (node.id, at)).collect();
     let texts: Vec<_> = view.nodes().map(|node| (node.name(), view.type_of(node))).collect();
     let widths: Vec<_> =
@@ -88,7 +93,7 @@ fn bundles(view: &View<'_>, index: &BTreeMap<NodeId, usize>) -> Vec<Bundle> {
     labels.into_iter().map(bundle).collect()
 }
 
-/// About how wide a text is, by the width of a letter.
+/// The approximate width of a text whose letters have this width.
 #[expect(clippy::cast_precision_loss, reason = "lengths of names")]
 fn wide(text: &str, letter: f64) -> f64 {
     text.chars().count() as f64 * letter

@@ -6,10 +6,19 @@
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
-use super::CortexUnit;
+use dsr::{HORIZON, Time};
+
 use super::file::Link;
-use crate::id::Time;
-use crate::track::HORIZON;
+
+/// The unit of the file's translations.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum CortexUnit {
+    /// RoboComp's own.
+    #[default]
+    Millimetres,
+    /// Some files'.
+    Metres,
+}
 
 /// Numbers in a block.
 const BLOCK: usize = 3;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::value::NewValue;
+use dsr::NewValue;
 
 /// Lists longer than this are data, such as images, and not attributes.
 const LONGEST: usize = 16;

@@ -6,19 +6,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::names::Names;
-use super::{CortexError, Edge, Kinds, Node};
-use crate::id::{AttributeId, TypeId};
-use crate::value::{Kind, NewValue};
-use crate::vocabulary::VocabularyBuilder;
+use dsr::{AttributeId, Kind, NewValue, TypeId, VocabularyBuilder};
 
-/// A value of the file.
-pub(super) struct Found {
-    pub(super) name: String,
-    /// Its place, in a list.
-    pub(super) at: Option<usize>,
-    pub(super) value: NewValue,
-}
+use super::error::CortexError;
+use super::kinds::Kinds;
+use super::names::Names;
+use super::symbols::{Edge, Found, Node};
 
 /// What an attribute sits on.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,14 +1,15 @@
 //! Worlds of cortex: what its types and its RT convention become, and what is refused.
 #![allow(clippy::unwrap_used, reason = "a test that fails says where")]
 
-use dsr::{CortexError, CortexUnit, CortexWorld, TransactionError};
+use dsr::TransactionError;
 use expect_test::expect;
+use formats::{CortexError, CortexUnit, CortexWorld, Imported, View};
 use proptest::prelude::*;
 use serde_json::{Value as Json, json};
 
 const KITCHEN: &str = include_str!("cortex/kitchen.json");
 
-fn import(json: &str) -> Result<dsr::Imported, CortexError> {
+fn import(json: &str) -> Result<Imported, CortexError> {
     serde_json::from_str::<CortexWorld>(json).unwrap().import(CortexUnit::Millimetres)
 }
 
@@ -16,7 +17,7 @@ fn import(json: &str) -> Result<dsr::Imported, CortexError> {
 fn a_world_is_taken_over() {
     let imported = import(KITCHEN).unwrap();
     let snapshot = imported.graph.snapshot();
-    let mut text = snapshot.view().lines();
+    let mut text = formats::lines(&View::whole(&snapshot));
     text.extend(imported.notes);
     expect![[r#"
         dsr (agent)
@@ -80,11 +81,11 @@ fn what_is_no_world_is_named() {
     assert!(matches!(error, CortexError::Transaction(TransactionError::SecondParent { .. })), "{error}");
 }
 
-fn take(world: &Json) -> dsr::Imported {
+fn take(world: &Json) -> Imported {
     serde_json::from_value::<CortexWorld>(world.clone()).unwrap().import(CortexUnit::Metres).unwrap()
 }
 
-fn ring(attributes: &Json) -> dsr::Imported {
+fn ring(attributes: &Json) -> Imported {
     take(&json!({"DSRModel": {"symbols": {
         "1": {"id": "1", "type": "root", "name": "world", "links": [
             {"src": "1", "dst": "2", "label": "RT", "linkAttribute": attributes}]},
@@ -92,7 +93,7 @@ fn ring(attributes: &Json) -> dsr::Imported {
 }
 
 /// Where the robot is, and when it was where.
-fn along_x(imported: &dsr::Imported) -> (f64, Vec<(u64, f64)>) {
+fn along_x(imported: &Imported) -> (f64, Vec<(u64, f64)>) {
     let snapshot = imported.graph.snapshot();
     let node = |name| snapshot.node(name).unwrap();
     let now = snapshot.transform(node("world"), node("shadow")).unwrap().translation.x;
@@ -158,7 +159,7 @@ fn names_that_clash_are_told() {
         "2": {"id": "2", "type": "cortex_object", "name": "cortex_dsr", "attribute": {
             "port": {"type": 0, "value": "x"}}}}}});
     let imported = take(&world);
-    let mut text = imported.graph.snapshot().view().lines();
+    let mut text = formats::lines(&View::whole(&imported.graph.snapshot()));
     text.extend(imported.notes);
     expect![[r#"
         dsr (agent)

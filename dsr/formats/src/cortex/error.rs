@@ -1,0 +1,21 @@
+//! Why a file of cortex cannot become a graph.
+
+use dsr::{TransactionError, VocabularyError};
+
+/// Why a file is no world of ours.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the fields are what the variant is about")]
+pub enum CortexError {
+    /// Two symbols with one id.
+    #[error("two symbols have the id {id}")]
+    SameId { id: String },
+    /// An RT link without three numbers each.
+    #[error("link `RT` from `{parent}` to `{child}` has no translation and rotation of three numbers")]
+    NoPose { parent: String, child: String },
+    /// Tokens that no vocabulary has.
+    #[error(transparent)]
+    Vocabulary(#[from] VocabularyError),
+    /// Not a graph that keeps the invariants: a second root, a cycle, a second parent.
+    #[error(transparent)]
+    Transaction(#[from] TransactionError),
+}
