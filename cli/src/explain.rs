@@ -89,12 +89,13 @@ fn show(explanation: &Explanation, lint: Option<&Lint>, text: &str, console: &mu
 /// For a terminal.
 fn text(explanation: &Explanation) -> String {
     let Explanation { code, title, meaning, why, wrong, right } = explanation;
-    let mut text = format!("{code}: {title}\n\n{}\n{}", wrapped(meaning), wrapped(why));
+    let why: String = why.lines().map(wrapped).collect();
+    let mut text = format!("{code}: {title}\n\n{}\n{}", wrapped(meaning), why);
     for (heading, files) in [("Wrong", wrong), ("Right", right)] {
         if !files.is_empty() {
             let _ = write!(text, "\n{heading}:\n");
         }
-        for file in *files {
+        for file in files {
             text.push('\n');
             for line in file.lines() {
                 text.push_str(if line.is_empty() { "" } else { "    " });

@@ -50,8 +50,8 @@ pub use analysis::{
 };
 pub use decimal::{Decimal, NotADecimal};
 pub use diagnostic::{
-    Diagnostic, DiagnosticKind, Explanation, FileKind, Label, SymbolKind, UnknownCode, UnsupportedFeature,
-    explain, explanations,
+    Diagnostic, DiagnosticKind, Explanation, FileKind, Label, MalformedExplanation, SymbolKind, UnknownCode,
+    UnsupportedFeature, explain, explanations,
 };
 /// Texts and places in them, for callers that read nothing but PDDL.
 pub use diagnostics::{LineColumn, Severity, Source, Span};

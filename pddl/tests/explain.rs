@@ -50,15 +50,15 @@ fn every_code_is_explained_and_in_order() {
 fn wrong_examples_give_their_code_and_right_ones_none() {
     let mut failed = String::new();
     for explanation in explanations() {
-        let (wrong, text) = said(explanation.wrong);
+        let (wrong, text) = said(&explanation.wrong);
         if wrong != BTreeSet::from([explanation.code]) {
             failed += &format!("the wrong example of {} gives {wrong:?}\n{text}", explanation.code);
         }
-        let (right, text) = said(explanation.right);
+        let (right, text) = said(&explanation.right);
         if explanation.right.is_empty() || !right.is_empty() {
             failed += &format!("the right example of {} gives {right:?}\n{text}", explanation.code);
         }
-        for file in explanation.right {
+        for file in &explanation.right {
             let formatted = pddl::format(&Source::new(explanation.code, *file)).expect("right is balanced");
             if formatted.trim_end() != *file {
                 failed += &format!("the right example of {} should be\n{formatted}", explanation.code);

@@ -6,9 +6,11 @@
 
 mod describe;
 mod explain;
+mod explanation;
 mod kind;
 
-pub use explain::{Explanation, UnknownCode, explain, explanations};
+pub use explain::{UnknownCode, explain, explanations};
+pub use explanation::{Explanation, MalformedExplanation};
 pub use kind::{DiagnosticKind, FileKind, SymbolKind, UnsupportedFeature};
 
 use diagnostics::{Severity, Span};

@@ -46,7 +46,7 @@ pub fn hover(project: &Project, at: Position) -> Option<Hover> {
         }
         let explanation = pddl::explain(finding.code)
             .ok()
-            .or_else(|| lints::find(finding.code).map(|lint| &lint.explanation));
+            .or_else(|| lints::find(finding.code).map(|lint| &*lint.explanation));
         if let Some(explanation) = explanation {
             span.get_or_insert(place);
             parts.push(format!("**{}** {}: {}", explanation.code, explanation.title, explanation.meaning));

@@ -1,5 +1,7 @@
 //! What a lint is.
 
+use std::sync::LazyLock;
+
 use pddl::Explanation;
 
 use crate::finding::Findings;
@@ -22,7 +24,7 @@ pub struct Lint {
     /// Who wants to read it.
     pub level: Level,
     /// Its code and what it means, with a wrong example and a right one.
-    pub explanation: Explanation,
+    pub explanation: LazyLock<Explanation>,
     pub(crate) checks: &'static [Check],
 }
 
@@ -32,6 +34,14 @@ impl Lint {
         self.explanation.code
     }
 }
+
+/// The explanation of a code, from the page beside the lint's file.
+macro_rules! explanation {
+    ($code:literal) => {
+        std::sync::LazyLock::new(|| pddl::Explanation::included($code, include_str!(concat!($code, ".md"))))
+    };
+}
+pub(crate) use explanation;
 
 /// Looks for the mistake.
 #[derive(Debug)]

@@ -52,11 +52,11 @@ fn every_lint_is_explained_and_its_examples_are_examples_of_it() {
     let mut failed = String::new();
     for lint in lints::all() {
         let e = &lint.explanation;
-        for text in [e.title, e.meaning, e.why] {
+        for text in [e.title, &e.meaning, &e.why] {
             assert!(!text.is_empty(), "{}", lint.name);
         }
         assert!(e.meaning.ends_with('.') && e.why.ends_with('.'), "{}", lint.name);
-        let (wrong, right) = (Case::of_texts(e.wrong), Case::of_texts(e.right));
+        let (wrong, right) = (Case::of_texts(&e.wrong), Case::of_texts(&e.right));
         let found = names(&findings_of(&wrong, Level::Pedantic));
         if !found.contains(lint.name) {
             failed += &format!("the wrong example of {} gives {found:?}\n", lint.name);
@@ -65,7 +65,7 @@ fn every_lint_is_explained_and_its_examples_are_examples_of_it() {
         if found.iter().any(|f| f.lint.level == Level::Default || f.lint.name == lint.name) {
             failed += &format!("the right example of {} gives\n{}", lint.name, right.describe(&found));
         }
-        for file in e.right.iter().chain(e.wrong) {
+        for file in e.right.iter().chain(&e.wrong) {
             let formatted = pddl::format(&Source::new(e.code, *file)).expect("parentheses match");
             if formatted.trim_end() != *file {
                 failed += &format!("an example of {} should be\n{formatted}", lint.name);
@@ -142,7 +142,7 @@ fn the_page_lists_all_lints() {
     let mut table = String::from("| code | name | what it finds |\n|---|---|---|\n");
     for lint in lints::all() {
         let pedantic = if lint.level == Level::Pedantic { " (pedantic)" } else { "" };
-        let (code, name, meaning) = (lint.code(), lint.name, lint.explanation.meaning);
+        let (code, name, meaning) = (lint.code(), lint.name, &lint.explanation.meaning);
         table += &format!("| {code} | `{name}`{pedantic} | {meaning} |\n");
     }
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/lints.md");

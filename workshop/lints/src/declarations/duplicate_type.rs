@@ -1,12 +1,12 @@
 //! A type that is declared twice.
 
+use pddl::FileKind;
 use pddl::model::Name;
 use pddl::syntax::Node;
-use pddl::{Explanation, FileKind};
 use rustc_hash::FxHashMap;
 
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::text;
 use crate::view::DomainView;
 use crate::{Finding, Level, Lint, Place};
@@ -14,31 +14,7 @@ use crate::{Finding, Level, Lint, Place};
 pub(crate) static LINT: Lint = Lint {
     name: "duplicate-type",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0713",
-        title: "type declared twice",
-        meaning: "A name stands twice on the left in `:types`, below the same supertype or once below `object`.",
-        why: "pelea takes the supertypes of both; other tools take those of the first or of the last one, or refuse \
-         the file. If it shall have two supertypes, write `(either a b)`.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp - thing room - object lamp - object thing - object)
-  (:predicates (lit ?x - lamp) (in ?x - thing ?r - room))
-  (:action switch
-    :parameters (?x - lamp ?r - room)
-    :precondition (in ?x ?r)
-    :effect (lit ?x)))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp - thing room - object thing - object)
-  (:predicates (lit ?x - lamp) (in ?x - thing ?r - room))
-  (:action switch
-    :parameters (?x - lamp ?r - room)
-    :precondition (in ?x ?r)
-    :effect (lit ?x)))"],
-    },
+    explanation: explanation!("W0713"),
     checks: &[Check::Domain(check)],
 };
 

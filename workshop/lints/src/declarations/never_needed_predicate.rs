@@ -1,59 +1,14 @@
 //! A predicate that effects change and nothing asks for.
 
-use pddl::Explanation;
-
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::{ProblemView, is_here};
 use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "never-needed-predicate",
     level: Level::Pedantic,
-    explanation: Explanation {
-        code: "W0704",
-        title: "predicate is never needed",
-        meaning: "Effects or axioms make a predicate true or false, but no condition of the domain asks for it, \
-         and no goal or constraint of the problems that were looked at. Hierarchical domains are not looked at.",
-        why: "It changes nothing that can be done, unless other problems have it in their goals. Often a condition is missing: the effect `(occupied \
-         ?place)` is of no use while no action needs `(not (occupied ?place))`.",
-        wrong: &[
-            "\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (warm ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :effect (and (lit ?x) (warm ?x))))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects left - lamp)
-  (:init)
-  (:goal (lit left)))",
-        ],
-        right: &[
-            "\
-(define (domain hall)
-  (:requirements :typing :negative-preconditions)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (warm ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :effect (and (lit ?x) (warm ?x)))
-  (:action change
-    :parameters (?x - lamp)
-    :precondition (not (warm ?x))
-    :effect (not (lit ?x))))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects left - lamp)
-  (:init)
-  (:goal (lit left)))",
-        ],
-    },
+    explanation: explanation!("W0704"),
     checks: &[Check::Problem(check)],
 };
 

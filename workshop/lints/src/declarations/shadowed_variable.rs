@@ -1,42 +1,17 @@
 //! `(exists (?x) …)` inside of something that has `?x` already.
 
+use pddl::FileKind;
 use pddl::syntax::{Node, NodeKind};
-use pddl::{Explanation, FileKind};
 
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::{DomainView, ProblemView};
 use crate::{Finding, Level, Lint, Place, text};
 
 pub(crate) static LINT: Lint = Lint {
     name: "shadowed-variable",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0714",
-        title: "shadowed variable",
-        meaning: "A quantifier binds a variable of the same name as a parameter, or as a variable of a quantifier \
-         around it.",
-        why: "Inside, the name means the inner one; the outer one cannot be named. Whoever reads `?x` may \
-         take it for the parameter.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :adl)
-  (:types lamp)
-  (:predicates (lit ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (not (exists (?x - lamp) (lit ?x)))
-    :effect (lit ?x)))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :adl)
-  (:types lamp)
-  (:predicates (lit ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (not (exists (?y - lamp) (lit ?y)))
-    :effect (lit ?x)))"],
-    },
+    explanation: explanation!("W0714"),
     checks: &[Check::Domain(in_domain), Check::Problem(in_problem)],
 };
 

@@ -1,39 +1,17 @@
 //! `:htn` for `:hierarchy`.
 
+use pddl::FileKind;
 use pddl::model::Requirement;
-use pddl::{Explanation, FileKind};
 
 use crate::finding::{Edit, Findings};
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::{DomainView, ProblemView};
 use crate::{Finding, Level, Lint, Place, text};
 
 pub(crate) static LINT: Lint = Lint {
     name: "synonym-requirement",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0717",
-        title: "requirement that no standard knows",
-        meaning: "A requirement is written in a way that some tool understands and no standard of PDDL or HDDL \
-         has.",
-        why: "Other tools refuse it, or ignore it. There is a standard name for it.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :domain-axioms :existential-preconditions)
-  (:predicates (lit) (dark) (broken ?x))
-  (:derived (dark) (exists (?x) (broken ?x)))
-  (:action switch
-    :precondition (dark)
-    :effect (lit)))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :derived-predicates :existential-preconditions)
-  (:predicates (lit) (dark) (broken ?x))
-  (:derived (dark) (exists (?x) (broken ?x)))
-  (:action switch
-    :precondition (dark)
-    :effect (lit)))"],
-    },
+    explanation: explanation!("W0717"),
     checks: &[Check::Domain(in_domain), Check::Problem(in_problem)],
 };
 

@@ -1,10 +1,9 @@
 //! A parameter that may be anything.
 
-use pddl::Explanation;
 use pddl::model::{Domain, Idx, Term, TypeTable};
 
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::schema::Schema;
 use crate::view::DomainView;
 use crate::walk::Part;
@@ -13,36 +12,7 @@ use crate::{Finding, Level, Lint, Place};
 pub(crate) static LINT: Lint = Lint {
     name: "unconstrained-parameter",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0711",
-        title: "unconstrained parameter",
-        meaning: "An effect names a parameter that no condition names and whose type is `object`, in a domain \
-         that tells its objects apart.",
-        why: "The action applies to everything: lamps are switched on, and so are rooms. Without types a \
-         condition such as `(lamp ?x)` is missing, with types a type.",
-        wrong: &["\
-(define (domain hall)
-  (:predicates (lamp ?x) (room ?x) (lit ?x) (in ?x ?r))
-  (:action switch
-    :parameters (?x ?r)
-    :precondition (and (room ?r) (in ?x ?r))
-    :effect (lit ?x))
-  (:action carry
-    :parameters (?x ?from ?to)
-    :precondition (and (lamp ?x) (room ?from) (in ?x ?from))
-    :effect (and (in ?x ?to) (not (in ?x ?from)))))"],
-        right: &["\
-(define (domain hall)
-  (:predicates (lamp ?x) (room ?x) (lit ?x) (in ?x ?r))
-  (:action switch
-    :parameters (?x ?r)
-    :precondition (and (room ?r) (in ?x ?r))
-    :effect (lit ?x))
-  (:action carry
-    :parameters (?x ?from ?to)
-    :precondition (and (lamp ?x) (room ?from) (room ?to) (in ?x ?from))
-    :effect (and (in ?x ?to) (not (in ?x ?from)))))"],
-    },
+    explanation: explanation!("W0711"),
     checks: &[Check::Domain(check)],
 };
 

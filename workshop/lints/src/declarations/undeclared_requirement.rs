@@ -2,42 +2,18 @@
 
 use pddl::model::Requirements;
 use pddl::syntax::Tree;
-use pddl::{Explanation, FileKind, Span};
+use pddl::{FileKind, Span};
 
 use super::features::{Need, is_granted, of_domain, of_problem};
 use crate::finding::{Edit, Findings};
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::{DomainView, ProblemView, is_here};
 use crate::{Finding, Level, Lint, Place, text};
 
 pub(crate) static LINT: Lint = Lint {
     name: "undeclared-requirement",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0701",
-        title: "undeclared requirement",
-        meaning: "The file uses a part of the language that `:requirements` does not announce.",
-        why: "Tools may refuse the file, or worse, read it as if that part were not there. pelea reads it all \
-         the same.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (not (broken ?x))
-    :effect (lit ?x)))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing :negative-preconditions)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (not (broken ?x))
-    :effect (lit ?x)))"],
-    },
+    explanation: explanation!("W0701"),
     checks: &[Check::Domain(in_domain), Check::Problem(in_problem)],
 };
 

@@ -2,11 +2,11 @@
 
 use pddl::model::{TypeSet, Variables};
 use pddl::syntax::{Node, NodeKind};
-use pddl::{Explanation, FileKind, Span};
+use pddl::{FileKind, Span};
 use rustc_hash::FxHashSet;
 
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::text;
 use crate::view::DomainView;
 use crate::{Finding, Level, Lint, Place};
@@ -14,31 +14,7 @@ use crate::{Finding, Level, Lint, Place};
 pub(crate) static LINT: Lint = Lint {
     name: "untyped-parameter",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0712",
-        title: "untyped parameter",
-        meaning: "A variable is declared without a type in a domain that has types.",
-        why: "It is then of type `object`: anything. Mostly the type was forgotten, or the list was meant to \
-         go on to the next type. Write `- object` if it is meant.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp room)
-  (:predicates (lit ?x - lamp) (in ?x - lamp ?r))
-  (:action switch
-    :parameters (?x - lamp ?r - room)
-    :precondition (in ?x ?r)
-    :effect (lit ?x)))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp room)
-  (:predicates (lit ?x - lamp) (in ?x - lamp ?r - room))
-  (:action switch
-    :parameters (?x - lamp ?r - room)
-    :precondition (in ?x ?r)
-    :effect (lit ?x)))"],
-    },
+    explanation: explanation!("W0712"),
     checks: &[Check::Domain(check)],
 };
 

@@ -1,57 +1,14 @@
 //! A function that nobody names.
 
-use pddl::Explanation;
-
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::{ProblemView, is_here};
 use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "unused-function",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0706",
-        title: "unused function",
-        meaning: "A function is declared, but no condition, effect or duration of the domain names it, and no \
-         metric of the problems that were looked at.",
-        why: "Its values change nothing. A planner that refuses numbers refuses the domain for nothing.",
-        wrong: &[
-            "\
-(define (domain hall)
-  (:requirements :typing :numeric-fluents)
-  (:types lamp)
-  (:predicates (lit ?x - lamp))
-  (:functions (power ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :effect (lit ?x)))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects left - lamp)
-  (:init (= (power left) 5))
-  (:goal (lit left)))",
-        ],
-        right: &[
-            "\
-(define (domain hall)
-  (:requirements :typing :numeric-fluents)
-  (:types lamp)
-  (:predicates (lit ?x - lamp))
-  (:functions (power ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (> (power ?x) 3)
-    :effect (lit ?x)))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects left - lamp)
-  (:init (= (power left) 5))
-  (:goal (lit left)))",
-        ],
-    },
+    explanation: explanation!("W0706"),
     checks: &[Check::Problem(check)],
 };
 

@@ -1,56 +1,14 @@
 //! An object that the problem only declares.
 
-use pddl::Explanation;
-
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::ProblemView;
 use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "unused-object",
     level: Level::Pedantic,
-    explanation: Explanation {
-        code: "W0715",
-        title: "unused object",
-        meaning: "An object is declared, but no fact, goal or task of its problem names it.",
-        why: "No action that needs a fact about it can ever use it. Often its facts were forgotten; otherwise \
-         it makes grounding larger for nothing.",
-        wrong: &[
-            "\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (plugged ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (plugged ?x)
-    :effect (lit ?x)))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects left right - lamp)
-  (:init (plugged left))
-  (:goal (lit left)))",
-        ],
-        right: &[
-            "\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (plugged ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (plugged ?x)
-    :effect (lit ?x)))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects left - lamp)
-  (:init (plugged left))
-  (:goal (lit left)))",
-        ],
-    },
+    explanation: explanation!("W0715"),
     checks: &[Check::Problem(check)],
 };
 

@@ -1,40 +1,16 @@
 //! `:parameters (?x ?y)` where nothing says `?y`.
 
-use pddl::Explanation;
 use pddl::model::{Idx, Term};
 
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::DomainView;
 use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "unused-parameter",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0709",
-        title: "unused parameter",
-        meaning: "No condition, effect or subtask of an action, a rule or a method names this parameter.",
-        why: "It changes nothing, and yet there is an instance for each object that it may stand for: a planner \
-         grounds and searches many times the same. Either a condition is missing that should tell which object \
-         is meant, or the parameter can go.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp room)
-  (:predicates (lit ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp ?y - room)
-    :effect (lit ?x)))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp)
-  (:predicates (lit ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :effect (lit ?x)))"],
-    },
+    explanation: explanation!("W0709"),
     checks: &[Check::Domain(check)],
 };
 

@@ -1,42 +1,18 @@
 //! A requirement without its feature.
 
 use pddl::model::Requirement;
-use pddl::{Explanation, FileKind, Span};
+use pddl::{FileKind, Span};
 
 use super::features::{Need, grants, of_domain, of_problem};
 use crate::finding::{Edit, Findings};
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::{DomainView, ProblemView};
 use crate::{Finding, Level, Lint, Place, text};
 
 pub(crate) static LINT: Lint = Lint {
     name: "unused-requirement",
     level: Level::Pedantic,
-    explanation: Explanation {
-        code: "W0702",
-        title: "unused requirement",
-        meaning: "A requirement is declared, but neither the domain nor a problem that was looked at uses what it \
-         announces. A requirement for several features is used if one of them is.",
-        why: "A tool that lacks the feature refuses the domain for nothing.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing :negative-preconditions :conditional-effects)
-  (:types lamp)
-  (:predicates (lit ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (not (lit ?x))
-    :effect (lit ?x)))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing :negative-preconditions)
-  (:types lamp)
-  (:predicates (lit ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (not (lit ?x))
-    :effect (lit ?x)))"],
-    },
+    explanation: explanation!("W0702"),
     checks: &[Check::Domain(in_domain), Check::Problem(with_problem)],
 };
 

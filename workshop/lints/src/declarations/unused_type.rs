@@ -1,41 +1,16 @@
 //! A type that nothing is of.
 
-use pddl::Explanation;
 use pddl::model::{Feature, TypeTable};
 
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::{DomainView, is_here};
 use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "unused-type",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0707",
-        title: "unused type",
-        meaning: "No variable, predicate, function, task or constant of the domain has this type, one of its \
-         supertypes (other than `object`) or one of its subtypes.",
-        why: "An object of it could take part in nothing. Often a parameter should have it and has a wider \
-         type.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp room)
-  (:predicates (lit ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :effect (lit ?x)))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp room)
-  (:predicates (lit ?x - lamp) (in ?x - lamp ?r - room))
-  (:action switch
-    :parameters (?x - lamp ?r - room)
-    :precondition (in ?x ?r)
-    :effect (lit ?x)))"],
-    },
+    explanation: explanation!("W0707"),
     checks: &[Check::Domain(check)],
 };
 

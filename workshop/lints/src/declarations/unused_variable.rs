@@ -1,10 +1,9 @@
 //! `(exists (?x) …)` where nothing says `?x`.
 
-use pddl::Explanation;
 use pddl::model::{Idx, Term, VariableId, Variables};
 
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::{DomainView, ProblemView};
 use crate::walk::{self, Part, Polarity};
 use crate::{Finding, Level, Lint, Place};
@@ -12,31 +11,7 @@ use crate::{Finding, Level, Lint, Place};
 pub(crate) static LINT: Lint = Lint {
     name: "unused-variable",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0710",
-        title: "unused variable",
-        meaning: "A quantifier binds a variable that its body does not name.",
-        why: "`forall` and `exists` then only ask whether there is any object of that type. Often the body \
-         names the wrong variable.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing :existential-preconditions)
-  (:types lamp)
-  (:predicates (lit ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (exists (?y - lamp) (lit ?x))
-    :effect (lit ?x)))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing :existential-preconditions)
-  (:types lamp)
-  (:predicates (lit ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (exists (?y - lamp) (lit ?y))
-    :effect (lit ?x)))"],
-    },
+    explanation: explanation!("W0710"),
     checks: &[Check::Domain(in_domain), Check::Problem(in_goal)],
 };
 

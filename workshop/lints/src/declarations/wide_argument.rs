@@ -1,10 +1,9 @@
 //! A variable of a wider type than what it is an argument of.
 
-use pddl::Explanation;
 use pddl::model::{Domain, Name, Term, Variables};
 
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::DomainView;
 use crate::walk::Part;
 use crate::{Finding, Level, Lint, Place};
@@ -12,32 +11,7 @@ use crate::{Finding, Level, Lint, Place};
 pub(crate) static LINT: Lint = Lint {
     name: "wide-argument",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0716",
-        title: "argument of a wider type",
-        meaning: "A variable is an argument of a predicate, function, task or action whose parameter has a \
-         narrower type.",
-        why: "It can then stand only for objects of the narrower type: the declared type says more than is \
-         true. Some tools refuse it. Give the variable the narrower type.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp - thing)
-  (:predicates (lit ?x - lamp) (here ?x - thing))
-  (:action switch
-    :parameters (?x - thing)
-    :precondition (here ?x)
-    :effect (lit ?x)))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp - thing)
-  (:predicates (lit ?x - lamp) (here ?x - thing))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (here ?x)
-    :effect (lit ?x)))"],
-    },
+    explanation: explanation!("W0716"),
     checks: &[Check::Domain(check)],
 };
 

@@ -1,55 +1,16 @@
 //! A task whose methods all lead to a task of that kind.
 
-use pddl::Explanation;
 use pddl::model::{Idx, Method, SubtaskHead};
 
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::DomainView;
 use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "endless-recursion",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0903",
-        title: "recursion without an end",
-        meaning: "Whatever method is chosen for the task, some task without a method for the end is left to be \
-         carried out, the task itself again or another one of that kind.",
-        why: "It can never be carried out. Add a method for the case in which nothing is left to do.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing :hierarchy)
-  (:types lamp)
-  (:predicates (lit ?x - lamp))
-  (:task brighten
-    :parameters (?x - lamp))
-  (:method next
-    :parameters (?x - lamp)
-    :task (brighten ?x)
-    :ordered-subtasks (and (switch ?x) (brighten ?x)))
-  (:action switch
-    :parameters (?x - lamp)
-    :effect (lit ?x)))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing :hierarchy)
-  (:types lamp)
-  (:predicates (lit ?x - lamp))
-  (:task brighten
-    :parameters (?x - lamp))
-  (:method next
-    :parameters (?x - lamp)
-    :task (brighten ?x)
-    :ordered-subtasks (and (switch ?x) (brighten ?x)))
-  (:method done
-    :parameters (?x - lamp)
-    :task (brighten ?x)
-    :ordered-subtasks ())
-  (:action switch
-    :parameters (?x - lamp)
-    :effect (lit ?x)))"],
-    },
+    explanation: explanation!("W0903"),
     checks: &[Check::Domain(check)],
 };
 

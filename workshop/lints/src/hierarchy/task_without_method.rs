@@ -1,45 +1,14 @@
 //! A compound task that nothing can carry out.
 
-use pddl::Explanation;
-
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::DomainView;
 use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "task-without-method",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0901",
-        title: "task without a method",
-        meaning: "A compound task is declared, but no method is for it.",
-        why: "It can never be carried out, and neither can any method that has it as a subtask.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing :hierarchy)
-  (:types lamp)
-  (:predicates (lit ?x - lamp))
-  (:task brighten
-    :parameters (?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :effect (lit ?x)))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing :hierarchy)
-  (:types lamp)
-  (:predicates (lit ?x - lamp))
-  (:task brighten
-    :parameters (?x - lamp))
-  (:method by-hand
-    :parameters (?x - lamp)
-    :task (brighten ?x)
-    :ordered-subtasks (switch ?x))
-  (:action switch
-    :parameters (?x - lamp)
-    :effect (lit ?x)))"],
-    },
+    explanation: explanation!("W0901"),
     checks: &[Check::Domain(check)],
 };
 

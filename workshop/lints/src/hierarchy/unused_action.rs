@@ -1,71 +1,14 @@
 //! An action that no task network has.
 
-use pddl::Explanation;
-
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::ProblemView;
 use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "unused-action",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0904",
-        title: "action in no task network",
-        meaning: "The domain has tasks, but no method has the action as a subtask, and no problem that was looked \
-         at.",
-        why: "In a hierarchical problem only what some task becomes is carried out: this action never is.",
-        wrong: &[
-            "\
-(define (domain hall)
-  (:requirements :typing :hierarchy)
-  (:types lamp)
-  (:predicates (lit ?x - lamp))
-  (:task brighten
-    :parameters (?x - lamp))
-  (:method by-hand
-    :parameters (?x - lamp)
-    :task (brighten ?x)
-    :ordered-subtasks (switch ?x))
-  (:action shout
-    :parameters ()
-    :effect ())
-  (:action switch
-    :parameters (?x - lamp)
-    :effect (lit ?x)))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects left - lamp)
-  (:htn
-    :ordered-subtasks (brighten left))
-  (:init))",
-        ],
-        right: &[
-            "\
-(define (domain hall)
-  (:requirements :typing :hierarchy)
-  (:types lamp)
-  (:predicates (lit ?x - lamp))
-  (:task brighten
-    :parameters (?x - lamp))
-  (:method by-hand
-    :parameters (?x - lamp)
-    :task (brighten ?x)
-    :ordered-subtasks (switch ?x))
-  (:action switch
-    :parameters (?x - lamp)
-    :effect (lit ?x)))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects left - lamp)
-  (:htn
-    :ordered-subtasks (brighten left))
-  (:init))",
-        ],
-    },
+    explanation: explanation!("W0904"),
     checks: &[Check::Problem(check)],
 };
 

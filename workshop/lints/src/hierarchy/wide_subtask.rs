@@ -1,58 +1,17 @@
 //! A variable of a wider type than what its subtask takes.
 
-use pddl::Explanation;
 use pddl::model::{SubtaskHead, Term, Variables};
 
 use crate::declarations::type_text;
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::DomainView;
 use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "wide-subtask",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0905",
-        title: "subtask of a narrower type",
-        meaning: "A method gives a subtask a variable whose type is wider than that of the parameter.",
-        why: "The method works only for objects of the narrower type, although it says that it is for others, \
-         too: for those the task may be left without any method. Some tools refuse it.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing :hierarchy)
-  (:types lamp - thing)
-  (:predicates (lit ?x - lamp) (clean ?x - thing))
-  (:task tidy
-    :parameters (?x - thing))
-  (:method in-order
-    :parameters (?x - thing)
-    :task (tidy ?x)
-    :ordered-subtasks (and (wipe ?x) (switch ?x)))
-  (:action wipe
-    :parameters (?x - thing)
-    :effect (clean ?x))
-  (:action switch
-    :parameters (?x - lamp)
-    :effect (lit ?x)))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing :hierarchy)
-  (:types lamp - thing)
-  (:predicates (lit ?x - lamp) (clean ?x - thing))
-  (:task tidy
-    :parameters (?x - thing))
-  (:method in-order
-    :parameters (?x - lamp)
-    :task (tidy ?x)
-    :ordered-subtasks (and (wipe ?x) (switch ?x)))
-  (:action wipe
-    :parameters (?x - thing)
-    :effect (clean ?x))
-  (:action switch
-    :parameters (?x - lamp)
-    :effect (lit ?x)))"],
-    },
+    explanation: explanation!("W0905"),
     checks: &[Check::Domain(check)],
 };
 

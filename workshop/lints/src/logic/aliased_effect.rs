@@ -1,46 +1,19 @@
 //! An effect that contradicts itself where two parameters are the same object.
 
 use analysis::invariants::differ;
-use pddl::Explanation;
 use pddl::model::{Atom, EffectKind, Term};
 
 use super::changes::Changes;
 use super::literals::{Fact, Literal, required};
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::DomainView;
 use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "aliased-effect",
     level: Level::Pedantic,
-    explanation: Explanation {
-        code: "W0818",
-        title: "effect contradicts itself for equal parameters",
-        meaning: "An action makes an atom true and another one of the same predicate false, and nothing keeps their \
-         parameters from being the same object: no `not =`, no types that exclude each other, no fact about both that nothing changes.",
-        why: "Where they are the same, adding wins and the action deletes nothing: moving from a place to the same \
-         place is a step that changes nothing, or that only takes time. Often nobody minds, since a fact that nothing \
-         changes tells them apart.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types cart place)
-  (:predicates (at ?c - cart ?p - place))
-  (:action move
-    :parameters (?c - cart ?from ?to - place)
-    :precondition (at ?c ?from)
-    :effect (and (not (at ?c ?from)) (at ?c ?to))))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing :negative-preconditions :equality)
-  (:types cart place)
-  (:predicates (at ?c - cart ?p - place))
-  (:action move
-    :parameters (?c - cart ?from ?to - place)
-    :precondition (and (at ?c ?from) (not (= ?from ?to)))
-    :effect (and (not (at ?c ?from)) (at ?c ?to))))"],
-    },
+    explanation: explanation!("W0818"),
     checks: &[Check::Domain(check)],
 };
 

@@ -1,11 +1,10 @@
 //! A condition that can never hold.
 
-use pddl::Explanation;
 use pddl::model::{Comparison, Condition, ConditionKind, Expression, ExpressionKind, Term};
 
 use super::literals::{Fact, Group, Literal, contradictions, groups};
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::shape::Shape;
 use crate::view::{DomainView, ProblemView};
 use crate::{Finding, Level, Lint, Place};
@@ -13,32 +12,7 @@ use crate::{Finding, Level, Lint, Place};
 pub(crate) static LINT: Lint = Lint {
     name: "always-false",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0801",
-        title: "condition is always false",
-        meaning: "A condition asks for something and for its negation, compares what is never equal, or is an \
-         `or` of nothing.",
-        why: "An action, a method or an axiom with it is dead. Mostly one of two atoms is meant to be another \
-         one.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing :negative-preconditions)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (and (lit ?x) (not (lit ?x)))
-    :effect (broken ?x)))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing :negative-preconditions)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (and (lit ?x) (not (broken ?x)))
-    :effect (broken ?x)))"],
-    },
+    explanation: explanation!("W0801"),
     checks: &[Check::Domain(in_domain), Check::Problem(in_goal)],
 };
 

@@ -1,42 +1,16 @@
 //! A condition that always holds.
 
-use pddl::Explanation;
-
 use super::always_false::verdict;
 use super::literals::{Group, Literal, contradictions, groups};
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::{DomainView, ProblemView};
 use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "always-true",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0802",
-        title: "condition is always true",
-        meaning: "A condition asks for something or its negation, or compares what is always equal.",
-        why: "It asks for nothing. Mostly one of two terms is meant to be another one: `(= ?x ?x)` for `(= ?x \
-         ?y)`.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing :equality)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (and (broken ?x) (= ?x ?x))
-    :effect (lit ?x)))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (broken ?x)
-    :effect (lit ?x)))"],
-    },
+    explanation: explanation!("W0802"),
     checks: &[Check::Domain(in_domain), Check::Problem(in_goal)],
 };
 

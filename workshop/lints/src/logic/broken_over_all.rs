@@ -1,46 +1,18 @@
 //! A durative action that breaks its own `over all`.
 
-use pddl::Explanation;
 use pddl::model::{EffectKind, TimeSpecifier};
 
 use super::changes::Changes;
 use super::literals::{Fact, required};
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::DomainView;
 use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "broken-over-all",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0810",
-        title: "own effect breaks `over all`",
-        meaning: "An effect at the start takes away what the action asks for over all of its duration.",
-        why: "`over all` is about the time after the start effects. The action can never be carried out; a \
-         rule is aborted in the moment in which it starts. Take it away at the end, or ask for it at the \
-         start only.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing :durative-actions)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:durative-action repair
-    :parameters (?x - lamp)
-    :duration (= ?duration 5)
-    :condition (over all (broken ?x))
-    :effect (and (at start (not (broken ?x))) (at end (lit ?x)))))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing :durative-actions)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:durative-action repair
-    :parameters (?x - lamp)
-    :duration (= ?duration 5)
-    :condition (over all (broken ?x))
-    :effect (and (at end (not (broken ?x))) (at end (lit ?x)))))"],
-    },
+    explanation: explanation!("W0810"),
     checks: &[Check::Domain(check)],
 };
 

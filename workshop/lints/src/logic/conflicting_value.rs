@@ -2,54 +2,18 @@
 
 use std::collections::hash_map::Entry;
 
-use pddl::Explanation;
 use pddl::model::{FluentFact, FunctionId, ObjectId};
 use rustc_hash::FxHashMap;
 
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::ProblemView;
 use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "conflicting-value",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0815",
-        title: "two initial values",
-        meaning: "The initial state gives a function two different values for the same objects.",
-        why: "Tools differ in which one they take.",
-        wrong: &[
-            "\
-(define (domain hall)
-  (:requirements :numeric-fluents)
-  (:predicates (lit))
-  (:functions (power))
-  (:action switch
-    :precondition (> (power) 3)
-    :effect (and (lit) (decrease (power) 1))))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:init (= (power) 5) (= (power) 7))
-  (:goal (lit)))",
-        ],
-        right: &[
-            "\
-(define (domain hall)
-  (:requirements :numeric-fluents)
-  (:predicates (lit))
-  (:functions (power))
-  (:action switch
-    :precondition (> (power) 3)
-    :effect (and (lit) (decrease (power) 1))))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:init (= (power) 5))
-  (:goal (lit)))",
-        ],
-    },
+    explanation: explanation!("W0815"),
     checks: &[Check::Problem(check)],
 };
 

@@ -1,54 +1,16 @@
 //! A metric that is the same for every plan.
 
-use pddl::Explanation;
 use pddl::model::{Expression, ExpressionKind};
 
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::ProblemView;
 use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "constant-metric",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0817",
-        title: "metric is constant",
-        meaning: "No action changes a function that the metric is about.",
-        why: "All plans are equally good. Mostly another function is meant, or an effect is missing.",
-        wrong: &[
-            "\
-(define (domain hall)
-  (:requirements :numeric-fluents)
-  (:predicates (lit))
-  (:functions (power) (price))
-  (:action switch
-    :precondition (> (power) 3)
-    :effect (and (lit) (decrease (power) 1))))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:init (= (power) 5) (= (price) 2))
-  (:goal (lit))
-  (:metric minimize (price)))",
-        ],
-        right: &[
-            "\
-(define (domain hall)
-  (:requirements :numeric-fluents)
-  (:predicates (lit))
-  (:functions (power) (price))
-  (:action switch
-    :precondition (> (power) 3)
-    :effect (and (lit) (decrease (power) 1))))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:init (= (power) 5) (= (price) 2))
-  (:goal (lit))
-  (:metric maximize (* (power) (price))))",
-        ],
-    },
+    explanation: explanation!("W0817"),
     checks: &[Check::Problem(check)],
 };
 

@@ -1,44 +1,18 @@
 //! An effect that adds and deletes the same atom.
 
-use pddl::Explanation;
 use pddl::model::{Atom, EffectKind, IndexVec, PredicateId};
 
 use super::changes::Changes;
 use super::literals::{Fact, required};
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::DomainView;
 use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "contradictory-effect",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0804",
-        title: "effect contradicts itself",
-        meaning: "An action makes the same atom true and false at the same time. What actions ask for, take and \
-         give back at once, and nothing else takes, is not reported: that keeps others from using it meanwhile.",
-        why: "In PDDL adding wins, so that deleting does nothing; other tools read it otherwise. Mostly one \
-         of the two is meant for another object, or one of them should happen at another time.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (broken ?x)
-    :effect (and (lit ?x) (not (lit ?x)))))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (broken ?x)
-    :effect (and (lit ?x) (not (broken ?x)))))"],
-    },
+    explanation: explanation!("W0804"),
     checks: &[Check::Domain(check)],
 };
 

@@ -1,41 +1,16 @@
 //! `when` with a condition that the precondition rules out.
 
-use pddl::Explanation;
-
 use super::changes::Changes;
 use super::literals::required;
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::DomainView;
 use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "dead-when",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0808",
-        title: "`when` never happens",
-        meaning: "The condition of a conditional effect contradicts the precondition.",
-        why: "The effect never happens. Mostly one of the two conditions has the wrong sign.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing :conditional-effects :negative-preconditions)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (not (broken ?x))
-    :effect (when (broken ?x) (lit ?x))))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing :negative-preconditions)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (not (broken ?x))
-    :effect (lit ?x)))"],
-    },
+    explanation: explanation!("W0808"),
     checks: &[Check::Domain(check)],
 };
 

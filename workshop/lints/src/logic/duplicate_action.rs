@@ -1,11 +1,11 @@
 //! Two actions that do the same.
 
+use pddl::Span;
 use pddl::model::{DurativeAction, Name};
-use pddl::{Explanation, Span};
 use rustc_hash::FxHashMap;
 
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::shape::{self, Shape};
 use crate::view::DomainView;
 use crate::{Finding, Level, Lint, Place};
@@ -13,39 +13,7 @@ use crate::{Finding, Level, Lint, Place};
 pub(crate) static LINT: Lint = Lint {
     name: "duplicate-action",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0809",
-        title: "action stands twice",
-        meaning: "Two actions have parameters of the same types, the same conditions and the same effects; only \
-         names differ, or the order of the parameters.",
-        why: "A planner tries everything twice. Mostly one was copied from the other and not finished.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (broken ?x)
-    :effect (lit ?x))
-  (:action light
-    :parameters (?lamp - lamp)
-    :precondition (broken ?lamp)
-    :effect (lit ?lamp)))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (broken ?x)
-    :effect (lit ?x))
-  (:action repair
-    :parameters (?lamp - lamp)
-    :precondition (lit ?lamp)
-    :effect (not (broken ?lamp))))"],
-    },
+    explanation: explanation!("W0809"),
     checks: &[Check::Domain(check)],
 };
 

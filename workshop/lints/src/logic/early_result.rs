@@ -1,10 +1,9 @@
 //! A result of a skill that is used before the skill has ended.
 
-use pddl::Explanation;
 use pddl::model::{Term, TimeSpecifier};
 
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::DomainView;
 use crate::walk::{self, Part, Polarity};
 use crate::{Finding, Level, Lint, Place};
@@ -12,37 +11,7 @@ use crate::{Finding, Level, Lint, Place};
 pub(crate) static LINT: Lint = Lint {
     name: "early-result",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0811",
-        title: "result is used too early",
-        meaning: "A rule names a result of its skill in a condition, in an effect at the start, or in what the \
-         skill is given.",
-        why: "Results are bound when the skill ends. Before, nothing is known of them.",
-        wrong: &["\
-(define (domain ear)
-  (:requirements :typing :durative-actions :agent-rules)
-  (:types person answer)
-  (:predicates (asked ?p - person) (said ?p - person ?a - answer))
-  (:durative-action listen
-    :parameters (?p - person)
-    :duration (<= ?duration 10)
-    :condition (at start (asked ?p))
-    :effect (and (at start (said ?p ?a)) (at end (not (asked ?p))))
-    :skill (listen)
-    :results (?a - answer)))"],
-        right: &["\
-(define (domain ear)
-  (:requirements :typing :durative-actions :agent-rules)
-  (:types person answer)
-  (:predicates (asked ?p - person) (said ?p - person ?a - answer))
-  (:durative-action listen
-    :parameters (?p - person)
-    :duration (<= ?duration 10)
-    :condition (at start (asked ?p))
-    :effect (and (at end (said ?p ?a)) (at end (not (asked ?p))))
-    :skill (listen)
-    :results (?a - answer)))"],
-    },
+    explanation: explanation!("W0811"),
     checks: &[Check::Domain(check)],
 };
 

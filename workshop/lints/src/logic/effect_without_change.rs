@@ -1,45 +1,19 @@
 //! An effect that makes true what is true.
 
-use pddl::Explanation;
 use pddl::model::{AssignOperator, AssignedValue, Domain, Effect, EffectKind, ExpressionKind};
 
 use super::changes::Changes;
 use super::contradictory_effect::contradictions;
 use super::literals::{Fact, Literal, required};
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::DomainView;
 use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "effect-without-change",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0806",
-        title: "effect changes nothing",
-        meaning: "An effect makes true what the precondition, or the condition of its `when`, already asks for, \
-         deletes what they ask to be false, or adds 0 to a number.",
-        why: "It does nothing. Often the other of two similar atoms is meant: `(at ?x ?from)` for `(at ?x \
-         ?to)`.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (and (lit ?x) (broken ?x))
-    :effect (lit ?x)))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (and (lit ?x) (broken ?x))
-    :effect (not (lit ?x))))"],
-    },
+    explanation: explanation!("W0806"),
     checks: &[Check::Domain(check)],
 };
 

@@ -1,42 +1,16 @@
 //! `when` with a condition that always holds.
 
-use pddl::Explanation;
-
 use super::changes::Changes;
 use super::literals::{Literal, conjuncts, required};
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::DomainView;
 use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "needless-when",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0807",
-        title: "`when` is needless",
-        meaning: "The condition of a conditional effect is a part of the precondition, or empty.",
-        why: "The effect always happens; write it without `when`. Or the condition is meant to be another \
-         one.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing :conditional-effects)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (broken ?x)
-    :effect (when (broken ?x) (lit ?x))))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (broken ?x)
-    :effect (lit ?x)))"],
-    },
+    explanation: explanation!("W0807"),
     checks: &[Check::Domain(check)],
 };
 

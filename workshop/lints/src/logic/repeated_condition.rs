@@ -2,43 +2,18 @@
 
 use std::collections::hash_map::Entry;
 
-use pddl::Explanation;
 use rustc_hash::FxHashMap;
 
 use super::literals::{Fact, Group, Literal, groups};
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::{DomainView, ProblemView};
 use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "repeated-condition",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0803",
-        title: "condition stands twice",
-        meaning: "A conjunction or disjunction has the same part twice.",
-        why: "The second one says nothing. Mostly it was copied and one of its arguments should have been \
-         changed.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (and (broken ?x) (broken ?x))
-    :effect (lit ?x)))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (broken ?x)
-    :effect (lit ?x)))"],
-    },
+    explanation: explanation!("W0803"),
     checks: &[Check::Domain(in_domain), Check::Problem(in_goal)],
 };
 

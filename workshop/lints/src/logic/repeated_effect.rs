@@ -1,11 +1,10 @@
 //! `(and (p) (p))` in an effect.
 
-use pddl::Explanation;
 use rustc_hash::FxHashMap;
 
 use super::changes::Changes;
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::shape::Shape;
 use crate::view::DomainView;
 use crate::{Finding, Level, Lint, Place};
@@ -13,31 +12,7 @@ use crate::{Finding, Level, Lint, Place};
 pub(crate) static LINT: Lint = Lint {
     name: "repeated-effect",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0805",
-        title: "effect stands twice",
-        meaning: "An action has the same effect twice at one time.",
-        why: "The second one does nothing, or increases a number twice. Mostly it was copied and an argument \
-         should have been changed.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (broken ?x)
-    :effect (and (lit ?x) (lit ?x))))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (broken ?x)
-    :effect (and (lit ?x) (not (broken ?x)))))"],
-    },
+    explanation: explanation!("W0805"),
     checks: &[Check::Domain(check)],
 };
 

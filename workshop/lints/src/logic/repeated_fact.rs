@@ -2,58 +2,19 @@
 
 use std::collections::hash_map::Entry;
 
+use pddl::Span;
 use pddl::model::{FluentValue, FunctionId, ObjectId, PredicateId};
-use pddl::{Explanation, Span};
 use rustc_hash::FxHashMap;
 
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::ProblemView;
 use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "repeated-fact",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0814",
-        title: "fact stands twice",
-        meaning: "The initial state has the same fact, or the same value of a function, twice.",
-        why: "The second one says nothing. Mostly it was copied and an object should have been changed.",
-        wrong: &[
-            "\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (broken ?x)
-    :effect (lit ?x)))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects left - lamp)
-  (:init (broken left) (broken left))
-  (:goal (lit left)))",
-        ],
-        right: &[
-            "\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (broken ?x)
-    :effect (lit ?x)))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects left - lamp)
-  (:init (broken left))
-  (:goal (lit left)))",
-        ],
-    },
+    explanation: explanation!("W0814"),
     checks: &[Check::Problem(check)],
 };
 

@@ -1,58 +1,18 @@
 //! A goal that holds and that nothing changes.
 
-use pddl::Explanation;
 use pddl::model::{ObjectId, PredicateId, Term};
 use rustc_hash::FxHashSet;
 
 use super::literals::{Fact, Literal, required};
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::ProblemView;
 use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "static-goal",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0812",
-        title: "goal is true whatever happens",
-        meaning: "A part of the goal holds initially, and no action changes its predicate.",
-        why: "It asks for nothing. Mostly another predicate is meant, or an effect is missing in the domain.",
-        wrong: &[
-            "\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (broken ?x)
-    :effect (lit ?x)))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects left - lamp)
-  (:init (broken left))
-  (:goal (and (lit left) (broken left))))",
-        ],
-        right: &[
-            "\
-(define (domain hall)
-  (:requirements :typing)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (broken ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :precondition (broken ?x)
-    :effect (lit ?x)))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects left - lamp)
-  (:init (broken left))
-  (:goal (lit left)))",
-        ],
-    },
+    explanation: explanation!("W0812"),
     checks: &[Check::Problem(check)],
 };
 

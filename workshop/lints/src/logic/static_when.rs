@@ -1,11 +1,10 @@
 //! `when` whose condition nothing ever changes.
 
-use pddl::Explanation;
 use pddl::model::{Condition, EffectKind, Idx, Term};
 
 use super::changes::Changes;
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::DomainView;
 use crate::walk::{self, Part, Polarity};
 use crate::{Finding, Level, Lint, Place};
@@ -13,33 +12,7 @@ use crate::{Finding, Level, Lint, Place};
 pub(crate) static LINT: Lint = Lint {
     name: "static-when",
     level: Level::Pedantic,
-    explanation: Explanation {
-        code: "W0819",
-        title: "condition of `when` never changes",
-        meaning: "The condition of a conditional effect asks only for what no action, event, axiom or time changes, \
-         and of parameters of the action alone.",
-        why: "For given parameters the effect happens always or never: two actions, or a condition of the action, say \
-         so more plainly. Often another predicate is meant.",
-        wrong: &["\
-(define (domain hall)
-  (:requirements :typing :conditional-effects)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (good ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :effect (when (good ?x) (lit ?x))))"],
-        right: &["\
-(define (domain hall)
-  (:requirements :typing :conditional-effects)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (good ?x - lamp))
-  (:action switch
-    :parameters (?x - lamp)
-    :effect (when (good ?x) (lit ?x)))
-  (:action break
-    :parameters (?x - lamp)
-    :effect (not (good ?x))))"],
-    },
+    explanation: explanation!("W0819"),
     checks: &[Check::Domain(check)],
 };
 

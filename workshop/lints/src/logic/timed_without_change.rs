@@ -1,61 +1,17 @@
 //! A timed initial literal that changes nothing.
 
-use pddl::Explanation;
 use pddl::model::{ObjectId, PredicateId, TimedChange};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::ProblemView;
 use crate::{Finding, Level, Lint, Place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "timed-without-change",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0820",
-        title: "timed literal changes nothing",
-        meaning: "A fact that becomes true at a time is true already, or one that becomes false is false already: it is \
-         so initially or since another time, and no effect changes its predicate.",
-        why: "The line says nothing. Mostly its time, its object or a `not` is wrong, or the fact should not stand in \
-         the initial state.",
-        wrong: &[
-            "\
-(define (domain hall)
-  (:requirements :typing :durative-actions :timed-initial-literals)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (dark))
-  (:durative-action switch
-    :parameters (?x - lamp)
-    :duration (= ?duration 1)
-    :condition (at start (dark))
-    :effect (at end (lit ?x))))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects left - lamp)
-  (:init (dark) (at 5 (dark)))
-  (:goal (lit left)))",
-        ],
-        right: &[
-            "\
-(define (domain hall)
-  (:requirements :typing :durative-actions :timed-initial-literals)
-  (:types lamp)
-  (:predicates (lit ?x - lamp) (dark))
-  (:durative-action switch
-    :parameters (?x - lamp)
-    :duration (= ?duration 1)
-    :condition (at start (dark))
-    :effect (at end (lit ?x))))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects left - lamp)
-  (:init (at 5 (dark)))
-  (:goal (lit left)))",
-        ],
-    },
+    explanation: explanation!("W0820"),
     checks: &[Check::Problem(check)],
 };
 

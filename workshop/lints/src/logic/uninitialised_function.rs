@@ -1,10 +1,9 @@
 //! A function that is read and never has a value.
 
-use pddl::Explanation;
 use pddl::model::{AssignOperator, IndexVec};
 
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::view::{ProblemView, is_here};
 use crate::walk::Part;
 use crate::{Finding, Level, Lint, Place};
@@ -12,44 +11,7 @@ use crate::{Finding, Level, Lint, Place};
 pub(crate) static LINT: Lint = Lint {
     name: "uninitialised-function",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0816",
-        title: "function never has a value",
-        meaning: "A condition, duration or effect needs the value of a function, but no problem that was looked \
-         at gives it one, and no effect assigns one.",
-        why: "What has no value makes every condition and every effect with it impossible: numbers do not \
-         begin with 0.",
-        wrong: &[
-            "\
-(define (domain hall)
-  (:requirements :numeric-fluents)
-  (:predicates (lit))
-  (:functions (power))
-  (:action switch
-    :precondition (> (power) 3)
-    :effect (and (lit) (decrease (power) 1))))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:init)
-  (:goal (lit)))",
-        ],
-        right: &[
-            "\
-(define (domain hall)
-  (:requirements :numeric-fluents)
-  (:predicates (lit))
-  (:functions (power))
-  (:action switch
-    :precondition (> (power) 3)
-    :effect (and (lit) (decrease (power) 1))))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:init (= (power) 5))
-  (:goal (lit)))",
-        ],
-    },
+    explanation: explanation!("W0816"),
     checks: &[Check::Problem(check)],
 };
 

@@ -1,13 +1,12 @@
 //! Two conditions that exclude each other.
 
 use analysis::invariants::{Change, changes, literals};
-use pddl::Explanation;
 use pddl::model::{Condition, Term, Variables};
 
 use crate::analysis::place;
 use crate::finding::Findings;
 use crate::happening::happenings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::reachability::{Schema, shortened};
 use crate::view::{ProblemView, is_here};
 use crate::{Finding, Level, Lint, Place};
@@ -17,57 +16,7 @@ use super::exclusion::{find, words};
 pub(crate) static LINT: Lint = Lint {
     name: "contradictory-condition",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0857",
-        title: "conditions exclude each other",
-        meaning: "Two atoms of one condition are among a set of which at most one holds at a time: it is so \
-         initially, and no effect makes another one true without making the one that held false. The message \
-         names the set.",
-        why: "What has the condition can never come into play. Often one of the two was to be `not`, or is \
-         about another object, or an effect forgets to delete what it replaces elsewhere.",
-        wrong: &[
-            "\
-(define (domain hall)
-  (:requirements :typing)
-  (:types cart place)
-  (:predicates (at ?c - cart ?p - place) (moving ?c - cart))
-  (:action start
-    :parameters (?c - cart ?p - place)
-    :precondition (at ?c ?p)
-    :effect (and (not (at ?c ?p)) (moving ?c)))
-  (:action stop
-    :parameters (?c - cart ?p - place)
-    :precondition (and (moving ?c) (at ?c ?p))
-    :effect (and (not (moving ?c)) (at ?c ?p))))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects c - cart a b - place)
-  (:init (at c a))
-  (:goal (moving c)))",
-        ],
-        right: &[
-            "\
-(define (domain hall)
-  (:requirements :typing)
-  (:types cart place)
-  (:predicates (at ?c - cart ?p - place) (moving ?c - cart))
-  (:action start
-    :parameters (?c - cart ?p - place)
-    :precondition (at ?c ?p)
-    :effect (and (not (at ?c ?p)) (moving ?c)))
-  (:action stop
-    :parameters (?c - cart ?p - place)
-    :precondition (moving ?c)
-    :effect (and (not (moving ?c)) (at ?c ?p))))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects c - cart a b - place)
-  (:init (at c a))
-  (:goal (at c b)))",
-        ],
-    },
+    explanation: explanation!("W0857"),
     checks: &[Check::Problem(check)],
 };
 

@@ -1,11 +1,10 @@
 //! Two goals that exclude each other.
 
 use analysis::invariants::literals;
-use pddl::Explanation;
 use pddl::model::Term;
 
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::reachability::shortened;
 use crate::view::ProblemView;
 use crate::{Finding, Level, Lint, Place};
@@ -15,47 +14,7 @@ use super::exclusion::{find, words};
 pub(crate) static LINT: Lint = Lint {
     name: "contradictory-goal",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0858",
-        title: "goals exclude each other",
-        meaning: "Two atoms of the goal are among a set of which at most one holds at a time: it is so initially, \
-         and no effect makes another one true without making the one that held false.",
-        why: "The problem has no solution, although each goal alone can be reached.",
-        wrong: &[
-            "\
-(define (domain hall)
-  (:requirements :typing)
-  (:types cart place)
-  (:predicates (at ?c - cart ?p - place))
-  (:action move
-    :parameters (?c - cart ?p ?q - place)
-    :precondition (at ?c ?p)
-    :effect (and (not (at ?c ?p)) (at ?c ?q))))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects c d - cart a b - place)
-  (:init (at c a) (at d a))
-  (:goal (and (at c b) (at c a))))",
-        ],
-        right: &[
-            "\
-(define (domain hall)
-  (:requirements :typing)
-  (:types cart place)
-  (:predicates (at ?c - cart ?p - place))
-  (:action move
-    :parameters (?c - cart ?p ?q - place)
-    :precondition (at ?c ?p)
-    :effect (and (not (at ?c ?p)) (at ?c ?q))))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects c d - cart a b - place)
-  (:init (at c a) (at d a))
-  (:goal (and (at c b) (at d b))))",
-        ],
-    },
+    explanation: explanation!("W0858"),
     checks: &[Check::Problem(check)],
 };
 

@@ -1,12 +1,11 @@
 //! A divisor that is zero for ever.
 
 use analysis::invariants::{Change, changes};
-use pddl::Explanation;
 use pddl::model::{ArithmeticOperator, AssignedValue, Condition, ConditionKind, Expression, ExpressionKind};
 
 use crate::finding::Findings;
 use crate::happening::happenings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::numbers::{Interval, Numbers, Value};
 use crate::reachability::shortened;
 use crate::view::{DomainView, ProblemView, is_here};
@@ -15,51 +14,7 @@ use crate::{Finding, Level, Lint, Place};
 pub(crate) static LINT: Lint = Lint {
     name: "division-by-zero",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0860",
-        title: "division by zero",
-        meaning: "The divisor is zero in every state: a number, or fluents that are zero initially and that \
-         nothing changes.",
-        why: "The quotient has no value: a condition with it never holds, and an effect with it cannot happen.",
-        wrong: &[
-            "\
-(define (domain hall)
-  (:requirements :typing :durative-actions :numeric-fluents)
-  (:types place)
-  (:predicates (at ?p - place))
-  (:functions (way ?a ?b - place) (speed))
-  (:durative-action move
-    :parameters (?a ?b - place)
-    :duration (= ?duration (/ (way ?a ?b) (speed)))
-    :condition (at start (at ?a))
-    :effect (and (at start (not (at ?a))) (at end (at ?b)))))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects a b - place)
-  (:init (at a) (= (way a b) 5) (= (way b a) 5) (= (speed) 0))
-  (:goal (at b)))",
-        ],
-        right: &[
-            "\
-(define (domain hall)
-  (:requirements :typing :durative-actions :numeric-fluents)
-  (:types place)
-  (:predicates (at ?p - place))
-  (:functions (way ?a ?b - place) (speed))
-  (:durative-action move
-    :parameters (?a ?b - place)
-    :duration (= ?duration (/ (way ?a ?b) (speed)))
-    :condition (at start (at ?a))
-    :effect (and (at start (not (at ?a))) (at end (at ?b)))))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects a b - place)
-  (:init (at a) (= (way a b) 5) (= (way b a) 5) (= (speed) 2))
-  (:goal (at b)))",
-        ],
-    },
+    explanation: explanation!("W0860"),
     checks: &[Check::Domain(in_domain), Check::Problem(in_problem)],
 };
 

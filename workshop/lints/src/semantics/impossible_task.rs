@@ -1,9 +1,7 @@
 //! A subtask of the problem's network that no method can carry out.
 
-use pddl::Explanation;
-
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::reachability::Schema;
 use crate::view::ProblemView;
 use crate::{Finding, Level, Lint, Place};
@@ -11,59 +9,7 @@ use crate::{Finding, Level, Lint, Place};
 pub(crate) static LINT: Lint = Lint {
     name: "impossible-task",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0854",
-        title: "task of the problem can never be carried out",
-        meaning: "A subtask of the problem's task network cannot be decomposed to actions that ever apply, even \
-         if nothing that was made true became false again.",
-        why: "The problem has no solution.",
-        wrong: &[
-            "\
-(define (domain hall)
-  (:requirements :typing :hierarchy :method-preconditions)
-  (:types lamp)
-  (:predicates (lit ?l - lamp) (plugged ?l - lamp))
-  (:task brighten :parameters (?l - lamp))
-  (:method by-hand
-    :parameters (?l - lamp)
-    :task (brighten ?l)
-    :precondition (plugged ?l)
-    :ordered-subtasks (switch ?l))
-  (:action switch
-    :parameters (?l - lamp)
-    :effect (lit ?l)))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects left right - lamp)
-  (:htn
-    :ordered-subtasks (and (brighten left) (brighten right)))
-  (:init (plugged left)))",
-        ],
-        right: &[
-            "\
-(define (domain hall)
-  (:requirements :typing :hierarchy :method-preconditions)
-  (:types lamp)
-  (:predicates (lit ?l - lamp) (plugged ?l - lamp))
-  (:task brighten :parameters (?l - lamp))
-  (:method by-hand
-    :parameters (?l - lamp)
-    :task (brighten ?l)
-    :precondition (plugged ?l)
-    :ordered-subtasks (switch ?l))
-  (:action switch
-    :parameters (?l - lamp)
-    :effect (lit ?l)))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects left right - lamp)
-  (:htn
-    :ordered-subtasks (and (brighten left) (brighten right)))
-  (:init (plugged left) (plugged right)))",
-        ],
-    },
+    explanation: explanation!("W0854"),
     checks: &[Check::Problem(check)],
 };
 

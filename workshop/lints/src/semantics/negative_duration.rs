@@ -1,10 +1,9 @@
 //! A duration below zero, or none at all.
 
-use pddl::Explanation;
 use pddl::model::{Comparison, DurationConstraint, ExpressionKind, FluentValue};
 
 use crate::finding::Findings;
-use crate::lint::Check;
+use crate::lint::{Check, explanation};
 use crate::numbers::{Interval, Numbers, Value};
 use crate::view::{DomainView, ProblemView, is_here};
 use crate::{Finding, Level, Lint, Place};
@@ -12,51 +11,7 @@ use crate::{Finding, Level, Lint, Place};
 pub(crate) static LINT: Lint = Lint {
     name: "negative-duration",
     level: Level::Default,
-    explanation: Explanation {
-        code: "W0859",
-        title: "duration is negative or impossible",
-        meaning: "A duration comes out below zero: always, or for an initial value that nothing changes. Or the \
-         bounds of a duration leave no number between them.",
-        why: "The action, or this instance of it, can never be started.",
-        wrong: &[
-            "\
-(define (domain hall)
-  (:requirements :typing :durative-actions :numeric-fluents)
-  (:types place)
-  (:predicates (at ?p - place))
-  (:functions (way ?a ?b - place))
-  (:durative-action move
-    :parameters (?a ?b - place)
-    :duration (= ?duration (way ?a ?b))
-    :condition (at start (at ?a))
-    :effect (and (at start (not (at ?a))) (at end (at ?b)))))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects a b - place)
-  (:init (at a) (= (way a b) 5) (= (way b a) -5))
-  (:goal (at b)))",
-        ],
-        right: &[
-            "\
-(define (domain hall)
-  (:requirements :typing :durative-actions :numeric-fluents)
-  (:types place)
-  (:predicates (at ?p - place))
-  (:functions (way ?a ?b - place))
-  (:durative-action move
-    :parameters (?a ?b - place)
-    :duration (= ?duration (way ?a ?b))
-    :condition (at start (at ?a))
-    :effect (and (at start (not (at ?a))) (at end (at ?b)))))",
-            "\
-(define (problem evening)
-  (:domain hall)
-  (:objects a b - place)
-  (:init (at a) (= (way a b) 5) (= (way b a) 5))
-  (:goal (at b)))",
-        ],
-    },
+    explanation: explanation!("W0859"),
     checks: &[Check::Domain(in_domain), Check::Problem(in_problem)],
 };
 
