@@ -18,10 +18,9 @@ use crate::alternative::Alternative;
 use crate::binding::Binding;
 use crate::disjuncts::{MAX_ALTERNATIVES, typings};
 use crate::formula::Formula;
-use crate::link::{LinkError, LinkErrorKind};
+use crate::link_error::{LinkError, LinkErrorKind};
 use crate::located::Located;
 use crate::scope::Scope;
-use crate::unmet::Unmet;
 
 /// A compiled condition of one schema.
 #[derive(Debug, Clone)]
@@ -97,11 +96,6 @@ impl Condition {
     /// The condition as something that a reflex keeps.
     pub fn keep(&self, binding: &Binding) -> Keep {
         Keep { any: self.alternatives.iter().map(|alternative| alternative.bound(binding)).collect() }
-    }
-
-    /// The first part that fails; `None` if it holds.
-    pub fn why_not(&self, snapshot: &Snapshot, binding: &Binding) -> Option<Unmet> {
-        if self.holds(snapshot, binding) { None } else { Some(Unmet::find(self, snapshot, binding)) }
     }
 }
 

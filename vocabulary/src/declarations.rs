@@ -13,107 +13,9 @@ use pddl::model::{Domain, Function, FunctionValue, Idx, Name, Predicate, TypeSet
 use rustc_hash::FxHashMap;
 
 use crate::located::Located;
-use crate::permission;
 use crate::pose::PoseComponent;
+use crate::token_error::{TokenError, TokenErrorKind};
 use crate::tokens::{Constant, FunctionToken, Sort, Tokens, ValueSort};
-
-/// Why a declaration does not fit the graph.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[expect(missing_docs, reason = "the fields are the names that the variant is about")]
-pub enum TokenErrorKind {
-    /// Node types form a tree.
-    #[error("type `{name}` has several parents; the graph's types have one each")]
-    SeveralParents { name: Name },
-    /// The graph's own types have no subtypes and stand below `object`.
-    #[error(
-        "`{name}` is below `{below}`; `agent` and `resource` stand below `object` and nothing below them"
-    )]
-    BuiltInType { name: Name, below: Name },
-    /// Only `text`, `flag` and `pose` are kinds of values.
-    #[error("`{name}` is no kind of value; there are `text`, `flag` and `pose`")]
-    UnknownValueType { name: Name },
-    /// A node has one type.
-    #[error("constant `{name}` has several types; a node has one")]
-    SeveralTypes { name: Name },
-    /// Only the truth values have names.
-    #[error("constant `{name}` cannot be a value; only `true` and `false` of type `flag` can")]
-    ValueConstant { name: Name },
-    /// An edge has two ends.
-    #[error("predicate `{name}` has {arity} arguments; an edge of the graph has two ends")]
-    NotBinary { name: Name, arity: usize },
-    /// A derived predicate is not something that anybody writes.
-    #[error("predicate `{name}` is derived; a token of the vocabulary is written by agents")]
-    Derived { name: Name },
-    /// Edges are between nodes.
-    #[error("`{name}` cannot be about a value (`?{variable}`); tokens are about nodes")]
-    ValueArgument { name: Name, variable: Name },
-    /// An attribute hangs on a node or an edge.
-    #[error("function `{name}` has {arity} arguments; an attribute is of a node or of a pair of nodes")]
-    FunctionArity { name: Name, arity: usize },
-    /// An attribute is of one type of node.
-    #[error("function `{name}`: `?{variable}` has several types; an attribute's argument has one")]
-    FunctionArgument { name: Name, variable: Name },
-    /// An attribute has one kind.
-    #[error("function `{name}` has values of several types; an attribute has one kind")]
-    FunctionKind { name: Name },
-    /// Poses are kept in one tree.
-    #[error("function `{name}` cannot be a pose; the graph keeps poses in one binary function `rt`")]
-    PoseFunction { name: Name },
-    /// These names are the graph's.
-    #[error("function `{name}` must be binary, between frames, and a {expected}")]
-    ReservedFunction { name: Name, expected: &'static str },
-    /// A name means one thing.
-    #[error("`{name}` is a predicate and a function; a label has one meaning")]
-    TwoMeanings { name: Name },
-    /// `:writes` names an agent.
-    #[error("`{name}` may not write: it is no constant of type `agent`")]
-    NotAnAgent { name: Name },
-    /// Nobody writes what is computed.
-    #[error("nobody can write `{name}`: the graph computes it")]
-    Computed { name: Name },
-    /// The graph refuses it.
-    #[error(transparent)]
-    Vocabulary(#[from] VocabularyError),
-}
-
-/// A declaration that does not fit the graph.
-pub type TokenError = Located<TokenErrorKind>;
-
-impl Tokens {
-    /// Reads a domain as a vocabulary; all that does not fit is reported.
-    pub fn new(domain: &Domain) -> Result<Self, Vec<TokenError>> {
-        let mut reader = Reader {
-            domain,
-            builder: VocabularyBuilder::new(),
-            errors: Vec::new(),
-            types: FxHashMap::default(),
-            labels: FxHashMap::default(),
-            functions: FxHashMap::default(),
-            constants: IndexMap::new(),
-            agents: FxHashMap::default(),
-        };
-        reader.types();
-        reader.constants();
-        domain.predicates.iter().for_each(|predicate| reader.predicate(predicate));
-        domain.functions.iter().for_each(|function| reader.function(function));
-        permission::read(&mut reader);
-        let Reader { builder, mut errors, types, labels, functions, constants, .. } = reader;
-        if !errors.is_empty() {
-            errors.sort_by_key(|error| error.span);
-            errors.dedup();
-            return Err(errors);
-        }
-        Ok(Self {
-            name: domain.name.clone(),
-            vocabulary: builder.build(),
-            types,
-            labels,
-            functions,
-            constants,
-            domain: Arc::new(domain.clone()),
-        })
-    }
-}
 
 /// A vocabulary in the making.
 pub(crate) struct Reader<'d> {
@@ -127,7 +29,45 @@ pub(crate) struct Reader<'d> {
     pub(crate) agents: FxHashMap<Name, AgentId>,
 }
 
-impl Reader<'_> {
+impl<'d> Reader<'d> {
+    /// Reads all declarations; `:writes` is not one of them.
+    pub(crate) fn new(domain: &'d Domain) -> Self {
+        let mut reader = Self {
+            domain,
+            builder: VocabularyBuilder::new(),
+            errors: Vec::new(),
+            types: FxHashMap::default(),
+            labels: FxHashMap::default(),
+            functions: FxHashMap::default(),
+            constants: IndexMap::new(),
+            agents: FxHashMap::default(),
+        };
+        reader.types();
+        reader.constants();
+        domain.predicates.iter().for_each(|predicate| reader.predicate(predicate));
+        domain.functions.iter().for_each(|function| reader.function(function));
+        reader
+    }
+
+    /// The vocabulary, or every error, in the order of the source.
+    pub(crate) fn finish(self) -> Result<Tokens, Vec<TokenError>> {
+        let Self { domain, builder, mut errors, types, labels, functions, constants, .. } = self;
+        if !errors.is_empty() {
+            errors.sort_by_key(|error| error.span);
+            errors.dedup();
+            return Err(errors);
+        }
+        Ok(Tokens {
+            name: domain.name.clone(),
+            vocabulary: builder.build(),
+            types,
+            labels,
+            functions,
+            constants,
+            domain: Arc::new(domain.clone()),
+        })
+    }
+
     pub(crate) fn error(&mut self, span: Span, kind: impl Into<TokenErrorKind>) {
         self.errors.push(Located::new(span, kind.into()));
     }

@@ -10,17 +10,19 @@ use pddl::model::{self, EffectKind};
 
 use crate::effect::{Change, Given};
 use crate::formula::{Formula, Literal, Right};
-use crate::link::{Link, LinkError, LinkErrorKind};
+use crate::link_error::{LinkError, LinkErrorKind};
 use crate::lower_effect::{assignment, constant, edge};
 use crate::scope::Scope;
+use crate::tokens::Tokens;
 use crate::translate::{Derived, Translator};
 
 pub(crate) fn formula<'c>(
-    link: &Link<'_>,
+    tokens: &Tokens,
+    domain: &model::Domain,
     scope: &Scope,
     effects: impl IntoIterator<Item = &'c model::Effect>,
 ) -> Result<Formula, Vec<LinkError>> {
-    let mut translator = Translator::new(*link, scope, Derived::Refused);
+    let mut translator = Translator::new(tokens, domain, scope, Derived::Refused);
     let all = Formula::All(effects.into_iter().map(|effect| expected(&mut translator, effect)).collect());
     let parts: Vec<Formula> = all.conjuncts().into_iter().cloned().collect();
     // An add of the same token wins over its delete.

@@ -9,19 +9,20 @@ use pddl::model::{self, Application, AssignOperator, AssignedValue, EffectKind, 
 use crate::condition::Condition;
 use crate::effect::{Change, Effect, Given, Update};
 use crate::formula::{Formula, Literal, Term};
-use crate::link::{Link, LinkError, LinkErrorKind};
+use crate::link_error::{LinkError, LinkErrorKind};
 use crate::number::Number;
 use crate::scope::Scope;
-use crate::tokens::{FunctionToken, ValueSort};
+use crate::tokens::{FunctionToken, Tokens, ValueSort};
 use crate::translate::{Derived, TermOrValue, Translator};
 
 pub(crate) fn lower<'c>(
-    link: &Link<'_>,
+    tokens: &Tokens,
+    domain: &model::Domain,
     scope: Scope,
     effects: impl IntoIterator<Item = &'c model::Effect>,
 ) -> Result<Effect, Vec<LinkError>> {
     let mut lowering = Lowering {
-        translator: Translator::new(*link, &scope, Derived::Refused),
+        translator: Translator::new(tokens, domain, &scope, Derived::Refused),
         quantified: Vec::new(),
         guards: Vec::new(),
         updates: Vec::new(),
@@ -96,7 +97,7 @@ impl Lowering<'_> {
             visible.extend(&self.quantified);
             visible.sort_unstable();
             visible.dedup();
-            let vocabulary = &self.translator.link.tokens.vocabulary;
+            let vocabulary = &self.translator.tokens.vocabulary;
             // A quantified variable of a value was reported; compiling would only say so again.
             if visible.iter().any(|&variable| !self.translator.scope.is_node(variable)) {
                 return;
@@ -115,9 +116,9 @@ pub(crate) fn edge(
     translator: &mut Translator<'_>,
     atom: &model::Atom,
 ) -> Option<(Term, dsr::LabelId, Term)> {
-    let name = &translator.link.domain.predicates[atom.predicate].name;
-    if translator.link.tokens.label(name).is_none() {
-        let (name, vocabulary) = (name.clone(), translator.link.tokens.name.clone());
+    let name = &translator.domain.predicates[atom.predicate].name;
+    if translator.tokens.label(name).is_none() {
+        let (name, vocabulary) = (name.clone(), translator.tokens.name.clone());
         translator.error(atom.span, LinkErrorKind::NotAToken { name, vocabulary });
         return None;
     }
@@ -135,8 +136,8 @@ pub(crate) fn assignment(
     value: &AssignedValue,
     span: Span,
 ) -> Option<Change> {
-    let name = translator.link.domain.functions[application.function].name.clone();
-    match translator.link.tokens.function(&name) {
+    let name = translator.domain.functions[application.function].name.clone();
+    match translator.tokens.function(&name) {
         Some(FunctionToken::Transform) => return transform(translator, application, value, span),
         Some(FunctionToken::Distance) => {
             translator.error(span, LinkErrorKind::Computed { name });
@@ -154,7 +155,7 @@ pub(crate) fn assignment(
         }
         (AssignOperator::Assign, AssignedValue::Object(term)) => {
             let given = given(translator, *term);
-            let fits = match (&given, translator.link.tokens.vocabulary.kind(attribute)) {
+            let fits = match (&given, translator.tokens.vocabulary.kind(attribute)) {
                 (Given::Node(_), Some(dsr::Kind::Node(_)))
                 | (Given::Value(dsr::Value::Bool(_)), Some(dsr::Kind::Bool)) => true,
                 (Given::Result(variable), Some(kind)) => {
@@ -211,7 +212,7 @@ fn transform(
             Some(Change::SetTransform { parent, child, pose: *pose })
         }
         _ => {
-            let name = translator.link.domain.functions[application.function].name.clone();
+            let name = translator.domain.functions[application.function].name.clone();
             translator.error(span, LinkErrorKind::WrongValue { name });
             None
         }

@@ -4,12 +4,22 @@
 //! token anywhere; a constant fixes an end.
 
 use dsr::{End, Permission, Token};
-use pddl::model::{TokenPattern, TokenSymbol};
+use pddl::model::{Domain, TokenPattern, TokenSymbol};
 
-use crate::declarations::{Reader, TokenErrorKind};
-use crate::tokens::FunctionToken;
+use crate::declarations::Reader;
+use crate::token_error::{TokenError, TokenErrorKind};
+use crate::tokens::{FunctionToken, Tokens};
 
-pub(crate) fn read(reader: &mut Reader<'_>) {
+impl Tokens {
+    /// Reads a domain as a vocabulary; all that does not fit is reported.
+    pub fn new(domain: &Domain) -> Result<Self, Vec<TokenError>> {
+        let mut reader = Reader::new(domain);
+        permissions(&mut reader);
+        reader.finish()
+    }
+}
+
+fn permissions(reader: &mut Reader<'_>) {
     let domain = reader.domain;
     for permission in &domain.permissions {
         let Some(&agent) = reader.agents.get(&permission.agent) else {

@@ -23,7 +23,6 @@ use pddl::Span;
 use pddl::model::{Domain, Name};
 use rustc_hash::FxHashMap;
 
-use crate::link::Link;
 use crate::pose::PoseComponent;
 
 /// What a PDDL type is.
@@ -124,11 +123,6 @@ impl Tokens {
             Constant::Value(value) => Some(value),
             Constant::BuiltIn(_) | Constant::Node(_) => None,
         }
-    }
-
-    /// Reads what `domain`, which imports this vocabulary, says about the graph.
-    pub fn link<'a>(&'a self, domain: &'a Domain) -> Link<'a> {
-        Link::new(self, domain)
     }
 
     /// Where a predicate or function of the vocabulary was declared, in its own source.

@@ -2,14 +2,14 @@
 
 use dsr::{AttributeId, Comparison};
 use pddl::Span;
-use pddl::model::{self, Application, Atom, ConditionKind, Expression, ExpressionKind, VariableId};
+use pddl::model::{self, Application, Atom, ConditionKind, Domain, Expression, ExpressionKind, VariableId};
 
 use crate::formula::{Formula, Holder, Literal, Right, Term};
-use crate::link::{Link, LinkError, LinkErrorKind};
+use crate::link_error::{LinkError, LinkErrorKind};
 use crate::located::Located;
 use crate::number::{Number, calculate};
 use crate::scope::Scope;
-use crate::tokens::FunctionToken;
+use crate::tokens::{FunctionToken, Tokens};
 
 /// Whether predicates that are no tokens may occur.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,15 +25,16 @@ pub(crate) enum TermOrValue {
 }
 
 pub(crate) struct Translator<'a> {
-    pub(crate) link: Link<'a>,
+    pub(crate) tokens: &'a Tokens,
+    pub(crate) domain: &'a Domain,
     pub(crate) scope: &'a Scope,
     derived: Derived,
     errors: Vec<LinkError>,
 }
 
 impl<'a> Translator<'a> {
-    pub(crate) fn new(link: Link<'a>, scope: &'a Scope, derived: Derived) -> Self {
-        Self { link, scope, derived, errors: Vec::new() }
+    pub(crate) fn new(tokens: &'a Tokens, domain: &'a Domain, scope: &'a Scope, derived: Derived) -> Self {
+        Self { tokens, domain, scope, derived, errors: Vec::new() }
     }
 
     /// The result, unless there were errors.
@@ -94,18 +95,18 @@ impl<'a> Translator<'a> {
     }
 
     fn atom(&mut self, atom: &Atom) -> Formula {
-        let name = &self.link.domain.predicates[atom.predicate].name;
+        let name = &self.domain.predicates[atom.predicate].name;
         if let Some(literal) = self.edge(atom) {
             return Formula::Literal(literal, atom.span);
         }
-        if self.link.tokens.label(name).is_none() {
+        if self.tokens.label(name).is_none() {
             if self.derived == Derived::Allowed {
                 let arguments = atom.arguments.iter().map(|&term| self.node(term, atom.span)).collect();
                 let Some(arguments) = arguments else { return Formula::always() };
                 let literal = Literal::Derived { predicate: atom.predicate, name: name.clone(), arguments };
                 return Formula::Literal(literal, atom.span);
             }
-            let (name, vocabulary) = (name.clone(), self.link.tokens.name.clone());
+            let (name, vocabulary) = (name.clone(), self.tokens.name.clone());
             self.error(atom.span, LinkErrorKind::NotAToken { name, vocabulary });
         }
         Formula::always()
@@ -113,7 +114,7 @@ impl<'a> Translator<'a> {
 
     /// The edge that an atom is, if its predicate is a label.
     pub(crate) fn edge(&mut self, atom: &Atom) -> Option<Literal> {
-        let label = self.link.tokens.label(&self.link.domain.predicates[atom.predicate].name)?;
+        let label = self.tokens.label(&self.domain.predicates[atom.predicate].name)?;
         let &[from, to] = atom.arguments.as_slice() else { return None };
         let (from, to) = (self.node(from, atom.span)?, self.node(to, atom.span)?);
         Some(Literal::Edge { from, label, to })
@@ -138,7 +139,7 @@ impl<'a> Translator<'a> {
 
     fn object_name(&self, term: model::Term) -> pddl::model::Name {
         match term {
-            model::Term::Object(id) => self.link.domain.constants[id].name.clone(),
+            model::Term::Object(id) => self.domain.constants[id].name.clone(),
             model::Term::Variable(id) => self.scope.slot(id).name.clone(),
         }
     }
@@ -147,8 +148,8 @@ impl<'a> Translator<'a> {
         match term {
             model::Term::Variable(variable) => TermOrValue::Term(Term::Variable(variable)),
             model::Term::Object(id) => {
-                let name = &self.link.domain.constants[id].name;
-                match self.link.tokens.value(name) {
+                let name = &self.domain.constants[id].name;
+                match self.tokens.value(name) {
                     Some(value) => TermOrValue::Value(value.clone()),
                     None => TermOrValue::Term(Term::Named(name.clone())),
                 }
@@ -168,13 +169,13 @@ impl<'a> Translator<'a> {
 
     /// The holder and the attribute that an application is; reported if it is none.
     pub(crate) fn attribute(&mut self, application: &Application) -> Option<(Holder, AttributeId)> {
-        let name = self.link.domain.functions[application.function].name.clone();
+        let name = self.domain.functions[application.function].name.clone();
         let span = application.span;
         let mut arguments = Vec::new();
         for &argument in &application.arguments {
             arguments.push(self.node(argument, span)?);
         }
-        let kind = match (self.link.tokens.function(&name), arguments.as_slice()) {
+        let kind = match (self.tokens.function(&name), arguments.as_slice()) {
             (Some(FunctionToken::Node { attribute }), [node]) => {
                 return Some((Holder::Node(node.clone()), attribute));
             }
@@ -184,11 +185,7 @@ impl<'a> Translator<'a> {
             (Some(FunctionToken::Transform), _) => LinkErrorKind::PoseComparison { name },
             (Some(FunctionToken::Pose(_)), _) => LinkErrorKind::PosePart { name },
             (Some(FunctionToken::Distance), _) => LinkErrorKind::Comparison,
-            _ => {
-                let error = self.link.not_an_attribute(&name, span);
-                self.errors.push(error);
-                return None;
-            }
+            _ => LinkErrorKind::NotAnAttribute { name, vocabulary: self.tokens.name.clone() },
         };
         self.error(span, kind);
         None
@@ -199,8 +196,8 @@ impl<'a> Translator<'a> {
         match &expression.kind {
             ExpressionKind::Number(number) => Some(Number::Constant(*number)),
             ExpressionKind::Fluent(application) => {
-                let name = &self.link.domain.functions[application.function].name;
-                if self.link.tokens.function(name) == Some(FunctionToken::Distance)
+                let name = &self.domain.functions[application.function].name;
+                if self.tokens.function(name) == Some(FunctionToken::Distance)
                     && let &[a, b] = application.arguments.as_slice()
                 {
                     return Some(Number::Distance(

@@ -35,9 +35,16 @@ impl fmt::Display for Unmet {
     }
 }
 
+impl Condition {
+    /// The first part that fails; `None` if it holds.
+    pub fn why_not(&self, snapshot: &Snapshot, binding: &Binding) -> Option<Unmet> {
+        if self.holds(snapshot, binding) { None } else { Some(Unmet::find(self, snapshot, binding)) }
+    }
+}
+
 impl Unmet {
     /// For a condition that does not hold.
-    pub(crate) fn find(condition: &Condition, snapshot: &Snapshot, binding: &Binding) -> Self {
+    fn find(condition: &Condition, snapshot: &Snapshot, binding: &Binding) -> Self {
         let mut frontier = vec![binding.clone()];
         for part in &condition.parts {
             let mut next: Vec<Binding> = Vec::new();
