@@ -25,6 +25,7 @@
 //! |---|---|
 //! | `device`, `operation` | which devices there are, their errors, the stop protocol |
 //! | `speech`, `screen`, `skeleton`, `clinic` | the capabilities |
+//! | `devices` | one back end of each |
 //! | [`sim`] | the simulated room |
 //! | [`conformance`] | what every back end must do |
 
@@ -33,6 +34,7 @@ pub mod sim;
 
 mod clinic;
 mod device;
+mod devices;
 mod operation;
 mod question;
 mod screen;
@@ -40,7 +42,8 @@ mod skeleton;
 mod speech;
 
 pub use clinic::Clinic;
-pub use device::{Device, DeviceError, Devices};
+pub use device::{Device, DeviceError};
+pub use devices::Devices;
 pub use operation::Operation;
 pub use question::{Phrase, Question};
 pub use screen::{Buttons, Page, PageId, Screen};

@@ -1,0 +1,24 @@
+//! What a robot consists of, seen from its agents.
+
+use std::fmt;
+use std::sync::Arc;
+
+use crate::{Buttons, Clinic, Screen, Skeleton, SpeechIn, SpeechOut};
+
+/// One back end of each capability: what a robot consists of, seen from its agents.
+#[derive(Clone)]
+#[expect(missing_docs, reason = "the types say what they are")]
+pub struct Devices {
+    pub speech_out: Arc<dyn SpeechOut>,
+    pub speech_in: Arc<dyn SpeechIn>,
+    pub screen: Arc<dyn Screen>,
+    pub buttons: Arc<dyn Buttons>,
+    pub skeleton: Arc<dyn Skeleton>,
+    pub clinic: Arc<dyn Clinic>,
+}
+
+impl fmt::Debug for Devices {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Devices").finish_non_exhaustive()
+    }
+}
