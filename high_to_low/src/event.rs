@@ -1,53 +1,42 @@
-//! What a refinement did, for whoever watches.
+//! What a refinement did, step by step. `wording` makes sentences of it.
 
-use serde::Serialize;
-use std::fmt;
+use pddl::model::Name;
+
+use crate::failure::Reason;
+use crate::ground::GroundTask;
 
 /// One thing that HighToLow did or saw.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[serde(tag = "refinement", rename_all = "kebab-case")]
+#[derive(Clone, Debug, PartialEq)]
 pub enum RefinementEvent {
     /// A method was chosen for a task.
     MethodChosen {
-        /// The task with its arguments.
-        task: String,
+        /// The task.
+        task: GroundTask,
         /// The method.
-        method: String,
+        method: Name,
     },
     /// An intention was written.
     Written {
-        /// The intention with its arguments.
-        intention: String,
+        /// The intention.
+        intention: GroundTask,
     },
-    /// What an intention was for has been seen.
+    /// The expectation of an intention was seen.
     Seen {
-        /// The intention with its arguments.
-        intention: String,
+        /// The intention.
+        intention: GroundTask,
     },
     /// An intention failed.
     Failed {
-        /// The intention with its arguments.
-        intention: String,
+        /// The intention.
+        intention: GroundTask,
         /// Why.
-        why: String,
+        why: Reason,
     },
     /// A method failed; the next one is tried if there is one.
     MethodFailed {
-        /// The task with its arguments.
-        task: String,
+        /// The task.
+        task: GroundTask,
         /// The method.
-        method: String,
+        method: Name,
     },
-}
-
-impl fmt::Display for RefinementEvent {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::MethodChosen { task, method } => write!(f, "{task} by {method}"),
-            Self::Written { intention } => write!(f, "intends {intention}"),
-            Self::Seen { intention } => write!(f, "sees {intention}"),
-            Self::Failed { intention, why } => write!(f, "{intention} failed: {why}"),
-            Self::MethodFailed { task, method } => write!(f, "{method} does not work for {task}"),
-        }
-    }
 }

@@ -1,60 +1,90 @@
-//! Why a task could not be carried out: the chain of reasons, as data.
+//! Why a task could not be carried out: the chain of reasons, as data. `wording` makes sentences of it.
 
 use pddl::model::Name;
-use std::fmt;
+use vocabulary::{EffectError, Unmet};
 
-/// A task whose methods are all used up.
+use crate::ground::GroundTask;
+
+/// Why a task could not be carried out.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Failure {
-    /// The task with its arguments.
-    pub task: String,
-    /// Why each method did not do, in the order in which they were tried; those that never applied last.
-    pub methods: Vec<(Name, Reason)>,
+pub enum Failure {
+    /// It could not start.
+    NotStarted(StartError),
+    /// No method is left.
+    NoMethodLeft {
+        /// The task.
+        task: GroundTask,
+        /// Why each method failed, in the order in which they were tried; those that never applied come last.
+        methods: Vec<(Name, Reason)>,
+    },
 }
 
-/// Why one method did not do.
+/// Why one method failed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reason {
-    /// Its precondition does not hold; the first part that fails, as a sentence.
-    NotApplicable(String),
-    /// An intention's own precondition did not come to hold before its deadline.
-    NotStarted {
+    /// Its head names other arguments than the task has.
+    OtherArguments,
+    /// Its precondition does not hold; the first part that fails.
+    NotApplicable(Unmet),
+    /// Its precondition holds, but an earlier method failed in a way that rules out every other one.
+    NotTried,
+    /// The precondition of an intention did not hold before its deadline.
+    NotBegun {
         /// The intention.
-        intention: String,
-        /// What did not hold.
-        unmet: String,
+        intention: GroundTask,
+        /// The part that did not hold.
+        unmet: Option<Unmet>,
     },
-    /// What should have been seen was not, until the deadline.
+    /// The expectation of an intention was not seen before its deadline.
     Missed {
         /// The intention.
-        intention: String,
+        intention: GroundTask,
         /// The deadline, in seconds after the intention was written.
         seconds: f64,
-        /// What was not seen.
-        unmet: String,
+        /// The part that was not seen; `None` if the graph has had no version since the intention was written.
+        unmet: Option<Unmet>,
     },
-    /// What must not happen happened.
+    /// The `over all` condition of an intention stopped holding.
     Broken {
         /// The intention.
-        intention: String,
-        /// What no longer holds.
-        unmet: String,
+        intention: GroundTask,
+        /// The part that no longer holds.
+        unmet: Unmet,
     },
     /// A subtask failed.
     Subtask(Box<Failure>),
     /// Tasks are nested deeper than any sensible method: a recursion without a base case.
     TooDeep,
-    /// Its edits cannot be made: a node that they name is not there.
-    Impossible(String),
+    /// An argument of a subtask is unbound, or its node has left the graph.
+    NoArgument {
+        /// The name of the subtask.
+        subtask: Name,
+    },
+    /// The edits of an intention cannot be made.
+    NoEdits {
+        /// The intention.
+        intention: GroundTask,
+        /// What its effect lacks.
+        error: EffectError,
+    },
 }
 
 impl Reason {
-    /// Whether no other method may be tried either: one that recurses without an end has brothers that do.
+    /// Whether no other method may be tried either: the other methods of an endless recursion recurse as well.
     pub(crate) fn is_fatal(&self) -> bool {
         match self {
             Self::TooDeep => true,
-            Self::Subtask(failure) => failure.methods.iter().any(|(_, reason)| reason.is_fatal()),
+            Self::Subtask(failure) => failure.is_fatal(),
             _ => false,
+        }
+    }
+}
+
+impl Failure {
+    fn is_fatal(&self) -> bool {
+        match self {
+            Self::NotStarted(_) => false,
+            Self::NoMethodLeft { methods, .. } => methods.iter().any(|(_, reason)| reason.is_fatal()),
         }
     }
 }
@@ -82,37 +112,6 @@ pub enum StartError {
 
 impl From<StartError> for Failure {
     fn from(error: StartError) -> Self {
-        let task = match &error {
-            StartError::UnknownTask(name) | StartError::UnknownNode(name) => name.to_string(),
-            StartError::Arity { task, .. } => task.to_string(),
-        };
-        Self { task, methods: vec![(Name::new("none"), Reason::Impossible(error.to_string()))] }
-    }
-}
-
-impl fmt::Display for Failure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "no method works for {}", self.task)?;
-        for (i, (method, reason)) in self.methods.iter().enumerate() {
-            let separator = if i == 0 { ": " } else { "; " };
-            write!(f, "{separator}{method}: {reason}")?;
-        }
-        Ok(())
-    }
-}
-
-impl fmt::Display for Reason {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotApplicable(unmet) => write!(f, "does not apply, {unmet}"),
-            Self::NotStarted { intention, unmet } => write!(f, "{intention} could not start, {unmet}"),
-            Self::Missed { intention, seconds, unmet } => {
-                write!(f, "{seconds} s after {intention}, {unmet}")
-            }
-            Self::Broken { intention, unmet } => write!(f, "{intention} was broken off, {unmet}"),
-            Self::Subtask(failure) => write!(f, "{failure}"),
-            Self::TooDeep => f.write_str("tasks are nested too deep; is there a recursion without an end?"),
-            Self::Impossible(why) => f.write_str(why),
-        }
+        Self::NotStarted(error)
     }
 }

@@ -6,19 +6,19 @@
 
 use crate::event::RefinementEvent;
 use crate::failure::Reason;
+use crate::ground::GroundTask;
 use crate::library::{Intention, Methods};
-use crate::refinement::Turn;
+use crate::turn::Turn;
 use dsr::{Edit, HolderRef, NodeId, NodeRef, Snapshot, Time, Version};
 use pddl::model::Idx;
-use vocabulary::{Binding, is_redundant};
+use vocabulary::{Binding, Unmet, is_redundant};
 
 /// An intention with its arguments.
 #[derive(Clone, Debug)]
 pub(crate) struct Activity {
     intention: usize,
     binding: Binding,
-    /// `(say barthel feeding introduction)`.
-    text: String,
+    ground: GroundTask,
     /// When its deadline runs out.
     deadline: Option<Time>,
     state: State,
@@ -44,7 +44,7 @@ impl Activity {
         methods: &Methods,
         intention: usize,
         arguments: &[NodeId],
-        text: String,
+        ground: GroundTask,
         now: Time,
     ) -> Self {
         let compiled = &methods.intentions[intention];
@@ -53,7 +53,7 @@ impl Activity {
             binding.bind(Idx::from_index(i), node);
         }
         let deadline = compiled.deadline.map(|seconds| after(now, seconds));
-        Self { intention, binding, text, deadline, state: State::Waiting }
+        Self { intention, binding, ground, deadline, state: State::Waiting }
     }
 
     /// Carries it as far as the graph allows.
@@ -61,7 +61,7 @@ impl Activity {
         let compiled = &methods.intentions[self.intention];
         if matches!(self.state, State::Waiting) {
             if !compiled.before.holds(turn.snapshot, &self.binding) {
-                return self.wait(turn, |unmet, intention| Reason::NotStarted { intention, unmet }, compiled);
+                return self.wait(turn, |unmet, intention| Reason::NotBegun { intention, unmet }, compiled);
             }
             if let Err(reason) = self.write(compiled, turn) {
                 return Standing::Failed(reason);
@@ -70,13 +70,12 @@ impl Activity {
         let State::Written { on, .. } = &self.state else { return Standing::Running };
         let later = on.is_none_or(|version| turn.snapshot.version() > version);
         if later && compiled.expects.holds(turn.snapshot, &self.binding) {
-            turn.events.push(RefinementEvent::Seen { intention: self.text.clone() });
+            turn.events.push(RefinementEvent::Seen { intention: self.ground.clone() });
             return Standing::Seen;
         }
         if later && let Some(unmet) = compiled.keep.why_not(turn.snapshot, &self.binding) {
             self.withdraw(turn.snapshot, turn.edits);
-            return self
-                .fail(turn, Reason::Broken { intention: self.text.clone(), unmet: unmet.to_string() });
+            return self.fail(turn, Reason::Broken { intention: self.ground.clone(), unmet });
         }
         let seconds = compiled.deadline.unwrap_or_default();
         self.wait(turn, |unmet, intention| Reason::Missed { intention, seconds, unmet }, compiled)
@@ -87,11 +86,11 @@ impl Activity {
         let edits = compiled
             .writes
             .edits(turn.snapshot, &self.binding)
-            .map_err(|error| Reason::Impossible(error.to_string()))?;
+            .map_err(|error| Reason::NoEdits { intention: self.ground.clone(), error })?;
         let edits = net(edits, turn.snapshot);
         let on = (!edits.is_empty()).then(|| turn.snapshot.version());
         if on.is_some() {
-            turn.events.push(RefinementEvent::Written { intention: self.text.clone() });
+            turn.events.push(RefinementEvent::Written { intention: self.ground.clone() });
         }
         turn.edits.extend(edits.iter().cloned());
         self.state = State::Written { on, edits };
@@ -102,21 +101,20 @@ impl Activity {
     fn wait(
         &mut self,
         turn: &mut Turn<'_>,
-        reason: impl FnOnce(String, String) -> Reason,
+        reason: impl FnOnce(Option<Unmet>, GroundTask) -> Reason,
         compiled: &Intention,
     ) -> Standing {
         match self.deadline {
             Some(deadline) if turn.now >= deadline => {
                 let written = matches!(self.state, State::Written { .. });
                 let awaited = if written { &compiled.expects } else { &compiled.before };
-                let unmet =
-                    awaited.why_not(turn.snapshot, &self.binding).map_or_else(String::new, |u| u.to_string());
+                let unmet = awaited.why_not(turn.snapshot, &self.binding);
                 self.withdraw(turn.snapshot, turn.edits);
                 // Nobody is doubted for what was never asked for.
                 if written && let Ok(edits) = compiled.on_timeout.edits(turn.snapshot, &self.binding) {
                     turn.edits.extend(edits);
                 }
-                self.fail(turn, reason(unmet, self.text.clone()))
+                self.fail(turn, reason(unmet, self.ground.clone()))
             }
             Some(deadline) => {
                 turn.wake(deadline);
@@ -127,7 +125,7 @@ impl Activity {
     }
 
     fn fail(&self, turn: &mut Turn<'_>, reason: Reason) -> Standing {
-        turn.events.push(RefinementEvent::Failed { intention: self.text.clone(), why: reason.to_string() });
+        turn.events.push(RefinementEvent::Failed { intention: self.ground.clone(), why: reason.clone() });
         Standing::Failed(reason)
     }
 

@@ -36,19 +36,24 @@
 //! assert!(matches!(step.status, Status::Running { .. })); // nothing is lit yet
 //! ```
 //!
-//! Map: `library` (methods.hddl, compiled) → `intention` (one primitive on its way) → `refinement` (the tree
-//! of tasks) with `failure` (why it did not work) and `event` (what it did).
+//! Map, from the ground up: `ground` (a task with its arguments), `library` (methods.hddl, compiled) → `failure` (why
+//! it did not work), `event` (what it did) → `turn`, `intention` (one primitive on its way) → `refinement` (the tree of
+//! tasks) → `wording` (events and failures as sentences).
 //!
 //! Source: refinement acting, Ghallab, Nau & Traverso, "Automated Planning and Acting", 2016, §3.2 (RAE);
 //! HighToLow, §4.2 of the CORTEX/CLARC paper.
 
 mod event;
 mod failure;
+mod ground;
 mod intention;
 mod library;
 mod refinement;
+mod turn;
+mod wording;
 
 pub use event::RefinementEvent;
 pub use failure::{Failure, Reason, StartError};
+pub use ground::GroundTask;
 pub use library::{Methods, MethodsError};
 pub use refinement::{Refinement, Status, Step};

@@ -165,6 +165,14 @@ impl Methods {
         }
     }
 
+    /// The name of a task or an intention.
+    pub(crate) fn name(&self, head: Head) -> &Name {
+        match head {
+            Head::Task(task) => &self.tasks[task].name,
+            Head::Intention(intention) => &self.intentions[intention].name,
+        }
+    }
+
     pub(crate) fn find(&self, task: &str) -> Option<usize> {
         self.tasks.iter().position(|t| &*t.name == task)
     }

@@ -9,8 +9,10 @@
 
 use crate::event::RefinementEvent;
 use crate::failure::{Failure, Reason, StartError};
+use crate::ground::GroundTask;
 use crate::intention::{Activity, Standing};
-use crate::library::{Head, Method, Methods, Subtask};
+use crate::library::{Argument, Head, Method, Methods, Subtask};
+use crate::turn::Turn;
 use dsr::{Edit, NodeId, Snapshot, Time};
 use pddl::model::Name;
 use vocabulary::Binding;
@@ -47,21 +49,6 @@ pub enum Status {
     Done,
     /// No method is left.
     Failed(Failure),
-}
-
-/// One turn: what is seen, and what is asked for.
-pub(crate) struct Turn<'a> {
-    pub(crate) snapshot: &'a Snapshot,
-    pub(crate) now: Time,
-    pub(crate) edits: &'a mut Vec<Edit>,
-    pub(crate) events: &'a mut Vec<RefinementEvent>,
-    wake_at: Option<Time>,
-}
-
-impl Turn<'_> {
-    pub(crate) fn wake(&mut self, at: Time) {
-        self.wake_at = Some(self.wake_at.map_or(at, |earlier| earlier.min(at)));
-    }
 }
 
 impl Refinement {
@@ -168,8 +155,8 @@ impl Goal {
             };
             expansion.withdraw(turn.snapshot, turn.edits);
             let method = &methods.methods[expansion.method].name;
-            let task = text(methods, Head::Task(self.task), &self.arguments, turn.snapshot);
-            turn.events.push(RefinementEvent::MethodFailed { task, method: method.to_string() });
+            let task = self.ground(methods, turn.snapshot);
+            turn.events.push(RefinementEvent::MethodFailed { task, method: method.clone() });
             let fatal = reason.is_fatal();
             self.failed.push((method.clone(), reason));
             self.expansion = None;
@@ -184,6 +171,10 @@ impl Goal {
         }
     }
 
+    fn ground(&self, methods: &Methods, snapshot: &Snapshot) -> GroundTask {
+        ground(methods, Head::Task(self.task), &self.arguments, snapshot)
+    }
+
     /// The first method and binding that apply now and were not tried.
     fn choose(&mut self, methods: &Methods, turn: &mut Turn<'_>) -> Option<Expansion> {
         for &index in &methods.tasks[self.task].methods {
@@ -195,8 +186,8 @@ impl Goal {
                     continue;
                 }
                 self.tried.push(key);
-                let task = text(methods, Head::Task(self.task), &self.arguments, turn.snapshot);
-                turn.events.push(RefinementEvent::MethodChosen { task, method: method.name.to_string() });
+                let task = self.ground(methods, turn.snapshot);
+                turn.events.push(RefinementEvent::MethodChosen { task, method: method.name.clone() });
                 let children = vec![Child::NotYet; method.subtasks.len()];
                 return Some(Expansion { method: index, binding, children });
             }
@@ -212,10 +203,10 @@ impl Goal {
                 Some(bound) if bound == node => {}
                 Some(_) => return None,
                 None => match argument {
-                    crate::library::Argument::Variable(variable) => {
+                    Argument::Variable(variable) => {
                         binding.bind(*variable, node);
                     }
-                    crate::library::Argument::Node(_) => return None,
+                    Argument::Node(_) => return None,
                 },
             }
         }
@@ -223,7 +214,7 @@ impl Goal {
     }
 
     fn failure(&mut self, methods: &Methods, turn: &Turn<'_>, reason: Option<&Reason>) -> Failure {
-        let task = text(methods, Head::Task(self.task), &self.arguments, turn.snapshot);
+        let task = self.ground(methods, turn.snapshot);
         let mut reasons = std::mem::take(&mut self.failed);
         for &index in &methods.tasks[self.task].methods {
             let method = &methods.methods[index];
@@ -232,15 +223,15 @@ impl Goal {
             }
             let why = match (reason, self.unify(method, turn.snapshot)) {
                 (Some(reason), _) => reason.clone(),
-                (None, None) => Reason::NotApplicable("it is for other arguments".to_owned()),
-                (None, Some(binding)) => {
-                    let unmet = method.precondition.why_not(turn.snapshot, &binding);
-                    Reason::NotApplicable(unmet.map_or_else(String::new, |unmet| unmet.to_string()))
-                }
+                (None, None) => Reason::OtherArguments,
+                (None, Some(binding)) => method
+                    .precondition
+                    .why_not(turn.snapshot, &binding)
+                    .map_or(Reason::NotTried, Reason::NotApplicable),
             };
             reasons.push((method.name.clone(), why));
         }
-        Failure { task, methods: reasons }
+        Failure::NoMethodLeft { task, methods: reasons }
     }
 
     fn withdraw(&mut self, snapshot: &Snapshot, edits: &mut Vec<Edit>) {
@@ -293,14 +284,13 @@ impl Expansion {
     fn start(&self, methods: &Methods, subtask: &Subtask, turn: &Turn<'_>) -> Result<Child, Reason> {
         let nodes = subtask.arguments.iter().map(|a| a.node(&self.binding, turn.snapshot));
         let Some(nodes) = nodes.collect::<Option<Vec<_>>>() else {
-            let missing = "an argument of a subtask is bound by nothing, or has left the graph".to_owned();
-            return Err(Reason::Impossible(missing));
+            return Err(Reason::NoArgument { subtask: methods.name(subtask.head).clone() });
         };
         Ok(match subtask.head {
             Head::Task(task) => Child::Task(Box::new(Goal::new(task, nodes))),
             Head::Intention(intention) => {
-                let text = text(methods, subtask.head, &nodes, turn.snapshot);
-                Child::Intention(Activity::new(methods, intention, &nodes, text, turn.now))
+                let ground = ground(methods, subtask.head, &nodes, turn.snapshot);
+                Child::Intention(Activity::new(methods, intention, &nodes, ground, turn.now))
             }
         })
     }
@@ -316,17 +306,7 @@ impl Expansion {
     }
 }
 
-/// `(say barthel feeding introduction)`.
-fn text(methods: &Methods, head: Head, arguments: &[NodeId], snapshot: &Snapshot) -> String {
-    let name = match head {
-        Head::Task(task) => &methods.tasks[task].name,
-        Head::Intention(intention) => &methods.intentions[intention].name,
-    };
-    let mut text = format!("({name}");
-    for &node in arguments {
-        text.push(' ');
-        text.push_str(snapshot.name(node).unwrap_or("?"));
-    }
-    text.push(')');
-    text
+fn ground(methods: &Methods, head: Head, arguments: &[NodeId], snapshot: &Snapshot) -> GroundTask {
+    let arguments = arguments.iter().map(|&node| Name::new(snapshot.name(node).unwrap_or("?"))).collect();
+    GroundTask { name: methods.name(head).clone(), arguments }
 }

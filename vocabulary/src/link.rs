@@ -31,7 +31,6 @@ impl Tokens {
 }
 
 impl<'a> Link<'a> {
-
     /// The vocabulary.
     pub fn tokens(&self) -> &'a Tokens {
         self.tokens
