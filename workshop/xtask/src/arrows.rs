@@ -3,7 +3,7 @@
 //! The drawing is the fenced block that opens with ```` ```arrows ````, a line per crate:
 //! `planner: pddl`. Dependencies of tests and benches are not arrows of the architecture.
 
-use crate::Failure;
+use crate::failure::Failure;
 use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;

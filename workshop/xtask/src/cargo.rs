@@ -1,6 +1,6 @@
 //! Calling cargo.
 
-use crate::Failure;
+use crate::failure::Failure;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 

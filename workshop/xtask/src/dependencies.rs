@@ -4,7 +4,8 @@
 //! comments count too: this finds what is forgotten, it proves nothing. Dependencies of tests are not looked at,
 //! since tests share files across crates.
 
-use crate::{Failure, sources};
+use crate::failure::Failure;
+use crate::sources;
 use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::path::Path;
 

@@ -5,7 +5,8 @@
 //! goes to `tests/fuzz/corpus`, a finding to `tests/fuzz/artifacts` (both outside of git). Without a sanitizer: the crates forbid `unsafe`, so all that
 //! can be found is a panic, an overflow (checked here), a hang or too much memory, and that at twice the speed.
 
-use crate::{Failure, cargo};
+use crate::cargo;
+use crate::failure::Failure;
 use std::path::Path;
 
 /// The workspace of the targets.

@@ -5,19 +5,28 @@
 
 mod arrows;
 mod cargo;
+mod circles;
 mod dependencies;
+mod failure;
 mod fuzz;
+mod modules;
+mod packages;
 mod record;
 mod sources;
+mod surface;
+mod wings;
 
 use std::process::ExitCode;
+
+use failure::Failure;
 
 const HELP: &str = "cargo xtask COMMAND
 
   test   every test of the workspace, by nextest where it is installed, and the documentation's examples
   lint   rustfmt --check, clippy and rustdoc, without a warning
-  tidy   the arrows of ARCHITECTURE.md equal those of cargo, no dependency is idle, every source keeps the
-         house rules
+  tidy   the arrows of ARCHITECTURE.md equal those of cargo, no dependency is idle, every source keeps the house
+         rules, the robot does not depend on the workshop, no files of a crate import each other in a circle,
+         and every public item has a user outside its crate
   ci     test, lint, tidy
   fuzz [TARGET] [SECONDS]
          fuzzes what is read from files: PDDL, plans, journals, worlds; 600 s a target; needs `cargo install cargo-fuzz`
@@ -53,23 +62,6 @@ fn main() -> ExitCode {
     }
 }
 
-/// Why a command did not succeed.
-#[derive(Debug, thiserror::Error)]
-enum Failure {
-    #[error("`{0}` failed")]
-    Command(String),
-    #[error("`{0}` could not be started: {1}")]
-    NotStarted(String, std::io::Error),
-    #[error("cargo metadata: {0}")]
-    Metadata(#[from] cargo_metadata::Error),
-    #[error("{0}: {1}")]
-    File(String, std::io::Error),
-    #[error("there is no file tests/fuzz/targets/{0}.rs")]
-    NoTarget(String),
-    #[error("{0} finding(s), listed above")]
-    Findings(usize),
-}
-
 fn test() -> Result<(), Failure> {
     if cargo::has_nextest() {
         cargo::run(&["nextest", "run", "--release", "--workspace", "--no-tests=pass"])?;
@@ -102,6 +94,10 @@ fn tidy() -> Result<(), Failure> {
     let mut findings = arrows::check(&root)?;
     findings.extend(dependencies::check(&root)?);
     findings.extend(sources::check(&root)?);
+    let packages = packages::packages(&root)?;
+    findings.extend(wings::check(&packages));
+    findings.extend(circles::check(&root, &packages)?);
+    findings.extend(surface::check(&root, &packages)?);
     for finding in &findings {
         eprintln!("tidy: {finding}");
     }

@@ -4,7 +4,8 @@
 //! `docs/figure-8.svg`: the head, the moment in which the person is lost and what follows, and the
 //! report. Drawn from a run, it cannot show what the program does not do.
 
-use crate::{Failure, cargo};
+use crate::cargo;
+use crate::failure::Failure;
 use std::fmt::Write as _;
 use std::process::Command;
 

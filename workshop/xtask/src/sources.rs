@@ -1,7 +1,7 @@
 //! House rules that a compiler does not check: each module says what it is for, no test is switched
 //! off or sleeps, and a file that grew past 700 lines says at its top why.
 
-use crate::Failure;
+use crate::failure::Failure;
 use std::path::{Path, PathBuf};
 
 const LONGEST: usize = 700;
