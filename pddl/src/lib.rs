@@ -40,14 +40,13 @@ mod diagnostic;
 mod format;
 mod lower;
 pub mod model;
+mod occurrence;
 mod parse;
 mod plan;
 mod print;
 pub mod syntax;
 
-pub use analysis::{
-    Analysis, NameKind, Names, Occurrence, Role, Symbol, analyze_domain, analyze_plan, analyze_problem,
-};
+pub use analysis::{Analysis, Names, analyze_domain, analyze_plan, analyze_problem};
 pub use decimal::{Decimal, NotADecimal};
 pub use diagnostic::{
     Diagnostic, DiagnosticKind, Explanation, FileKind, Label, MalformedExplanation, SymbolKind, UnknownCode,
@@ -56,6 +55,7 @@ pub use diagnostic::{
 /// Texts and places in them, for callers that read nothing but PDDL.
 pub use diagnostics::{LineColumn, Severity, Source, Span};
 pub use format::format;
+pub use occurrence::{NameKind, Occurrence, Role, Symbol};
 pub use parse::{Parsed, parse_domain, parse_plan, parse_problem};
 pub use plan::{
     ClaimedCost, Decomposition, DecompositionId, HierarchicalPlan, LabelledStep, LabelledStepId, Plan,

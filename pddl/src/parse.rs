@@ -1,6 +1,6 @@
 //! From text to model: the entry points.
 
-use crate::lower::{self, Sink};
+use crate::lower::{self, Lowered, Sink};
 use crate::model::{Domain, Problem};
 use crate::syntax;
 use crate::{Diagnostic, Plan, Severity, Source};
@@ -25,16 +25,21 @@ impl<M> Parsed<M> {
 /// `(:import …)` may name.
 pub fn parse_domain(source: &Source, imports: &[&Domain]) -> Parsed<Domain> {
     let (tree, diagnostics) = syntax::parse(source);
-    lower::domain(Sink::new(diagnostics), &tree, imports).parsed()
+    parsed(lower::domain(Sink::new(diagnostics), &tree, imports))
 }
 
 /// Reads a problem of `domain`.
 pub fn parse_problem(source: &Source, domain: &Domain) -> Parsed<Problem> {
     let (tree, diagnostics) = syntax::parse(source);
-    lower::problem(Sink::new(diagnostics), &tree, domain).parsed()
+    parsed(lower::problem(Sink::new(diagnostics), &tree, domain))
 }
 
 /// Reads a plan for `problem`: sequential, temporal or hierarchical, whichever the file holds.
 pub fn parse_plan(source: &Source, domain: &Domain, problem: &Problem) -> Parsed<Plan> {
-    lower::plan(Sink::new, source, domain, problem).parsed()
+    parsed(lower::plan(Sink::new, source, domain, problem))
+}
+
+/// The model, unless there was an error.
+fn parsed<M>(lowered: Lowered<M>) -> Parsed<M> {
+    Parsed { model: lowered.draft.filter(|_| lowered.sound), diagnostics: lowered.diagnostics }
 }

@@ -1,7 +1,7 @@
 //! Every kind of diagnostic with its fields, its code, its sentence and its help.
 
-use crate::analysis::NameKind;
 use crate::model::Name;
+use crate::occurrence::NameKind;
 
 use diagnostics::Severity;
 

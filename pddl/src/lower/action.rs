@@ -15,9 +15,9 @@ use super::sink::{Sink, first_word};
 use super::typed_list::typed_list;
 use super::world::World;
 use crate::Span;
-use crate::analysis::NameKind;
 use crate::diagnostic::UnsupportedFeature;
 use crate::model::{Action, Condition, ConditionKind, Effect, EffectKind, Name, Preference, VariableId};
+use crate::occurrence::NameKind;
 use crate::syntax::{Node, NodeKind};
 
 /// The name behind the section's keyword, and what follows. Reports a missing name.

@@ -8,9 +8,9 @@ use super::keys::Keys;
 use super::sink::Sink;
 use super::typed_list::typed_list;
 use super::world::World;
-use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, SymbolKind};
 use crate::model::{Axiom, Condition, ConditionKind, PredicateId, TypeSet};
+use crate::occurrence::NameKind;
 use crate::syntax::Node;
 
 /// The predicate that an axiom derives, if it is known; silent.

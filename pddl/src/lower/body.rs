@@ -8,9 +8,9 @@ use super::function_term::FunctionTerms;
 use super::schema::Schema;
 use super::sink::Sink;
 use super::world::World;
-use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, SymbolKind};
 use crate::model::{Name, ObjectId, Term, TypeSet, Variable, VariableId};
+use crate::occurrence::NameKind;
 use crate::syntax::{Node, NodeKind};
 
 /// One schema that is being read.

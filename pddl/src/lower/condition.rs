@@ -8,12 +8,12 @@ use super::body::{Applied, Body};
 use super::constraint::is_modal;
 use super::sink::first_word;
 use crate::Span;
-use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, SymbolKind};
 use crate::model::{
     Atom, Comparison, Condition, ConditionKind, FunctionValue, Name, ObjectId, PredicateId, Term, TypeId,
     TypeSet, Variable,
 };
+use crate::occurrence::NameKind;
 use crate::syntax::{Node, NodeKind};
 
 impl Body<'_> {

@@ -7,9 +7,9 @@
 use super::sink::Sink;
 use super::typed_list::{public, typed_list};
 use super::world::World;
-use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, Label, SymbolKind};
 use crate::model::{Domain, IndexVec, Name, Object, ObjectId, Requirement, TypeSet};
+use crate::occurrence::NameKind;
 use crate::syntax::Node;
 
 /// How many of the first objects come from elsewhere: their spans are of other sources.

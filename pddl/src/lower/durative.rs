@@ -9,12 +9,12 @@ use super::keys::Keys;
 use super::schema::Owner;
 use super::sink::Sink;
 use super::world::World;
-use crate::analysis::NameKind;
 use crate::diagnostic::DiagnosticKind;
 use crate::model::{
     Comparison, DurationConstraint, DurativeAction, Name, Requirement, Rule, SkillCall, Term, TimeSpecifier,
     VariableId,
 };
+use crate::occurrence::NameKind;
 use crate::syntax::Node;
 
 const RULE_KEYS: [&str; 4] = [":skill", ":results", ":claims", ":priority"];

@@ -2,9 +2,9 @@
 
 use super::body::{Applied, Body};
 use super::schema::Owner;
-use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, SymbolKind, UnsupportedFeature};
 use crate::model::{Application, ArithmeticOperator, Expression, ExpressionKind, FunctionValue, Name};
+use crate::occurrence::NameKind;
 use crate::syntax::{Node, NodeKind};
 
 /// Operators that some planners know besides those of the language.

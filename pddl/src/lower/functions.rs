@@ -4,9 +4,9 @@ use super::predicates::{Earlier, parameters, repeated, same_parameters};
 use super::sink::Sink;
 use super::typed_list::{public, typed_list, without_agent};
 use super::world::World;
-use crate::analysis::NameKind;
 use crate::diagnostic::SymbolKind;
 use crate::model::{Domain, Function, FunctionValue, Name};
+use crate::occurrence::NameKind;
 use crate::syntax::Node;
 
 pub(crate) fn functions<'t>(

@@ -12,12 +12,12 @@ use super::body::{Applied, Body};
 use super::keys::Keys;
 use super::sink::{Sink, first_word};
 use super::world::{Signature, World, fold};
-use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, Label, SymbolKind};
 use crate::model::{
     CompoundTask, Condition, Method, Name, Ordering, Subtask, SubtaskHead, TaskId, TaskNetwork, Term,
     Variables,
 };
+use crate::occurrence::NameKind;
 use crate::syntax::Node;
 
 const ORDERED: [&str; 2] = [":ordered-subtasks", ":ordered-tasks"];

@@ -10,9 +10,9 @@ use super::predicates::same_parameters;
 use super::sink::Sink;
 use super::world::World;
 use crate::Span;
-use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, SymbolKind};
 use crate::model::{Domain, Function, FunctionValue, Name, Object, Predicate, TypeSet, Variable, Variables};
+use crate::occurrence::NameKind;
 
 /// The imported domains with the places of their names.
 pub(crate) fn imports<'d>(

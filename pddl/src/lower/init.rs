@@ -4,12 +4,12 @@
 
 use super::body::{Applied, Body};
 use super::sink::first_word;
-use crate::analysis::NameKind;
 use crate::diagnostic::{SymbolKind, UnsupportedFeature};
 use crate::model::{
     Fact, FluentFact, FluentValue, FunctionValue, GroundApplication, ObjectId, PredicateId, Term,
     TimedChange, TimedInitial,
 };
+use crate::occurrence::NameKind;
 use crate::syntax::{Node, NodeKind};
 
 /// The initial state.

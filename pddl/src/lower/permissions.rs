@@ -6,11 +6,11 @@
 use super::body::{Applied, Body};
 use super::sink::{Sink, first_word};
 use super::world::World;
-use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, SymbolKind};
 use crate::model::{
     Name, ObjectId, Permission, Requirement, Term, TokenPattern, TokenSymbol, TypeSet, Variable,
 };
+use crate::occurrence::NameKind;
 use crate::syntax::{Node, NodeKind};
 
 pub(crate) fn permission(world: &World, sink: &mut Sink, section: Node<'_>) -> Option<Permission> {

@@ -5,9 +5,9 @@ use super::sink::Sink;
 use super::typed_list::{public, without_agent};
 use super::world::World;
 use crate::Span;
-use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, Label, SymbolKind};
 use crate::model::{Domain, Name, Predicate, Variables};
+use crate::occurrence::NameKind;
 use crate::syntax::Node;
 
 pub(crate) fn predicates<'t>(

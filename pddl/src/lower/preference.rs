@@ -7,9 +7,9 @@
 
 use super::body::Body;
 use super::timed::{Timed, timed};
-use crate::analysis::NameKind;
 use crate::diagnostic::DiagnosticKind;
 use crate::model::{Condition, ConditionKind, Name, Preference, TimeSpecifier};
+use crate::occurrence::NameKind;
 use crate::syntax::Node;
 
 /// A preference with what stands around it.

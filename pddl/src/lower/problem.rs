@@ -10,9 +10,9 @@ use super::metric::{constraint_names, names, preference_names};
 use super::requirements::requirements;
 use super::sink::{Lowered, Sink, first_word};
 use super::world::World;
-use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, FileKind, UnsupportedFeature};
 use crate::model::{Condition, Domain, Fact, Name, ObjectId, PredicateId, Preference, Problem, Variables};
+use crate::occurrence::NameKind;
 use crate::syntax::{Node, Tree};
 use rustc_hash::FxHashSet;
 

@@ -7,8 +7,8 @@ use super::body::Body;
 use super::keys::Keys;
 use super::sink::{Sink, first_word};
 use super::world::World;
-use crate::analysis::NameKind;
 use crate::model::{Effect, Event, Process};
+use crate::occurrence::NameKind;
 use crate::syntax::Node;
 
 const KEYS: &[&str] = &[":parameters", ":precondition", ":effect"];

@@ -2,9 +2,9 @@
 
 use super::header::Header;
 use super::sink::Sink;
-use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, SymbolKind};
 use crate::model::{Requirement, Requirements};
+use crate::occurrence::NameKind;
 
 pub(crate) fn requirements(sink: &mut Sink, header: &Header<'_>) -> Requirements {
     let mut flags = Requirements::default();

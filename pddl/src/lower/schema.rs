@@ -4,9 +4,9 @@ use super::sink::Sink;
 use super::typed_list::{Typed, typed_list};
 use super::world::{World, fold};
 use crate::Span;
-use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, Label, SymbolKind};
 use crate::model::{Idx, Name, TypeSet, Variable, VariableId, Variables};
+use crate::occurrence::NameKind;
 use crate::syntax::{Node, NodeKind};
 
 /// Variables with their scopes.

@@ -1,11 +1,10 @@
 //! Where diagnostics go while a model is made.
 
-use crate::analysis::{NameKind, Occurrence, Role, Symbol};
 use crate::diagnostic::{Diagnostic, DiagnosticKind, Label, UnsupportedFeature};
 use crate::model::Name;
+use crate::occurrence::{NameKind, Occurrence, Role, Symbol};
 use crate::syntax::Node;
-use crate::{Parsed, Severity, Span};
-use diagnostics::nearest;
+use diagnostics::{Severity, Span, nearest};
 
 /// Most searches for a similar name in one run: each looks at every declared name.
 const MAX_SUGGESTIONS: usize = 64;
@@ -123,11 +122,6 @@ impl<M> Lowered<M> {
     pub(crate) fn new(draft: Option<M>, finished: Finished) -> Self {
         let Finished { diagnostics, sound, occurrences, .. } = finished;
         Self { draft, sound, diagnostics, occurrences }
-    }
-
-    /// The model only if nothing is wrong.
-    pub(crate) fn parsed(self) -> Parsed<M> {
-        Parsed { model: self.draft.filter(|_| self.sound), diagnostics: self.diagnostics }
     }
 }
 

@@ -2,9 +2,9 @@
 
 use super::sink::{Sink, first_word};
 use super::world::World;
-use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, SymbolKind};
 use crate::model::{TypeId, TypeSet};
+use crate::occurrence::NameKind;
 use crate::syntax::Node;
 use smallvec::SmallVec;
 

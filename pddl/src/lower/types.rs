@@ -12,9 +12,9 @@ use super::sink::Sink;
 use super::typed_list::{type_names, typed_list};
 use super::world::fold;
 use crate::Span;
-use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, SymbolKind};
 use crate::model::{Domain, Idx, Name, Type, TypeId, TypeTable};
+use crate::occurrence::NameKind;
 
 struct Entry {
     span: Span,

@@ -11,7 +11,8 @@
 //! nodes, so that whoever recurses over a tree is safe. Invariant: nodes are in preorder and every parent's range covers its children's.
 
 use super::layout::{Signs, is_key, missing_ends};
-use super::token::{TokenKind, Tokens};
+use super::token::TokenKind;
+use super::tokens::Tokens;
 use super::tree::{NodeData, NodeKind, Tree};
 use crate::diagnostic::{Diagnostic, DiagnosticKind, Label};
 use crate::{Source, Span};

@@ -11,7 +11,8 @@
 //! is asked of a section whose parentheses balance. Cost: one more pass over a section that is wrong. Columns are
 //! counted in bytes.
 
-use super::token::{TokenKind, Tokens};
+use super::token::TokenKind;
+use super::tokens::Tokens;
 use crate::Span;
 
 /// Keywords of sections that hold keys and their values.

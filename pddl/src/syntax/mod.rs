@@ -9,8 +9,10 @@ mod build;
 mod layout;
 mod lexer;
 mod token;
+mod tokens;
 mod tree;
 
 pub use build::{MAX_DEPTH, parse};
-pub use token::{TokenKind, Tokens};
+pub use token::TokenKind;
+pub use tokens::Tokens;
 pub use tree::{Children, Node, NodeKind, Tree};

@@ -1,10 +1,4 @@
-//! Tokens: consecutive pieces that tile the text.
-//!
-//! They are not stored: whoever wants them reads the text again, which is faster than most would read them from
-//! memory. Each starts where the one before it ends, so they cover every byte once *by construction*.
-
-use super::lexer::first_token;
-use crate::Span;
+//! The kinds of tokens.
 
 /// What a token is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,37 +19,4 @@ pub enum TokenKind {
     Keyword,
     /// `5`, `-1.5`, `.5`, `1e-3`
     Number,
-}
-
-/// All tokens of a text, in order.
-#[derive(Clone, Debug)]
-pub struct Tokens<'s> {
-    text: &'s str,
-    /// How much of it is behind us.
-    at: usize,
-}
-
-impl<'s> Tokens<'s> {
-    /// The tokens of that text.
-    pub(super) fn of(text: &'s str) -> Self {
-        Self { text, at: 0 }
-    }
-
-    /// Those of a part that starts and ends where tokens do; their spans are of the whole.
-    pub(super) fn within(text: &'s str, part: Span) -> Self {
-        Self { text: &text[..part.end as usize], at: part.start as usize }
-    }
-}
-
-impl Iterator for Tokens<'_> {
-    type Item = (TokenKind, Span);
-
-    fn next(&mut self) -> Option<(TokenKind, Span)> {
-        let rest = self.text.as_bytes().get(self.at..).filter(|rest| !rest.is_empty())?;
-        let (length, kind) = first_token(rest);
-        let place = |at: usize| u32::try_from(at).expect("a source is shorter than 4 GiB");
-        let span = Span::new(place(self.at), place(self.at + length));
-        self.at += length;
-        Some((kind, span))
-    }
 }

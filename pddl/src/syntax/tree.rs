@@ -4,7 +4,7 @@
 //! the next node and the next sibling is the subtree's end. 16 bytes a node, no pointers, nothing to
 //! drop recursively. Comments and blanks are in [`Tree::tokens`] only.
 
-use super::token::Tokens;
+use super::tokens::Tokens;
 use crate::Span;
 
 /// What a node is.

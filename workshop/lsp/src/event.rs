@@ -1,7 +1,7 @@
 //! Everything that can happen to the server. Its state changes in answer to these and to nothing else.
 
-use crate::job::{JobId, JobNews};
 use crate::message::Malformed;
+use crate::news::{JobId, JobNews};
 use lsp_server::{Message, RequestId};
 
 /// What happens.

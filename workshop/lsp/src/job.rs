@@ -6,20 +6,16 @@
 //! thread; a job that panics says so first.
 
 use crate::event::Event;
-use crate::host::{Cancel, File, Judged, Planned};
+use crate::host::{Cancel, File};
+use crate::news::{JobId, JobNews};
 use diagnostics::SourceId;
 use lsp_server::RequestId;
 use lsp_types::ProgressToken;
-use project::Linted;
 use rustc_hash::FxHashMap;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::SyncSender;
 use std::thread::spawn;
-
-/// A job.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(crate) struct JobId(u32);
 
 /// What a job is for.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -55,29 +51,6 @@ impl About {
             File::Plan => self.plan.unwrap_or(self.problem),
         }
     }
-}
-
-/// What a job says.
-#[derive(Debug)]
-pub(crate) enum JobNews {
-    /// How far it is, in a few words.
-    Progress(String),
-    /// Files with their texts.
-    Found(Vec<(String, String)>),
-    /// Something that the user should know of.
-    Trouble(String),
-    /// The document has been read.
-    Checked(SourceId),
-    /// Warnings about a document.
-    Linted(SourceId, Vec<Linted>),
-    /// The planner's answer.
-    Planned(Planned),
-    /// The validator's.
-    Judged(Judged),
-    /// A bug of ours.
-    Panicked(String),
-    /// It is over.
-    Ended,
 }
 
 /// A job that has not ended.

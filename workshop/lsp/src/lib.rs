@@ -47,6 +47,7 @@ mod host;
 mod inbox;
 mod job;
 mod message;
+mod news;
 mod options;
 mod outbox;
 mod position;
@@ -56,4 +57,5 @@ mod uri;
 
 pub use host::{Cancel, Disk, Entry, File, Host, Judged, Limits, Planned, ReadError, Remark, Task, Tools};
 pub use position::{Encoding, LineIndex};
-pub use serve::{Ended, serve};
+pub use serve::serve;
+pub use server::Ended;

@@ -6,21 +6,12 @@ use crate::host::Host;
 use crate::inbox::Inbox;
 use crate::message::{self, Malformed};
 use crate::outbox::Outbox;
-use crate::server::Server;
+use crate::server::{Ended, Server};
 use lsp_server::{ErrorCode, Message};
 use std::io::{BufReader, Read, Write};
 use std::ops::ControlFlow;
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread::spawn;
-
-/// How a session ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ended {
-    /// As the protocol wants it: `shutdown`, then `exit`.
-    Properly,
-    /// By `exit` alone, or because input or output ended.
-    Abruptly,
-}
 
 /// How many events may be under way; a reader that is faster waits.
 const UNDER_WAY: usize = 256;

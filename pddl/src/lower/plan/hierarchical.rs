@@ -15,9 +15,9 @@
 use rustc_hash::FxHashMap;
 
 use super::Reader;
-use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, Label, SymbolKind};
 use crate::model::{Idx as _, IndexVec, MethodId, ObjectId, SubtaskHead, TaskId};
+use crate::occurrence::NameKind;
 use crate::syntax::Node;
 use crate::{
     Decomposition, DecompositionId, HierarchicalPlan, LabelledStep, LabelledStepId, PlanLabel, PlanNode,

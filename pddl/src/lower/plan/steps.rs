@@ -5,9 +5,9 @@
 //! line, and reading goes on at the next time or list.
 
 use super::{Reader, STEP};
-use crate::analysis::NameKind;
 use crate::diagnostic::{DiagnosticKind, SymbolKind};
 use crate::model::{ActionId, Name, ObjectId, SubtaskHead, Variable};
+use crate::occurrence::NameKind;
 use crate::syntax::Node;
 use crate::{
     Decimal, NotADecimal, Plan, PlanStep, SequentialPlan, Span, StepHead, TemporalPlan, TemporalStep,

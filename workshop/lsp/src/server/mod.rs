@@ -18,10 +18,10 @@ use crate::client::Client;
 use crate::documents::Documents;
 use crate::event::Event;
 use crate::host::Host;
-use crate::job::{JobId, JobNews, Jobs, Purpose, words_of};
+use crate::job::{Jobs, Purpose, words_of};
+use crate::news::{JobId, JobNews};
 use crate::options::Options;
 use crate::outbox::{Asked, Outbox};
-use crate::serve::Ended;
 use board::Board;
 use lsp_server::{ErrorCode, Message, RequestId, Response};
 use lsp_types::{LogMessageNotification, LogMessageParams, MessageType};
@@ -30,6 +30,15 @@ use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::SyncSender;
 use std::time::Duration;
+
+/// How a session ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ended {
+    /// As the protocol wants it: `shutdown`, then `exit`.
+    Properly,
+    /// By `exit` alone, or because input or output ended.
+    Abruptly,
+}
 
 /// How far the session is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

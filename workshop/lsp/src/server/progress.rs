@@ -1,7 +1,7 @@
 //! Telling the user that something takes time, where the client can show it.
 
 use super::Server;
-use crate::job::JobId;
+use crate::news::JobId;
 use crate::outbox::Asked;
 use lsp_types::{
     ProgressNotification, ProgressParams, ProgressToken, WorkDoneProgressCreateParams,

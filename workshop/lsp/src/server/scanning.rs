@@ -6,7 +6,8 @@
 
 use super::Server;
 use crate::host::{Cancel, Disk, Entry, ReadError};
-use crate::job::{JobNews, Purpose, Reporter, Running};
+use crate::job::{Purpose, Reporter, Running};
+use crate::news::JobNews;
 use crate::options::Options;
 use lsp_types::{DidChangeWatchedFilesParams, DidChangeWorkspaceFoldersParams, FileChangeType, FileEvent};
 use project::FileKind;

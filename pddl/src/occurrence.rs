@@ -1,0 +1,102 @@
+//! Where a name stands in a file, and what it stands for there.
+//!
+//! Lowering records an [`Occurrence`] for each name that it reads; editors look them up.
+
+use diagnostics::Span;
+
+use crate::model::Name;
+
+/// What a name is a name of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum NameKind {
+    /// A domain.
+    Domain,
+    /// A problem.
+    Problem,
+    /// A requirement flag, with its colon.
+    Requirement,
+    /// A type.
+    Type,
+    /// A predicate.
+    Predicate,
+    /// A function.
+    Function,
+    /// A constant or an object.
+    Object,
+    /// A variable, without the question mark.
+    Variable,
+    /// An action, durative or not.
+    Action,
+    /// A compound task.
+    Task,
+    /// A method.
+    Method,
+    /// A subtask's id.
+    Subtask,
+    /// A preference.
+    Preference,
+    /// A process.
+    Process,
+    /// An event.
+    Event,
+    /// A skill that a rule calls.
+    Skill,
+    /// An agent that `:writes` names.
+    Agent,
+}
+
+impl std::fmt::Display for NameKind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Domain => "domain",
+            Self::Problem => "problem",
+            Self::Requirement => "requirement",
+            Self::Type => "type",
+            Self::Predicate => "predicate",
+            Self::Function => "function",
+            Self::Object => "object",
+            Self::Variable => "variable",
+            Self::Action => "action",
+            Self::Task => "task",
+            Self::Method => "method",
+            Self::Subtask => "subtask",
+            Self::Preference => "preference",
+            Self::Process => "process",
+            Self::Event => "event",
+            Self::Skill => "skill",
+            Self::Agent => "agent",
+        })
+    }
+}
+
+/// What a name stands for.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Symbol {
+    /// What it is a name of.
+    pub kind: NameKind,
+    /// The name.
+    pub name: Name,
+    /// The list outside of which a variable or a subtask's id means nothing: the section for parameters, the
+    /// quantifier for what it binds. `None` for all other kinds.
+    pub scope: Option<Span>,
+}
+
+/// What an occurrence does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Role {
+    /// It says that there is such a thing.
+    Declaration,
+    /// It names the thing.
+    Use,
+}
+
+/// A name where it stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Occurrence {
+    /// The name itself; of a variable with its question mark.
+    pub span: Span,
+    /// What it stands for. Nothing may have declared it.
+    pub symbol: Symbol,
+    /// What it does here.
+    pub role: Role,
+}
