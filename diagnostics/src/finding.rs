@@ -1,18 +1,18 @@
 //! Findings across files: what is wrong, and where.
 //!
-//! Problem: `pddl::Diagnostic` speaks of one source; what is wrong with a project or a mission often lies
-//! between two (a problem's domain is nowhere, a node has no sentence in `fr.toml`). Idea: number the sources;
-//! a [`Place`] is a source and a span, and a [`Finding`] may have several. Rendering with colours and excerpts
-//! is the edge's work; [`Sources::place`](crate::Sources::place) gives the plain line that tests and logs use.
+//! Problem: a mistake in a project or a mission often lies between two sources (no file defines a problem's
+//! domain, a node has no sentence in `fr.toml`). Idea: number the sources; a [`Place`] is a source and a
+//! span, and a [`Finding`] may have several. The edge renders colours and excerpts;
+//! [`Sources::place`](crate::Sources::place) gives the plain line that tests and logs use.
 //!
-//! Codes: E01xx to W09xx of `pddl` and the lints; of missions E07xx shape of a TOML file, E08xx words, E09xx
-//! scenarios, C01xx between the layers.
+//! Codes: E01xx to W09xx are those of `pddl` and the lints. Missions use E07xx for the shape of a TOML file,
+//! E08xx for words, E09xx for scenarios, C01xx for conflicts between the layers.
 
 use serde::Serialize;
 
 use crate::{Severity, SourceId, Span};
 
-/// A place in some source.
+/// A place in a source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Place {
     /// Which source.
@@ -21,20 +21,20 @@ pub struct Place {
     pub span: Span,
 }
 
-/// Something to tell an author. The code is for programs, the rest for people.
+/// A message to an author. The code is for programs, the rest for people.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Finding {
     /// Stable code, `E0801`.
     pub code: &'static str,
-    /// How bad.
+    /// Its severity.
     pub severity: Severity,
     /// One sentence without a full stop.
     pub message: String,
-    /// Where.
+    /// The place that it is about.
     pub place: Place,
-    /// Other places, in any source, each with what it has to do with it.
+    /// Other places, in any source, each with a note.
     pub related: Vec<(Place, String)>,
-    /// What would be right.
+    /// How to correct it.
     pub help: Option<String>,
 }
 
@@ -50,18 +50,18 @@ impl Finding {
         Self { severity: Severity::Warning, ..Self::error(code, place, message) }
     }
 
-    /// With advice.
+    /// Adds advice.
     pub fn help(self, help: impl Into<String>) -> Self {
         self.help_if(Some(help.into()))
     }
 
-    /// With advice, if there is any.
+    /// Adds advice, if given.
     pub fn help_if(mut self, help: Option<String>) -> Self {
         self.help = help;
         self
     }
 
-    /// With another place.
+    /// Adds another place with its note.
     pub fn related(mut self, place: Place, message: impl Into<String>) -> Self {
         self.related.push((place, message.into()));
         self

@@ -1,8 +1,8 @@
 //! What every reader of text shares: sources, places in them, findings, and TOML with places.
 //!
-//! A [`Source`] is a named text, a [`Span`] a byte range of it. A [`Finding`] says what is wrong at a [`Place`]: a
-//! span of one of several [`Sources`]. [`nearest`] proposes the known name that an author may have meant. [`toml`]
-//! reads TOML files so that each value, good or bad, keeps its place.
+//! A [`Source`] is a named text, a [`Span`] a byte range of it. A [`Finding`] reports a mistake at a
+//! [`Place`]: a span of one of several [`Sources`]. [`nearest`] finds the known name that is most similar to
+//! an unknown one. [`toml`] reads TOML files so that each value, valid or not, keeps its place.
 //!
 //! ```
 //! use diagnostics::toml::Reader;

@@ -1,16 +1,16 @@
-//! How bad a diagnostic is.
+//! The severity of a diagnostic.
 
 use serde::Serialize;
 
-/// How bad a diagnostic is.
+/// The severity of a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
     /// The model is still meaningful.
     Warning,
-    /// The file uses a language feature that is parsed but that no model represents yet.
+    /// The file uses a language feature that is read but not modelled.
     Unsupported,
-    /// There is no model.
+    /// No model can be made.
     Error,
 }
 

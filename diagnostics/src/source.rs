@@ -46,7 +46,7 @@ pub struct LineColumn {
     pub column: u32,
 }
 
-/// A named text. The name is what diagnostics show, usually a path.
+/// A named text. Diagnostics show the name, usually a path.
 #[derive(Clone, Debug)]
 pub struct Source {
     name: String,
@@ -55,7 +55,7 @@ pub struct Source {
 }
 
 impl Source {
-    /// Longest text that spans can address.
+    /// Longest text that spans can address, in bytes.
     pub const MAX_BYTES: usize = u32::MAX as usize;
 
     /// Indexes the lines of `text`.
@@ -78,8 +78,8 @@ impl Source {
         Self::new(name, Self::decode(bytes))
     }
 
-    /// Bytes as UTF-8 or, where they are not, as Latin-1, which old competition files are in, so that names come out as
-    /// they were written. A byte order mark is no part of the text.
+    /// Decodes UTF-8 or, if the bytes are not UTF-8, Latin-1, the encoding of old competition files. Names
+    /// then appear as their authors wrote them. A byte order mark is removed.
     pub fn decode(bytes: Vec<u8>) -> String {
         let mut text =
             String::from_utf8(bytes).unwrap_or_else(|e| e.into_bytes().into_iter().map(char::from).collect());
@@ -89,7 +89,7 @@ impl Source {
         text
     }
 
-    /// What to call it.
+    /// Its name.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -99,12 +99,12 @@ impl Source {
         &self.text
     }
 
-    /// The text of a span (empty where the span is not of this source).
+    /// The text of a span (empty if the span is out of range).
     pub fn slice(&self, span: Span) -> &str {
         self.text.get(span.range()).unwrap_or("")
     }
 
-    /// The text of a line (from 1) without its line end; empty if there is no such line.
+    /// The text of a line (from 1) without its line end; empty if the line does not exist.
     pub fn line(&self, line: u32) -> &str {
         let Some(&start) = (line as usize).checked_sub(1).and_then(|i| self.line_starts.get(i)) else {
             return "";
@@ -113,7 +113,7 @@ impl Source {
         self.text.get(start as usize..end).unwrap_or("").trim_end_matches(['\n', '\r'])
     }
 
-    /// Where a byte offset stands.
+    /// Line and column of a byte offset.
     pub fn line_column(&self, offset: u32) -> LineColumn {
         let line = self.line_starts.partition_point(|&s| s <= offset).max(1) - 1;
         let start = self.line_starts[line] as usize;
@@ -125,13 +125,13 @@ impl Source {
 }
 
 impl Source {
-    /// The line where `span` starts, and carets under its part on that line, with a note beside them. As plain
-    /// text of two lines; the last one ends with a line end.
+    /// The line where `span` starts, with carets under the span and a note beside them. Plain text of two
+    /// lines; the last one ends with a line end.
     pub fn excerpt(&self, span: Span, note: &str) -> String {
         let place = self.line_column(span.start);
         let line = self.line(place.line);
         let column = place.column as usize - 1;
-        // A line of a generated file may be megabytes: the window moves to where the span is.
+        // A line of a generated file may be megabytes long: the window moves to the span.
         let fits = line.len() <= WIDTH;
         let skip = if fits { 0 } else { column.saturating_sub(WIDTH / 2) };
         let shown: String =

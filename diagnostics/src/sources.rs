@@ -1,4 +1,4 @@
-//! Texts by number, and places in them as plain lines.
+//! Numbered sources, and places in them as plain lines.
 
 use std::fmt::Write as _;
 use std::sync::Arc;
@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::{Finding, Place, Source, Span};
 
-/// A text of a project or a mission.
+/// The number of a source in a project or a mission.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 pub struct SourceId(pub u32);
 
@@ -17,12 +17,12 @@ impl SourceId {
     }
 }
 
-/// Texts by number.
+/// Numbered sources.
 #[derive(Clone, Debug, Default)]
 pub struct Sources(Vec<Arc<Source>>);
 
 impl Sources {
-    /// None yet.
+    /// An empty collection.
     pub fn new() -> Self {
         Self::default()
     }
@@ -34,12 +34,12 @@ impl Sources {
         id
     }
 
-    /// Puts another text in the place of one.
+    /// Replaces the text of a source.
     pub fn replace(&mut self, id: SourceId, source: Source) {
         self.0[id.index()] = Arc::new(source);
     }
 
-    /// The first place of the source of that id.
+    /// The first place of a source.
     pub fn start_of(source: SourceId) -> Place {
         Place { source, span: Span::default() }
     }
@@ -49,7 +49,7 @@ impl Sources {
         (0..).map(SourceId).zip(self.0.iter().map(|source| &**source))
     }
 
-    /// The source of that id, to keep.
+    /// A source as a shared pointer.
     pub fn shared(&self, id: SourceId) -> Arc<Source> {
         Arc::clone(&self.0[id.index()])
     }

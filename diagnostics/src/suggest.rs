@@ -1,8 +1,8 @@
 //! Did you mean: the known name nearest to an unknown one.
 //!
-//! Distance: insertions, deletions, substitutions and swaps of neighbours, case ignored. A candidate
-//! counts if at most a third of the longer name differs. The first of equally near ones wins, so the
-//! answer depends on the order of declaration only.
+//! Distance: the number of insertions, deletions, substitutions and swaps of neighbours; case is ignored. A
+//! candidate counts if at most a third of the longer name differs. The first of equally near candidates
+//! wins, so the result depends on the order of declaration only.
 //!
 //! Source: Damerau, "A technique for computer detection and correction of spelling errors", CACM 1964.
 

@@ -1,8 +1,8 @@
-//! Decimal numbers as they are written: 0.1 is a tenth, not the double beside it.
+//! Decimal numbers as they are written: 0.1 is a tenth, not the nearest double.
 //!
-//! Problem: a temporal plan stands or falls with `0.003` and `4.003` meeting exactly. Idea: keep the digits
-//! and how many of them stand behind the point; whoever calculates makes a fraction of it,
-//! `digits / 10^scale`. Invariant: no zeros at the end behind the point, so equal numbers are equal values;
+//! Problem: whether a temporal plan is valid may depend on `0.003` and `4.003` being exact. Idea: store the
+//! digits and how many of them follow the point; a caller that calculates makes a fraction of them, `digits
+//! / 10^scale`. Invariant: there are no trailing zeros behind the point, so equal numbers are equal values;
 //! the scale is at most [`Decimal::MAX_SCALE`], so that `10^scale` fits in an `i128`.
 
 use std::cmp::Ordering;
@@ -16,19 +16,19 @@ pub struct Decimal {
     scale: u8,
 }
 
-/// A text is no [`Decimal`].
+/// A text is not a valid [`Decimal`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NotADecimal {
-    /// It is no number at all.
+    /// It is not a number.
     #[error("not a number")]
     Malformed,
-    /// It has more digits than are kept.
+    /// It has more digits than a [`Decimal`] holds.
     #[error("a number of more than {} digits", Decimal::MAX_SCALE)]
     TooLong,
 }
 
 impl Decimal {
-    /// Nothing.
+    /// Zero.
     pub const ZERO: Self = Self { digits: 0, scale: 0 };
 
     /// Most digits behind the point.
@@ -49,7 +49,7 @@ impl Decimal {
         self.scale
     }
 
-    /// The fraction that it is, in no particular terms: numerator and (positive) denominator.
+    /// Its value as a fraction, not reduced: numerator and (positive) denominator.
     pub const fn fraction(self) -> (i128, i128) {
         (self.digits, 10i128.pow(self.scale as u32))
     }

@@ -1,8 +1,8 @@
 //! PDDL 3.1 and HDDL: lossless syntax, a typed model, diagnostics, and a printer.
 //!
-//! Text becomes a [`syntax::Tree`] that keeps every byte, the tree becomes a typed
-//! [`model::Domain`] or [`model::Problem`] with resolved names, and whatever is wrong on the way
-//! becomes a [`Diagnostic`] with a place. Nothing here reads files or prints to a terminal.
+//! Text becomes a [`syntax::Tree`] that keeps every byte. The tree becomes a typed [`model::Domain`] or
+//! [`model::Problem`] with resolved names. Each mistake becomes a [`Diagnostic`] with a place. Nothing here
+//! reads files or prints to a terminal.
 //!
 //! ```
 //! use pddl::{Source, parse_domain, print_domain};
@@ -28,8 +28,8 @@
 //! | [`syntax`] | tokens that tile the text, the tree over them, recovery at parentheses |
 //! | `lower` | tree to model: names, arities, types; a file for each part of the language |
 //! | [`model`] | what a file means |
-//! | `analysis` | for editors: a draft of the model whatever is wrong, and where each name occurs |
-//! | `diagnostic` | what can be wrong, with stable codes, each explained |
+//! | `occurrence`, `analysis` | for editors: where each name occurs, a draft of the model of a file with errors |
+//! | `diagnostic` | what can be wrong, with stable codes, and a page of explanation for each |
 //! | `plan` | what a plan file means: sequential, temporal, hierarchical |
 //! | `print` | model to text |
 //! | `format` | text to text: the same tokens and comments, laid out anew |

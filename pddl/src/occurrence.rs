@@ -6,7 +6,7 @@ use diagnostics::Span;
 
 use crate::model::Name;
 
-/// What a name is a name of.
+/// The kind of thing that a name names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum NameKind {
     /// A domain.
@@ -72,31 +72,31 @@ impl std::fmt::Display for NameKind {
 /// What a name stands for.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Symbol {
-    /// What it is a name of.
+    /// The kind of thing.
     pub kind: NameKind,
     /// The name.
     pub name: Name,
-    /// The list outside of which a variable or a subtask's id means nothing: the section for parameters, the
-    /// quantifier for what it binds. `None` for all other kinds.
+    /// The list that is the scope of a variable or of a subtask's id: the section for parameters, the
+    /// quantifier for a bound variable. `None` for all other kinds.
     pub scope: Option<Span>,
 }
 
-/// What an occurrence does.
+/// The role of an occurrence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Role {
-    /// It says that there is such a thing.
+    /// It declares the thing.
     Declaration,
-    /// It names the thing.
+    /// It refers to the thing.
     Use,
 }
 
-/// A name where it stands.
+/// A name at a place in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Occurrence {
-    /// The name itself; of a variable with its question mark.
+    /// The name itself; with the question mark for a variable.
     pub span: Span,
-    /// What it stands for. Nothing may have declared it.
+    /// What it stands for; the declaration may be missing.
     pub symbol: Symbol,
-    /// What it does here.
+    /// Its role here.
     pub role: Role,
 }

@@ -5,12 +5,12 @@ use crate::model::{Domain, Problem};
 use crate::syntax;
 use crate::{Diagnostic, Plan, Severity, Source};
 
-/// What came of reading a source.
+/// The result of reading a source.
 #[derive(Clone, Debug)]
 pub struct Parsed<M> {
     /// The model; `None` if there was an error.
     pub model: Option<M>,
-    /// Everything to say about it, in order of place.
+    /// All findings, in order of place.
     pub diagnostics: Vec<Diagnostic>,
 }
 
@@ -34,7 +34,7 @@ pub fn parse_problem(source: &Source, domain: &Domain) -> Parsed<Problem> {
     parsed(lower::problem(Sink::new(diagnostics), &tree, domain))
 }
 
-/// Reads a plan for `problem`: sequential, temporal or hierarchical, whichever the file holds.
+/// Reads a plan for `problem`; the text decides whether it is sequential, temporal or hierarchical.
 pub fn parse_plan(source: &Source, domain: &Domain, problem: &Problem) -> Parsed<Plan> {
     parsed(lower::plan(Sink::new, source, domain, problem))
 }

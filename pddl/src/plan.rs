@@ -1,9 +1,9 @@
 //! Plans as files hold them: sequential, temporal, hierarchical.
 //!
-//! Problem: three formats, and a file does not say which one it is in. Idea: one model for each, and an enum
-//! of them; whoever makes or takes one kind only names that kind. Invariant: names, arities and types fit the
-//! domain and ids are in range. Whether the plan works, whether subtasks are those of the method, and whether
-//! the decomposition is a tree is the validator's to say: an invalid plan can be read.
+//! Problem: there are three formats, and a file does not name its own. Idea: a model for each, and an enum
+//! of them; code that makes or takes one kind names that kind only. Invariant: names, arities and types fit
+//! the domain and ids are in range. The validator decides whether the plan works, whether subtasks are those
+//! of the method, and whether the decomposition is a tree: an invalid plan can be read.
 //!
 //! Source: Fox & Long, "PDDL2.1", JAIR 2003, §5 (temporal plans); Höller et al., "Format of hierarchical
 //! plans for IPC 2020". Deviation: times are exact decimals ([`Decimal`]).
@@ -18,11 +18,11 @@ pub enum Plan {
     Sequential(SequentialPlan),
     /// Actions with times.
     Temporal(TemporalPlan),
-    /// Actions, and the tasks that they carry out.
+    /// Actions, and the tasks that decompose into them.
     Hierarchical(HierarchicalPlan),
 }
 
-/// Which kind a plan is of.
+/// The kind of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PlanKind {
     /// [`Plan::Sequential`]
@@ -51,7 +51,7 @@ impl Default for Plan {
 }
 
 impl Plan {
-    /// Of which kind it is.
+    /// Its kind.
     pub fn kind(&self) -> PlanKind {
         match self {
             Self::Sequential(_) => PlanKind::Sequential,
@@ -60,7 +60,7 @@ impl Plan {
         }
     }
 
-    /// Where its first action stands; the beginning of the file if there is none.
+    /// Where its first action stands; the beginning of the file if the plan is empty.
     pub fn first_span(&self) -> Span {
         let span = match self {
             Self::Sequential(plan) => plan.steps.first().map(|s| s.span),
@@ -95,18 +95,18 @@ pub struct PlanStep {
 pub struct SequentialPlan {
     /// The steps in order.
     pub steps: Vec<PlanStep>,
-    /// What the file says that it costs.
+    /// The cost that the file claims.
     pub cost: Option<ClaimedCost>,
 }
 
 impl SequentialPlan {
-    /// A plan that says nothing of its cost.
+    /// A plan without a claimed cost.
     pub fn new(steps: Vec<PlanStep>) -> Self {
         Self { steps, cost: None }
     }
 }
 
-/// `; cost = 5`: nobody has checked it.
+/// The cost in a comment `; cost = 5`, as claimed by the file and not checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ClaimedCost {
     /// The cost.
@@ -115,7 +115,7 @@ pub struct ClaimedCost {
     pub span: Span,
 }
 
-/// What a step of a temporal plan is an instance of.
+/// The schema that a step of a temporal plan instantiates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum StepHead {
     /// An instantaneous action.
@@ -133,8 +133,8 @@ pub struct TemporalStep {
     pub head: StepHead,
     /// Its arguments.
     pub arguments: Vec<ObjectId>,
-    /// How long it takes, if the file says so; never negative. Some planners write one behind instantaneous
-    /// actions too, where it means nothing.
+    /// How long it takes, if the file says so; never negative. Some planners write a duration behind
+    /// instantaneous actions too, where it has no meaning.
     pub duration: Option<Decimal>,
     /// Where the action stands.
     pub span: Span,
@@ -147,9 +147,9 @@ pub struct TemporalStep {
 /// Actions with times.
 #[derive(Clone, Debug, Default)]
 pub struct TemporalPlan {
-    /// The steps in the order of the file, which need not be that of their times.
+    /// The steps in the order of the file, which may differ from the order of their times.
     pub steps: Vec<TemporalStep>,
-    /// What the file says that it costs.
+    /// The cost that the file claims.
     pub cost: Option<ClaimedCost>,
 }
 
@@ -229,24 +229,24 @@ pub struct Decomposition {
     pub task: TaskId,
     /// The task's arguments.
     pub arguments: Vec<ObjectId>,
-    /// By which method it is carried out. Whether the method is one of that task is not checked here.
+    /// The method that decomposes it. Whether the method belongs to that task is not checked here.
     pub method: MethodId,
     /// Where the method's name stands.
     pub method_span: Span,
-    /// What it becomes, in the order of the file.
+    /// Its subtasks, in the order of the file.
     pub subtasks: Vec<PlanReference>,
     /// The task with its arguments.
     pub span: Span,
 }
 
-/// Actions, and how they come out of the tasks of the problem.
+/// Actions, and how the problem's tasks decompose into them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct HierarchicalPlan {
-    /// The actions in the order in which they are taken.
+    /// The actions in the order of execution.
     pub steps: IndexVec<LabelledStepId, LabelledStep>,
     /// The tasks in the order of the file.
     pub decompositions: IndexVec<DecompositionId, Decomposition>,
-    /// What the problem's initial task network became.
+    /// The nodes of the problem's initial task network.
     pub roots: Vec<PlanReference>,
     /// The word `root`.
     pub root_span: Span,

@@ -1,10 +1,10 @@
 //! TOML that people write, read so that every value, good or bad, has its place.
 //!
-//! Problem: `serde` stops at the first mistake and forgets where the good values stood, yet a scenario's PDDL
-//! condition must be reported at its own line and column, and all mistakes at once. Idea: `toml`'s spanned tree,
-//! walked by hand. A [`Table`] hands out its entries by key and reports the entries that no reader asked for as
-//! unknown keys. Invariant: after [`Table::finish`], each entry was either read or reported. Entries keep the order
-//! of the file. Codes: E0701 to E0705.
+//! Problem: `serde` stops at the first mistake and drops the places of valid values, yet a scenario's PDDL
+//! condition must be reported at its own line and column, and all mistakes at once. Idea: walk `toml`'s
+//! spanned tree by hand. A [`Table`] hands out its entries by key and reports the entries that were not
+//! requested as unknown keys. Invariant: after [`Table::finish`], each entry was either read or reported.
+//! Entries keep the order of the file. Codes: E0701 to E0705.
 
 mod reader;
 mod table;

@@ -1,4 +1,4 @@
-//! One TOML file: its syntax, and what is wrong with it.
+//! Reads one TOML file and collects its findings.
 
 use ::toml::Spanned;
 use ::toml::de::{DeTable, DeValue};
@@ -6,19 +6,19 @@ use ::toml::de::{DeTable, DeValue};
 use super::Table;
 use crate::{Finding, Place, Source, SourceId, Span};
 
-/// What a reader of one TOML file carries along.
+/// The state of reading one TOML file.
 pub struct Reader<'a> {
-    /// Which source it reads.
+    /// The id of the source.
     pub source: SourceId,
-    /// Its text.
+    /// The source's text.
     pub text: &'a str,
-    /// What it found.
+    /// The findings so far.
     pub findings: Vec<Finding>,
 }
 
 impl<'a> Reader<'a> {
-    /// Parses `source` and hands its root table to `read`; syntax errors become findings, and what
-    /// could be read is read all the same.
+    /// Parses `source` and hands its root table to `read`. Syntax errors become findings, and the entries
+    /// that could be parsed are read all the same.
     pub fn read<T>(
         id: SourceId,
         source: &'a Source,
@@ -33,7 +33,7 @@ impl<'a> Reader<'a> {
         }
         let model = read(&mut reader, Table::new("", Span::default(), root.get_ref()));
         if broken {
-            // What a broken file lacks is a consequence: only the syntax errors are worth reading.
+            // Missing entries follow from the syntax errors, so only those are reported.
             reader.findings.retain(|f| f.code == "E0701");
         }
         (model, reader.findings)
@@ -64,7 +64,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// A byte range of `toml` as a span of ours.
+/// Converts a byte range of `toml` into a [`Span`].
 pub(crate) fn span(range: std::ops::Range<usize>) -> Span {
     // A `Source` is shorter than 4 GiB, so the ranges of its tree fit.
     let at = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);

@@ -7,7 +7,7 @@ use super::reader::span;
 use super::{Reader, Text};
 use crate::{Finding, Span, did_you_mean};
 
-/// An entry and whether it was asked for.
+/// An entry and whether it was requested.
 struct Entry<'d> {
     key: &'d str,
     key_span: Span,
@@ -18,7 +18,7 @@ struct Entry<'d> {
 /// A table with its dotted path, in the order of the file.
 pub struct Table<'d> {
     path: String,
-    /// Where it stands: its key, or its braces.
+    /// Its place: its key, or its braces.
     pub span: Span,
     entries: Vec<Entry<'d>>,
     asked: Vec<String>,
@@ -45,17 +45,17 @@ impl<'d> Table<'d> {
         Some(entry.value)
     }
 
-    /// Where a key stands, or else the table.
+    /// The place of a key; the table's place if the key is missing.
     pub fn key_span(&self, key: &str) -> Span {
         self.entries.iter().find(|e| e.key == key).map_or(self.span, |e| e.key_span)
     }
 
-    /// The keys that nobody asked for yet, with their places.
+    /// The keys that were not requested yet, with their places.
     pub fn rest(&self) -> Vec<(String, Span)> {
         self.entries.iter().filter(|e| !e.read).map(|e| (e.key.to_owned(), e.key_span)).collect()
     }
 
-    /// Whether the key is there; asking does not read it.
+    /// Whether the key exists; does not count as a request.
     pub fn has(&self, key: &str) -> bool {
         self.entries.iter().any(|e| e.key == key)
     }
@@ -66,13 +66,13 @@ impl<'d> Table<'d> {
         text_of(reader, value, &self.path_of(key))
     }
 
-    /// A string that must be there.
+    /// A required string.
     pub fn required_text(&mut self, reader: &mut Reader<'_>, key: &str) -> Option<Text> {
         self.require(reader, key);
         self.text(reader, key)
     }
 
-    /// Reports the key if it is not there.
+    /// Reports the key if it is missing.
     pub fn require(&self, reader: &mut Reader<'_>, key: &str) {
         if !self.has(key) {
             reader.error("E0704", self.span, format!("the key `{}` is missing", self.path_of(key)));
@@ -90,7 +90,7 @@ impl<'d> Table<'d> {
         Some(array.iter().filter_map(|v| text_of(reader, v, &path)).collect())
     }
 
-    /// A string, or a list of strings; none if the key is not there.
+    /// A string, or a list of strings; empty if the key is missing.
     pub fn one_or_more(&mut self, reader: &mut Reader<'_>, key: &str) -> Vec<Text> {
         let is_text = |e: &Entry<'_>| e.key == key && e.value.get_ref().as_str().is_some();
         if self.entries.iter().any(is_text) {
@@ -177,7 +177,7 @@ impl<'d> Table<'d> {
         }
     }
 
-    /// A list of tables, `[[key]]` or inline; empty if the key is not there.
+    /// A list of tables, `[[key]]` or inline; empty if the key is missing.
     pub fn tables(&mut self, reader: &mut Reader<'_>, key: &str) -> Vec<Table<'d>> {
         let Some(value) = self.take(key) else { return Vec::new() };
         let path = self.path_of(key);
@@ -195,7 +195,7 @@ impl<'d> Table<'d> {
         tables
     }
 
-    /// Reports every key that was not asked for.
+    /// Reports every key that was not requested.
     pub fn finish(self, reader: &mut Reader<'_>) {
         for entry in self.entries.iter().filter(|e| !e.read) {
             let path = self.path_of(entry.key);

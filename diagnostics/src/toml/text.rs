@@ -1,4 +1,4 @@
-//! A string of a TOML file that knows where its characters stand.
+//! A string of a TOML file with the places of its characters.
 
 use crate::Span;
 
@@ -9,7 +9,7 @@ pub struct Text {
     pub value: String,
     /// The literal in the file, quotes included.
     pub span: Span,
-    /// Where the value's first byte stands, if the literal is the value letter by letter.
+    /// The place of the value's first byte, if the literal has no escapes.
     inner: Option<u32>,
 }
 
@@ -32,7 +32,7 @@ impl Text {
         Self { value: value.to_owned(), span, inner }
     }
 
-    /// The place of a byte range of the value; the whole literal where escapes hide it.
+    /// The place of a byte range of the value; the whole literal if escapes hide it.
     pub fn within(&self, range: Span) -> Span {
         let Some(inner) = self.inner else { return self.span };
         let length = u32::try_from(self.value.len()).unwrap_or(u32::MAX);
@@ -60,7 +60,7 @@ mod tests {
         assert_eq!(moved("a = \"(is x)\"", "\"(is x)\"", "(is x)", range), "is");
         assert_eq!(moved("a = '(is x)'", "'(is x)'", "(is x)", range), "is");
         assert_eq!(moved("a = \"\"\"\n(is x)\"\"\"", "\"\"\"\n(is x)\"\"\"", "(is x)", range), "is");
-        // Where escapes hide the place, it is the whole string.
+        // Escapes hide the place, so it is the whole string.
         assert_eq!(moved(r#"a = "\t(is x)""#, r#""\t(is x)""#, "\t(is x)", range), r#""\t(is x)""#);
         assert_eq!(moved("a = \"\"", "\"\"", "", range), "\"\"");
     }

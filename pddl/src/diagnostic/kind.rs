@@ -5,7 +5,7 @@ use crate::occurrence::NameKind;
 
 use diagnostics::Severity;
 
-/// What an author may have meant a name to be.
+/// The kind of thing that a name was read as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SymbolKind {
     /// A type.
@@ -45,7 +45,7 @@ pub enum SymbolKind {
 }
 
 impl SymbolKind {
-    /// What a name that was to be this would be a name of; `None` where the place says it already.
+    /// The kind of name that this would be; `None` if the section determines it.
     pub(crate) fn name_kind(self) -> Option<NameKind> {
         Some(match self {
             Self::Predicate | Self::Token => NameKind::Predicate,
@@ -91,7 +91,7 @@ impl std::fmt::Display for SymbolKind {
     }
 }
 
-/// What a source is read as.
+/// The kind of definition that a source should hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum FileKind {
     /// `(define (domain …) …)`
@@ -101,7 +101,7 @@ pub enum FileKind {
 }
 
 impl FileKind {
-    /// What the name of such a file's definition is.
+    /// The kind of the definition's name.
     pub(crate) fn name_kind(self) -> NameKind {
         match self {
             Self::Domain => NameKind::Domain,
@@ -164,38 +164,38 @@ pub enum DiagnosticKind {
     /// A `)` without its `(`.
     #[error("this parenthesis closes nothing")]
     UnmatchedParenthesis,
-    /// Lists in lists in lists.
+    /// Lists that are nested too deep.
     #[error("lists are nested more than {limit} deep")]
     NestingTooDeep {
-        /// The deepest that is read.
+        /// The greatest depth that is read.
         limit: usize,
     },
     /// No `(define (domain …))` in the file.
     #[error("this is not a {expected}")]
     NotADefinition {
-        /// What was to be read.
+        /// The kind of definition that was expected.
         expected: FileKind,
     },
     /// `domain x { … }`
     #[error("this is RDDL, another language, and not PDDL")]
     OtherLanguage,
-    /// A plan file with other text than steps.
+    /// A plan file with text that is not a step.
     #[error("this is not a plan")]
     NotAPlan,
-    /// Something else should stand here.
+    /// Unexpected text.
     #[error("expected {expected}, found {found}")]
     Unexpected {
-        /// What stands here, shortened.
+        /// The text, shortened.
         found: String,
-        /// What should.
+        /// What was expected.
         expected: &'static str,
     },
-    /// Something required is not there.
+    /// A required part is missing.
     #[error("{owner} has no {what}")]
     Missing {
-        /// What lacks it.
+        /// The definition without it.
         owner: String,
-        /// What is missing.
+        /// The missing part.
         what: &'static str,
     },
     /// `(:akshun …)`
@@ -203,7 +203,7 @@ pub enum DiagnosticKind {
     UnknownSection {
         /// As written.
         name: String,
-        /// A section that is spelled alike.
+        /// A section with a similar spelling.
         suggestion: Option<String>,
     },
     /// `:prekondition`
@@ -211,21 +211,21 @@ pub enum DiagnosticKind {
     UnknownKey {
         /// As written.
         name: String,
-        /// What it is a key of.
+        /// The kind of definition.
         owner: &'static str,
-        /// A key that is spelled alike.
+        /// A key with a similar spelling.
         suggestion: Option<String>,
     },
-    /// A section or key that stands twice.
+    /// A section or key that is repeated.
     #[error("`{name}` stands here a second time")]
     Repeated {
-        /// Which.
+        /// The section or key.
         name: String,
     },
     /// Text behind the definition or the plan.
     #[error("this stands behind the end and is not read")]
     TrailingText,
-    /// A plan file without anything in it.
+    /// A plan file without any text.
     #[error("there is nothing in this file: it is read as the plan without steps")]
     EmptyPlan,
 
@@ -233,7 +233,7 @@ pub enum DiagnosticKind {
     #[error("privacy is not looked at: all agents know what this holds, and are planned for together")]
     PrivacyIgnored,
 
-    /// A name that nothing declares.
+    /// An undeclared name.
     #[error("unknown {symbol} `{name}`")]
     Unknown {
         /// What it should be.

@@ -1,8 +1,9 @@
-//! What is wrong with a source, where, and what would be right.
+//! What is wrong with a source, where, and how to correct it.
 //!
 //! A diagnostic is data: a [`DiagnosticKind`] with its fields, a span, and secondary spans. Codes are
-//! stable: E for errors, W for warnings, U for language features that no model holds. Rendering
-//! (colours, JSON) is the edge's work; `explain` says of each code what it means; [`Diagnostic::describe`] is the plain text that needs nothing.
+//! stable: E for errors, W for warnings, U for language features that are read but not modelled. The edge
+//! renders colours and JSON; [`explain`] says what each code means; [`Diagnostic::describe`] is plain text
+//! without further data.
 
 mod describe;
 mod explain;
@@ -17,7 +18,7 @@ use diagnostics::{Severity, Span};
 use serde::Serialize;
 use serde::ser::SerializeStruct;
 
-/// What a secondary place has to do with a diagnostic.
+/// The relation of a secondary place to a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Label {
     /// Where the name was declared first.
@@ -26,7 +27,7 @@ pub enum Label {
     /// Where the variable got its type.
     #[error("declared here")]
     Declared,
-    /// The list that should have ended before.
+    /// The list that should have ended earlier.
     #[error("opened here")]
     Opened,
     /// The last section of a definition that is not closed.
@@ -34,14 +35,14 @@ pub enum Label {
     LastSection,
 }
 
-/// Something to tell an author.
+/// A message to an author.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// What is wrong, with what it is about.
+    /// What is wrong, with the names and values involved.
     pub kind: DiagnosticKind,
-    /// How bad.
+    /// Its severity.
     pub severity: Severity,
-    /// Where.
+    /// The place that it is about.
     pub span: Span,
     /// Other places of the same source.
     pub labels: Vec<(Span, Label)>,
@@ -53,7 +54,7 @@ impl Diagnostic {
         Self { severity: kind.severity(), kind, span, labels: Vec::new() }
     }
 
-    /// The same with a secondary place.
+    /// Adds a secondary place.
     #[must_use]
     pub fn with_label(mut self, span: Span, label: Label) -> Self {
         self.labels.push((span, label));
@@ -70,7 +71,7 @@ impl Diagnostic {
         self.kind.to_string()
     }
 
-    /// What would be right ("did you mean …", "expected …").
+    /// How to correct it ("did you mean …", "expected …").
     pub fn help(&self) -> Option<String> {
         self.kind.help()
     }

@@ -1,15 +1,16 @@
-//! Comments behind something: as far away as the author had them, and in columns.
+//! Comments behind code: at the author's distance, and in columns.
 //!
-//! Comments that stood in one column one after the other, with no empty line between, get a column again:
-//! the nearest in which the widest line keeps the smallest distance that one of them had. Two such groups that
-//! come into one column have the same distance there as apart, so doing it again changes nothing.
+//! Consecutive comments that stood in one column, without an empty line between them, get a common column
+//! again: the nearest one in which the widest line keeps the smallest distance that any of them had. Two
+//! such groups that end up in one column have the same distance together as apart, so formatting again
+//! changes nothing.
 
 use crate::Span;
 
-/// Where a tabulator goes on, in the source.
+/// The tabulator width of the source.
 const TAB: usize = 8;
 
-/// A comment that is to be set behind a line.
+/// A comment that is to be placed behind a line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Trailing {
     /// Where it starts in the text that is being written.

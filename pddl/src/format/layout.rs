@@ -1,7 +1,7 @@
 //! The second pass: writes the pieces, with a stack of the lists that are open and broken.
 //!
-//! Invariant that makes formatting idempotent: where a line end of the author is followed, one is written,
-//! and one that is written for lack of room is followed the next time.
+//! Invariant that makes formatting idempotent: the output has a line end where the pass followed one of the
+//! author's, and a line end that it writes for lack of room is one that it follows the next time.
 
 use super::WIDTH;
 use super::comments::{Trailing, align};
@@ -24,7 +24,7 @@ enum Style {
     Aligned,
 }
 
-/// What starts a new line in a block besides the author and the lack of room.
+/// What starts a new line in a block, besides the author's line ends and a lack of room.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Split {
     Nothing,
@@ -37,19 +37,19 @@ struct Frame {
     style: Style,
     split: Split,
     beside: u32,
-    /// From which part on a hyphen is one between a name and its type.
+    /// The first part from which a hyphen separates a name from its type.
     types_from: u32,
-    /// Whether the first part is a head, so that what is aligned is below the second.
+    /// Whether the first part is a head, so that alignment is below the second part.
     headed: bool,
-    /// Where its lines are, if they are its parts'.
+    /// The column of its lines, if its parts have lines of their own.
     indent: usize,
-    /// Where its closing parenthesis goes if it cannot stand behind something.
+    /// The column of its closing parenthesis if that cannot stand behind its last part.
     base: usize,
     /// Parts so far.
     parts: u32,
     /// Line ends written in it so far.
     rows: u32,
-    /// Of keys: whether there was one, and the parts since.
+    /// For keys: whether there was one, and the number of parts since.
     key: Option<u32>,
     /// The part before was a hyphen.
     hyphen: bool,
@@ -109,7 +109,7 @@ impl Frame {
     }
 }
 
-/// What goes between two pieces.
+/// The separator between two pieces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Gap {
     None,
@@ -121,7 +121,7 @@ struct Writer<'m> {
     measured: &'m Measured<'m>,
     text: String,
     column: usize,
-    /// A comment was written: nothing more on this line.
+    /// A comment was written: the line is complete.
     ended: bool,
     paragraph: usize,
     stack: Vec<Frame>,
@@ -210,7 +210,7 @@ impl Writer<'_> {
             let tall = self.stack.pop().is_some_and(|frame| frame.rows > 0);
             let frame = self.frame();
             frame.tall |= tall;
-            // A list is tall if one in it is.
+            // A list is tall if a list in it is.
             frame.rows += u32::from(tall && frame.style != Style::Top);
         }
         index + 1
@@ -280,7 +280,7 @@ impl Writer<'_> {
         self.column += self.measured.text_of(first).chars().count() + end.end - start.end;
     }
 
-    /// Whether the part at `index`, with the type behind it, fits on a line in `column`.
+    /// Whether the part at `index`, with the type after it, fits on a line in `column`.
     fn fits(&self, index: usize, column: usize) -> bool {
         let measured = self.measured;
         let mut last = measured.last_of(index);

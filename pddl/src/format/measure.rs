@@ -13,25 +13,25 @@ pub(super) struct Piece {
     pub(super) span: Span,
     /// Line ends before it; 2 stands for more.
     pub(super) lines: u8,
-    /// Whether nothing stands between it and the token before.
+    /// Whether it follows the previous token without white space.
     pub(super) glued: bool,
-    /// Of an opening parenthesis: which list.
+    /// For an opening parenthesis: the number of its list.
     pub(super) list: u32,
-    /// Where it would end if everything were on one line.
+    /// The column where it would end if everything were on one line.
     pub(super) end: usize,
 }
 
-/// What is known of a list.
+/// The measurements of a list.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct List {
     pub(super) rules: Rules,
     /// Index of the closing parenthesis.
     pub(super) close: usize,
-    /// Cannot stand on one line.
+    /// It cannot stand on one line.
     pub(super) forced: bool,
-    /// The author broke it, behind what stays on the first line.
+    /// The author broke it, after the parts that stay on the first line.
     pub(super) broken: bool,
-    /// The author broke it directly behind that.
+    /// The author broke it directly after those parts.
     pub(super) opened: bool,
     pub(super) holds_lists: bool,
     pub(super) holds_types: bool,
@@ -56,12 +56,12 @@ impl Measured<'_> {
         (piece.kind == TokenKind::Open).then(|| &self.lists[piece.list as usize])
     }
 
-    /// The last piece of what starts at `index`: the closing parenthesis of a list.
+    /// The last piece of the part that starts at `index`: the closing parenthesis of a list.
     pub(super) fn last_of(&self, index: usize) -> usize {
         self.list(index).map_or(index, |list| list.close)
     }
 
-    /// Columns that the pieces `first..=last` need on one line, with the parentheses that close behind them.
+    /// Columns that the pieces `first..=last` need on one line, with the closing parentheses after them.
     pub(super) fn width(&self, first: usize, last: usize) -> usize {
         let piece = &self.pieces[first];
         let length = self.text_of(first).chars().count();
@@ -78,7 +78,7 @@ impl Measured<'_> {
     }
 }
 
-/// No more closing parentheses are counted: the line is full anyway.
+/// Closing parentheses beyond this number are not counted: the line is full anyway.
 const MOST_CLOSING: usize = super::WIDTH;
 
 /// A list that is not closed yet.
@@ -151,7 +151,7 @@ pub(super) fn measure<'s>(text: &'s str, tokens: Tokens<'_>) -> Measured<'s> {
     measured
 }
 
-/// Takes account of another part of a list.
+/// Counts another part of a list.
 fn part(list: &mut List, open: &mut Open, piece: &Piece, text: &str) {
     if open.parts == 0 {
         list.rules = Rules::of(piece.kind, text);

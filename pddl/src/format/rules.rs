@@ -2,7 +2,7 @@
 
 use crate::syntax::TokenKind;
 
-/// What a list is to the formatter.
+/// The kind of a list to the formatter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Shape {
     /// `(define …)`
@@ -11,11 +11,11 @@ pub(super) enum Shape {
     Keyed,
     /// Any other list with a keyword in front.
     Section,
-    /// `and`, `or`: as many conditions as one likes.
+    /// `and`, `or`: any number of conditions.
     Junction,
-    /// `forall`, `when`: something short and then a body.
+    /// `forall`, `when`: a short part and then a body.
     Body,
-    /// `(at start …)`, `(not …)`: something around a condition.
+    /// `(at start …)`, `(not …)`: a form around a condition.
     Wrapper,
     /// A predicate, a function, arithmetic.
     Term,
@@ -31,7 +31,7 @@ pub(super) struct Rules {
     pub(super) beside: u32,
     /// Whether it stays broken where the author broke it.
     pub(super) keeps: bool,
-    /// Whether the keywords in it are words of their own and no keys.
+    /// Whether the keywords in it are words and not keys.
     pub(super) is_flags: bool,
 }
 
@@ -60,7 +60,7 @@ impl Rules {
         }
     }
 
-    /// From which part on a hyphen is one between a name and its type.
+    /// The first part from which a hyphen separates a name from its type.
     pub(super) fn types_from(self) -> u32 {
         match self.shape {
             Shape::Plain => 1,

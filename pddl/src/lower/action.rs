@@ -1,8 +1,8 @@
 //! `(:action name :parameters (…) :precondition … :effect …)`.
 //!
-//! The variables of PDDL 1.2's `:vars` are bound by the precondition. The model says so with what it has: the
-//! precondition is `(exists (?v) …)`, and the effect is that of each binding, `(forall (?v) (when … …))`. Deviation:
-//! PDDL 1.2 leaves open which binding is meant where there are several; here it is all of them.
+//! The precondition binds the variables of PDDL 1.2's `:vars`. The model expresses this with existing forms:
+//! the precondition is `(exists (?v) …)`, and the effect is that of each binding, `(forall (?v) (when …
+//! …))`. Deviation: PDDL 1.2 does not define which of several bindings counts; here all of them do.
 //!
 //! In MA-PDDL's `:agent ?a - t` the agent is the first parameter.
 //!
@@ -20,7 +20,7 @@ use crate::model::{Action, Condition, ConditionKind, Effect, EffectKind, Name, P
 use crate::occurrence::NameKind;
 use crate::syntax::{Node, NodeKind};
 
-/// The name behind the section's keyword, and what follows. Reports a missing name.
+/// The name behind the section's keyword, and the nodes after it. Reports a missing name.
 pub(super) fn named<'t>(
     sink: &mut Sink,
     section: Node<'t>,
@@ -44,12 +44,12 @@ pub(super) fn named<'t>(
 }
 
 impl Body<'_> {
-    /// `:parameters (…)`; none is like `()`.
+    /// `:parameters (…)`; a missing key means `()`.
     pub(super) fn parameters(&mut self, keys: &Keys<'_>) {
         self.parameters_behind(&[], keys);
     }
 
-    /// The same behind further ones.
+    /// The same, appended to existing parameters.
     pub(super) fn parameters_behind(&mut self, first: &[Node<'_>], keys: &Keys<'_>) {
         let mut all = typed_list(self.sink, first.iter().copied());
         if let Some(node) = self.variable_list(keys, ":parameters") {
@@ -59,7 +59,7 @@ impl Body<'_> {
         self.schema.variables.parameters = self.schema.variables.slots.len();
     }
 
-    /// The list of variables behind a key; reports what is none.
+    /// The list of variables behind a key; reports anything else.
     fn variable_list<'t>(&mut self, keys: &Keys<'t>, key: &str) -> Option<Node<'t>> {
         let node = keys.get(key)?;
         if !node.is_list() {
@@ -68,7 +68,7 @@ impl Body<'_> {
         Some(node).filter(|node| node.is_list())
     }
 
-    /// Makes what the precondition binds part of precondition and effect.
+    /// Adds the variables that the precondition binds to precondition and effect.
     fn bound_by_precondition(&mut self, keys: &Keys<'_>, action: &mut Conditional) {
         let Some(variables) = self.variable_list(keys, ":vars") else { return };
         let span = variables.span();
@@ -82,7 +82,7 @@ impl Body<'_> {
             span: inner.span,
             kind: ConditionKind::Exists(bound, Box::new(inner)),
         };
-        // Each quantifier of the model has slots of its own, so what it holds is read once for each.
+        // Each quantifier of the model has its own slots, so its body is read once for each quantifier.
         let bound = bind(self);
         let inner = hard(self);
         self.schema.unbind(bound.len());
@@ -106,7 +106,7 @@ impl Body<'_> {
         }
     }
 
-    /// The condition of a key; none always holds.
+    /// The condition of a key; a missing key means a condition that always holds.
     pub(super) fn guard(&mut self, keys: &Keys<'_>, key: &str, section: Node<'_>) -> Condition {
         match keys.get(key) {
             Some(node) => self.condition(node),
@@ -118,14 +118,14 @@ impl Body<'_> {
 const KEYS: &[&str] =
     &[":parameters", ":vars", ":precondition", ":effect", ":observe", ":expansion", ":only-in-expansions"];
 
-/// Keys that no model holds.
+/// Keys that are read but not modelled.
 const OTHERS: &[(&str, UnsupportedFeature)] = &[
     (":observe", UnsupportedFeature::Observations),
     (":expansion", UnsupportedFeature::Expansions),
     (":only-in-expansions", UnsupportedFeature::Expansions),
 ];
 
-/// What an action asks for and does.
+/// The precondition and effect of an action.
 struct Conditional {
     precondition: Condition,
     preferences: Vec<Preference<Condition>>,

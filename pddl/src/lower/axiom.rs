@@ -1,7 +1,7 @@
-//! `(:derived (p ?x - t) body)`, and PDDL 1.2's `(:axiom :vars (?x - t ?y) :context body :implies (p ?x))`: what
-//! `:implies` does not name is `exists` in the body.
+//! `(:derived (p ?x - t) body)`, and PDDL 1.2's `(:axiom :vars (?x - t ?y) :context body :implies (p ?x))`.
+//! Variables that `:implies` does not name are bound by `exists` in the body.
 //!
-//! A head's variable without a type has the type that the predicate declares for it.
+//! A variable of the head without a type has the type that the predicate declares.
 
 use super::body::{Applied, Body};
 use super::keys::Keys;
@@ -13,12 +13,12 @@ use crate::model::{Axiom, Condition, ConditionKind, PredicateId, TypeSet};
 use crate::occurrence::NameKind;
 use crate::syntax::Node;
 
-/// The predicate that an axiom derives, if it is known; silent.
+/// The predicate that an axiom derives, if it is known; reports nothing.
 pub(crate) fn derived_predicate(world: &World, section: Node<'_>) -> Option<PredicateId> {
     world.predicate(section.children().nth(1)?.head()?.text())
 }
 
-/// The predicate that an axiom of PDDL 1.2 derives, if it is known; silent.
+/// The predicate that an axiom of PDDL 1.2 derives, if it is known; reports nothing.
 pub(crate) fn implied_predicate(world: &World, section: Node<'_>) -> Option<PredicateId> {
     let mut nodes = section.children().skip_while(|node| !node.is(":implies"));
     world.predicate(nodes.nth(1)?.head()?.text())
@@ -91,7 +91,7 @@ impl Body<'_> {
         Some(id)
     }
 
-    /// Holds the schema's parameters against those of the predicate, and takes types over from there.
+    /// Compares the schema's parameters with those of the predicate, and takes missing types from there.
     fn head_fits(&mut self, head: Node<'_>, id: PredicateId) {
         let world = self.world;
         let predicate = &world.predicates[id];

@@ -1,8 +1,8 @@
 //! What conditions, effects and expressions have in common: terms, arguments, quantifiers.
 //!
-//! The files beside this one add the forms. All recurse at most as deep as the tree has nodes
-//! ([`crate::syntax::MAX_DEPTH`]); each form has a function of its own, so that a level costs little
-//! stack. An error leaves a placeholder in the model, which is then not handed out.
+//! The files beside this one add the forms. All of them recurse at most as deep as the tree has nodes
+//! ([`crate::syntax::MAX_DEPTH`]). Each form has its own function, so that a level needs little stack. An
+//! error leaves a placeholder in the model, which `parse_*` then does not hand out.
 
 use super::function_term::FunctionTerms;
 use super::schema::Schema;
@@ -33,7 +33,7 @@ impl<'a> Body<'a> {
         Self { world, sink, schema: Schema::default(), functions: FunctionTerms::default() }
     }
 
-    /// A variable in sight or an object; reports what is neither.
+    /// A visible variable or an object; reports anything else.
     pub(super) fn term(&mut self, node: Node<'_>) -> Option<Term> {
         match node.kind() {
             NodeKind::Variable => self.variable(node).map(Term::Variable),
@@ -75,7 +75,7 @@ impl<'a> Body<'a> {
         found
     }
 
-    /// The arguments of an applied symbol, their number and types checked; `None` if any is wrong.
+    /// The arguments of an applied symbol, with number and types checked; `None` if any is wrong.
     pub(super) fn arguments<'t>(
         &mut self,
         whole: Node<'t>,
@@ -97,7 +97,7 @@ impl<'a> Body<'a> {
         (self.count_fits(whole, of, count) && sound).then_some(terms)
     }
 
-    /// Whether a symbol is applied to as many arguments as it takes.
+    /// Whether the number of arguments is that of the declaration.
     pub(super) fn count_fits(&mut self, whole: Node<'_>, of: &Applied<'_>, found: usize) -> bool {
         let expected = of.parameters.len();
         if found != expected {
@@ -109,8 +109,8 @@ impl<'a> Body<'a> {
         found == expected
     }
 
-    /// Whether the term can stand for a parameter of those types; reports it if not. A variable of a
-    /// supertype can: the parameter's type narrows what it may be bound to.
+    /// Reports a term that cannot stand for a parameter of those types. A variable of a supertype can: the
+    /// parameter's type narrows the objects that it may be bound to.
     pub(super) fn argument_fits(
         &mut self,
         node: Node<'_>,
@@ -181,7 +181,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Binds the variables of a list; outside of `quantifier` they mean nothing.
+    /// Binds the variables of a list; their scope is `quantifier`.
     fn bind(&mut self, quantifier: Node<'_>, variables: Node<'_>) -> Vec<VariableId> {
         let around = std::mem::replace(&mut self.schema.scope, quantifier.span());
         let bound = self.schema.bind(self.world, self.sink, variables.children());
@@ -189,7 +189,7 @@ impl<'a> Body<'a> {
         bound
     }
 
-    /// What an unknown symbol is applied to may have errors of its own.
+    /// Reads the arguments of an unknown symbol only for their own errors.
     pub(super) fn stray_terms(&mut self, node: Node<'_>) {
         for part in node.children().skip(1).filter(|part| part.kind() == NodeKind::Variable) {
             self.variable(part);

@@ -1,8 +1,8 @@
 //! Conditions: preconditions, goals, bodies of axioms, guards.
 //!
-//! `and`, `or`, `not`, `imply`, `forall`, `exists` and the comparisons are reserved; every other word
-//! of PDDL may be a predicate's name. `=` compares terms, numbers or a fluent with its value, by what
-//! its sides are.
+//! `and`, `or`, `not`, `imply`, `forall`, `exists` and the comparisons are reserved; every other word of
+//! PDDL may name a predicate. `=` compares terms, numbers or a fluent with its value, depending on its
+//! sides.
 
 use super::body::{Applied, Body};
 use super::constraint::is_modal;
@@ -77,7 +77,7 @@ impl Body<'_> {
         Some(make(bound, Box::new(inner)))
     }
 
-    /// A predicate, or a form that only some heads make.
+    /// A predicate, or a form that only some requirements or places allow.
     fn literal(&mut self, node: Node<'_>, head: Node<'_>) -> Option<ConditionKind> {
         if !head.is_name() {
             self.sink
@@ -97,7 +97,7 @@ impl Body<'_> {
         None
     }
 
-    /// `(truck ?x)` with a type that is no predicate.
+    /// `(truck ?x)`, where `truck` is a type and no predicate has that name.
     fn type_predicate(&mut self, node: Node<'_>, head: Node<'_>, id: TypeId) -> Option<ConditionKind> {
         self.sink.mention(NameKind::Type, head, None);
         let types = TypeSet::any();
@@ -113,7 +113,7 @@ impl Body<'_> {
         Some(ConditionKind::HasType(term?, types))
     }
 
-    /// Reports a head that is no predicate; some are known from other places.
+    /// Reports a head that is not a predicate; some words have a meaning in other places.
     pub(super) fn unknown_predicate(&mut self, node: Node<'_>, head: Node<'_>) {
         if head.is("preference") {
             self.misplaced_preference(node);
@@ -126,7 +126,7 @@ impl Body<'_> {
         }
     }
 
-    /// `(p t …)` with a predicate that is known.
+    /// `(p t …)` with a known predicate.
     pub(super) fn atom(&mut self, node: Node<'_>, id: PredicateId) -> Option<Atom> {
         if let Some(head) = node.head() {
             self.sink.mention(NameKind::Predicate, head, None);
@@ -157,7 +157,8 @@ impl Body<'_> {
         }
     }
 
-    /// `(= (f) undefined)` of a numeric fluent: no comparison holds of what has no value, not even with itself.
+    /// `(= (f) undefined)` of a numeric fluent. A fluent without a value makes every comparison false, even
+    /// one with itself.
     fn no_number(&mut self, node: Node<'_>) -> Option<ConditionKind> {
         let value = Box::new(self.expression(node)?);
         let kind = ConditionKind::Compare(Comparison::Equal, value.clone(), value);
@@ -194,7 +195,8 @@ impl Body<'_> {
         Some(ConditionKind::Compare(comparison, Box::new(left?), Box::new(right?)))
     }
 
-    /// What the function yields that `node` applies, if it is one. A bare name is an object first.
+    /// The kind of value of the function that `node` applies, if it applies one. A bare name is an object
+    /// first.
     pub(super) fn fluent_value(&self, node: Node<'_>) -> Option<FunctionValue> {
         let head = if node.is_list() { node.head()? } else { node };
         if !node.is_list() && self.world.object(node.text()).is_some() {
@@ -213,7 +215,7 @@ impl Body<'_> {
         }
     }
 
-    /// Reads `(p a …)` of objects without a schema; for initial states, where speed counts.
+    /// Reads `(p a …)` of objects without a schema: the fast path for initial states.
     pub(super) fn ground_arguments<'t>(
         &mut self,
         whole: Node<'t>,

@@ -1,8 +1,8 @@
 //! `(:constants …)` and `(:objects …)`.
 //!
-//! A name declared twice is a warning: problems repeat their domain's constants, and there are
-//! competition files in which an object has several types one after the other (it is then of all of
-//! them, as VAL has it). An imported constant may be repeated as it is, and only so.
+//! A name that is declared twice gives a warning: problems repeat their domain's constants, and in some
+//! competition files an object has several types one after the other. The object then has all of them, as in
+//! VAL. An imported constant may be repeated only with the same declaration.
 
 use super::sink::Sink;
 use super::typed_list::{public, typed_list};
@@ -12,11 +12,11 @@ use crate::model::{Domain, IndexVec, Name, Object, ObjectId, Requirement, TypeSe
 use crate::occurrence::NameKind;
 use crate::syntax::Node;
 
-/// How many of the first objects come from elsewhere: their spans are of other sources.
+/// How many of the first objects come from other sources; their spans are not of this source.
 #[derive(Clone, Copy)]
 pub(crate) struct Foreign<'a> {
     pub(crate) count: usize,
-    /// Whether a repetition of a foreign object is fine and not worth a word.
+    /// Whether a foreign object may be repeated without a warning.
     pub(crate) repeatable: bool,
     /// Where the foreign ones come from.
     pub(crate) imports: &'a [&'a Domain],
@@ -31,7 +31,7 @@ pub(crate) fn objects<'t>(
     for section in sections {
         let mut items = Vec::new();
         for (index, mut part) in public(sink, section).into_iter().enumerate() {
-            // The first name in an unfactored file is the agent's whose objects these are.
+            // The first name in an unfactored file is the agent that owns these objects.
             if index > 0
                 && world.has(Requirement::UnfactoredPrivacy)
                 && part.get(1).is_some_and(|second| !second.is("-"))
@@ -40,7 +40,7 @@ pub(crate) fn objects<'t>(
             }
             items.extend(typed_list(sink, part.into_iter()));
         }
-        // Runs of items share their type's node: it is resolved once a run.
+        // Consecutive items share their type's node: it is resolved once for all of them.
         let mut last: Option<(Option<crate::Span>, TypeSet)> = None;
         for (item, types) in items {
             let at = types.map(Node::span);

@@ -1,8 +1,8 @@
 //! `(:constraints …)` of domains and problems: conditions on all states of a plan.
 //!
-//! The words of the modal operators are predicates elsewhere, and here too where what they are
-//! applied to is no list. What holds no modal operator is a condition on one state, which needs an
-//! operator above that says which.
+//! The modal operators are ordinary words elsewhere, and here too if their argument is not a list. A
+//! condition without a modal operator is about one state, and needs an operator around it that says which
+//! states.
 
 use super::body::Body;
 use super::keys::Keys;
@@ -25,7 +25,7 @@ const OPERATORS: &[&str] = &[
     "hold-after",
 ];
 
-/// Whether a modal operator is around a constraint.
+/// Whether a constraint stands inside a modal operator.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Below {
     Nothing,
@@ -63,7 +63,8 @@ pub(crate) fn constraints<'t>(
 }
 
 impl Body<'_> {
-    /// `(:constraint NAME :parameters (…) :condition …)`, which some planners for PDDL+ know: it always holds.
+    /// `(:constraint NAME :parameters (…) :condition …)` of some planners for PDDL+: it must hold in all
+    /// states.
     fn global(&mut self, section: Node<'_>) -> Option<Constraint> {
         let named = section.children().nth(1).is_some_and(Node::is_name);
         let rest = section.children().skip(1 + usize::from(named));
@@ -90,7 +91,7 @@ impl Body<'_> {
         })
     }
 
-    /// Appends what the conjunction at the top holds besides preferences.
+    /// Appends the parts of the conjunction at the top that are not preferences.
     fn hard_constraints(&mut self, node: Node<'_>, into: &mut Vec<Constraint>) {
         if self.is_soft(node) || node.is_list() && node.head().is_none() {
             return;
@@ -243,7 +244,7 @@ impl Body<'_> {
         Some(make(bound, Box::new(inner?)))
     }
 
-    /// A time or a span of time as a number that is not negative.
+    /// A time or a duration: a number that is not negative.
     pub(super) fn seconds(&mut self, node: Node<'_>) -> Option<Decimal> {
         let number = match node.kind() {
             NodeKind::Number => node.text().parse::<Decimal>(),

@@ -1,8 +1,8 @@
 //! `(increase (f ?x) (* #t RATE))`: continuous effects of processes and durative actions.
 //!
-//! `#t` is the time since the process or action began to run, so what multiplies it is the rate of
-//! change. Beyond the grammar's `(* #t RATE)` and `(* RATE #t)` whatever is linear in `#t` is read, and
-//! the rate is kept without it.
+//! `#t` is the time since the process or action began, so its factor is the rate of change. Besides the
+//! grammar's `(* #t RATE)` and `(* RATE #t)` every expression that is linear in `#t` is read. The model
+//! holds the rate without `#t`.
 //!
 //! Source: Fox & Long, "PDDL2.1", JAIR 2003, §5; "Modelling mixed discrete-continuous domains", JAIR 2006.
 
@@ -93,7 +93,7 @@ impl Body<'_> {
         })
     }
 
-    /// What is to be multiplied by `#t` to get `node`.
+    /// The factor of `#t` in `node`.
     fn rate(&mut self, node: Node<'_>) -> Option<Expression> {
         let number = |number| Expression { kind: ExpressionKind::Number(number), span: node.span() };
         if node.is("#t") {

@@ -1,7 +1,7 @@
 //! `(define (domain …) …)`: the sections in the order in which they depend on each other.
 //!
-//! Sections may stand in any order in the source. Declarations are read first, then what uses them:
-//! types, constants, predicates, functions; which predicates are derived; actions, durative actions,
+//! Sections may stand in any order in the source. Declarations are read first, then the sections that use
+//! them: types, constants, predicates, functions; which predicates are derived; actions, durative actions,
 //! axioms; tasks, then methods, which may name all of them.
 
 use super::action::action;
@@ -46,7 +46,7 @@ const SECTIONS: &[&str] = &[
     ":timeless",
     ":safety",
     ":extends",
-    // Planners for PDDL+ know it.
+    // Read by planners for PDDL+.
     ":constraint",
     ":tasks",
     ":process",
@@ -171,7 +171,7 @@ fn read(sink: &mut Sink, header: &Header<'_>, given: &[&Domain]) -> Domain {
     }
 }
 
-/// Reports names that stand twice.
+/// Reports names that are declared twice.
 fn distinct<I: Idx, T>(
     sink: &mut Sink,
     symbol: SymbolKind,
@@ -192,7 +192,7 @@ fn distinct<I: Idx, T>(
     }
 }
 
-/// Tasks and actions share their names: a subtask must say which one it is.
+/// Tasks and actions share one namespace, since a subtask names either.
 fn unique(world: &World, sink: &mut Sink, symbol: SymbolKind, name: &Name, span: Span) {
     if world.task_or_action(name).is_some() {
         sink.report(span, DiagnosticKind::Duplicate { symbol, name: name.clone() });

@@ -1,7 +1,7 @@
 //! `(:durative-action …)`: temporal actions, agents' rules, intentions.
 //!
-//! The keys `:skill`, `:results`, `:claims`, `:priority` make it a rule; they need `:agent-rules`.
-//! Results are read right after the parameters, wherever they stand, for effects may name them.
+//! The keys `:skill`, `:results`, `:claims`, `:priority` make it a rule; they need `:agent-rules`. Results
+//! are read right after the parameters, wherever they stand, because effects may name them.
 
 use super::action::{agent, named};
 use super::body::Body;
@@ -123,7 +123,7 @@ impl Body<'_> {
         }
     }
 
-    /// What makes the action a rule, if anything does.
+    /// The rule's own part, if a key makes the action a rule.
     fn rule(&mut self, keys: &Keys<'_>, results: Vec<VariableId>) -> Option<Rule> {
         let present: Vec<Node<'_>> = RULE_KEYS.iter().filter_map(|k| keys.key(k)).collect();
         if present.is_empty() {

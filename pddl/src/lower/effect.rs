@@ -47,7 +47,7 @@ impl Body<'_> {
         }
     }
 
-    /// `(probabilistic 0.5 (p) …)`, `(oneof (p) …)`: the effects are checked, and not kept.
+    /// `(probabilistic 0.5 (p) …)`, `(oneof (p) …)`: the effects are checked, and not modelled.
     fn uncertain(&mut self, node: Node<'_>) -> Option<EffectKind> {
         self.sink.unsupported(first_word(node), UnsupportedFeature::UncertainEffects);
         for part in node.children().skip(1).filter(|part| part.is_list()) {
@@ -115,7 +115,7 @@ impl Body<'_> {
         let [target, value] = self.parts(node, "`(OPERATOR (FUNCTION …) VALUE)`")?;
         let application = self.application(target);
         let Some(application) = application else {
-            // What is assigned may still have errors of its own, unless it is a term of unknown kind.
+            // The assigned value may have errors of its own, unless it is a term of unknown kind.
             if value.is_list() {
                 self.expression(value);
             }

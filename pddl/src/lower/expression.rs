@@ -7,7 +7,7 @@ use crate::model::{Application, ArithmeticOperator, Expression, ExpressionKind, 
 use crate::occurrence::NameKind;
 use crate::syntax::{Node, NodeKind};
 
-/// Operators that some planners know besides those of the language.
+/// Operators that the language does not have and some planners read.
 const OPERATORS: &[&str] =
     &["^", "abs", "sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "exp", "log", "min", "max"];
 
@@ -41,7 +41,7 @@ impl Body<'_> {
         number.map(ExpressionKind::Number)
     }
 
-    /// `#t` outside of the continuous effects, which read it themselves.
+    /// `#t` outside of continuous effects, which read `#t` themselves.
     fn continuous(&mut self, node: Node<'_>) -> Option<ExpressionKind> {
         let name = node.text().to_ascii_lowercase();
         self.sink.report(node.span(), DiagnosticKind::OutOfPlace { name, place: "a continuous effect" });
@@ -106,7 +106,7 @@ impl Body<'_> {
         self.fluent(node)
     }
 
-    /// What only metrics can ask for.
+    /// Words that have a value in metrics only.
     fn of_metric(&mut self, node: Node<'_>, kind: ExpressionKind) -> Option<ExpressionKind> {
         if self.schema.owner != Owner::Metric {
             let name = node.head().unwrap_or(node).text().to_ascii_lowercase();

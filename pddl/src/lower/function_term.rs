@@ -1,9 +1,10 @@
-//! Functions as arguments, `(p (f ?x))`, and object fluents beside each other.
+//! Functions as arguments, `(p (f ?x))`, and equations of object fluents.
 //!
-//! Idea: the value gets a slot of its own, and the model has only what the slot says: in a condition
-//! `(exists (?v) (and (= (f ?x) ?v) (p ?v)))`, in an effect `(forall (?v) (when (= (f ?x) ?v) (p ?v)))`.
-//! A fluent without a value is then in no relation to anything, and `undefined` is what is no value. A
-//! duration or a continuous effect keeps the slots with their functions, for nothing there can bind.
+//! Idea: the function's value gets a slot of its own, and existing forms of the model bind it: in a
+//! condition `(exists (?v) (and (= (f ?x) ?v) (p ?v)))`, in an effect `(forall (?v) (when (= (f ?x) ?v) (p
+//! ?v)))`. A fluent without a value then makes every atom false, and `undefined` is the absence of a value.
+//! A duration or a continuous effect has no place for a quantifier, so it keeps the slots together with
+//! their functions.
 //!
 //! Source: Helmert, "Changes in PDDL 3.1", 2008: object fluents; Kovacs, "BNF definition of PDDL 3.1", 2011.
 
@@ -16,17 +17,17 @@ use crate::model::{
 };
 use crate::syntax::Node;
 
-/// Functions that stand as arguments in what is being read.
+/// The functions that stand as arguments in the form that is being read.
 #[derive(Default)]
 pub(crate) struct FunctionTerms {
-    /// Innermost first; not yet bound by anything.
+    /// Innermost first; no quantifier binds them yet.
     open: Vec<FunctionTerm>,
-    /// How many forms that can bind them are around.
+    /// How many of the enclosing forms can bind them.
     binders: usize,
 }
 
 impl Body<'_> {
-    /// Reads something that can bind functions' values; gives the functions in it, innermost first.
+    /// Reads a form that can bind the values of functions; returns the functions in it, innermost first.
     pub(super) fn binding<T>(&mut self, read: impl FnOnce(&mut Self) -> T) -> (T, Vec<FunctionTerm>) {
         let before = self.functions.open.len();
         self.functions.binders += 1;
@@ -35,7 +36,7 @@ impl Body<'_> {
         (result, self.functions.open.split_off(before))
     }
 
-    /// `(f ?x)` where a term is to stand.
+    /// `(f ?x)` in the place of a term.
     pub(super) fn function_term(&mut self, node: Node<'_>) -> Option<Term> {
         let application = self.application(node)?;
         let world = self.world;
@@ -54,7 +55,7 @@ impl Body<'_> {
         Some(Term::Variable(slot))
     }
 
-    /// A new slot for a function's value. It is never in sight, and has no name that is.
+    /// A new slot for a function's value. It is never visible, and its name differs from all visible names.
     fn value_slot(&mut self, of: &Application, types: TypeSet) -> VariableId {
         let world = self.world;
         let name = &world.functions[of.function].name;
@@ -87,12 +88,12 @@ impl Body<'_> {
         Effect { kind: EffectKind::Forall(slots, Box::new(Effect { kind: when, span })), span }
     }
 
-    /// Whether `node` is the value of fluents that have none.
+    /// Whether `node` is the word `undefined`.
     pub(super) fn is_undefined(&self, node: Node<'_>) -> bool {
         node.is("undefined") && self.world.object("undefined").is_none()
     }
 
-    /// `(= (f ?x) undefined)`: there is no value that it has.
+    /// `(= (f ?x) undefined)`: the fluent has no value.
     pub(super) fn has_no_value(&mut self, application: Application, types: TypeSet) -> ConditionKind {
         let span = application.span;
         let slot = self.value_slot(&application, types);
@@ -100,7 +101,7 @@ impl Body<'_> {
         ConditionKind::Not(Box::new(Condition { kind: ConditionKind::Exists(vec![slot], body), span }))
     }
 
-    /// `(= (f ?x) (g ?y))`: they have the same value, or both have none.
+    /// `(= (f ?x) (g ?y))`: they have the same value, or neither has one.
     pub(super) fn same_value(
         &mut self,
         left: (Application, TypeSet),
@@ -120,7 +121,7 @@ impl Body<'_> {
         ConditionKind::Or(vec![same, neither])
     }
 
-    /// `(assign (f ?x) (g ?y))`: the value of `g`, or none if it has none.
+    /// `(assign (f ?x) (g ?y))`: the value of `g`, or `undefined` if `g` has no value.
     pub(super) fn assign_value(
         &mut self,
         target: Application,
@@ -141,7 +142,7 @@ impl Body<'_> {
         EffectKind::And(vec![Effect { kind: some, span }, Effect { kind: none, span }])
     }
 
-    /// What `node` applies if it is an object fluent with its types; reports what it is else.
+    /// The object fluent that `node` applies, with its types; reports any other kind of function.
     pub(super) fn object_fluent(&mut self, node: Node<'_>) -> Option<(Application, TypeSet)> {
         let application = self.application(node)?;
         match &self.world.functions[application.function].value {

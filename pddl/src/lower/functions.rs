@@ -27,7 +27,7 @@ pub(crate) fn functions<'t>(
             };
             let value = match value {
                 None => FunctionValue::Number,
-                // Also where a type has that name: its objects are no values of functions.
+                // Also if a type is called `number`: no function yields objects of that type.
                 Some(t) if t.is("number") => FunctionValue::Number,
                 Some(t) => FunctionValue::Object(world.type_set(sink, Some(t))),
             };

@@ -41,7 +41,7 @@ fn is_rddl(tree: &Tree<'_>) -> bool {
         && first.iter().skip(1).any(|n| !n.is_list() && n.text().contains('{'))
 }
 
-/// The first definition of that kind in the file. Others of the other kind may stand around it.
+/// The first definition of that kind in the file. Definitions of the other kind may stand around it.
 pub(crate) fn header<'t>(
     sink: &mut Sink,
     tree: &'t Tree<'t>,

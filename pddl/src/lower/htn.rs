@@ -1,8 +1,8 @@
 //! HDDL: `(:task …)`, `(:method …)` and the networks of methods and problems.
 //!
-//! `:subtasks` and `:tasks` are unordered but for `:ordering`, `:ordered-subtasks` and
-//! `:ordered-tasks` a chain. A subtask is `(name term …)` or `(id (name term …))`: no argument is a
-//! list, so the second form cannot be the first.
+//! `:subtasks` and `:tasks` are ordered by `:ordering` alone; `:ordered-subtasks` and `:ordered-tasks` are a
+//! chain. A subtask is `(name term …)` or `(id (name term …))`. The two forms are distinct, since no
+//! argument is a list.
 //!
 //! Source: Höller, Behnke, Bercher, Biundo, Fiorino, Pellier & Alford, "HDDL: an extension to PDDL
 //! for expressing hierarchical planning problems", AAAI 2020.
@@ -49,7 +49,7 @@ const NETWORK_KEYS: &[&str] = &[
 
 pub(crate) fn task(world: &World, sink: &mut Sink, section: Node<'_>) -> Option<CompoundTask> {
     let (name, _, rest) = named(sink, section, NameKind::Task, "the task")?;
-    // HDDL's grammar allows a task conditions and effects that no planner reads.
+    // HDDL's grammar allows a task conditions and effects; no planner reads them.
     let keys = Keys::read(sink, rest, "a task", &[":parameters", ":precondition", ":effect"]);
     let mut body = Body::new(world, sink);
     body.schema.scope = section.span();
@@ -57,7 +57,7 @@ pub(crate) fn task(world: &World, sink: &mut Sink, section: Node<'_>) -> Option<
     Some(CompoundTask { name, variables: body.schema.variables, span: section.span() })
 }
 
-/// `(:tasks (name ?x - t …) …)`: tasks beside each other.
+/// `(:tasks (name ?x - t …) …)`: several tasks in one section.
 pub(crate) fn tasks(world: &World, sink: &mut Sink, section: Node<'_>) -> Vec<CompoundTask> {
     let mut tasks = Vec::new();
     for node in section.children().skip(1) {
@@ -283,7 +283,7 @@ impl Body<'_> {
         let wanted = fold(node.text());
         let ids = || network.subtasks.iter().filter_map(|s| s.id.as_deref());
         let found = network.subtasks.iter().position(|s| s.id.as_deref() == Some(&*wanted));
-        // A subtask that is itself in error is not in the network; its id is known all the same.
+        // A subtask with an error is not in the network, but its id is known.
         let written = || subtasks.is_some_and(|s| s.children().any(|n| n.is_headed(&wanted)));
         if found.is_none() && !written() {
             let suggestion = self.sink.suggest(node.text(), ids());
@@ -308,8 +308,8 @@ impl Body<'_> {
     }
 }
 
-/// Positions from a subtask back to itself, if the ordering has a cycle. Peels off whatever waits
-/// for nothing (Kahn 1962); of what is left each waits for another that is left.
+/// Positions from a subtask back to itself, if the ordering has a cycle. Removes subtasks without
+/// predecessors until none is left (Kahn 1962); each of the remaining ones has a predecessor among them.
 fn cycle(network: &TaskNetwork) -> Option<Vec<usize>> {
     let count = network.subtasks.len();
     let mut waits = vec![0usize; count];

@@ -1,8 +1,8 @@
 //! `(:import a b)`: declarations of other domains, under this domain's ids.
 //!
-//! Types, constants, predicates and functions come over; actions, axioms, tasks and methods stay.
-//! Symbols of two imports with one name are one symbol if they agree, else an error at the import's
-//! name. What is derived there is not derived here: the axioms stay behind.
+//! Types, constants, predicates and functions are imported; actions, axioms, tasks and methods are not.
+//! Symbols of two imports with one name are one symbol if their declarations agree, else an error at the
+//! import's name. A derived predicate of an import is a basic one here, since its axioms are not imported.
 
 use super::constants::same_types;
 use super::header::Header;
@@ -45,7 +45,7 @@ pub(crate) fn imports<'d>(
     found
 }
 
-/// Declares in `world` what the domains declare. The world's types hold theirs already.
+/// Declares the symbols of the domains in `world`, whose types include theirs already.
 pub(crate) fn declare(world: &mut World, sink: &mut Sink, imports: &[(&Domain, Span)]) {
     for (i, &(domain, span)) in imports.iter().enumerate() {
         let earlier: Vec<&Domain> = imports[..i].iter().map(|(d, _)| *d).collect();

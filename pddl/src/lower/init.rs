@@ -1,6 +1,6 @@
 //! `(:init …)`: ground facts and values.
 //!
-//! This is where files are long, so a fact costs one lookup a word and one vector, and no schema.
+//! Initial states make files long, so a fact costs one lookup for each word and one vector, and no schema.
 
 use super::body::{Applied, Body};
 use super::sink::first_word;
@@ -20,7 +20,7 @@ pub(crate) struct Init {
     pub(crate) timed: Vec<TimedInitial>,
 }
 
-/// What an equation in `:init` says.
+/// The two sides of an equation in `:init`.
 enum Initial {
     Value(FluentFact),
     Undefined(GroundApplication),
@@ -40,12 +40,12 @@ impl Body<'_> {
                     into.facts.push(Fact { predicate, arguments, span: node.span() });
                 }
             } else if head.is("=") {
-                // What is undefined is so without being said.
+                // Every fluent without a value is undefined, so the equation adds nothing.
                 if let Some(Initial::Value(fluent)) = self.initial_value(node) {
                     into.fluents.push(fluent);
                 }
             } else if head.is("not") {
-                // It says what holds anyway: it is checked and left out.
+                // A negative fact holds by default: it is checked and left out.
                 self.negative_fact(node);
             } else if head.is("and") {
                 self.init(node.children().skip(1), into);
@@ -61,13 +61,13 @@ impl Body<'_> {
         }
     }
 
-    /// `(oneof (p) (q))`: the facts are checked, and not kept.
+    /// `(oneof (p) (q))`: the facts are checked, and not modelled.
     fn uncertain_facts(&mut self, node: Node<'_>) {
         self.sink.unsupported(first_word(node), UnsupportedFeature::UncertainInitialStates);
         self.init(node.children().skip(1), &mut Init::default());
     }
 
-    /// `(at 5 (p))`: a predicate called `at` has no list as argument.
+    /// `(at 5 (p))`; the arguments of a predicate called `at` are not lists.
     fn is_timed(&self, node: Node<'_>) -> bool {
         let mut parts = node.children();
         parts.next().is_some_and(|h| h.is("at"))

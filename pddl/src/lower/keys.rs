@@ -11,8 +11,8 @@ pub(crate) struct Keys<'t> {
 }
 
 impl<'t> Keys<'t> {
-    /// Reads pairs; what is no key, or is not in `known`, is reported and left out. A key may lack its
-    /// value (`:precondition` before the next key), as in some competition files.
+    /// Reads pairs; a node that is not a key, or not one in `known`, is reported and left out. A key may
+    /// lack its value (`:precondition` before the next key), as in some competition files.
     pub(crate) fn read(
         sink: &mut Sink,
         nodes: impl Iterator<Item = Node<'t>>,

@@ -24,7 +24,7 @@ pub(super) fn constraint_names(constraints: &Constraints, into: &mut Vec<Name>) 
 }
 
 impl Body<'_> {
-    /// Reads a metric; `preferences` are the names that `is-violated` can ask for.
+    /// Reads a metric; `preferences` are the names that `is-violated` may use.
     pub(crate) fn metric(&mut self, section: Node<'_>, preferences: &[Name]) -> Option<Metric> {
         let [objective, expression] = self.parts(section, "`(:metric minimize EXPRESSION)`")?;
         let objective = if objective.is("minimize") {

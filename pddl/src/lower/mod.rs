@@ -1,10 +1,10 @@
-//! Tree to model: names, arities and types resolved, everything wrong reported.
+//! Tree to model: names, arities and types resolved, every error reported.
 //!
-//! Problem: one mistake must not hide the others, and a model must never be half right. Idea: each
-//! part of the language has a file here that reads nodes ([`crate::syntax::Node`]), takes what is
-//! declared from the `World`, and tells the `Sink` what is wrong; wrong parts become placeholders and
-//! reading goes on at the next balanced list. The model is handed out only if there was no error.
-//! Cost: linear in the tree times the depth of the type hierarchy.
+//! Problem: one mistake must not hide the others, and a model must never be half right. Idea: each part of
+//! the language has a file here that reads nodes ([`crate::syntax::Node`]), takes declarations from the
+//! `World`, and reports errors to the `Sink`. Wrong parts become placeholders, and reading continues at the
+//! next balanced list. The model is handed out only if there was no error. Cost: linear in the tree times
+//! the depth of the type hierarchy.
 
 mod action;
 mod axiom;

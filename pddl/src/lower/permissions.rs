@@ -1,7 +1,7 @@
 //! `(:writes agent token …)`: who may write what (requirement `:vocabulary`).
 //!
-//! A token is a bare symbol (any arguments) or `(symbol argument …)` with constants, and `_` or
-//! variables for any. Symbols are predicates, functions or types, looked up in this order.
+//! A token is a bare symbol (any arguments) or `(symbol argument …)`, where arguments are constants, or `_`
+//! or variables for any object. A symbol is a predicate, a function or a type, looked up in this order.
 
 use super::body::{Applied, Body};
 use super::sink::{Sink, first_word};

@@ -1,9 +1,9 @@
 //! `(preference name …)` in goals, preconditions, timed conditions and constraints.
 //!
-//! Preferences stand at the top, below `and` and `forall` only. What they stand in is read twice:
-//! first without them, then each of them, with slots of its own for the `forall`s around it. So a
-//! condition printed before its preferences is read to the same slots. Cost: a walk down the
-//! conjunctions, and another over what they hold where there are preferences.
+//! Preferences stand at the top, below `and` and `forall` only. The condition around them is read twice:
+//! first without preferences, then each preference, with its own slots for the enclosing `forall`s. So a
+//! condition that is printed before its preferences is read to the same slots. Cost: a walk down the
+//! conjunctions, and another over their parts where there are preferences.
 
 use super::body::Body;
 use super::timed::{Timed, timed};
@@ -12,12 +12,12 @@ use crate::model::{Condition, ConditionKind, Name, Preference, TimeSpecifier};
 use crate::occurrence::NameKind;
 use crate::syntax::Node;
 
-/// A preference with what stands around it.
+/// A preference with its context.
 #[derive(Clone)]
 pub(super) struct Found<'t> {
     pub(super) node: Node<'t>,
     foralls: Vec<Node<'t>>,
-    /// The time, where it stands around the preference and not in it.
+    /// The time, if it stands around the preference and not in it.
     pub(super) time: Option<TimeSpecifier>,
 }
 
@@ -27,7 +27,7 @@ impl Body<'_> {
         node.is_headed("preference") && self.world.predicate("preference").is_none()
     }
 
-    /// Whether preferences are all that a part of a condition holds.
+    /// Whether a part of a condition consists of preferences alone.
     pub(super) fn is_soft(&self, node: Node<'_>) -> bool {
         if node.is_headed("and") {
             let mut parts = node.children().skip(1).peekable();
@@ -69,7 +69,7 @@ impl Body<'_> {
         }
     }
 
-    /// `(at start …)` and its like in durative actions.
+    /// `(at start …)` and other times in durative actions.
     fn time_around<'t>(&self, node: Node<'t>) -> Option<(TimeSpecifier, Node<'t>)> {
         match timed(node, false) {
             Timed::At(time, what) if self.schema.is_durative() => Some((time, what)),
@@ -155,7 +155,7 @@ impl Body<'_> {
         preference
     }
 
-    /// Reports a preference where there must be none.
+    /// Reports a preference in a place that does not allow one.
     pub(super) fn misplaced_preference(&mut self, node: Node<'_>) {
         self.sink.report(super::sink::first_word(node), DiagnosticKind::MisplacedPreference);
     }

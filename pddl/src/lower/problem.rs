@@ -28,7 +28,7 @@ const SECTIONS: &[&str] = &[
     ":situation",
     ":goal-reward",
     ":goal-probability",
-    // Says how long a plan may be; PDDL 1.2 only, and no planner reads it.
+    // Limits the length of a plan; PDDL 1.2 only, and no planner reads it.
     ":length",
 ];
 
@@ -88,14 +88,14 @@ fn read(sink: &mut Sink, header: &Header<'_>, domain: &Domain) -> Problem {
     }
 }
 
-/// Sections that no model holds.
+/// Sections that are read but not modelled.
 const OTHERS: &[(&str, UnsupportedFeature)] = &[
     (":situation", UnsupportedFeature::Situations),
     (":goal-reward", UnsupportedFeature::Rewards),
     (":goal-probability", UnsupportedFeature::Rewards),
 ];
 
-/// Adds what the domain says holds always, where `:init` does not say so itself.
+/// Adds the domain's timeless facts that `:init` does not repeat.
 fn timeless(domain: &Domain, header: &Header<'_>, init: &mut Init) {
     if domain.timeless.is_empty() {
         return;

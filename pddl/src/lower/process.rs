@@ -45,7 +45,7 @@ pub(crate) fn event(world: &World, sink: &mut Sink, section: Node<'_>) -> Option
 }
 
 impl Body<'_> {
-    /// Reports whatever is no continuous effect.
+    /// Reports an effect that is not continuous.
     fn only_continuous(&mut self, node: Node<'_>) {
         if node.is_headed("and") {
             for part in node.children().skip(1) {

@@ -1,4 +1,4 @@
-//! `(:requirements :strips …)`. An unknown flag is a warning, an undeclared one nothing.
+//! `(:requirements :strips …)`. An unknown flag is a warning; a missing one is accepted.
 
 use super::header::Header;
 use super::sink::Sink;

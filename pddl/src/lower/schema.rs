@@ -1,4 +1,4 @@
-//! The variables of the schema that is being read: slots, and which of them are in sight.
+//! The variables of the schema that is being read: slots, and which of them are visible.
 
 use super::sink::Sink;
 use super::typed_list::{Typed, typed_list};
@@ -13,25 +13,25 @@ use crate::syntax::{Node, NodeKind};
 #[derive(Default)]
 pub(crate) struct Schema {
     pub(crate) variables: Variables,
-    /// In sight, outermost first; the last of a name hides the others.
+    /// Visible ones, outermost first; the last of a name hides the others.
     visible: Vec<VariableId>,
-    /// The list outside of which what is bound next means nothing.
+    /// The list that is the scope of the next variables.
     pub(crate) scope: Span,
-    /// That list of each slot that a text binds.
+    /// The scope of each slot that has a declaration in the text.
     scopes: Vec<Span>,
-    /// What it is a schema of.
+    /// The kind of schema.
     pub(crate) owner: Owner,
 }
 
-/// What a schema is read for: it decides which words have a meaning in numbers.
+/// What a schema is read for: it decides which words are values in expressions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Owner {
-    /// None has.
+    /// None of the words below.
     #[default]
     Other,
-    /// `?duration` has.
+    /// `?duration` is one.
     Durative,
-    /// `total-time` and `is-violated` have.
+    /// `total-time` and `is-violated` are.
     Metric,
 }
 
@@ -40,23 +40,23 @@ impl Schema {
         self.owner == Owner::Durative
     }
 
-    /// The slot in sight of that name (without the question mark).
+    /// The visible slot of that name (without the question mark).
     pub(crate) fn find(&self, name: &str) -> Option<VariableId> {
         let name = fold(name);
         self.visible.iter().rev().copied().find(|&v| *self.variables[v].name == *name)
     }
 
-    /// The list outside of which a slot means nothing.
+    /// The list that is the scope of a slot.
     pub(crate) fn scope_of(&self, variable: VariableId) -> Option<Span> {
         self.scopes.get(variable.index()).copied()
     }
 
-    /// Names in sight.
+    /// The visible names.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
         self.visible.iter().map(|&v| self.variables[v].name.as_str())
     }
 
-    /// Reads parameters: they stay in sight.
+    /// Reads parameters: they stay visible.
     pub(crate) fn parameters<'t>(
         &mut self,
         world: &World,
@@ -67,7 +67,7 @@ impl Schema {
         self.variables.parameters = self.variables.slots.len();
     }
 
-    /// Reads a typed list of variables into new slots and puts them in sight.
+    /// Reads a typed list of variables into new slots and makes them visible.
     pub(crate) fn bind<'t>(
         &mut self,
         world: &World,
@@ -107,7 +107,8 @@ impl Schema {
         bound
     }
 
-    /// A new slot that never comes in sight, named like `name`, but like nothing in sight and none of `others`.
+    /// A new slot that never becomes visible. Its name is `name`, with a number if a visible slot or one of
+    /// `others` has that name.
     pub(crate) fn hidden(
         &mut self,
         name: &Name,
@@ -128,7 +129,7 @@ impl Schema {
         self.variables.slots.push(Variable { name: free, types, span })
     }
 
-    /// Takes the last `count` variables out of sight.
+    /// Hides the last `count` variables.
     pub(crate) fn unbind(&mut self, count: usize) {
         self.visible.truncate(self.visible.len().saturating_sub(count));
     }

@@ -1,4 +1,4 @@
-//! Where diagnostics go while a model is made.
+//! The collector of diagnostics during lowering.
 
 use crate::diagnostic::{Diagnostic, DiagnosticKind, Label, UnsupportedFeature};
 use crate::model::Name;
@@ -6,13 +6,13 @@ use crate::occurrence::{NameKind, Occurrence, Role, Symbol};
 use crate::syntax::Node;
 use diagnostics::{Severity, Span, nearest};
 
-/// Most searches for a similar name in one run: each looks at every declared name.
+/// Most searches for a similar name in one run: each compares every declared name.
 const MAX_SUGGESTIONS: usize = 64;
 
-/// Longest excerpt of what was found instead, in characters.
+/// Longest excerpt of unexpected text, in characters.
 const MAX_FOUND: usize = 40;
 
-/// Collects diagnostics and, if they are wanted, occurrences of names.
+/// Collects diagnostics and, on request, occurrences of names.
 #[derive(Default)]
 pub(crate) struct Sink {
     diagnostics: Vec<Diagnostic>,
@@ -25,12 +25,12 @@ impl Sink {
         Self { diagnostics, suggestions: 0, occurrences: None }
     }
 
-    /// A sink that keeps every occurrence of a name as well.
+    /// A sink that records occurrences of names as well.
     pub(crate) fn recording(diagnostics: Vec<Diagnostic>) -> Self {
         Self { occurrences: Some(Vec::new()), ..Self::new(diagnostics) }
     }
 
-    /// `node` declares that name; of no cost unless occurrences are wanted.
+    /// `node` declares that name; free of cost unless occurrences are recorded.
     pub(crate) fn declare(&mut self, kind: NameKind, node: Node<'_>, scope: Option<Span>) {
         self.record(kind, node, scope, Role::Declaration);
     }
@@ -65,12 +65,12 @@ impl Sink {
         self.report(node.span(), DiagnosticKind::Unexpected { found: found(node), expected });
     }
 
-    /// `owner` lacks something; its place is that of its first word.
+    /// `owner` lacks a part; the diagnostic is placed at the first word of `node`.
     pub(crate) fn missing(&mut self, node: Node<'_>, owner: impl Into<String>, what: &'static str) {
         self.report(first_word(node), DiagnosticKind::Missing { owner: owner.into(), what });
     }
 
-    /// The name among `candidates` that `name` may have been meant to be.
+    /// The name among `candidates` that is most similar to `name`, if one is near enough.
     pub(crate) fn suggest<'a>(
         &mut self,
         name: &str,
@@ -80,12 +80,12 @@ impl Sink {
         if self.suggestions > MAX_SUGGESTIONS { None } else { nearest(name, candidates) }
     }
 
-    /// How many so far.
+    /// The number of diagnostics so far.
     pub(crate) fn count(&self) -> usize {
         self.diagnostics.len()
     }
 
-    /// Everything in order of place, each once, and what of it is unsupported; whether a model may be made.
+    /// Sorts the diagnostics by place and removes duplicates; decides whether the model is sound.
     pub(crate) fn finish(mut self) -> Finished {
         self.diagnostics.sort_by_key(|d| (d.span.start, d.span.end));
         self.diagnostics.dedup();
@@ -93,14 +93,15 @@ impl Sink {
             self.diagnostics.iter().filter(|d| d.severity == Severity::Unsupported).cloned().collect();
         let sound = self.diagnostics.iter().all(|d| d.severity != Severity::Error);
         let mut occurrences = self.occurrences.unwrap_or_default();
-        // What stands in a `forall` around several times is read once for each.
+        // A `forall` around several times is read once for each time, so its names are recorded several
+        // times.
         occurrences.sort_by_key(|o| (o.span.start, o.span.end));
         occurrences.dedup();
         Finished { diagnostics: self.diagnostics, unsupported, sound, occurrences }
     }
 }
 
-/// All that a sink has collected.
+/// The contents of a sink.
 pub(crate) struct Finished {
     pub(crate) diagnostics: Vec<Diagnostic>,
     pub(crate) unsupported: Vec<Diagnostic>,
@@ -108,9 +109,9 @@ pub(crate) struct Finished {
     pub(crate) occurrences: Vec<Occurrence>,
 }
 
-/// A model as far as it could be read, with all that a sink has collected on the way.
+/// A model as far as it could be read, with the sink's contents.
 pub(crate) struct Lowered<M> {
-    /// `None` if there is nothing to read in the file.
+    /// `None` if the file has no definition.
     pub(crate) draft: Option<M>,
     /// Whether the draft is the whole meaning of the file.
     pub(crate) sound: bool,
@@ -135,7 +136,7 @@ pub(super) fn found_text(text: &str) -> String {
     if text == "()" {
         return "`()`".into();
     }
-    // Lists can be as long as the file: only their beginning is looked at.
+    // Lists can be as long as the file: only the beginning is read.
     let start: String = text.chars().take(4 * MAX_FOUND).collect();
     let mut words = start.split_whitespace().collect::<Vec<_>>().join(" ");
     if words.chars().count() > MAX_FOUND {

@@ -1,9 +1,9 @@
 //! Conditions and effects at times: `(at start …)`, `(over all …)`, `(at end …)`, `(at OUTCOME …)`.
 //!
-//! Traps: a predicate may be called `at` (`(at start (at ?x ?y))`), and a `forall` may stand around
-//! several times. A time is recognised by its form, `at` and a name and a list, for no atom has a
-//! list as argument. A `forall` around several times is read once for each, so that every timed part
-//! has quantified slots of its own.
+//! Traps: a predicate may be called `at` (`(at start (at ?x ?y))`), and a `forall` may stand around several
+//! times. A time is recognised by its form, `at` with a name and a list, since no argument of an atom is a
+//! list. A `forall` around several times is read once for each time, so that every timed part has its own
+//! quantified slots.
 
 use super::body::Body;
 use crate::diagnostic::DiagnosticKind;
@@ -13,13 +13,13 @@ use crate::model::{
 };
 use crate::syntax::Node;
 
-/// What a list says about time.
+/// What the form of a list says about time.
 pub(super) enum Timed<'t> {
-    /// A time and what happens then.
+    /// A time and the part at that time.
     At(TimeSpecifier, Node<'t>),
-    /// Like a time, but an unknown one.
+    /// The form of a time with an unknown name.
     Unknown(Node<'t>),
-    /// No time.
+    /// Not the form of a time.
     Untimed,
 }
 
@@ -46,7 +46,7 @@ pub(super) fn timed<'t>(node: Node<'t>, outcomes: bool) -> Timed<'t> {
     }
 }
 
-/// Whether a part at `time` is to be read now.
+/// Whether a part at `time` belongs to this reading.
 fn wanted(time: &TimeSpecifier, only: Option<&TimeSpecifier>) -> bool {
     only.is_none_or(|o| o == time)
 }
@@ -79,7 +79,7 @@ impl Body<'_> {
         times
     }
 
-    /// The times of the effects in `node` whose conditions are at no other time, each once, in order.
+    /// The times of the effects in `node` whose conditions are all at the same time, each once, in order.
     fn effect_times(&self, node: Node<'_>) -> Vec<TimeSpecifier> {
         if let Timed::At(time, _) = timed(node, self.outcomes()) {
             return vec![time];
@@ -162,7 +162,7 @@ impl Body<'_> {
         preferences
     }
 
-    /// What a preference holds; its time stands in it or around it.
+    /// The body of a preference; its time stands in it or around it.
     fn preferred(&mut self, node: Node<'_>, time: Option<TimeSpecifier>) -> Option<TimedCondition> {
         if let Some(when) = time {
             return Some(TimedCondition { when, condition: self.condition(node) });
@@ -291,7 +291,8 @@ impl Body<'_> {
         }
     }
 
-    /// `(when (at start c) (at start e))` is `(at start (when c e))`; with other times it is read elsewhere.
+    /// `(when (at start c) (at start e))` is `(at start (when c e))`; `when` with several times is read by
+    /// `effects_across_times`.
     fn conditional_effects(
         &mut self,
         node: Node<'_>,
@@ -317,7 +318,7 @@ impl Body<'_> {
         }
     }
 
-    /// Without a time there are only continuous effects, which are read elsewhere.
+    /// An effect without a time must be continuous; those are read elsewhere.
     fn untimed_effect(&mut self, node: Node<'_>) {
         if !self.is_continuous(node) {
             self.sink.unexpected(node, "`(at start …)` or `(at end …)`");

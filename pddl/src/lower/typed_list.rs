@@ -11,7 +11,7 @@ use smallvec::SmallVec;
 /// An item and the node of its type, if it has one.
 pub(crate) type Typed<'t> = (Node<'t>, Option<Node<'t>>);
 
-/// Splits a typed list. What the items and types are is the caller's to check.
+/// Splits a typed list. The caller checks the items and types.
 pub(crate) fn typed_list<'t>(sink: &mut Sink, nodes: impl Iterator<Item = Node<'t>>) -> Vec<Typed<'t>> {
     let mut items: Vec<Typed<'t>> = Vec::new();
     let mut untyped = 0;
@@ -39,8 +39,8 @@ pub(crate) fn typed_list<'t>(sink: &mut Sink, nodes: impl Iterator<Item = Node<'
     items
 }
 
-/// What stands in a section, with the lists that MA-PDDL puts into `(:private …)`; each of those is a list of its
-/// own, for no type reaches over its end. Says that privacy is not looked at.
+/// The public items of a section, and the contents of each MA-PDDL `(:private …)` as a list of its own,
+/// since no type reaches over its end. Warns that privacy is ignored.
 ///
 /// Source: Komenda, Stolba & Kovacs, "The international competition of distributed and multiagent planners", 2016.
 pub(crate) fn public<'t>(sink: &mut Sink, section: Node<'t>) -> Vec<Vec<Node<'t>>> {
@@ -54,7 +54,7 @@ pub(crate) fn public<'t>(sink: &mut Sink, section: Node<'t>) -> Vec<Vec<Node<'t>
     parts
 }
 
-/// Without the agent that MA-PDDL names before what is private to it, `?a - t (p) …`.
+/// Removes the agent that MA-PDDL names before private symbols, `?a - t (p) …`.
 pub(crate) fn without_agent(mut nodes: Vec<Node<'_>>) -> Vec<Node<'_>> {
     if nodes.first().is_some_and(|first| !first.is_list() && !first.is_name()) {
         let agent = nodes.iter().position(|node| node.is_list()).unwrap_or(nodes.len());
@@ -63,7 +63,7 @@ pub(crate) fn without_agent(mut nodes: Vec<Node<'_>>) -> Vec<Node<'_>> {
     nodes
 }
 
-/// The names that a type's node holds: itself, or those of `(either …)`.
+/// The names in the node of a type: itself, or those of `(either …)`.
 pub(crate) fn type_names<'t>(sink: &mut Sink, node: Node<'t>) -> Vec<Node<'t>> {
     if node.is_name() {
         return vec![node];
@@ -79,7 +79,7 @@ pub(crate) fn type_names<'t>(sink: &mut Sink, node: Node<'t>) -> Vec<Node<'t>> {
 }
 
 impl World {
-    /// The union that a type's node stands for; `object` where there is none.
+    /// The union that the node of a type denotes; `object` if there is no node.
     pub(crate) fn type_set(&self, sink: &mut Sink, node: Option<Node<'_>>) -> TypeSet {
         let Some(node) = node else { return TypeSet::any() };
         let mut types: SmallVec<[TypeId; 4]> = SmallVec::new();
@@ -96,7 +96,7 @@ impl World {
             }
         }
         match types {
-            // One mistake, one message: what has an unknown type fits everywhere.
+            // One mistake, one message: an unknown type fits everywhere.
             _ if unknown => TypeSet::unknown(),
             types if types.is_empty() => TypeSet::any(),
             types => TypeSet(types),

@@ -1,8 +1,9 @@
 //! `(:types a b - c)` and the types of imported domains: one acyclic table.
 //!
-//! Ids: `object`, then the imported ones, then the declared ones in the order of the source, then
-//! those that only stand right of a hyphen (below `object`). A type declared with several parents,
-//! at once or one after the other, has them all. Imported types of one name have the parents of both.
+//! Ids: `object`, then the imported types, then the declared ones in the order of the source, then those
+//! that appear only on the right of a hyphen (below `object`). A type declared with several parents, at once
+//! or one after the other, has all of them. Types of the same name in two imports are one type, with the
+//! parents of both.
 
 use indexmap::IndexMap;
 use rustc_hash::{FxBuildHasher, FxHashSet};
@@ -52,7 +53,7 @@ pub(crate) fn types(sink: &mut Sink, header: &Header<'_>, imports: &[&Domain]) -
         let (true, Some(types)) = (item.is_name(), types) else { continue };
         for parent in type_names(sink, types) {
             let name = Name::new(parent.text());
-            // What stands only here is declared here.
+            // A type that appears only as a parent is declared here.
             if table.contains_key(&name) {
                 sink.mention(NameKind::Type, parent, None);
             } else {
@@ -77,7 +78,7 @@ pub(crate) fn types(sink: &mut Sink, header: &Header<'_>, imports: &[&Domain]) -
     }
     for (name, entry) in &mut table {
         if &**name == "object" {
-            // `object - object` says nothing; any other parent of it would be a cycle.
+            // `object - object` has no effect; any other parent of `object` would be a cycle.
             entry.parents.retain(|p| &**p != "object");
         } else {
             entry.parents = simple(std::mem::take(&mut entry.parents));
@@ -87,7 +88,7 @@ pub(crate) fn types(sink: &mut Sink, header: &Header<'_>, imports: &[&Domain]) -
     close(&table)
 }
 
-/// Each parent once, and `object` only if there is no other; none is `object`.
+/// Each parent once; `object` only if it is the sole parent.
 fn simple(parents: Vec<Name>) -> Vec<Name> {
     let mut simple: Vec<Name> = Vec::with_capacity(parents.len());
     for parent in parents {
@@ -116,11 +117,11 @@ fn import(table: &mut Table, domain: &Domain) {
     }
 }
 
-/// One report for each cycle, with the way around it. Iterative: hierarchies can be deep.
+/// Reports each cycle once, with its path. Iterative, since hierarchies can be deep.
 fn report_cycles(sink: &mut Sink, table: &Table) {
     let mut done: FxHashSet<usize> = FxHashSet::default();
     for start in 0..table.len() {
-        // The way from `start`: each type with the position of its next parent to visit.
+        // The path from `start`: each type with the position of its next parent to visit.
         let mut way: Vec<(usize, usize)> = vec![(start, 0)];
         let mut on_way: FxHashSet<usize> = FxHashSet::from_iter([start]);
         while let Some((at, next)) = way.last_mut() {

@@ -1,7 +1,7 @@
-//! What a file declares so far, by name: everything that bodies (conditions, effects …) refer to.
+//! The declarations of a file so far, by name: everything that bodies (conditions, effects …) refer to.
 //!
-//! Names are looked up as they stand in the text: a lookup allocates only if there are capitals.
-//! Invariant: each map's ids are positions in the vector beside it.
+//! Names are looked up as written: a lookup allocates only if the name has capitals. Invariant: each map's
+//! ids are positions in the vector beside it.
 
 use std::borrow::Cow;
 use std::hash::BuildHasher;
@@ -17,7 +17,7 @@ use crate::model::{
 };
 use crate::syntax::Node;
 
-/// What a subtask can name, with its parameters.
+/// A task or action that a subtask can name, with its parameters.
 pub(crate) struct Signature {
     pub(crate) name: Name,
     pub(crate) head: SubtaskHead,
@@ -30,8 +30,8 @@ pub(crate) struct World {
     pub(crate) types: TypeTable,
     pub(crate) type_ids: FxHashMap<Name, TypeId>,
     pub(crate) objects: IndexVec<ObjectId, Object>,
-    /// By the names of `objects`, which it does not repeat: a problem can have so many that a lookup costs what it
-    /// misses in the processor's caches.
+    /// Ids by the names in `objects`, which the table does not repeat: a problem can have so many objects
+    /// that cache misses dominate a lookup.
     object_ids: HashTable<ObjectId>,
     pub(crate) predicates: IndexVec<PredicateId, Predicate>,
     pub(crate) predicate_ids: FxHashMap<Name, PredicateId>,
@@ -72,7 +72,7 @@ impl World {
         }
     }
 
-    /// The declarations of a domain that was read before.
+    /// The declarations of a domain that is already a model.
     pub(crate) fn of(domain: &Domain) -> Self {
         let mut world = Self::new(domain.requirements.clone(), domain.types.clone());
         for object in &domain.constants {
@@ -146,7 +146,7 @@ impl World {
         self.signature_ids.get(&*fold(name)).map(|&i| &self.signatures[i])
     }
 
-    /// Whether something can be an instance of both.
+    /// Whether an object can be an instance of both.
     pub(crate) fn meet(&self, a: &TypeSet, b: &TypeSet) -> bool {
         if a.is_unknown() || b.is_unknown() {
             return true;
@@ -156,7 +156,7 @@ impl World {
             || self.types.enumerate().any(|(t, _)| self.types.is_in(t, a) && self.types.is_in(t, b))
     }
 
-    /// Whether the object can be one of `types`: its own type, or one of the `either`s, is in.
+    /// Whether the object can belong to `types`: its type, or one type of its `either`, does.
     pub(crate) fn fits(&self, object: ObjectId, types: &TypeSet) -> bool {
         let own = &self.objects[object].types;
         own.is_unknown() || types.is_unknown() || own.0.iter().any(|&t| self.types.is_in(t, types))
@@ -184,7 +184,7 @@ impl World {
         text + ")"
     }
 
-    /// Reports a name that nothing declares.
+    /// Reports an undeclared name.
     pub(crate) fn unknown(&self, sink: &mut Sink, node: Node<'_>, symbol: SymbolKind) {
         if let Some(kind) = symbol.name_kind() {
             sink.mention(kind, node, None);

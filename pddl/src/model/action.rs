@@ -13,11 +13,11 @@ pub struct Action {
     pub name: Name,
     /// Parameters and quantified variables.
     pub variables: Variables,
-    /// When it may be applied.
+    /// The precondition.
     pub precondition: Condition,
-    /// What should hold as well.
+    /// The precondition's preferences.
     pub preferences: Vec<Preference<Condition>>,
-    /// What it does.
+    /// The effect.
     pub effect: Effect,
     /// The whole definition.
     pub span: Span,
@@ -42,13 +42,13 @@ pub enum TimeSpecifier {
 /// A condition at a time.
 #[derive(Clone, Debug)]
 pub struct TimedCondition {
-    /// When.
+    /// The time.
     pub when: TimeSpecifier,
-    /// What must hold.
+    /// The condition.
     pub condition: Condition,
 }
 
-/// Something around an effect that looks at another time than the effect's.
+/// A form around an effect that has a condition at another time than the effect.
 #[derive(Clone, Debug)]
 pub enum Given {
     /// For every binding of these slots.
@@ -60,19 +60,19 @@ pub enum Given {
 /// An effect at a time.
 #[derive(Clone, Debug)]
 pub struct TimedEffect {
-    /// When.
+    /// The time.
     pub when: TimeSpecifier,
-    /// What stands around it, outermost first, if a condition in it is at another time than the effect;
-    /// conditions at the effect's own time alone are in the effect.
+    /// The forms around it, outermost first, if one has a condition at another time than the effect.
+    /// Conditions at the effect's own time are part of the effect.
     pub given: Vec<Given>,
-    /// What changes.
+    /// The change.
     pub effect: Effect,
 }
 
 /// `(op ?duration expression)`.
 #[derive(Clone, Debug)]
 pub struct DurationConstraint {
-    /// At which of the two ends the bound is read: `at start`, also where none is written, or `at end`.
+    /// The end at which the bound is evaluated: `at end`, or `at start`, which is the default.
     pub when: TimeSpecifier,
     /// `<=`, `=` or `>=`.
     pub comparison: Comparison,
@@ -91,17 +91,17 @@ pub struct DurativeAction {
     pub name: Name,
     /// Parameters, then the results of the rule's skill, then quantified variables.
     pub variables: Variables,
-    /// All must hold; none means any duration.
+    /// Bounds that must all hold; without bounds any duration is allowed.
     pub duration: Vec<DurationConstraint>,
     /// Conditions by time.
     pub conditions: Vec<TimedCondition>,
-    /// What should hold as well, at its time.
+    /// The conditions' preferences, with their times.
     pub preferences: Vec<Preference<TimedCondition>>,
-    /// Effects by time; those with something [`Given`] come last.
+    /// Effects by time; those with [`Given`] forms come last.
     pub effects: Vec<TimedEffect>,
-    /// What changes from start to end.
+    /// Continuous effects from start to end.
     pub continuous: Vec<ContinuousEffect>,
-    /// What makes it an agent's rule.
+    /// The parts that make it an agent's rule.
     pub rule: Option<Rule>,
     /// The whole definition.
     pub span: Span,
@@ -118,7 +118,7 @@ pub struct Rule {
     pub results: Vec<super::VariableId>,
     /// `:claims (speaker)`: resources held from start to end.
     pub claims: Vec<Term>,
-    /// `:priority 50`: who wins a resource; higher preempts lower.
+    /// `:priority 50`: the rule with the highest number gets a resource and preempts the others.
     pub priority: i32,
 }
 
@@ -127,7 +127,7 @@ pub struct Rule {
 pub struct SkillCall {
     /// The skill.
     pub name: Name,
-    /// What it is given.
+    /// Its arguments.
     pub arguments: Vec<Term>,
     /// Where it stands.
     pub span: Span,

@@ -54,7 +54,7 @@ impl Comparison {
 /// A condition with its place.
 #[derive(Clone, Debug)]
 pub struct Condition {
-    /// What it says.
+    /// Its form.
     pub kind: ConditionKind,
     /// Where it stands.
     pub span: Span,
@@ -93,7 +93,7 @@ impl Condition {
         Self { kind: ConditionKind::And(Vec::new()), span }
     }
 
-    /// The conditions right inside of it, in the order in which they stand.
+    /// The conditions directly inside it, in order.
     pub fn parts(&self) -> impl Iterator<Item = &Self> {
         let (list, first, second) = match &self.kind {
             ConditionKind::And(parts) | ConditionKind::Or(parts) => (parts.as_slice(), None, None),

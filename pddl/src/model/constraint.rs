@@ -1,8 +1,8 @@
 //! `(:constraints …)`: conditions on the states that a plan goes through.
 //!
-//! Modal operators may be nested, and connectives may stand between them: competition grammars allow
-//! only `and` and `forall` there, and one level, but the meaning of the rest is as clear. Whatever
-//! holds no modal operator is one [`ConstraintKind::Holds`], which only stands below an operator.
+//! Modal operators may be nested, and connectives may stand between them. Competition grammars allow only
+//! `and` and `forall` there, and one level, but the semantics of the rest is as clear. A part without a
+//! modal operator is one [`ConstraintKind::Holds`], which only stands below an operator.
 //!
 //! Source: Gerevini & Long, "Plan constraints and preferences in PDDL3", 2005, §3.
 
@@ -12,23 +12,23 @@ use crate::{Decimal, Span};
 /// A constraint with its place.
 #[derive(Clone, Debug)]
 pub struct Constraint {
-    /// What it says.
+    /// Its form.
     pub kind: ConstraintKind,
     /// Where it stands.
     pub span: Span,
 }
 
-/// The forms of a constraint. Times are in seconds from the moment at which it is asked: the plan's
-/// start, or for a nested one the time of the state that the operator around it looks at.
+/// The forms of a constraint. Times are in seconds from the moment of evaluation: the plan's start, or for a
+/// nested constraint the time of the state that the enclosing operator refers to.
 #[derive(Clone, Debug)]
 pub enum ConstraintKind {
-    /// In the state that the operator around it looks at.
+    /// In the state that the enclosing operator refers to.
     Holds(Condition),
     /// All of them; empty is true.
     And(Vec<Constraint>),
     /// One of them; empty is false.
     Or(Vec<Constraint>),
-    /// Not so.
+    /// Negation.
     Not(Box<Constraint>),
     /// If the first, then the second.
     Imply(Box<Constraint>, Box<Constraint>),
@@ -44,7 +44,7 @@ pub enum ConstraintKind {
     Sometime(Box<Constraint>),
     /// In some state not later than this.
     Within(Decimal, Box<Constraint>),
-    /// In no two states with one between them in which it does not hold.
+    /// At most once: no two states with it have a state without it between them.
     AtMostOnce(Box<Constraint>),
     /// After each state with the first, or in it, there is one with the second.
     SometimeAfter(Box<Constraint>, Box<Constraint>),
@@ -63,14 +63,14 @@ pub enum ConstraintKind {
 pub struct Constraints {
     /// Quantified variables (no parameters).
     pub variables: Variables,
-    /// What each plan must satisfy; the conjunction at the top is flattened.
+    /// Constraints that each plan must satisfy; the conjunction at the top is flattened.
     pub hard: Vec<Constraint>,
-    /// What a good plan satisfies.
+    /// Constraints that a good plan satisfies.
     pub preferences: Vec<Preference<Constraint>>,
 }
 
 impl Constraints {
-    /// Whether there are none.
+    /// Whether it is empty.
     pub fn is_empty(&self) -> bool {
         self.hard.is_empty() && self.preferences.is_empty()
     }

@@ -1,9 +1,9 @@
 //! Domains.
 //!
-//! Beyond PDDL, a domain of ours may `(:import a b)`: the types, constants, predicates and functions
-//! of the named domains are then declared here too (ids are this domain's own; names link them). And a
-//! vocabulary (requirement `:vocabulary`) says who writes what:
-//! `(:writes speech (is ?r speaking) (finish ?r speaking) said)`.
+//! Beyond PDDL, a domain may `(:import a b)`: it then declares the types, constants, predicates and
+//! functions of the named domains too (ids are this domain's own; names link them). A vocabulary
+//! (requirement `:vocabulary`) lists the tokens that each agent may write: `(:writes speech (is ?r speaking)
+//! (finish ?r speaking) said)`.
 
 use super::{
     Action, ActionId, CompoundTask, Condition, Constraints, DurativeAction, DurativeActionId, Event, EventId,
@@ -25,7 +25,7 @@ pub struct Predicate {
     pub span: Span,
 }
 
-/// What a function yields.
+/// The kind of value of a function.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FunctionValue {
     /// A number.
@@ -41,7 +41,7 @@ pub struct Function {
     pub name: Name,
     /// Its typed parameters.
     pub variables: Variables,
-    /// What it yields.
+    /// The kind of its value.
     pub value: FunctionValue,
     /// Where it was declared.
     pub span: Span,
@@ -61,11 +61,11 @@ pub struct Object {
 /// `(:derived (p ?x) body)`. The head's arguments are the parameters, in order.
 #[derive(Clone, Debug)]
 pub struct Axiom {
-    /// What is derived.
+    /// The derived predicate.
     pub predicate: PredicateId,
     /// Parameters and quantified variables.
     pub variables: Variables,
-    /// When it holds.
+    /// The condition under which it holds.
     pub body: Condition,
     /// The whole definition.
     pub span: Span,
@@ -93,7 +93,7 @@ pub struct TokenPattern {
     pub span: Span,
 }
 
-/// What an agent may write.
+/// The tokens that an agent may write.
 #[derive(Clone, Debug)]
 pub struct Permission {
     /// The agent's name.
@@ -125,24 +125,24 @@ pub struct Domain {
     pub actions: IndexVec<ActionId, Action>,
     /// Its durative actions, rules and intentions.
     pub durative_actions: IndexVec<DurativeActionId, DurativeAction>,
-    /// What goes on by itself.
+    /// Its processes.
     pub processes: IndexVec<ProcessId, Process>,
-    /// What happens by itself.
+    /// Its events.
     pub events: IndexVec<EventId, Event>,
     /// Its axioms.
     pub axioms: Vec<Axiom>,
-    /// What holds of every plan.
+    /// Its constraints on every plan.
     pub constraints: Constraints,
     /// Its compound tasks.
     pub tasks: IndexVec<TaskId, CompoundTask>,
     /// Its methods.
     pub methods: IndexVec<MethodId, Method>,
-    /// Who may write what.
+    /// The tokens that each agent may write.
     pub permissions: Vec<Permission>,
     /// Facts that hold in the initial state of every problem (`:timeless` of PDDL 1.2).
     pub timeless: Vec<super::Fact>,
-    /// Language features that the model does not hold, with their places; a command that needs the
-    /// whole meaning refuses by name.
+    /// Language features that are read but not modelled, with their places; a command that needs the whole
+    /// meaning names them and refuses.
     pub unsupported: Vec<crate::Diagnostic>,
 }
 

@@ -18,7 +18,7 @@ pub enum AssignOperator {
     ScaleDown,
 }
 
-/// What a fluent becomes.
+/// The new value of a fluent.
 #[derive(Clone, Debug)]
 pub enum AssignedValue {
     /// A number, by any operator.
@@ -41,7 +41,7 @@ pub struct Effect {
 /// The forms of an effect.
 #[derive(Clone, Debug)]
 pub enum EffectKind {
-    /// All of them; empty does nothing.
+    /// All of them; an empty list changes nothing.
     And(Vec<Effect>),
     /// The atom becomes true.
     Add(Atom),
@@ -51,17 +51,17 @@ pub enum EffectKind {
     Assign(AssignOperator, Application, AssignedValue),
     /// For every binding of these slots.
     Forall(Vec<VariableId>, Box<Effect>),
-    /// Where the condition holds before.
+    /// If the condition holds before.
     When(Condition, Box<Effect>),
 }
 
 impl Effect {
-    /// The effect that does nothing.
+    /// The effect that changes nothing.
     pub fn nothing(span: Span) -> Self {
         Self { kind: EffectKind::And(Vec::new()), span }
     }
 
-    /// The effects right inside of it, in the order in which they stand.
+    /// The effects directly inside it, in order.
     pub fn parts(&self) -> &[Self] {
         match &self.kind {
             EffectKind::And(parts) => parts,

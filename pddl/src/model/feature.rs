@@ -1,9 +1,9 @@
 //! Which parts of the language a model uses beyond what every planner knows.
 //!
-//! Problem: who reads a model must not pass over a part that it does not look at, such as a hard
-//! constraint. Idea: each such part is a [`Feature`] that a domain or problem can be asked for, so
-//! that a consumer names what it refuses, and a part that comes to the language is refused
-//! everywhere until somebody takes it. Cost: one walk over the schemas; facts are not looked at.
+//! Problem: code that reads a model must not ignore a part that it does not implement, such as a hard
+//! constraint. Idea: each such part is a [`Feature`], and a domain or problem lists those that it uses. A
+//! consumer names the features that it refuses, and a new feature is refused everywhere until a consumer
+//! accepts it. Cost: one walk over the schemas; facts are not visited.
 
 use super::{
     Condition, ConditionKind, Domain, DurativeAction, Effect, EffectKind, ExpressionKind, Problem,

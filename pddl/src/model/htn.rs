@@ -1,8 +1,8 @@
 //! HDDL: compound tasks, methods and task networks.
 //!
-//! A network is stored with its partial order as pairs of positions; `:ordered-subtasks` is the
-//! chain. A primitive subtask may be an action or, in a `methods.hddl` of ours, a durative action
-//! (an intention: edits at start, what shall be seen at end, the deadline as its duration).
+//! A network stores its partial order as pairs of positions; `:ordered-subtasks` is the chain. A primitive
+//! subtask may be an action or, in a robot's `methods.hddl`, a durative action: an intention, with edits at
+//! start, the expected perception at end, and the deadline as its duration.
 
 use super::{ActionId, Condition, DurativeActionId, Name, TaskId, Term, Variables};
 use crate::Span;
@@ -25,13 +25,13 @@ pub struct Method {
     pub name: Name,
     /// Parameters and quantified variables.
     pub variables: Variables,
-    /// What it decomposes.
+    /// The task that it decomposes.
     pub task: TaskId,
     /// The task's arguments in terms of the method's variables.
     pub task_arguments: Vec<Term>,
-    /// When it may be used; the network's constraints come on top.
+    /// Its precondition; the network's constraints come on top.
     pub precondition: Condition,
-    /// What it becomes.
+    /// Its subtasks and their order.
     pub network: TaskNetwork,
     /// The whole definition.
     pub span: Span,
@@ -44,7 +44,7 @@ pub struct TaskNetwork {
     pub subtasks: Vec<Subtask>,
     /// `before` ends before `after` starts; acyclic.
     pub orderings: Vec<Ordering>,
-    /// What must hold of the parameters, whatever the state: `(not (= ?x ?y))`, `(sortof ?x - t)`. The
+    /// What must hold of the parameters in every state: `(not (= ?x ?y))`, `(sortof ?x - t)`. The
     /// conjunction at the top is flattened.
     pub constraints: Vec<Condition>,
 }
@@ -63,7 +63,7 @@ pub struct Ordering {
 pub struct Subtask {
     /// Its id in the source, if any.
     pub id: Option<Name>,
-    /// What it is.
+    /// The task or action that it names.
     pub head: SubtaskHead,
     /// Its arguments.
     pub arguments: Vec<Term>,
@@ -71,7 +71,7 @@ pub struct Subtask {
     pub span: Span,
 }
 
-/// What a subtask names.
+/// The schema that a subtask names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SubtaskHead {
     /// A compound task.

@@ -34,7 +34,7 @@ impl<I: Idx, T> IndexVec<I, T> {
         Self { items: Vec::new(), ids: PhantomData }
     }
 
-    /// Appends, and answers the new element's id.
+    /// Appends, and returns the new element's id.
     pub fn push(&mut self, item: T) -> I {
         let id = I::from_index(self.items.len());
         self.items.push(item);
@@ -46,12 +46,12 @@ impl<I: Idx, T> IndexVec<I, T> {
         self.items.len()
     }
 
-    /// Whether there is none.
+    /// Whether it is empty.
     pub fn is_empty(&self) -> bool {
         self.items.is_empty()
     }
 
-    /// The element, if there is one.
+    /// The element with that id, if the id is in range.
     pub fn get(&self, id: I) -> Option<&T> {
         self.items.get(id.index())
     }

@@ -1,13 +1,13 @@
 //! The typed model: what a file means once every name is resolved.
 //!
-//! Problem: planners, validators and translators must not look at text. Idea: one plain data
-//! structure per file kind; names are interned per domain and every reference is a typed id, every
-//! variable a slot of its schema. Invariant: a model exists only if its file had no errors, so ids
-//! are in range and arities and types fit. All nodes carry the span they came from.
+//! Problem: planners, validators and translators must not look at text. Idea: one plain data structure for
+//! each kind of file. Names are interned per domain, every reference is a typed id, and every variable is a
+//! slot of its schema. Invariant: a model exists only if its file had no errors, so ids are in range and
+//! arities and types fit. Every node carries its span.
 //!
-//! Source: Fox & Long, "PDDL2.1", JAIR 2003; Kovacs, "BNF definition of PDDL 3.1", 2011;
-//! Höller et al., "HDDL", AAAI 2020. Deviations (`:import`, `:writes`, outcomes of rules) are on
-//! [`Domain`] and [`Rule`].
+//! Source: Fox & Long, "PDDL2.1", JAIR 2003; Kovacs, "BNF definition of PDDL 3.1", 2011; Höller et al.,
+//! "HDDL", AAAI 2020. [`Domain`] and [`Rule`] describe the deviations (`:import`, `:writes`, outcomes of
+//! rules).
 
 mod action;
 mod condition;

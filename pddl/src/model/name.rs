@@ -1,7 +1,7 @@
-//! Names. PDDL is case-insensitive, so a name is kept in lower case and compares as bytes.
+//! Names. PDDL is case-insensitive, so a name is stored in lower case and compares as bytes.
 //!
-//! Names of up to 23 bytes, which are nearly all, need no memory of their own: comparing two reads no third place,
-//! and that is what reading a long problem spends its time on.
+//! A name of up to 23 bytes, which nearly all are, is stored inline. A comparison then follows no pointer,
+//! and comparisons dominate the time to read a long problem.
 
 use std::borrow::Borrow;
 use std::fmt;

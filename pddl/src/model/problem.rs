@@ -46,18 +46,18 @@ pub struct FluentFact {
     pub span: Span,
 }
 
-/// `(at 5 (p a))` in `:init`: something that happens whatever the plan does.
+/// `(at 5 (p a))` in `:init`: a change that happens whatever the plan does.
 #[derive(Clone, Debug)]
 pub struct TimedInitial {
-    /// When, in seconds from the start; not negative.
+    /// The time in seconds from the start; not negative.
     pub time: Decimal,
-    /// What.
+    /// The change.
     pub change: TimedChange,
     /// The whole `(at 5 …)`; several changes may stand in one.
     pub span: Span,
 }
 
-/// What happens at a time.
+/// A change at a time.
 #[derive(Clone, Debug)]
 pub enum TimedChange {
     /// A fact becomes true.
@@ -82,9 +82,9 @@ pub enum Objective {
 /// `(:metric minimize e)`.
 #[derive(Clone, Debug)]
 pub struct Metric {
-    /// Which way.
+    /// The direction.
     pub objective: Objective,
-    /// What is measured.
+    /// The expression to optimise.
     pub expression: Expression,
 }
 
@@ -97,25 +97,25 @@ pub struct Problem {
     pub requirements: Requirements,
     /// The domain's constants, under the same ids, then the problem's objects.
     pub objects: IndexVec<ObjectId, Object>,
-    /// What holds initially; the rest is false.
+    /// The initial facts; all others are false.
     pub init: Vec<Fact>,
-    /// Initial values; the rest is undefined.
+    /// Initial values; all others are undefined.
     pub fluents: Vec<FluentFact>,
-    /// What happens by itself, in the order of the source.
+    /// The timed initial literals and fluents, in the order of the source.
     pub timed: Vec<TimedInitial>,
     /// Quantified variables of the goal and its preferences (no parameters).
     pub goal_variables: Variables,
-    /// What shall hold in the end; `always` for an HTN problem without a goal.
+    /// The goal; a condition that always holds for an HTN problem without a goal.
     pub goal: Condition,
-    /// What should hold in the end as well.
+    /// The goal's preferences.
     pub preferences: Vec<Preference<Condition>>,
-    /// What holds of every plan, together with the domain's.
+    /// Constraints on every plan, in addition to the domain's.
     pub constraints: Constraints,
     /// What to optimise.
     pub metric: Option<Metric>,
     /// The initial task network of an HTN problem, with its parameters.
     pub htn: Option<(Variables, TaskNetwork)>,
-    /// Language features that the model does not hold, with their places.
+    /// Language features that are read but not modelled, with their places.
     pub unsupported: Vec<crate::Diagnostic>,
     /// The goal's place.
     pub goal_span: Span,

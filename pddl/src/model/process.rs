@@ -5,16 +5,16 @@
 use super::{Application, Condition, Effect, Expression, Name, VariableId, Variables};
 use crate::Span;
 
-/// An object fluent as an argument, where nothing can bind its value: the slot stands for it.
+/// An object fluent as an argument in a place without a quantifier: the slot stands for its value.
 #[derive(Clone, Debug)]
 pub struct FunctionTerm {
     /// The slot.
     pub slot: VariableId,
-    /// What has the value. Its own arguments may be slots of functions before it.
+    /// The fluent. Its own arguments may be slots of earlier functions.
     pub application: Application,
 }
 
-/// Which way a fluent changes with time.
+/// The direction in which a fluent changes with time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Direction {
     /// `increase`
@@ -30,11 +30,11 @@ pub struct ContinuousEffect {
     pub forall: Vec<VariableId>,
     /// Functions that stand as arguments, innermost first.
     pub functions: Vec<FunctionTerm>,
-    /// Which way.
+    /// The direction.
     pub direction: Direction,
-    /// What changes.
+    /// The fluent that changes.
     pub fluent: Application,
-    /// By how much in a second; it may itself change with time.
+    /// The rate per second; it may itself change with time.
     pub rate: Expression,
     /// Where it stands.
     pub span: Span,
@@ -47,9 +47,9 @@ pub struct Process {
     pub name: Name,
     /// Parameters and quantified variables.
     pub variables: Variables,
-    /// When it runs.
+    /// The condition under which it runs.
     pub precondition: Condition,
-    /// What it changes meanwhile.
+    /// The continuous effects while it runs.
     pub effects: Vec<ContinuousEffect>,
     /// The whole definition.
     pub span: Span,
@@ -64,9 +64,9 @@ pub struct Event {
     pub name: Name,
     /// Parameters and quantified variables.
     pub variables: Variables,
-    /// When it happens.
+    /// The condition that triggers it.
     pub precondition: Condition,
-    /// What it does.
+    /// Its effect.
     pub effect: Effect,
     /// The whole definition.
     pub span: Span,

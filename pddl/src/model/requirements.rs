@@ -75,18 +75,18 @@ requirements! {
     MethodPreconditions = ":method-preconditions",
     /// MA-PDDL: several agents.
     MultiAgent = ":multi-agent",
-    /// MA-PDDL: one file for all agents, which says what is private to whom.
+    /// MA-PDDL: one file for all agents, which declares the private symbols of each.
     UnfactoredPrivacy = ":unfactored-privacy",
-    /// MA-PDDL: a file for each agent, which says what is private.
+    /// MA-PDDL: a file for each agent, which declares its private symbols.
     FactoredPrivacy = ":factored-privacy",
-    /// Ours: durative actions are agents' rules, with skills, claims, priorities and outcomes.
+    /// Pelea's own: durative actions are agents' rules, with skills, claims, priorities and outcomes.
     AgentRules = ":agent-rules",
-    /// Ours: `:writes` says which agent may write which token.
+    /// Pelea's own: `:writes` lists the tokens that each agent may write.
     Vocabulary = ":vocabulary",
 }
 
 impl Requirement {
-    /// Flags of other tools that say nothing which we do not know.
+    /// Flags of other tools that mean the same as known flags, or nothing.
     pub const SYNONYMS: &'static [(&'static str, Self)] = &[
         (":htn", Self::Hierarchy),
         (":hierachy", Self::Hierarchy),

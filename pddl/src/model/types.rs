@@ -1,7 +1,7 @@
 //! The hierarchy of types.
 //!
-//! PDDL allows several parents (`either` on the right of a type) and PDDL 3.1 lets types be used as
-//! unary predicates; both are served by a closure computed once. Invariant: acyclic, `object` on top.
+//! PDDL allows several parents (`either` on the right of a type), and PDDL 3.1 allows types as unary
+//! predicates; a closure, computed once, serves both. Invariant: acyclic, `object` on top.
 
 use super::{IndexVec, Name, TypeId};
 use crate::Span;
@@ -18,7 +18,7 @@ pub struct Type {
     pub span: Span,
 }
 
-/// A union of types: `(either a b)`, or one type. Up to four need no memory of their own, since every object of a
+/// A union of types: `(either a b)`, or one type. Up to four are stored inline, since every object of a
 /// problem has such a set.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct TypeSet(pub SmallVec<[TypeId; 4]>);
@@ -34,12 +34,12 @@ impl TypeSet {
         Self(SmallVec::from_slice(&[of]))
     }
 
-    /// Where a type stands that nothing declares. Only drafts have it (see `analyze_domain`).
+    /// The type of a name whose type is unknown. Only drafts have it (see `analyze_domain`).
     pub(crate) fn unknown() -> Self {
         Self(SmallVec::new())
     }
 
-    /// Whether it names a type that nothing declares, so that nothing can be said about it.
+    /// Whether it contains an unknown type, so that no type error can be derived from it.
     pub fn is_unknown(&self) -> bool {
         self.0.is_empty()
     }
@@ -57,8 +57,8 @@ impl TypeTable {
     /// The root type.
     pub const OBJECT: TypeId = TypeId(0);
 
-    /// Closes the hierarchy. `types[0]` must be `object`, and the hierarchy acyclic (the checker of
-    /// sources reports cycles before it comes here); a cycle would be cut, not looped over.
+    /// Closes the hierarchy. `types[0]` must be `object`, and the hierarchy acyclic (lowering reports cycles
+    /// first); a cycle would be cut, not looped over.
     pub fn new(types: IndexVec<TypeId, Type>) -> Self {
         let ancestors = types
             .ids()
@@ -118,7 +118,7 @@ impl TypeTable {
         self.types.len()
     }
 
-    /// Never: `object` is always there.
+    /// Always false: `object` is always there.
     pub fn is_empty(&self) -> bool {
         self.types.is_empty()
     }

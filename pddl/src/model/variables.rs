@@ -1,7 +1,7 @@
 //! The variables of one schema (action, axiom, method, goal).
 //!
-//! Every variable of a schema, parameter or quantified, has a slot of its own, so that a binding is
-//! an array and no substitution ever captures. The first [`Variables::parameters`] are the parameters.
+//! Every variable of a schema, parameter or quantified, has a slot of its own, so a binding is an array and
+//! substitution never captures. The first [`Variables::parameters`] slots are the parameters.
 
 use super::{IndexVec, Name, TypeSet, VariableId};
 use crate::Span;

@@ -8,7 +8,7 @@ use crate::model::{
     EffectKind, Expression, ExpressionKind, Term, TypeSet, VariableId, Variables,
 };
 
-/// Words that mean something else in front of a list than a type of that name.
+/// Words that have another meaning in front of a list than a type of that name.
 const RESERVED: &[&str] = &[
     "and",
     "or",
@@ -107,7 +107,7 @@ impl<'m> Printer<'m> {
         }
     }
 
-    /// As a predicate where that is read as a type.
+    /// As a predicate, where that is read as a test of the type.
     fn has_type(&mut self, v: &Variables, term: Term, types: &TypeSet) {
         let domain = self.domain;
         if let [one] = types.0.as_slice()

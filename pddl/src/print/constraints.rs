@@ -1,7 +1,7 @@
 //! Preferences and constraints.
 //!
-//! A condition is printed before its preferences, in one conjunction, so that reading it numbers the
-//! slots as they are.
+//! A condition is printed before its preferences, in one conjunction, so that reading it gives the slots the
+//! same numbers.
 
 use std::fmt::Write as _;
 

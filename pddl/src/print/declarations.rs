@@ -56,8 +56,8 @@ impl Printer<'_> {
         self.push(")");
     }
 
-    /// A section for each function: so one that yields a number needs no `- number`, which means
-    /// something else where a type has that name.
+    /// Prints a section for each function, so that a numeric function needs no `- number`, which would name
+    /// a type if a type has that name.
     pub(super) fn function_sections(&mut self) {
         let domain = self.domain;
         for function in &domain.functions {

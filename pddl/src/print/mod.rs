@@ -1,11 +1,11 @@
 //! Model to PDDL text.
 //!
-//! Invariant: reading what was printed gives the same model, spans aside, as long as nothing in the
-//! model's source was unsupported (the model does not hold that, so it cannot be printed). Imported
-//! declarations are printed together with the `:import`, which may repeat them: so a printed file
-//! shows all it relies on, and its ids stay what they were.
+//! Invariant: reading the output gives the same model, spans aside, as long as nothing in the model's source
+//! was unsupported (the model does not hold such parts). Imported declarations are printed together with the
+//! `:import`, which allows the repetition: so a printed file shows all declarations that it uses, and ids
+//! stay the same.
 //!
-//! This is no formatter: comments and layout are in [`crate::syntax`], not in a model.
+//! This is not the formatter: comments and layout are in [`crate::syntax`], not in a model.
 
 mod body;
 mod constraints;
@@ -34,12 +34,12 @@ pub fn print_problem(problem: &Problem, domain: &Domain) -> String {
     printer.out
 }
 
-/// What a name prints.
+/// The state of printing one file.
 struct Printer<'m> {
     out: String,
     domain: &'m Domain,
     objects: &'m IndexVec<ObjectId, Object>,
-    /// What the slots stand for that nothing binds.
+    /// The functions of slots that no quantifier binds.
     functions: &'m [FunctionTerm],
 }
 

@@ -62,7 +62,7 @@ impl PlanPrinter<'_> {
     }
 
     fn temporal(&mut self, plan: &TemporalPlan) {
-        // A time with a point says that it is one, also where nothing takes time.
+        // A point marks the number as a time, also in a domain without durations.
         let whole = plan.steps.iter().all(|s| s.start.scale() == 0 && s.duration.is_none());
         for step in &plan.steps {
             self.write(format_args!("{}{}: ", step.start, if whole { ".0" } else { "" }));

@@ -10,7 +10,7 @@ impl Printer<'_> {
         let domain = self.domain;
         let _ = write!(self.out, "(define (problem {})\n  (:domain {})", problem.name, domain.name);
         self.requirements(&problem.requirements);
-        // A constant is repeated where the problem gives it further types.
+        // A constant is repeated if the problem gives it further types.
         let own = problem
             .objects
             .enumerate()

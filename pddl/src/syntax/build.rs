@@ -1,14 +1,20 @@
 //! Tokens to tree, whatever the parentheses do.
 //!
-//! One pass with an explicit stack of open lists. Problem: after one wrong parenthesis everything
-//! behind it would be nested wrongly and all its errors lost. Idea: a list that starts with a
-//! section's keyword (`(:action`) can only stand directly inside `(define`. If it comes deeper, the
-//! lists between were never closed: they are reported at their opening parentheses and end there, or
-//! earlier if the lines' layout tells where. If it comes after `define` was closed, a parenthesis too
-//! many was written: that one is reported and `define` goes on; if a key such as `:effect` stands
-//! directly in `define`, it is the one before the key. A second `(define (domain` or `(problem` ends
-//! the first. Parentheses that balance are taken at their word. Lists deeper than [`MAX_DEPTH`] get no
-//! nodes, so that whoever recurses over a tree is safe. Invariant: nodes are in preorder and every parent's range covers its children's.
+//! Problem: after one wrong parenthesis everything behind it would be nested wrongly, and all its errors
+//! would be lost.
+//!
+//! Idea: one pass with an explicit stack of open lists, and the rule that a list with a section's keyword
+//! (`(:action`) stands directly inside `(define`.
+//! - If such a list comes deeper, the lists between were never closed. They are reported at their opening
+//!   parentheses and end there, or earlier if the layout of the lines shows where.
+//! - If it comes after `define` was closed, there is a closing parenthesis too many. That one is reported
+//!   and `define` goes on. If a key such as `:effect` stands directly in `define`, the surplus parenthesis
+//!   is the one before the key.
+//! - A second `(define (domain` or `(problem` ends the first.
+//!
+//! Parentheses that balance are never questioned. Lists deeper than [`MAX_DEPTH`] get no nodes, so that
+//! recursion over a tree is safe. Invariant: nodes are in preorder and every parent's range covers its
+//! children's.
 
 use super::layout::{Signs, is_key, missing_ends};
 use super::token::TokenKind;
@@ -17,13 +23,13 @@ use super::tree::{NodeData, NodeKind, Tree};
 use crate::diagnostic::{Diagnostic, DiagnosticKind, Label};
 use crate::{Source, Span};
 
-/// Deepest nesting that gets nodes.
+/// Deepest nesting that gets nodes; deeper lists are reported.
 pub const MAX_DEPTH: usize = 1000;
 
-/// Room for nodes is made for a text that has one in so many bytes; few have less.
+/// Bytes of text for each node that is allocated in advance; few texts have fewer bytes a node.
 const BYTES_PER_NODE: usize = 8;
 
-/// Most reports of one kind of imbalance, so that a binary file does not flood its reader.
+/// Most reports of one kind of imbalance, so that a binary file does not flood the output.
 const MAX_REPORTS: usize = 20;
 
 /// Keywords of lists that stand directly in `(define …)`.
@@ -78,7 +84,7 @@ struct Builder<'s> {
     nodes: Vec<NodeData>,
     /// Open lists that have nodes, outermost first.
     stack: Vec<u32>,
-    /// How many open lists are too deep to have one.
+    /// How many open lists are too deep to have a node.
     too_deep: usize,
     /// End of the last token that is neither blank nor comment.
     last_end: u32,
@@ -88,7 +94,7 @@ struct Builder<'s> {
     closed_define: Option<(u32, Span)>,
     /// A section is being read for the second time.
     again: bool,
-    /// Whether columns can be trusted, once it was asked.
+    /// Whether the columns of the sections so far match their nesting; computed on demand.
     keeps_columns: Option<bool>,
     unclosed: usize,
     unmatched: usize,
@@ -181,7 +187,8 @@ impl Builder<'_> {
         self.text[span.range()].eq_ignore_ascii_case(word)
     }
 
-    /// `span` is a keyword that was just read: puts its list directly under `define` if it is a section.
+    /// `span` is the keyword that was just read: if it names a section, its list moves directly under
+    /// `define`.
     fn recover(&mut self, span: Span) {
         let Some(&list) = self.stack.last() else { return };
         let starts_list = self.too_deep == 0 && list + 1 == self.next_id();
@@ -193,7 +200,7 @@ impl Builder<'_> {
         if !inside && behind.is_none() {
             return;
         }
-        // The list is taken back until what stands before it is right.
+        // Remove the list until the sections before it are correct.
         let start = self.take_back(list);
         if let Some((define, _)) = behind {
             self.reopen_by_key(define, start);
@@ -226,7 +233,8 @@ impl Builder<'_> {
         self.end_all(u32::try_from(self.text.len()).expect("a source is shorter than 4 GiB"));
     }
 
-    /// `span` is a name that was just read: if it is the `domain` of `(define (domain`, no list is around that.
+    /// `span` is the name that was just read: if it is the `domain` of `(define (domain`, no list encloses
+    /// that one.
     fn recover_definition(&mut self, span: Span) {
         let &[first, .., define, title] = self.stack.as_slice() else { return };
         let is_title =
@@ -247,7 +255,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Forgets a list of which nothing was read yet. Where it starts.
+    /// Removes a list that has no contents yet. Returns where it starts.
     fn take_back(&mut self, list: u32) -> u32 {
         self.stack.pop();
         self.last_end = self.before_open;
@@ -273,7 +281,7 @@ impl Builder<'_> {
         }
     }
 
-    /// The last section of a definition that is open.
+    /// The last section of a definition that is still open.
     fn last_section(&self) -> Option<u32> {
         let &define = self.stack.first().filter(|&&list| self.too_deep == 0 && self.is_define(list))?;
         if let Some(&section) = self.stack.get(1) {
@@ -291,7 +299,8 @@ impl Builder<'_> {
         last
     }
 
-    /// Reads the section again, up to `end`, with at most `missing` lists closed where the layout says so.
+    /// Reads the section again, up to `end`, and closes at most `missing` lists where the layout shows their
+    /// ends.
     fn close_by_layout(&mut self, section: u32, end: u32, missing: usize) {
         if self.unclosed >= MAX_REPORTS || self.is_too_deep() {
             return;
@@ -350,14 +359,14 @@ impl Builder<'_> {
         self.again = false;
     }
 
-    /// Forgets the section and all behind it.
+    /// Removes the section and everything behind it.
     fn start_again(&mut self, section: u32) {
         self.nodes.truncate(section as usize);
         self.stack.truncate(1);
         self.again = true;
     }
 
-    /// Whether the columns of the sections before this one are those of their lists.
+    /// Whether the columns of the sections before this one match their nesting.
     fn keeps_columns(&mut self, section: u32) -> bool {
         if let Some(known) = self.keeps_columns {
             return known;

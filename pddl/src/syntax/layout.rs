@@ -1,15 +1,15 @@
-//! Which list was never closed, by what the author's lines say.
+//! Finds the list that was never closed by the layout of the author's lines.
 //!
-//! Problem: where a parenthesis is missing, the lists around take the closing ones of each other, and what is still
-//! open at the end of a section is the section, not the list that its author forgot to close. Idea: authors indent by
-//! what they mean. A list has ended before
+//! Problem: where a parenthesis is missing, each list takes the closing parenthesis of the list around it.
+//! At the end of the section the section itself is still open, and not the list that its author forgot to
+//! close. Idea: authors indent by nesting. A list has ended before
 //! - a key (`:effect`) of the section that it stands in, wherever that is,
-//! - an opening parenthesis or key that starts a line in its own column or left of it,
-//! - a closing parenthesis that starts a line left of the line on which it begins.
+//! - an opening parenthesis or key that starts a line in the list's column or left of it,
+//! - a closing parenthesis that starts a line left of the line on which the list begins.
 //!
-//! The last two are asked only if the sections before, whose parentheses are right, keep to them. Nothing here
-//! is asked of a section whose parentheses balance. Cost: one more pass over a section that is wrong. Columns are
-//! counted in bytes.
+//! The last two rules apply only if the preceding sections, whose parentheses are right, follow them. No
+//! rule applies to a section whose parentheses balance. Cost: one more pass over a wrong section. Columns
+//! are counted in bytes.
 
 use super::token::TokenKind;
 use super::tokens::Tokens;
@@ -28,7 +28,7 @@ const KEYED: &[&str] = &[
     ":task",
 ];
 
-/// Keys that stand in such sections only, and directly.
+/// Keys that stand in such sections only, and directly in them.
 const KEYS: &[&str] = &[
     ":agent",
     ":claims",
@@ -53,7 +53,7 @@ const KEYS: &[&str] = &[
     ":vars",
 ];
 
-/// What is taken as a sign.
+/// Which signs of a list's end count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Signs {
     /// Keys alone.
@@ -67,7 +67,7 @@ pub(super) enum Signs {
 struct Open {
     column: usize,
     line: Line,
-    /// How many parts begin on its first line. With one, the others hang below and are indented from that line, not
+    /// How many parts begin on its first line. With one part, the others are indented from that line and not
     /// from the parenthesis.
     beside: usize,
 }
@@ -88,8 +88,9 @@ struct Line {
     indent: usize,
 }
 
-/// Looks for at most `missing` ends of lists in the section that starts at `section.start`: each is the place of a
-/// token before which the innermost open list should have ended, as often as it occurs.
+/// Looks for at most `missing` ends of lists in the section that starts at `section.start`. Each result is
+/// the place of a token before which the innermost open list should have ended; a place occurs once for each
+/// such list.
 pub(super) fn missing_ends(text: &str, section: Span, missing: usize, signs: Signs) -> Vec<u32> {
     let mut ends = Vec::new();
     let mut open: Vec<Open> = Vec::new();
@@ -120,7 +121,7 @@ pub(super) fn missing_ends(text: &str, section: Span, missing: usize, signs: Sig
         let count =
             if is_key { inner.len() } else { inner.iter().rev().take_while(|list| ended(list)).count() };
         if count + ends.len() > missing {
-            // More has ended than is missing: the signs say nothing from here on.
+            // More lists have ended than are missing: from here on the signs are not reliable.
             break;
         }
         ends.extend(std::iter::repeat_n(span.start, count));
@@ -146,7 +147,7 @@ pub(super) fn missing_ends(text: &str, section: Span, missing: usize, signs: Sig
     ends
 }
 
-/// Whether the keyword is a key that stands in a section only, and directly.
+/// Whether the keyword is a key that stands directly in a section only.
 pub(super) fn is_key(keyword: &str) -> bool {
     is_one_of(keyword, KEYS)
 }

@@ -1,10 +1,10 @@
 //! Text to tokens, with nom.
 //!
-//! The lexer works on bytes: every byte that ends a word is ASCII, so a token never splits a UTF-8
-//! character, and bytes above 127 are letters of a word or of a comment. It knows no error: what is
-//! no PDDL name is still a word, and the lowering says what it expected there.
+//! The lexer works on bytes. Every byte that ends a word is ASCII, so a token never splits a UTF-8
+//! character, and bytes above 127 belong to a word or a comment. The lexer reports no errors: an invalid
+//! name is still a word, and lowering reports what it expected there.
 //!
-//! Kind to how people write: `-type` and `-2d` are a hyphen and a name, `<?x` an operator and a variable,
+//! It follows how people write: `-type` and `-2d` are a hyphen and a name, `<?x` an operator and a variable,
 //! `?x?y` two variables. Cost: one pass, no backtracking over more than one word.
 
 use nom::branch::alt;
@@ -21,7 +21,7 @@ const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";
 pub(super) fn first_token(input: &[u8]) -> (usize, TokenKind) {
     match token(input) {
         Ok((rest, kind)) => (input.len() - rest.len(), kind),
-        // No byte is refused by every alternative; should one ever be, it is a word.
+        // The alternatives accept every byte; this arm makes the function total.
         Err(_) => (1, TokenKind::Name),
     }
 }
@@ -48,7 +48,7 @@ fn word(input: &[u8]) -> IResult<&[u8], TokenKind> {
     map(take_while1(is_word), kind).parse(input)
 }
 
-/// A hyphen before what is no number stands alone: no name starts with one.
+/// A hyphen that does not start a number stands alone: no name starts with one.
 fn hyphen(input: &[u8]) -> IResult<&[u8], TokenKind> {
     let (rest, word) = recognize(pair(tag(&b"-"[..]), take_while(is_word))).parse(input)?;
     Ok(if is_number(word) { (rest, TokenKind::Number) } else { (&input[1..], TokenKind::Name) })

@@ -1,6 +1,6 @@
 //! The kinds of tokens.
 
-/// What a token is.
+/// The kind of a token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TokenKind {
     /// Blanks, line ends, a byte order mark.
@@ -11,7 +11,7 @@ pub enum TokenKind {
     Open,
     /// `)`
     Close,
-    /// A name or an operator: whatever is none of the others.
+    /// A name or an operator: any word that is none of the other kinds.
     Name,
     /// `?name`
     Variable,

@@ -11,7 +11,7 @@ use crate::Span;
 #[derive(Clone, Debug)]
 pub struct Tokens<'s> {
     text: &'s str,
-    /// How much of it is behind us.
+    /// How much of the text has been read.
     at: usize,
 }
 
@@ -21,7 +21,8 @@ impl<'s> Tokens<'s> {
         Self { text, at: 0 }
     }
 
-    /// Those of a part that starts and ends where tokens do; their spans are of the whole.
+    /// The tokens of a part that starts and ends at token boundaries; their spans are those of the whole
+    /// text.
     pub(super) fn within(text: &'s str, part: Span) -> Self {
         Self { text: &text[..part.end as usize], at: part.start as usize }
     }

@@ -1,13 +1,13 @@
 //! The lossless tree: tokens that tile the text, and nodes over them.
 //!
-//! Nodes lie in preorder in one array; a node knows where its subtree ends, so the first child is
-//! the next node and the next sibling is the subtree's end. 16 bytes a node, no pointers, nothing to
-//! drop recursively. Comments and blanks are in [`Tree::tokens`] only.
+//! Nodes lie in preorder in one array. A node knows where its subtree ends, so its first child is the next
+//! node and its next sibling starts at the subtree's end. 16 bytes a node, no pointers, no recursive drop.
+//! Comments and blanks are in [`Tree::tokens`] only.
 
 use super::tokens::Tokens;
 use crate::Span;
 
-/// What a node is.
+/// The kind of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NodeKind {
     /// `( … )`
@@ -43,12 +43,12 @@ impl<'s> Tree<'s> {
         Tokens::of(self.text)
     }
 
-    /// The source, put together again from the tokens: equal to it byte for byte.
+    /// The source, rebuilt from the tokens: equal to it byte for byte.
     pub fn text(&self) -> String {
         self.tokens().map(|(_, span)| &self.text[span.range()]).collect()
     }
 
-    /// The nodes that no list encloses.
+    /// The top-level nodes.
     pub fn roots<'t>(&'t self) -> Children<'t>
     where
         's: 't,
@@ -90,7 +90,7 @@ impl<'t> Node<'t> {
         self.kind() == NodeKind::List
     }
 
-    /// Whether it is that word, in any case.
+    /// Whether it is that word; case is ignored.
     pub fn is(self, word: &str) -> bool {
         !self.is_list() && self.text().eq_ignore_ascii_case(word)
     }
@@ -100,7 +100,7 @@ impl<'t> Node<'t> {
         matches!(self.kind(), NodeKind::Name | NodeKind::Number)
     }
 
-    /// What the list holds; nothing for the others.
+    /// The children of a list; none for atoms.
     pub fn children(self) -> Children<'t> {
         Children { tree: self.tree, next: self.id + 1, end: self.data().end }
     }

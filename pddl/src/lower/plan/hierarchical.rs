@@ -8,9 +8,9 @@
 //! <==
 //! ```
 //!
-//! A line is a node; actions stand in the order in which they are taken, the other lines in any. The action or
-//! task may have parentheses around it, the whole line too. Numbers are resolved once all lines are known, so
-//! that a line with a mistake is still known by its number.
+//! A line is a node; actions stand in the order of execution, the other lines in any order. The action or
+//! task may have parentheses around it, the whole line too. Numbers are resolved once all lines are known,
+//! so that the number of a wrong line is known too.
 
 use rustc_hash::FxHashMap;
 
@@ -37,7 +37,7 @@ struct Written<'t> {
     subtasks: Vec<Node<'t>>,
 }
 
-/// Where a number is declared, and what it names unless that line is wrong.
+/// Where a number is declared, and the node that it names unless its line is wrong.
 type Labels = FxHashMap<PlanLabel, (Span, Option<PlanNode>)>;
 
 #[derive(Default)]
@@ -95,7 +95,7 @@ impl<'a> Reader<'a> {
         self.body.sink.report(span, DiagnosticKind::Missing { owner: "the hierarchical plan".into(), what });
     }
 
-    /// The lines between `==>` and `<==`; whatever is outside is reported.
+    /// The lines between `==>` and `<==`; other lines are reported.
     fn between_arrows(&mut self) -> Vec<Vec<Node<'a>>> {
         let roots: Vec<Node<'a>> = self.tree.roots().collect();
         let over = |part: &[Node<'a>]| match part {
@@ -265,7 +265,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Where the numbers mean something.
+    /// The scope of the plan's numbers.
     fn whole_file(&self) -> Option<Span> {
         let end = u32::try_from(self.source.text().len()).expect("a source is shorter than 4 GiB");
         Some(Span::new(0, end))
@@ -296,7 +296,7 @@ fn label(node: Node<'_>) -> Option<PlanLabel> {
     digits.then(|| text.parse().ok().map(PlanLabel)).flatten()
 }
 
-/// `->` comes as two words, since no name starts with a hyphen.
+/// `->` arrives as two words, since no name starts with a hyphen.
 fn is_arrow(words: &[Node<'_>]) -> bool {
     matches!(words, [a, b] if a.is("-") && b.is(">") && a.span().end == b.span().start)
 }

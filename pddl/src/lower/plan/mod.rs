@@ -1,14 +1,14 @@
-//! Plan files: which kind a file is of, and what all kinds have in common.
+//! Plan files: the kind of a file, and what all kinds have in common.
 //!
 //! A file with `==>`, `<==` or a line that starts with `root` is hierarchical. Otherwise it is temporal if a
-//! step has a duration, a time that is no whole number, or a durative action. What is left is sequential:
-//! whole numbers before all steps (`0: (a)`, `1: (b)`) count them, unless the domain knows time, where they
+//! step has a duration, a time that is not a whole number, or a durative action. All other files are
+//! sequential: whole numbers before all steps (`0: (a)`, `1: (b)`) count them. In a domain with time they
 //! are times.
 //!
-//! A text that is no plan as it stands may be a planner's output with one in it (`output`).
+//! A text that is not a plan itself may be a planner's output that contains one (`output`).
 //!
-//! A text without any step is no plan, and never read as the empty one; a file without any text is, with a
-//! warning.
+//! A text without any step is an error and never read as the empty plan. An empty file is the empty plan,
+//! with a warning.
 
 mod hierarchical;
 mod output;
@@ -24,7 +24,7 @@ use crate::{ClaimedCost, Diagnostic, Plan, SequentialPlan, Source, Span};
 
 const STEP: &str = "a step such as `(action object)`";
 
-/// Reads a plan, or the one in a planner's output. Each reading has a sink of its own from `sink`.
+/// Reads a plan, or the plan in a planner's output. Each attempt has a new sink from `sink`.
 pub(crate) fn plan(
     sink: impl Fn(Vec<Diagnostic>) -> Sink,
     source: &Source,
@@ -106,13 +106,13 @@ impl<'a> Reader<'a> {
         self.source.slice(Span::new(before.end, after.start)).contains(['\n', '\r'])
     }
 
-    /// What stands at `span` is not `expected`.
+    /// Reports that the text at `span` is not `expected`.
     fn unexpected(&mut self, span: Span, expected: &'static str) {
         let found = found_text(self.source.slice(span));
         self.body.sink.report(span, DiagnosticKind::Unexpected { found, expected });
     }
 
-    /// The arguments of a ground call, their number and types checked; `None` if any is wrong.
+    /// The arguments of a ground call, with number and types checked; `None` if any is wrong.
     fn arguments<'t>(
         &mut self,
         whole: Span,
@@ -146,7 +146,7 @@ impl<'a> Reader<'a> {
         (sound && count == expected).then_some(arguments)
     }
 
-    /// The last comment of the form `; cost = 5`, as planners leave it.
+    /// The last comment of the form `; cost = 5`, as planners write it.
     fn claimed_cost(&self) -> Option<ClaimedCost> {
         let comments = self.tree.tokens().filter(|(kind, _)| *kind == TokenKind::Comment);
         let claims = comments.filter_map(|(_, span)| {

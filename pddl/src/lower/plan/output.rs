@@ -1,26 +1,27 @@
-//! Plans in the middle of what a planner says while it works.
+//! Plans inside the output of a planner.
 //!
-//! Problem: people keep what their planner prints, and not all planners write a file with the plan alone. Idea:
-//! only where a text is no plan as it is, it is searched for the marks that known planners leave; the steps behind
-//! the last of them are kept, in their places, and all else becomes blanks. Invariant: the text keeps its length and
-//! every step its place, so what is said of a step points into the file. A text without a mark is never guessed at.
+//! Problem: people store what their planner prints, and not all planners write a file with the plan alone.
+//! Idea: only if a text is not a plan itself, it is searched for the marks of known planners. The steps
+//! after the last mark stay at their places, and the rest becomes blanks. Invariant: the text keeps its
+//! length and every step its place, so diagnostics about a step point into the file. A text without a known
+//! mark is an error: its steps are never guessed.
 //!
-//! Known are: `step    0: A B C` (FF, Metric-FF); lines `0.003: (a b) [4.0]` behind `;;;; Solution Found` (POPF),
-//! `; Plan found with metric 5` (OPTIC), `Plan computed:` (LPG), `Found Plan:` (ENHSP); lines `a b (1)` behind
-//! `Solution found!` (Fast Downward); `==> … <==` (pandaPI).
+//! Known marks: `step    0: A B C` (FF, Metric-FF); lines `0.003: (a b) [4.0]` behind `;;;; Solution Found`
+//! (POPF), `; Plan found with metric 5` (OPTIC), `Plan computed:` (LPG), `Found Plan:` (ENHSP); lines `a b
+//! (1)` behind `Solution found!` (Fast Downward); `==> … <==` (pandaPI).
 
 use std::ops::Range;
 
-/// Lines after which a plan comes with times or numbers before its steps.
+/// Lines that come before a plan with times or numbers before its steps.
 const MARKS: &[&str] = &[";;;; Solution Found", "; Plan found with metric", "Plan computed:", "Found Plan:"];
 
-/// What becomes of a planner's output.
+/// The result of searching a planner's output.
 struct Mask<'s> {
     text: &'s str,
     out: Vec<u8>,
 }
 
-/// The text with nothing left of it but the plan; `None` where no planner is known that writes so.
+/// The text with everything but the plan blanked; `None` if it has no mark of a known planner.
 pub(crate) fn within_output(text: &str) -> Option<String> {
     let mut lines: Vec<Range<usize>> = Vec::new();
     let mut from = 0;
@@ -31,7 +32,7 @@ pub(crate) fn within_output(text: &str) -> Option<String> {
     let blank = text.bytes().map(|b| if b == b'\n' || b == b'\r' { b } else { b' ' }).collect();
     let mut mask = Mask { text, out: blank };
     let found = mask.arrows(&lines) || mask.marked(&lines) || mask.counted(&lines) || mask.costed(&lines);
-    // All that is written is whole characters or blanks.
+    // Only whole characters and blanks are written.
     if found { String::from_utf8(mask.out).ok() } else { None }
 }
 
@@ -82,12 +83,12 @@ impl Mask<'_> {
         for line in &lines[first..] {
             let text = self.line(line);
             let Some((number, action)) = words(text.strip_prefix("step").unwrap_or(text)) else { break };
-            // Both are parts of the text.
+            // Both are slices of the text.
             let place = |part: &str| part.as_ptr() as usize - self.text.as_ptr() as usize;
             steps.push((place(number)..place(number) + number.len() + 1, place(action)..line.end));
         }
         for (number, action) in steps {
-            // The blank before the action and the line's end behind it have room for its parentheses.
+            // The parentheses replace the blank before the action and the line end after it.
             if action.end >= self.out.len() {
                 return false;
             }

@@ -1,8 +1,8 @@
 //! Sequential and temporal plans: `(action object …)`, `3: (…)`, `0.003: (…) [4.000]`.
 //!
-//! The tree has the actions as lists; what stands around them comes in words that do not respect `:` and
-//! brackets (`0.003:`, `[`, `4.0]`), so those are cut into pieces first. What fits nowhere is reported once a
-//! line, and reading goes on at the next time or list.
+//! The tree has the actions as lists. The text around them comes in words that ignore `:` and brackets
+//! (`0.003:`, `[`, `4.0]`), so those are cut into pieces first. An unexpected piece is reported once a line,
+//! and reading continues at the next time or list.
 
 use super::{Reader, STEP};
 use crate::diagnostic::{DiagnosticKind, SymbolKind};
@@ -25,7 +25,7 @@ enum Piece<'t> {
     Close,
 }
 
-/// A number with its place; `None` if what stands there was reported.
+/// A number with its place; `None` if an error was reported there.
 type Figure = (Option<Decimal>, Span);
 
 /// A step before its names are looked up.
@@ -48,7 +48,7 @@ impl<'a> Reader<'a> {
         Plan::Sequential(SequentialPlan { steps, cost })
     }
 
-    /// Everything outside of lists cut at colons and brackets. A sign stays with its number.
+    /// The text outside of lists, cut at colons and brackets. A sign stays with its number.
     fn pieces(&self) -> Vec<(Piece<'a>, Span)> {
         let mut pieces: Vec<(Piece<'a>, Span)> = Vec::new();
         for root in self.tree.roots() {
@@ -82,7 +82,7 @@ impl<'a> Reader<'a> {
         pieces
     }
 
-    /// `[TIME :] (ACTION …) [ [DURATION] ]`, as often as it stands there.
+    /// `[TIME :] (ACTION …) [ [DURATION] ]`, any number of times.
     fn written(&mut self) -> Vec<Written<'a>> {
         let pieces = self.pieces();
         let mut written = Vec::new();
@@ -112,7 +112,7 @@ impl<'a> Reader<'a> {
                         duration = Some((value, open.to(*close)));
                         next += 3;
                     }
-                    // LPG's `[D:1.00; C:0.10]`: what stands behind `;` is a comment, its bracket too.
+                    // LPG's `[D:1.00; C:0.10]`: `;` starts a comment, which includes the bracket.
                     Some([(Piece::Word, letter), (Piece::Colon, _)])
                         if self.source.slice(*letter).eq_ignore_ascii_case("D")
                             && matches!(pieces.get(next + 3), Some((Piece::Word, _))) =>
@@ -134,7 +134,7 @@ impl<'a> Reader<'a> {
         written
     }
 
-    /// Reports what stands from `next` on up to a list, a time or the end of the line, and goes there.
+    /// Reports the text from `next` up to a list, a time or the end of the line, and skips it.
     fn skip_line(&mut self, pieces: &[(Piece<'_>, Span)], next: usize, expected: &'static str) -> usize {
         let mut span = pieces[next].1;
         let mut end = next + 1;
@@ -188,7 +188,7 @@ impl<'a> Reader<'a> {
             || (self.knows_time && !written.is_empty() && written.iter().all(|s| s.time.is_some()))
     }
 
-    /// Steps are taken in the order of the file, and their numbers must not say otherwise.
+    /// Steps are executed in the order of the file; reports numbers in another order.
     fn check_numbers(&mut self, written: &[Written<'_>]) {
         let mut before: Option<Decimal> = None;
         for step in written {
@@ -206,12 +206,12 @@ impl<'a> Reader<'a> {
     fn sequential_step(&mut self, node: Node<'_>) -> Option<PlanStep> {
         match self.head(node)? {
             StepHead::Action(action) => self.instantaneous(node, action),
-            // A plan with one would be temporal.
+            // A step with a duration makes the plan temporal, so there is none here.
             StepHead::DurativeAction(_) => None,
         }
     }
 
-    /// A step of an action that takes no time.
+    /// A step of an instantaneous action.
     fn instantaneous(&mut self, node: Node<'_>, action: ActionId) -> Option<PlanStep> {
         let schema = &self.domain.actions[action];
         let arguments = self.call(node, &schema.name, schema.variables.parameters())?;
@@ -249,7 +249,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// What a list is a step of.
+    /// The schema that a list instantiates.
     fn head(&mut self, node: Node<'_>) -> Option<StepHead> {
         let Some(head) = node.head().filter(|h| h.is_name()) else {
             self.body.sink.unexpected(node, STEP);
