@@ -189,7 +189,8 @@ mod tests {
     fn chunks_hand_out_each_item_once() {
         let items: Vec<u32> = (0..10_000).collect();
         let meter = Meter::default();
-        let seen: Vec<u32> = meter.chunks(&items, 2).flat_map(|chunk| chunk.expect("no limit").to_vec()).collect();
+        let seen: Vec<u32> =
+            meter.chunks(&items, 2).flat_map(|chunk| chunk.expect("no limit").to_vec()).collect();
         assert_eq!(seen, items);
         assert_eq!(meter.work(), 20_000);
     }

@@ -114,8 +114,8 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
 
     let watch = Stopwatch::start();
     let memory = arguments.memory.map_or_else(memory::budget, |mebibytes| mebibytes.saturating_mul(1 << 20));
-    let options =
-        GroundOptions { memory_bytes: Some(memory), interrupted: &interrupted, ..GroundOptions::default() };
+    let budget = Budget { memory_bytes: Some(memory), interrupted: &interrupted, ..Budget::default() };
+    let options = GroundOptions { budget, ..GroundOptions::default() };
     let task = match ground(&files.domain, &files.problem, &options) {
         Ok(task) => task,
         Err(error) => return not_grounded(&error, &files, &mut answer, console),
@@ -123,11 +123,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     let ground_ms = watch.milliseconds();
 
     let watch = Stopwatch::start();
-    let budget = Budget {
-        expansions: None,
-        memory_bytes: Some(memory.saturating_sub(task.memory_bytes())),
-        interrupted: &interrupted,
-    };
+    let budget = Budget { memory_bytes: Some(memory.saturating_sub(task.memory_bytes())), ..budget };
     let output = arguments.output.as_deref();
     let report = if let Some(old) = &old {
         let prefer = arguments.prefer.unwrap_or_default();

@@ -134,7 +134,7 @@ pub fn decide(model: &Model, request: &Request) -> Decision {
         task.operators().ids().filter(|&o| request.barred.contains(&model.step(o))).collect()
     };
     let query = Query { state: &request.state, goal: task.goal(), excluded: &excluded };
-    let budget = Budget { expansions: Some(request.expansions), ..Budget::default() };
+    let budget = Budget { work: Some(request.expansions), ..Budget::default() };
     let configuration = SearchConfiguration::default();
     let (Report { outcome, statistics }, repair) = if request.broken.is_empty() {
         (solve(task, &query, &configuration, &budget), None)
@@ -154,8 +154,8 @@ pub fn decide(model: &Model, request: &Request) -> Decision {
             }
         }
         Outcome::Unsolvable(reason) => {
-            let expansions = Some(request.expansions.saturating_sub(statistics.expanded).min(VISITED));
-            let rest = Budget { expansions, ..budget };
+            let work = Some(request.expansions.saturating_sub(statistics.expanded).min(VISITED));
+            let rest = Budget { work, ..budget };
             Decision::NoPlan(unsolvable(model, &query, &reason, &request.barred, &rest))
         }
         Outcome::Unsupported(feature) => {

@@ -30,7 +30,7 @@ fn task(input: &Input) -> Task {
 /// A search of `expansions` nodes; the time of one is the median divided by them.
 fn expand(task: &Task, name: &str, expansions: u64) {
     let configuration = SearchConfiguration::named(name).expect("a configuration of the registry");
-    let budget = Budget { expansions: Some(expansions), ..Budget::default() };
+    let budget = Budget { work: Some(expansions), ..Budget::default() };
     black_box(solve(task, &Query::of(task), &configuration, &budget));
 }
 

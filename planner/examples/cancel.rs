@@ -86,7 +86,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("{} facts, {} operators", task.facts().len(), task.operators().len());
     let mut instants = Instants { seed: 2009, clock };
     measure("ground", rounds, whole, &mut instants, |interrupted| {
-        ground(&domain, &problem, &GroundOptions { interrupted, ..GroundOptions::default() }).is_err()
+        ground(
+            &domain,
+            &problem,
+            &GroundOptions {
+                budget: Budget { interrupted, ..Budget::default() },
+                ..GroundOptions::default()
+            },
+        )
+        .is_err()
     });
 
     let query = Query::of(&task);

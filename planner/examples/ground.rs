@@ -4,7 +4,7 @@
 
 mod files;
 
-use planner::{GroundOptions, ground};
+use planner::{Budget, GroundOptions, ground};
 use std::time::{Duration, Instant};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -21,7 +21,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let parsed = start.elapsed();
     let late = move || start.elapsed() > Duration::from_secs(120);
     let start = Instant::now();
-    let options = GroundOptions { interrupted: &late, memory_bytes, ..GroundOptions::default() };
+    let budget = Budget { memory_bytes, interrupted: &late, ..Budget::default() };
+    let options = GroundOptions { budget, ..GroundOptions::default() };
     let task = match ground(&domain, &problem, &options) {
         Ok(task) => task,
         Err(error) => {

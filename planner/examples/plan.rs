@@ -27,7 +27,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (domain, problem) = files::read(domain, problem)?;
     eprintln!("parsed     {:9.3} s", start.elapsed().as_secs_f64());
     let late = move || start.elapsed() > Duration::from_secs_f64(timeout);
-    let task = ground(&domain, &problem, &GroundOptions { interrupted: &late, ..GroundOptions::default() })?;
+    let budget = Budget { interrupted: &late, ..Budget::default() };
+    let task = ground(&domain, &problem, &GroundOptions { budget, ..GroundOptions::default() })?;
     eprintln!(
         "grounded   {:9.3} s, {} facts, {} operators, {} axioms, {} goals",
         start.elapsed().as_secs_f64(),
@@ -37,7 +38,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         task.goal().literals.len()
     );
     let memory = (memory << 20).saturating_sub(task.memory_bytes());
-    let budget = Budget { interrupted: &late, memory_bytes: Some(memory), ..Budget::default() };
+    let budget = Budget { memory_bytes: Some(memory), ..budget };
     let report = if improving {
         let mut tell = |plan: &planner::Plan| {
             eprintln!(

@@ -28,7 +28,6 @@
 //! | `task` | the grounded task, states, successors, axioms, the delete relaxation |
 //! | `heuristics` | estimators, one file each |
 //! | `search` | search algorithms, configurations, the entry point |
-//! | `watch` | how grounding notices that its caller wants an end |
 
 mod ground;
 mod heuristics;
@@ -49,15 +48,15 @@ mod task;
 #[allow(clippy::unwrap_used, reason = "a test")]
 mod test_support;
 mod unsolvability;
-mod watch;
 
+pub use budget::Budget;
 pub use ground::{Feature, GroundError, GroundOptions, Origin, ground};
 pub use heuristics::{Costs, HeuristicKind, Properties, Supported};
 pub use ids::{FactId, FluentId, OperatorId};
 pub use number::Number;
 pub use search::{
-    Attempt, BfwsSettings, Budget, Count, Distance, EagerSettings, Engine, Exploration, Improved,
-    LazySettings, Limit, Order, Outcome, Plan, Preference, Pruning, Quality, Query, Repair, Repaired, Report,
+    Attempt, BfwsSettings, Count, Distance, EagerSettings, Engine, Exploration, Improved, LazySettings,
+    Limit, Order, Outcome, Plan, Preference, Pruning, Quality, Query, Repair, Repaired, Report,
     SearchConfiguration, Statistics, Threads, UnsolvableReason, Way, Width, improve, repair, solve,
 };
 pub use task::{

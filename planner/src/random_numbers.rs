@@ -5,8 +5,9 @@
 //! brute force says whether it has seen everything, and only then is its silence held against a plan.
 
 use crate::heuristics::{Estimate, HeuristicKind};
-use crate::search::{Budget, Outcome, Query, SearchConfiguration, solve};
+use crate::search::{Outcome, Query, SearchConfiguration, solve};
 use crate::test_support::Grounded;
+use budget::Budget;
 use proptest::prelude::*;
 use std::collections::{HashMap, VecDeque};
 use std::fmt::Write;
@@ -329,7 +330,7 @@ fn check(
     (shortest, all): (Option<usize>, bool),
 ) -> Result<(), TestCaseError> {
     let (name, task) = (configuration.name, &grounded.task);
-    let budget = Budget { expansions: Some(4 * STATES as u64), ..Budget::default() };
+    let budget = Budget { work: Some(4 * STATES as u64), ..Budget::default() };
     match solve(task, &Query::of(task), configuration, &budget).outcome {
         Outcome::Solved(plan) => {
             match grounded.verdict(&plan.operators) {

@@ -5,8 +5,9 @@
 //! bit masks knows every answer.
 
 use crate::heuristics::{Estimate, HeuristicKind};
-use crate::search::{Budget, Limit, Outcome, Preference, Query, SearchConfiguration, repair, solve};
+use crate::search::{Limit, Outcome, Preference, Query, SearchConfiguration, repair, solve};
 use crate::test_support::Grounded;
+use budget::Budget;
 use proptest::prelude::*;
 use std::fmt::Write;
 

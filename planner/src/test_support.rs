@@ -2,8 +2,9 @@
 
 use crate::heuristics::{Costs, Estimate, HeuristicKind, View};
 use crate::ids::{OperatorId, StateId};
-use crate::search::{Bound, Budget, Job, Meter, Query, Shared};
+use crate::search::{Bound, Job, Query, SearchMeter, Shared};
 use crate::{GroundOptions, State, Task, ground};
+use budget::Budget;
 
 /// A task with what it was made of.
 pub(crate) struct Grounded {
@@ -41,7 +42,7 @@ impl Grounded {
     pub(crate) fn estimate(&self, kind: HeuristicKind, state: &State) -> (Estimate, Vec<OperatorId>) {
         let task = &self.task;
         let query = Query { state, ..Query::of(task) };
-        let (barred, meter) = (query.barred(task), Meter::new(Budget::default()));
+        let (barred, meter) = (query.barred(task), SearchMeter::new(Budget::default()));
         let (bound, shared) = (Bound::none(), Shared::default());
         let goal = query.goal;
         let job = Job { task, state, goal, barred: &barred, meter: &meter, bound: &bound, shared: &shared };

@@ -42,7 +42,14 @@ fn grounding_ends_at_whichever_look_says_so() {
     let (domain, problem) = model(60);
     let run = |from| {
         looks(from, |interrupted| {
-            ground(&domain, &problem, &GroundOptions { interrupted, ..GroundOptions::default() })
+            ground(
+                &domain,
+                &problem,
+                &GroundOptions {
+                    budget: Budget { interrupted, ..Budget::default() },
+                    ..GroundOptions::default()
+                },
+            )
         })
     };
     let (task, all) = run(usize::MAX);
@@ -63,7 +70,7 @@ fn searching_ends_at_whichever_look_says_so() {
         let Some(configuration) = SearchConfiguration::named(name) else { continue };
         let run = |from| {
             looks(from, |interrupted| {
-                let budget = Budget { interrupted, expansions: Some(200), ..Budget::default() };
+                let budget = Budget { interrupted, work: Some(200), ..Budget::default() };
                 solve(&task, &Query::of(&task), &configuration, &budget)
             })
         };
@@ -89,7 +96,7 @@ fn improving_ends_at_whichever_look_says_so_and_keeps_its_plan() {
     for from in [0, 1, 5, 20, 50] {
         let mut plans = 0;
         let (improved, looked) = looks(from, |interrupted| {
-            let budget = Budget { interrupted, expansions: Some(2_000), ..Budget::default() };
+            let budget = Budget { interrupted, work: Some(2_000), ..Budget::default() };
             let configuration = SearchConfiguration::default();
             improve(&task, &Query::of(&task), &configuration, &budget, &mut |_| plans += 1)
         });

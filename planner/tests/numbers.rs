@@ -142,7 +142,10 @@ fn static_comparisons_filter_instances_as_they_are_joined() {
     let domain = pddl::parse_domain(&domain, &[]).model.unwrap();
     let problem = pddl::parse_problem(&problem, &domain).model.unwrap();
     // The product of all parameters would take a hundred times as much.
-    let options = GroundOptions { memory_bytes: Some(1 << 20), ..GroundOptions::default() };
+    let options = GroundOptions {
+        budget: Budget { memory_bytes: Some(1 << 20), ..Budget::default() },
+        ..GroundOptions::default()
+    };
     assert_eq!(ground(&domain, &problem, &options).unwrap().operators().len(), 58);
 }
 
@@ -162,7 +165,7 @@ fn a_metric_makes_relevant_what_improves_it() {
     assert_eq!(task.operators().len(), 3, "rolling the film only costs");
     let mut qualities = Vec::new();
     let mut note = |plan: &Plan| qualities.push(task.quality(task.initial_state(), &plan.operators).unwrap());
-    let budget = Budget { expansions: Some(1_000), ..Budget::default() };
+    let budget = Budget { work: Some(1_000), ..Budget::default() };
     let configuration = SearchConfiguration::default();
     improve(&task, &Query::of(&task), &configuration, &budget, &mut note);
     assert_eq!(qualities, [0.0, -1.0, -2.0].map(|value| planner::Number::from_f64(value).unwrap()));

@@ -78,7 +78,7 @@ fn every_configuration_agrees_with_every_expectation() {
 /// Large tasks are not for every search: uninformed ones end at this limit.
 fn budget_for(case: &Case, configuration: &SearchConfiguration) -> Budget<'static> {
     let most = if ROBUST.contains(&configuration.name) { 20_000 } else { 100 };
-    Budget { expansions: (case.expected == "solvable").then_some(most), ..Budget::default() }
+    Budget { work: (case.expected == "solvable").then_some(most), ..Budget::default() }
 }
 
 /// Searches that solve the large tasks of `test_data`, too.
@@ -194,7 +194,7 @@ fn every_better_plan_is_valid_and_better() {
 fn improvements(case: &Case, task: &Task, configuration: &SearchConfiguration) -> (usize, usize) {
     let mut plans = Vec::new();
     let mut note = |plan: &Plan| plans.push(plan.clone());
-    let budget = Budget { expansions: Some(2_000), ..Budget::default() };
+    let budget = Budget { work: Some(2_000), ..Budget::default() };
     let improved = improve(task, &Query::of(task), configuration, &budget, &mut note);
     let measured = plans.iter().map(|plan| validated(case, task, plan)).collect::<Vec<_>>();
     let objective = case.problem.metric.as_ref().map(|m| m.objective);
@@ -259,13 +259,16 @@ fn limits_end_a_search_and_grounding() {
     let task = grounded(&case).unwrap();
     let configuration = SearchConfiguration::named("astar-blind").unwrap();
     let outcome = |budget: &Budget<'_>| solve(&task, &Query::of(&task), &configuration, budget).outcome;
-    let few = Budget { expansions: Some(3), ..Budget::default() };
+    let few = Budget { work: Some(3), ..Budget::default() };
     assert_eq!(outcome(&few), Outcome::LimitReached(Limit::Expansions));
     let small = Budget { memory_bytes: Some(1), ..Budget::default() };
     assert_eq!(outcome(&small), Outcome::LimitReached(Limit::Memory));
     let stop = Budget { interrupted: &|| true, ..Budget::default() };
     assert_eq!(outcome(&stop), Outcome::LimitReached(Limit::Interrupted));
-    let options = GroundOptions { memory_bytes: Some(8_000), ..GroundOptions::default() };
+    let options = GroundOptions {
+        budget: Budget { memory_bytes: Some(8_000), ..Budget::default() },
+        ..GroundOptions::default()
+    };
     match ground(&case.domain, &case.problem, &options) {
         Err(GroundError::Limit { schema, .. }) => {
             assert!(["move", "pick", "drop"].contains(&schema.as_str()));
@@ -304,7 +307,10 @@ fn a_task_that_does_not_fit_names_its_largest_schema() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../cli/tests/cases/plan-too-large");
     let domain = pddl::parse_domain(&read(&folder.join("domain.pddl")), &[]).model.unwrap();
     let problem = pddl::parse_problem(&read(&folder.join("problem.pddl")), &domain).model.unwrap();
-    let options = GroundOptions { memory_bytes: Some(16 << 20), ..GroundOptions::default() };
+    let options = GroundOptions {
+        budget: Budget { memory_bytes: Some(16 << 20), ..Budget::default() },
+        ..GroundOptions::default()
+    };
     match ground(&domain, &problem, &options) {
         Err(GroundError::Limit { schema, instances }) => {
             assert_eq!(schema.as_str(), "weave");
@@ -334,7 +340,10 @@ fn an_instance_that_does_not_fit_names_its_schema() {
     for domain in [condition, effect] {
         let domain = pddl::parse_domain(&pddl::Source::new("d", domain), &[]).model.unwrap();
         let problem = pddl::parse_problem(&pddl::Source::new("p", problem.clone()), &domain).model.unwrap();
-        let options = GroundOptions { memory_bytes: Some(4 << 20), ..GroundOptions::default() };
+        let options = GroundOptions {
+            budget: Budget { memory_bytes: Some(4 << 20), ..Budget::default() },
+            ..GroundOptions::default()
+        };
         match ground(&domain, &problem, &options) {
             Err(GroundError::Limit { schema, .. }) => assert_eq!(schema.as_str(), "deep"),
             other => panic!("{other:?}"),
@@ -362,7 +371,10 @@ fn deep_conditions_do_not_blow_up() {
     );
     let domain = pddl::parse_domain(&pddl::Source::new("d", domain), &[]).model.unwrap();
     let problem = pddl::parse_problem(&pddl::Source::new("p", problem), &domain).model.unwrap();
-    let options = GroundOptions { memory_bytes: Some(64 << 20), ..GroundOptions::default() };
+    let options = GroundOptions {
+        budget: Budget { memory_bytes: Some(64 << 20), ..Budget::default() },
+        ..GroundOptions::default()
+    };
     let task = ground(&domain, &problem, &options).unwrap();
     let size = (task.operators().len(), task.axioms().len());
     assert!(size.0 <= 4 * 16 + 16 && size.1 <= 8_000, "{size:?}");

@@ -25,20 +25,13 @@ impl ::lsp::Tools for Tools {
         let deadline = Deadline::after(Some(Seconds::from(limits.timeout)));
         let interrupted = || deadline.is_over() || limits.cancelled.is_cancelled();
         let memory = memory::budget();
-        let options = GroundOptions {
-            memory_bytes: Some(memory),
-            interrupted: &interrupted,
-            ..GroundOptions::default()
-        };
+        let budget = Budget { memory_bytes: Some(memory), interrupted: &interrupted, ..Budget::default() };
+        let options = GroundOptions { budget, ..GroundOptions::default() };
         let grounded = match ground(&domain, &problem, &options) {
             Ok(grounded) => grounded,
             Err(error) => return not_grounded(&error),
         };
-        let budget = Budget {
-            expansions: None,
-            memory_bytes: Some(memory.saturating_sub(grounded.memory_bytes())),
-            interrupted: &interrupted,
-        };
+        let budget = Budget { memory_bytes: Some(memory.saturating_sub(grounded.memory_bytes())), ..budget };
         let report = solve(&grounded, &Query::of(&grounded), &configuration, &budget);
         match report.outcome {
             Outcome::Solved(found) => {

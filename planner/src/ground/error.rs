@@ -1,25 +1,19 @@
 //! What grounding asks for and how it refuses.
 
+use budget::Budget;
 use pddl::Span;
 use pddl::model::{Name, PredicateId};
 
 /// How to ground.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct GroundOptions<'a> {
     /// Predicates whose facts outside events may make true or false: every type-correct instance
     /// becomes a fact that is never taken as constant and never pruned, so that any perceived state
     /// can be planned from without grounding again.
     pub exogenous: &'a [PredicateId],
-    /// Most bytes that atoms and instances may take; without it, as much as 32-bit numbers can count.
-    pub memory_bytes: Option<usize>,
-    /// Asked now and then; `true` ends the work.
-    pub interrupted: &'a (dyn Fn() -> bool + Sync),
-}
-
-impl Default for GroundOptions<'_> {
-    fn default() -> Self {
-        Self { exogenous: &[], memory_bytes: None, interrupted: &|| false }
-    }
+    /// What grounding may use up. A unit of work takes about a nanosecond; the bytes are an estimate of what
+    /// atoms and instances take, and without a limit they are as many as 32-bit numbers can count.
+    pub budget: Budget<'a>,
 }
 
 /// A language feature that forward search does not handle yet.
@@ -82,7 +76,7 @@ pub enum GroundError {
         /// How many of its instances were found until then.
         instances: usize,
     },
-    /// The caller's interruption came first.
+    /// The caller cancelled, or the work was used up.
     #[error("grounding was interrupted in `{schema}`")]
     Interrupted {
         /// The action or axiom at work, or with the most instances.

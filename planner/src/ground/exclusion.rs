@@ -17,8 +17,8 @@ use super::join::{Bindings, Reached};
 use super::values::ValuePredicates;
 use crate::ids::id32;
 use crate::task::Rows;
-use crate::watch::{Interrupted, Spend, Watch};
 use analysis::invariants::{Happening, Invariant, Member, Proviso, conditional_invariants};
+use budget::{Interrupted, Meter};
 use pddl::model::{Domain, PredicateId, Problem, Term};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -44,7 +44,7 @@ impl Exclusions {
         Reached { table, bindings }: &Reached,
         statics: u32,
         initial: &[u32],
-        watch: &Watch<'_>,
+        meter: &Meter<'_>,
     ) -> Result<Self, Interrupted> {
         // Invariants take an object to be of one type.
         if problem.objects.iter().any(|o| o.types.0.len() > 1) {
@@ -52,8 +52,8 @@ impl Exclusions {
         }
         let happenings: Vec<Happening<'_>> = domain.actions.iter().map(Happening::of_action).collect();
         let candidates =
-            conditional_invariants(domain, &happenings, &mut |work| watch.try_spend(64 * work).is_ok());
-        watch.try_spend(0)?;
+            conditional_invariants(domain, &happenings, &mut |work| meter.spend(64 * work).is_ok());
+        meter.spend(0)?;
         let mut known: FxHashMap<Proviso, bool> = FxHashMap::default();
         let mut found = Vec::new();
         for (invariant, provisos) in candidates {
@@ -62,7 +62,7 @@ impl Exclusions {
                 kept = match known.get(&proviso) {
                     Some(&known) => known,
                     None => {
-                        let keeps = keeps(&proviso, domain, bindings, watch)?;
+                        let keeps = keeps(&proviso, domain, bindings, meter)?;
                         known.insert(proviso, keeps);
                         keeps
                     }
@@ -83,15 +83,15 @@ impl Exclusions {
         let atoms = id32(table.len());
         let mut by_predicate: Vec<Vec<u32>> = vec![Vec::new(); domain.predicates.len()];
         for atom in statics..atoms {
-            watch.try_spend(8)?;
+            meter.spend(8)?;
             by_predicate[table.predicate(atom).0 as usize].push(atom);
         }
         let holds: FxHashSet<u32> = initial.iter().copied().collect();
         let mut groups = Rows::default();
         let mut known: FxHashSet<Vec<u32>> = FxHashSet::default();
         for invariant in &found {
-            for group in instances(invariant, table, &by_predicate, &holds, problem.objects.len(), watch)? {
-                watch.try_spend(64 + 8 * group.len())?;
+            for group in instances(invariant, table, &by_predicate, &holds, problem.objects.len(), meter)? {
+                meter.spend(64 + 8 * group.len())?;
                 if groups.items() + group.len() > ENTRIES || known.contains(&group) {
                     continue;
                 }
@@ -99,7 +99,7 @@ impl Exclusions {
                 known.insert(group);
             }
         }
-        Ok(Self { groups: groups.transposed(atoms as usize, watch)?, count: groups.len() })
+        Ok(Self { groups: groups.transposed(atoms as usize, meter)?, count: groups.len() })
     }
 
     /// The groups of an atom.
@@ -118,7 +118,7 @@ fn keeps(
     proviso: &Proviso,
     domain: &Domain,
     bindings: &[Bindings],
-    watch: &Watch<'_>,
+    meter: &Meter<'_>,
 ) -> Result<bool, Interrupted> {
     // The first schemas are the actions, in their order.
     let Some(action) = domain.actions.iter().nth(proviso.happening) else { return Ok(false) };
@@ -130,7 +130,7 @@ fn keeps(
         return Ok(false);
     }
     for row in 0..own.rows {
-        watch.try_spend(16)?;
+        meter.spend(16)?;
         let row = &own.values[row * own.width..][..own.width];
         if proviso.equal.iter().all(|&(a, b)| resolve(a, row) == resolve(b, row)) {
             return Ok(false);
@@ -158,14 +158,14 @@ fn instances(
     by_predicate: &[Vec<u32>],
     holds: &FxHashSet<u32>,
     objects: usize,
-    watch: &Watch<'_>,
+    meter: &Meter<'_>,
 ) -> Result<Vec<Vec<u32>>, Interrupted> {
     let mut packing = Packing::new(objects);
     let mut numbers: FxHashMap<u64, usize> = FxHashMap::default();
     let mut found: Vec<(u32, Vec<u32>)> = Vec::new();
     for member in &invariant.members {
         for &atom in &by_predicate[member.predicate.0 as usize] {
-            watch.try_spend(64)?;
+            meter.spend(64)?;
             let row = table.row(atom);
             let key = packing.key(member.parameters.iter().map(|&p| row[p]));
             let next = found.len();

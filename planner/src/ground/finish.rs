@@ -2,7 +2,7 @@
 
 use super::atoms::AtomTable;
 use super::cost::{CostModel, Measure, scale};
-use super::error::{Feature, GroundError, GroundOptions, Origin};
+use super::error::{Feature, GroundError, Origin};
 use super::exclusion::Exclusions;
 use super::fluents::Fluents;
 use super::formula::Formula;
@@ -17,8 +17,8 @@ use crate::task::{
     NewOperator, NoProgram, Numeric, ObjectValue, Operators, Packing, Relaxation, State, SuccessorTree, Task,
     undominated, variables,
 };
-use crate::watch::{Interrupted, Spend, Watch};
-use pddl::model::{Domain, IndexVec, ObjectId, Problem};
+use budget::{Interrupted, Meter};
+use pddl::model::{Domain, IndexVec, ObjectId, PredicateId, Problem};
 use rustc_hash::FxHashSet;
 
 const NONE: u32 = u32::MAX;
@@ -38,7 +38,7 @@ pub(crate) fn finish(
     statics: u32,
     initial: &[u32],
     names: Names,
-    (options, watch): (&GroundOptions<'_>, &Watch<'_>),
+    (exogenous, meter): (&[PredicateId], &Meter<'_>),
 ) -> Result<Task, Failure> {
     let known = id32(table.len());
     let value = |&fluent: &u32| fluents.initial(&raw.numbers.keys[fluent as usize]);
@@ -52,15 +52,15 @@ pub(crate) fn finish(
         if a < known { domain.predicates[table.predicate(a)].derived } else { !compared[a as usize] }
     };
     let derived = marked(raw.atoms, (statics..raw.atoms).filter(|&a| is_derived(a)));
-    let is_exogenous = |a: u32| a < known && options.exogenous.contains(&table.predicate(a));
+    let is_exogenous = |a: u32| a < known && exogenous.contains(&table.predicate(a));
     let exogenous = marked(raw.atoms, (statics..raw.atoms).filter(|&a| is_exogenous(a)));
-    let pruned = prune(&raw, &holds, &derived, &exogenous, watch)?;
+    let pruned = prune(&raw, &holds, &derived, &exogenous, meter)?;
 
     let mut facts: IndexVec<crate::ids::FactId, Fact> = IndexVec::new();
     let mut numbers = vec![NONE; raw.atoms as usize];
     let mut status = Vec::with_capacity(known as usize);
     for a in 0..raw.atoms {
-        watch.try_spend(64)?;
+        meter.spend(64)?;
         let i = a as usize;
         let kept = pruned.needed[i] && !pruned.always[i] && !pruned.never[i];
         if kept {
@@ -85,7 +85,7 @@ pub(crate) fn finish(
     let view = View { pruned: &pruned, numbers: &numbers };
     let mut rules: Vec<AxiomRule> = Vec::new();
     for (head, body) in raw.rules.iter().filter(|(h, _)| numbers[*h as usize] != NONE) {
-        watch.try_spend(64 + 8 * body.len())?;
+        meter.spend(64 + 8 * body.len())?;
         if let Some(body) = view.literals(body) {
             rules.push(AxiomRule { head: FactId(numbers[*head as usize]), body });
         }
@@ -94,7 +94,7 @@ pub(crate) fn finish(
     let (mut operators, mut amounts, mut parts) = (Operators::default(), Vec::new(), Parts::default());
     let raw_operators = std::mem::take(&mut raw.operators);
     for (own, &improves) in raw_operators.iter().zip(&pruned.improves) {
-        watch.try_spend(raw_operators.work(&own))?;
+        meter.spend(raw_operators.work(&own))?;
         if pruned.is_refuted(own.precondition) {
             continue;
         }
@@ -108,11 +108,11 @@ pub(crate) fn finish(
         operators.push(NewOperator { action, arguments, facts: parts.facts(), numeric });
     }
     drop(raw_operators);
-    let cost_scale = set_costs(&mut operators, &amounts, costs, watch)?;
+    let cost_scale = set_costs(&mut operators, &amounts, costs, meter)?;
     let fact = |atom: u32| (numbers[atom as usize] != NONE).then(|| FactId(numbers[atom as usize]));
     let compared = comparisons(&raw, &chosen, fact);
 
-    let axioms = AxiomProgram::new(&facts, rules, watch).map_err(|why| {
+    let axioms = AxiomProgram::new(&facts, rules, meter).map_err(|why| {
         let NoProgram::NotStratified(fact) = why else { return Failure::Interrupted };
         let predicate = facts[fact].atom.as_ref().map(|a| a.predicate);
         let axiom = domain.axioms.iter().find(|x| predicate.is_none_or(|p| p == x.predicate));
@@ -133,17 +133,16 @@ pub(crate) fn finish(
         }
     }
     axioms.close(state.words_mut());
-    let groups = groups(exclusions, &numbers, known, watch)?;
-    let mutexes = Mutexes::new(facts.len(), &groups, &operators, &state, watch)?;
+    let groups = groups(exclusions, &numbers, known, meter)?;
+    let mutexes = Mutexes::new(facts.len(), &groups, &operators, &state, meter)?;
     let relaxation = || {
-        let relaxation = Relaxation::new(&facts, &operators, &axioms, &numeric, &goal, watch)?;
-        Ok::<_, Interrupted>((undominated(&relaxation, watch)?, relaxation))
+        let relaxation = Relaxation::new(&facts, &operators, &axioms, &numeric, &goal, meter)?;
+        Ok::<_, Interrupted>((undominated(&relaxation, meter)?, relaxation))
     };
     let (successors, relaxation) = if operators.len() < PARALLEL {
-        (SuccessorTree::new(facts.len(), &operators, watch), relaxation())
+        (SuccessorTree::new(facts.len(), &operators, meter), relaxation())
     } else {
-        let closure = watch.closure();
-        let tree = || SuccessorTree::new(facts.len(), &operators, &Watch::new(closure));
+        let tree = || SuccessorTree::new(facts.len(), &operators, &Meter::new(meter.budget()));
         std::thread::scope(|scope| {
             let tree = scope.spawn(tree);
             let relaxation = relaxation();
@@ -179,11 +178,11 @@ fn groups(
     exclusions: &Exclusions,
     numbers: &[u32],
     known: u32,
-    watch: &Watch<'_>,
+    meter: &Meter<'_>,
 ) -> Result<Vec<Vec<u32>>, Interrupted> {
     let mut groups: Vec<Vec<u32>> = vec![Vec::new(); exclusions.len()];
     for atom in (0..known).filter(|&a| numbers[a as usize] != NONE) {
-        watch.try_spend(8 + 16 * exclusions.of(atom).len())?;
+        meter.spend(8 + 16 * exclusions.of(atom).len())?;
         for &group in exclusions.of(atom) {
             groups[group as usize].push(numbers[atom as usize]);
         }
@@ -191,12 +190,12 @@ fn groups(
     // Different groups of atoms may be the same group of facts. In order, by their first facts.
     let mut by_first: Vec<Vec<Vec<u32>>> = vec![Vec::new(); numbers.len()];
     for group in groups.into_iter().filter(|g| g.len() > 1) {
-        watch.try_spend(32)?;
+        meter.spend(32)?;
         by_first[group[0] as usize].push(group);
     }
     let mut sorted = Vec::new();
     for mut group in by_first {
-        watch.try_spend(4 + 256 * group.len())?;
+        meter.spend(4 + 256 * group.len())?;
         group.sort_unstable();
         group.dedup();
         sorted.append(&mut group);
@@ -209,14 +208,14 @@ fn set_costs(
     operators: &mut Operators,
     amounts: &[f64],
     costs: &CostModel,
-    watch: &Watch<'_>,
+    meter: &Meter<'_>,
 ) -> Result<u32, Interrupted> {
     // Where nothing costs anything, fewer steps are better.
     if costs.is_unit() || (matches!(costs.measure, Measure::Value(_)) && amounts.iter().all(|&a| a == 0.0)) {
         return Ok(1);
     }
     let mut different = FxHashSet::default();
-    for part in watch.parts(amounts, 8) {
+    for part in meter.chunks(amounts, 8) {
         different.extend(part?.iter().map(|amount| amount.to_bits()));
     }
     let scale = scale(&different.into_iter().map(f64::from_bits).collect::<Vec<_>>());
@@ -228,7 +227,7 @@ fn set_costs(
         )]
         let cost = (amount * f64::from(scale)).round() as u32;
         operators.set_cost(operator, cost);
-        watch.try_spend(8)?;
+        meter.spend(8)?;
     }
     Ok(scale)
 }

@@ -6,16 +6,15 @@
 //! auxiliary derived atom otherwise; equal disjunctions share their atom.
 
 use super::atoms::AtomTable;
-use super::budget::Guard;
 use super::cost::resolve;
-use super::error::GroundOptions;
 use super::exclusion::{Exclusions, Marks};
 use super::fluents::{Fluents, Key};
 use super::formula::{Formula, Literal};
+use super::memory::Guard;
 use super::numbers::{Comparison, Numbers};
 use super::universe::Range;
 use crate::ids::id32;
-use crate::watch::Watch;
+use budget::Meter;
 use pddl::model::VariableId;
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
@@ -59,10 +58,10 @@ impl<'a> Instantiator<'a> {
         is_static: &'a [bool],
         exclusions: &'a Exclusions,
         fluents: &'a Fluents,
-        (options, watch): (&'a GroundOptions<'a>, &'a Watch<'a>),
+        meter: &'a Meter<'a>,
     ) -> Self {
         let (next, marks, numbers) = (id32(table.len()), Marks::new(exclusions), Numbers::default());
-        let (auxiliary, rules, guard) = (FxHashMap::default(), Vec::new(), Guard::new(options, watch));
+        let (auxiliary, rules, guard) = (FxHashMap::default(), Vec::new(), Guard::new(meter));
         Self { table, is_static, exclusions, marks, guard, fluents, numbers, auxiliary, rules, next }
     }
 

@@ -12,18 +12,18 @@
 //! Ullman, "Principles of database and knowledge-base systems", 1989, ch. 3 (semi-naive evaluation).
 
 use super::atoms::{AtomTable, Packing};
-use super::budget;
 use super::cost::resolve;
-use super::error::{GroundError, GroundOptions};
+use super::error::GroundError;
 use super::fluents::Fluents;
 use super::formula::Formula;
 use super::instantiate::Ground;
+use super::memory;
 use super::numbers::Comparison;
 use super::plan::{Filter, JoinPlan, Step, plan};
 use super::raw::Failure;
 use super::rule::Rule;
 use super::schema::Schema;
-use crate::watch::{Spend, Watch};
+use budget::{Interrupted, Meter};
 use pddl::model::{PredicateId, Term};
 use rustc_hash::FxHashMap;
 
@@ -98,12 +98,12 @@ pub(crate) fn reach(
     statics: u32,
     (is_static, fluents): (&[bool], &Fluents),
     objects: usize,
-    (options, watch): (&GroundOptions<'_>, &Watch<'_>),
+    meter: &Meter<'_>,
 ) -> Result<Reached, Failure> {
     let mut indices = Indices::new(is_static.len(), objects);
     let mut triggered: Vec<Vec<(usize, JoinPlan)>> = vec![Vec::new(); is_static.len()];
     let mut at_once = Vec::new();
-    let mut statistics = super::plan::Statistics::new(&table, statics, watch);
+    let mut statistics = super::plan::Statistics::new(&table, statics, meter);
     for (r, rule) in rules.iter().enumerate() {
         let changing: Vec<usize> =
             (0..rule.body.len()).filter(|&i| !is_static[rule.body[i].predicate.0 as usize]).collect();
@@ -119,12 +119,11 @@ pub(crate) fn reach(
         .iter()
         .map(|s| Bindings { width: s.parameters + s.hoisted.len(), ..Bindings::default() })
         .collect();
-    let bytes = (0..crate::ids::id32(table.len())).map(|a| budget::atom(table.row(a).len())).sum();
+    let bytes = (0..crate::ids::id32(table.len())).map(|a| memory::atom(table.row(a).len())).sum();
     let instance_bytes = schemas.iter().map(Schema::instance_bytes).collect();
-    let allowed = options.bytes();
-    let mut out = Out { schemas, table, bindings, instance_bytes, bytes, allowed, watch, fluents };
+    let mut out = Out { schemas, table, bindings, instance_bytes, bytes, meter, fluents };
     for atom in 0..statics {
-        watch.try_spend(128)?;
+        meter.spend(128)?;
         indices.insert(&out.table, atom);
     }
     let mut binding = Vec::new();
@@ -134,7 +133,7 @@ pub(crate) fn reach(
     }
     let mut current = statics;
     while (current as usize) < out.table.len() {
-        watch.try_spend(128)?;
+        meter.spend(128)?;
         indices.insert(&out.table, current);
         let predicate = out.table.predicate(current).0 as usize;
         for (r, plan) in &triggered[predicate] {
@@ -153,14 +152,17 @@ struct Out<'a> {
     instance_bytes: Vec<usize>,
     /// Of everything that was found.
     bytes: usize,
-    allowed: usize,
-    watch: &'a Watch<'a>,
+    meter: &'a Meter<'a>,
     fluents: &'a Fluents,
 }
 
 impl Out<'_> {
     fn interrupted(&self, own: usize) -> GroundError {
         GroundError::Interrupted { schema: self.schemas[own].name.clone() }
+    }
+
+    fn stopped(&self, why: Interrupted, own: usize) -> GroundError {
+        if why == Interrupted::Memory { self.limit(own) } else { self.interrupted(own) }
     }
 
     /// Names the schema with the most bytes, or the one that was at work.
@@ -208,7 +210,7 @@ impl Join<'_, '_> {
     }
 
     fn step(&mut self, at: usize, binding: &mut Vec<u32>) -> Result<(), GroundError> {
-        if self.out.watch.try_spend(32).is_err() {
+        if self.out.meter.spend(32).is_err() {
             return Err(self.out.interrupted(self.rule.schema));
         }
         let (rule, plan, indices) = (self.rule, self.plan, self.indices);
@@ -256,7 +258,7 @@ impl Join<'_, '_> {
             Step::Scan { atom, index, key, assign, repeat } => {
                 let candidates = indices.bucket(*index, key, binding);
                 'rows: for (i, &candidate) in candidates.iter().enumerate() {
-                    if i.is_multiple_of(256) && self.out.watch.try_spend(1024).is_err() {
+                    if i.is_multiple_of(256) && self.out.meter.spend(1024).is_err() {
                         return Err(self.out.interrupted(self.rule.schema));
                     }
                     if candidate == self.current && self.skips(*atom) {
@@ -291,7 +293,7 @@ impl Join<'_, '_> {
             let before = self.out.table.len();
             self.out.table.insert(*predicate, arguments.iter().map(|&t| resolve(t, binding)));
             if self.out.table.len() > before {
-                self.out.bytes += budget::atom(arguments.len());
+                self.out.bytes += memory::atom(arguments.len());
             }
         }
         if self.rule.collected {
@@ -300,10 +302,7 @@ impl Join<'_, '_> {
             rows.rows += 1;
             self.out.bytes += self.out.instance_bytes[self.rule.schema];
         }
-        if self.out.bytes > self.out.allowed {
-            return Err(self.out.limit(self.rule.schema));
-        }
-        Ok(())
+        self.out.meter.hold(self.out.bytes).map_err(|why| self.out.stopped(why, self.rule.schema))
     }
 }
 

@@ -10,7 +10,6 @@
 //! Source: Helmert, "Concise finite-domain representations for PDDL planning tasks", AIJ 2009.
 
 mod atoms;
-mod budget;
 mod cost;
 mod error;
 mod exclusion;
@@ -20,6 +19,7 @@ mod formula;
 mod instantiate;
 mod join;
 mod measure;
+mod memory;
 mod numbers;
 mod plan;
 mod prune;
@@ -33,7 +33,7 @@ pub(crate) use atoms::AtomTable;
 pub use error::{Feature, GroundError, GroundOptions, Origin};
 
 use crate::task::{Names, Task};
-use crate::watch::{Spend, Watch};
+use budget::{Interrupted, Meter};
 use cost::{CostModel, Measure, metric_span};
 use exclusion::Exclusions;
 use fluents::Fluents;
@@ -51,15 +51,15 @@ pub(crate) use values::ValuePredicates;
 /// # Errors
 /// A feature that the planner does not support, a limit of `options`, or its interruption.
 pub fn ground(domain: &Domain, problem: &Problem, options: &GroundOptions<'_>) -> Result<Task, GroundError> {
-    watched(domain, problem, options, &Watch::new(options.interrupted))
+    metered(domain, problem, options.exogenous, &Meter::new(memory::limited(options.budget)))
 }
 
-/// The same, with a watch that its caller can look at afterwards.
-pub(crate) fn watched(
+/// The same, with a meter that its caller can read.
+fn metered(
     domain: &Domain,
     problem: &Problem,
-    options: &GroundOptions<'_>,
-    watch: &Watch<'_>,
+    exogenous: &[PredicateId],
+    meter: &Meter<'_>,
 ) -> Result<Task, GroundError> {
     refuse(domain, problem)?;
     let compiled = values::compile(domain, problem);
@@ -67,8 +67,8 @@ pub(crate) fn watched(
         Some((domain, problem, values)) => (domain, problem, values.clone()),
         None => (domain, problem, ValuePredicates::none(domain)),
     };
-    match build(domain, problem, values.clone(), (options, watch), true) {
-        Err(Failure::NegativeCost) => build(domain, problem, values, (options, watch), false),
+    match build(domain, problem, values.clone(), (exogenous, meter), true) {
+        Err(Failure::NegativeCost) => build(domain, problem, values, (exogenous, meter), false),
         result => result,
     }
     .map_err(|failure| match failure {
@@ -88,7 +88,7 @@ fn build(
     domain: &Domain,
     problem: &Problem,
     values: ValuePredicates,
-    (options, watch): (&GroundOptions<'_>, &Watch<'_>),
+    (exogenous, meter): (&[PredicateId], &Meter<'_>),
     additive: bool,
 ) -> Result<Task, Failure> {
     let mut fluents = Fluents::new(domain, problem)?;
@@ -98,11 +98,11 @@ fn build(
     }
     let mut universe = Universe::new(domain, problem);
     let schemas = schema::schemas(domain, &mut universe, &costs, &fluents)?;
-    let is_static = static_predicates(domain, options.exogenous);
+    let is_static = static_predicates(domain, exogenous);
 
     let mut table = AtomTable::new(domain.predicates.len(), problem.objects.len());
     let insert = |table: &mut AtomTable, fact: &pddl::model::Fact| {
-        watch.try_spend(128).map(|()| table.insert(fact.predicate, fact.arguments.iter().map(|o| o.0)))
+        meter.spend(128).map(|()| table.insert(fact.predicate, fact.arguments.iter().map(|o| o.0)))
     };
     for fact in problem.init.iter().filter(|f| is_static[f.predicate.index()]) {
         insert(&mut table, fact)?;
@@ -112,25 +112,17 @@ fn build(
     for fact in problem.init.iter().filter(|f| !is_static[f.predicate.index()]) {
         initial.push(insert(&mut table, fact)?);
     }
-    for &predicate in options.exogenous {
-        add_all_instances(domain, predicate, &mut universe, &mut table, (options, watch))?;
+    for &predicate in exogenous {
+        add_all_instances(domain, predicate, &mut universe, &mut table, meter)?;
     }
 
     let rules = rule::rules(&schemas, &is_static, &fluents);
-    let reached = join::reach(
-        &schemas,
-        &rules,
-        table,
-        statics,
-        (&is_static, &fluents),
-        problem.objects.len(),
-        (options, watch),
-    )?;
+    let reached =
+        join::reach(&schemas, &rules, table, statics, (&is_static, &fluents), problem.objects.len(), meter)?;
     let goal = Formula::of(&problem.goal, true, Origin::Problem, &mut universe)?;
     let slots = universe.slots(&problem.goal_variables);
-    let exogenous = options.exogenous;
     let exclusions =
-        Exclusions::new(domain, problem, &values, exogenous, &reached, statics, &initial, watch)?;
+        Exclusions::new(domain, problem, &values, exogenous, &reached, statics, &initial, meter)?;
     let most = (0..schemas.len()).max_by_key(|&i| (reached.bindings[i].rows, Reverse(i)));
     let most = most.map(|i| schemas[i].name.clone());
     let models = (&costs, &fluents);
@@ -142,7 +134,7 @@ fn build(
         models,
         &values,
         (&goal, &slots),
-        (options, watch),
+        meter,
     )?;
     drop(reached.bindings);
     let names = Names::of(domain, problem, values);
@@ -156,7 +148,7 @@ fn build(
         statics,
         &initial,
         names,
-        (options, watch),
+        (exogenous, meter),
     )
     .map_err(|failure| match (failure, most) {
         (Failure::Interrupted, Some(schema)) => GroundError::Interrupted { schema }.into(),
@@ -215,7 +207,7 @@ fn add_all_instances(
     predicate: PredicateId,
     universe: &mut Universe<'_>,
     table: &mut AtomTable,
-    (options, watch): (&GroundOptions<'_>, &Watch<'_>),
+    meter: &Meter<'_>,
 ) -> Result<(), Failure> {
     let declared = &domain.predicates[predicate];
     let ranges = universe.slots(&declared.variables);
@@ -227,10 +219,10 @@ fn add_all_instances(
     let before = table.len();
     let mut odometer = vec![0_usize; ranges.len()];
     loop {
-        watch.try_spend(128)?;
+        meter.spend(128)?;
         table.insert(predicate, odometer.iter().zip(&ranges).map(|(&i, r)| r[i]));
         let instances = table.len() - before;
-        if instances * budget::atom(ranges.len()) > options.bytes() {
+        if meter.hold(instances * memory::atom(ranges.len())) == Err(Interrupted::Memory) {
             return Err(GroundError::Limit { schema: declared.name.clone(), instances }.into());
         }
         let Some(digit) = (0..ranges.len()).rev().find(|&d| odometer[d] + 1 < ranges[d].len()) else {
@@ -238,5 +230,46 @@ fn add_all_instances(
         };
         odometer[digit] += 1;
         odometer[digit + 1..].fill(0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::metered;
+    use budget::{Budget, INTERVAL, Meter};
+    use std::sync::OnceLock;
+    use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+
+    #[test]
+    fn no_stage_of_grounding_works_for_long_without_a_look() {
+        let places: String = (0..70).map(|i| format!(" p{i}")).collect();
+        let ways: String = (0..70).flat_map(|a| (0..70).map(move |b| format!("(way p{a} p{b})"))).collect();
+        let domain = "(define (domain d) (:requirements :adl :derived-predicates)
+           (:predicates (at ?v ?p) (van ?v) (way ?a ?b) (clean ?p) (calm) (busy ?p))
+           (:derived (busy ?p) (exists (?v) (at ?v ?p)))
+           (:derived (calm) (forall (?p) (imply (busy ?p) (clean ?p))))
+           (:action go :parameters (?v ?a ?b) :precondition (and (van ?v) (at ?v ?a) (way ?a ?b))
+            :effect (and (not (at ?v ?a)) (at ?v ?b) (when (clean ?b) (not (clean ?b)))))
+           (:action wipe :parameters (?v ?a) :precondition (at ?v ?a) :effect (clean ?a)))";
+        let problem = format!(
+            "(define (problem p) (:domain d) (:objects v w{places})
+             (:init (van v) (van w) (at v p0) (at w p1) {ways}) (:goal (and (at v p9) (calm))))"
+        );
+        let domain = pddl::parse_domain(&pddl::Source::new("d", domain), &[]).model.unwrap();
+        let problem = pddl::parse_problem(&pddl::Source::new("p", problem), &domain).model.unwrap();
+        let meter_cell = OnceLock::<&Meter<'_>>::new();
+        let (looked, widest) = (AtomicU64::new(0), AtomicU64::new(0));
+        let interrupted = || {
+            let work = meter_cell.get().map_or(0, |meter| meter.work());
+            widest.fetch_max(work - looked.swap(work, Relaxed), Relaxed);
+            false
+        };
+        let meter = Meter::new(Budget { interrupted: &interrupted, ..Budget::default() });
+        meter_cell.set(&meter).expect("it is empty");
+        let task = metered(&domain, &problem, &[], &meter).unwrap();
+        assert!(task.operators().len() > 9_000);
+        interrupted();
+        let widest = widest.load(Relaxed);
+        assert!(widest < 2 * INTERVAL as u64, "{widest} units between two looks");
     }
 }

@@ -9,7 +9,7 @@ use super::join::Indices;
 use super::rule::{BodyAtom, Rule};
 use super::universe::Range;
 use crate::number::Relation;
-use crate::watch::{Spend, Watch};
+use budget::Meter;
 use pddl::model::{Expression, ExpressionKind, PredicateId, Term};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::sync::Arc;
@@ -91,18 +91,18 @@ pub(crate) struct JoinPlan {
 /// Sizes of static predicates.
 pub(crate) struct Statistics<'a> {
     table: &'a AtomTable,
-    watch: &'a Watch<'a>,
+    meter: &'a Meter<'a>,
     of_predicate: FxHashMap<PredicateId, Vec<u32>>,
     distinct: FxHashMap<(PredicateId, Vec<usize>), usize>,
 }
 
 impl<'a> Statistics<'a> {
-    pub(crate) fn new(table: &'a AtomTable, statics: u32, watch: &'a Watch<'a>) -> Self {
+    pub(crate) fn new(table: &'a AtomTable, statics: u32, meter: &'a Meter<'a>) -> Self {
         let mut of_predicate: FxHashMap<PredicateId, Vec<u32>> = FxHashMap::default();
         for atom in 0..statics {
             of_predicate.entry(table.predicate(atom)).or_default().push(atom);
         }
-        Self { table, watch, of_predicate, distinct: FxHashMap::default() }
+        Self { table, meter, of_predicate, distinct: FxHashMap::default() }
     }
 
     fn count(&self, predicate: PredicateId) -> usize {
@@ -110,10 +110,10 @@ impl<'a> Statistics<'a> {
     }
 
     fn distinct(&mut self, predicate: PredicateId, positions: &[usize]) -> usize {
-        // Where the watch is over nobody asks for the number.
-        let (table, watch, atoms) = (self.table, self.watch, self.of_predicate.get(&predicate));
+        // Where the meter is over nobody asks for the number.
+        let (table, meter, atoms) = (self.table, self.meter, self.of_predicate.get(&predicate));
         *self.distinct.entry((predicate, positions.to_vec())).or_insert_with(|| {
-            let atoms = atoms.into_iter().flatten().take_while(|_| watch.try_spend(64).is_ok());
+            let atoms = atoms.into_iter().flatten().take_while(|_| meter.spend(64).is_ok());
             let rows = atoms.map(|&a| table.row(a));
             rows.map(|r| positions.iter().map(|&p| r[p]).collect()).collect::<FxHashSet<Vec<u32>>>().len()
         })

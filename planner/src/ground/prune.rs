@@ -13,7 +13,7 @@ use super::raw::{RawEffects, RawTask};
 use crate::ids::id32;
 use crate::number::{Expression, Influence, Relation};
 use crate::task::Rows;
-use crate::watch::{Interrupted, Spend, Watch};
+use budget::{Interrupted, Meter};
 use pddl::model::Objective;
 
 /// What is known of each atom.
@@ -65,11 +65,11 @@ impl Ways {
         &mut self,
         conditions: [&[Lit]; 2],
         (adds, deletes): (&[u32], &[u32]),
-        watch: &Watch<'_>,
+        meter: &Meter<'_>,
     ) -> Result<(), Interrupted> {
         self.needs.push(conditions.into_iter().flatten().copied());
         self.gives.push(adds.iter().map(|a| a << 1).chain(deletes.iter().map(|a| a << 1 | 1)));
-        watch.try_spend(16 + conditions[0].len() + conditions[1].len() + adds.len() + deletes.len())
+        meter.spend(16 + conditions[0].len() + conditions[1].len() + adds.len() + deletes.len())
     }
 }
 
@@ -79,9 +79,9 @@ pub(crate) fn prune(
     initial: &[bool],
     derived: &[bool],
     exogenous: &[bool],
-    watch: &Watch<'_>,
+    meter: &Meter<'_>,
 ) -> Result<Pruned, Interrupted> {
-    let reached = reachable(raw, initial, derived, exogenous, watch)?;
+    let reached = reachable(raw, initial, derived, exogenous, meter)?;
     let n = raw.atoms as usize;
     let mut pruned = Pruned {
         always: (0..n).map(|a| !derived[a] && !reached[a << 1 | 1]).collect(),
@@ -91,18 +91,18 @@ pub(crate) fn prune(
         measured: vec![false; raw.numbers.keys.len()],
         improves: vec![false; raw.operators.len()],
     };
-    always_derived(raw, &mut pruned, watch)?;
-    relevance(raw, exogenous, &mut pruned, watch)?;
+    always_derived(raw, &mut pruned, meter)?;
+    relevance(raw, exogenous, &mut pruned, meter)?;
     Ok(pruned)
 }
 
 /// Marks what follows by rules from what always holds.
-fn always_derived(raw: &RawTask, pruned: &mut Pruned, watch: &Watch<'_>) -> Result<(), Interrupted> {
+fn always_derived(raw: &RawTask, pruned: &mut Pruned, meter: &Meter<'_>) -> Result<(), Interrupted> {
     let mut readers = Rows::default();
     let mut missing: Vec<usize> = Vec::with_capacity(raw.rules.len());
     let mut queue: Vec<u32> = Vec::new();
     for (rule, (_, body)) in (0..).zip(&raw.rules) {
-        watch.try_spend(16 + 4 * body.len())?;
+        meter.spend(16 + 4 * body.len())?;
         let open = body.iter().filter(|&&l| pruned.constant(l) != Some(true));
         missing.push(open.clone().count());
         // A negative literal that is open stays so: atoms only come to hold.
@@ -111,14 +111,14 @@ fn always_derived(raw: &RawTask, pruned: &mut Pruned, watch: &Watch<'_>) -> Resu
             queue.push(rule);
         }
     }
-    let readers = readers.transposed(raw.atoms as usize, watch)?;
+    let readers = readers.transposed(raw.atoms as usize, meter)?;
     while let Some(rule) = queue.pop() {
         let head = raw.rules[rule as usize].0;
         if pruned.never[head as usize] || std::mem::replace(&mut pruned.always[head as usize], true) {
             continue;
         }
         for &reader in readers.row(head) {
-            watch.try_spend(8)?;
+            meter.spend(8)?;
             missing[reader as usize] -= 1;
             if missing[reader as usize] == 0 {
                 queue.push(reader);
@@ -133,27 +133,27 @@ fn reachable(
     initial: &[bool],
     derived: &[bool],
     exogenous: &[bool],
-    watch: &Watch<'_>,
+    meter: &Meter<'_>,
 ) -> Result<Vec<bool>, Interrupted> {
     let mut more = Ways::default();
     let readers = readers(raw);
     for op in raw.operators.iter() {
-        watch.try_spend(8)?;
+        meter.spend(8)?;
         for (condition, adds, deletes) in raw.operators.conditional(&op) {
-            more.push([op.precondition, condition], (adds, deletes), watch)?;
+            more.push([op.precondition, condition], (adds, deletes), meter)?;
         }
         for change in op.numbers {
-            let influenced = influenced(raw, &readers, change, watch)?;
-            more.push([op.precondition, &change.condition], (&influenced.adds, &influenced.deletes), watch)?;
+            let influenced = influenced(raw, &readers, change, meter)?;
+            more.push([op.precondition, &change.condition], (&influenced.adds, &influenced.deletes), meter)?;
         }
     }
     for (head, body) in &raw.rules {
-        more.push([body, &[]], (&[*head], &[]), watch)?;
+        more.push([body, &[]], (&[*head], &[]), meter)?;
     }
     let n = raw.atoms as usize;
     let operators = id32(raw.operators.len());
-    let needed_by = raw.operators.preconditions.transposed(2 * n, watch)?;
-    let more_needed_by = more.needs.transposed(2 * n, watch)?;
+    let needed_by = raw.operators.preconditions.transposed(2 * n, meter)?;
+    let more_needed_by = more.needs.transposed(2 * n, meter)?;
     let mut reached = vec![false; 2 * n];
     let mut queue: Vec<Lit> = Vec::new();
     let mut reach = |l: Lit, queue: &mut Vec<Lit>| {
@@ -162,7 +162,7 @@ fn reachable(
         }
     };
     for a in 0..n {
-        watch.try_spend(4)?;
+        meter.spend(4)?;
         let lit = id32(a) << 1;
         if initial[a] || exogenous[a] {
             reach(lit, &mut queue);
@@ -175,7 +175,7 @@ fn reachable(
     let mut ready: Vec<u32> = Vec::new();
     for (rows, before) in [(&raw.operators.preconditions, 0), (&more.needs, operators)] {
         for way in 0..id32(rows.len()) {
-            watch.try_spend(4)?;
+            meter.spend(4)?;
             missing.push(id32(rows.row(way).len()));
             if missing.last() == Some(&0) {
                 ready.push(before + way);
@@ -184,7 +184,7 @@ fn reachable(
     }
     loop {
         while let Some(way) = ready.pop() {
-            watch.try_spend(16)?;
+            meter.spend(16)?;
             if way < operators {
                 let op = raw.operators.get(way);
                 op.adds.iter().for_each(|&a| reach(a << 1, &mut queue));
@@ -195,7 +195,7 @@ fn reachable(
         }
         let Some(l) = queue.pop() else { break };
         for (rows, before) in [(&needed_by, 0), (&more_needed_by, operators)] {
-            for part in watch.parts(rows.row(l), 8) {
+            for part in meter.chunks(rows.row(l), 8) {
                 for &way in part? {
                     let missing = &mut missing[(before + way) as usize];
                     *missing -= 1;
@@ -223,11 +223,11 @@ fn influenced(
     raw: &RawTask,
     readers: &[Vec<u32>],
     change: &RawChange,
-    watch: &Watch<'_>,
+    meter: &Meter<'_>,
 ) -> Result<RawEffects, Interrupted> {
     let mut effects = RawEffects::default();
     for &position in &readers[change.fluent as usize] {
-        watch.try_spend(64)?;
+        meter.spend(64)?;
         let (atom, comparison) = &raw.numbers.atoms[position as usize];
         let compared = (comparison.relation, &comparison.expression);
         let influence = Influence::of(compared, &change.fluent, change.change, change.value.as_ref());
@@ -247,7 +247,7 @@ fn measured<'r>(
     raw: &'r RawTask,
     changed_by: &Rows,
     pruned: &mut Pruned,
-    watch: &Watch<'_>,
+    meter: &Meter<'_>,
 ) -> Result<Vec<&'r RawChange>, Interrupted> {
     let mut queue = Vec::new();
     let mark = |expression: &Expression<u32>, pruned: &mut Pruned, queue: &mut Vec<u32>| {
@@ -262,7 +262,7 @@ fn measured<'r>(
     mark(metric, pruned, &mut queue);
     while let Some(fluent) = queue.pop() {
         for &i in changed_by.row(raw.atoms + fluent) {
-            watch.try_spend(64)?;
+            meter.spend(64)?;
             for change in raw.operators.get(i).numbers.iter().filter(|c| c.fluent == fluent) {
                 change.value.iter().for_each(|value| mark(value, pruned, &mut queue));
                 changes.push(change);
@@ -287,10 +287,10 @@ fn may_improve(objective: Objective, metric: &Expression<u32>, change: &RawChang
 
 /// By atom, and after the atoms by numeric fluent: the operators that change it and the rules that derive
 /// it (numbered after them).
-fn changed_by(raw: &RawTask, watch: &Watch<'_>) -> Result<Rows, Interrupted> {
+fn changed_by(raw: &RawTask, meter: &Meter<'_>) -> Result<Rows, Interrupted> {
     let mut changes = Rows::default();
     for op in raw.operators.iter() {
-        watch.try_spend(16 + 8 * raw.operators.size(&op) + 8 * op.numbers.len())?;
+        meter.spend(16 + 8 * raw.operators.size(&op) + 8 * op.numbers.len())?;
         let own = op.adds.iter().chain(op.deletes);
         let conditional = raw.operators.conditional(&op);
         if conditional.len() == 0 && op.numbers.is_empty() {
@@ -302,18 +302,18 @@ fn changed_by(raw: &RawTask, watch: &Watch<'_>) -> Result<Rows, Interrupted> {
         }
     }
     raw.rules.iter().for_each(|(head, _)| changes.push([*head]));
-    changes.transposed(raw.atoms as usize + raw.numbers.keys.len(), watch)
+    changes.transposed(raw.atoms as usize + raw.numbers.keys.len(), meter)
 }
 
 fn relevance(
     raw: &RawTask,
     exogenous: &[bool],
     pruned: &mut Pruned,
-    watch: &Watch<'_>,
+    meter: &Meter<'_>,
 ) -> Result<(), Interrupted> {
     let n = raw.atoms as usize;
     let operators = raw.operators.len();
-    let changed_by = changed_by(raw, watch)?;
+    let changed_by = changed_by(raw, meter)?;
     let mut compared: Vec<Option<&Comparison<u32>>> = vec![None; n];
     raw.numbers.atoms.iter().for_each(|(atom, comparison)| compared[*atom as usize] = Some(comparison));
     let mut queue: Vec<u32> = Vec::new();
@@ -333,17 +333,17 @@ fn relevance(
     for &l in &raw.goal {
         need(l, pruned, &mut queue);
     }
-    for change in measured(raw, &changed_by, pruned, watch)? {
-        watch.try_spend(8 + change.condition.len())?;
+    for change in measured(raw, &changed_by, pruned, meter)? {
+        meter.spend(8 + change.condition.len())?;
         change.condition.iter().for_each(|&l| need(l, pruned, &mut queue));
     }
     for a in (0..n).filter(|&a| exogenous[a]) {
-        watch.try_spend(8)?;
+        meter.spend(8)?;
         need(id32(a) << 1, pruned, &mut queue);
     }
     let mut seen = pruned.improves.clone();
     for (op, improves) in raw.operators.iter().zip(&seen) {
-        watch.try_spend(8 + op.precondition.len())?;
+        meter.spend(8 + op.precondition.len())?;
         if *improves && !pruned.is_refuted(op.precondition) {
             op.precondition.iter().for_each(|&l| need(l, pruned, &mut queue));
         }
@@ -356,14 +356,14 @@ fn relevance(
         for &i in changed_by.row(atom) {
             if i as usize >= operators {
                 let (_, body) = &raw.rules[i as usize - operators];
-                watch.try_spend(8 + 4 * body.len())?;
+                meter.spend(8 + 4 * body.len())?;
                 if !pruned.is_refuted(body) {
                     body.iter().for_each(|&l| need(l, pruned, &mut queue));
                 }
                 continue;
             }
             let op = raw.operators.get(i);
-            watch.try_spend(16 + 4 * op.precondition.len())?;
+            meter.spend(16 + 4 * op.precondition.len())?;
             if pruned.is_refuted(op.precondition) {
                 continue;
             }
@@ -371,14 +371,14 @@ fn relevance(
                 op.precondition.iter().for_each(|&l| need(l, pruned, &mut queue));
             }
             for change in op.numbers.iter().filter(|c| raw.atoms + c.fluent == atom) {
-                watch.try_spend(16 + 4 * change.condition.len())?;
+                meter.spend(16 + 4 * change.condition.len())?;
                 if !pruned.is_refuted(&change.condition) {
                     change.condition.iter().for_each(|&l| need(l, pruned, &mut queue));
                     change.value.iter().for_each(|value| read(value, pruned, &mut queue));
                 }
             }
             for (condition, adds, deletes) in raw.operators.conditional(&op) {
-                watch.try_spend(8 + 4 * condition.len() + adds.len() + deletes.len())?;
+                meter.spend(8 + 4 * condition.len() + adds.len() + deletes.len())?;
                 let touches = adds.contains(&atom) || deletes.contains(&atom);
                 if touches && !pruned.is_refuted(condition) {
                     condition.iter().for_each(|&l| need(l, pruned, &mut queue));

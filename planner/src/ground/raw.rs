@@ -5,21 +5,21 @@
 //! decides are dropped from effects' conditions.
 
 use super::atoms::AtomTable;
-use super::budget::{self, Stop};
 use super::cost::{CostModel, Measure, NoCost, resolve};
-use super::error::{GroundError, GroundOptions};
+use super::error::GroundError;
 use super::exclusion::Exclusions;
 use super::fluents::Fluents;
 use super::formula::Formula;
 use super::instantiate::{Ground, Instantiator, Lit, consistent};
 use super::join::{Bindings, Reached};
+use super::memory;
 use super::numbers::{Numbers, RawChange, changes};
 use super::schema::{Product, Schema, SchemaEffect};
 use super::values::ValuePredicates;
 use crate::ids::id32;
 use crate::number::Expression;
 use crate::task::Rows;
-use crate::watch::{Interrupted, Watch};
+use budget::{Interrupted, Meter};
 use pddl::model::{ActionId, Name, Objective, VariableId};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
@@ -166,9 +166,9 @@ pub(crate) fn instantiate(
     (costs, fluents): (&CostModel, &Fluents),
     values: &ValuePredicates,
     goal: (&Formula, &[std::sync::Arc<super::universe::Range>]),
-    (options, watch): (&GroundOptions<'_>, &Watch<'_>),
+    meter: &Meter<'_>,
 ) -> Result<RawTask, Failure> {
-    let mut work = Instantiator::new(&reached.table, is_static, exclusions, fluents, (options, watch));
+    let mut work = Instantiator::new(&reached.table, is_static, exclusions, fluents, meter);
     let mut operators = RawOperators::default();
     let mut bytes = 0;
     let mut rules = Vec::new();
@@ -176,14 +176,14 @@ pub(crate) fn instantiate(
         let mut binding = vec![0; schema.slots.len()];
         let mut seen = FxHashSet::default();
         for row in 0..bindings.rows {
-            if bytes > options.bytes() {
-                return Err(stopped(Stop::Memory, schema, bindings.rows).into());
+            if let Err(why) = meter.hold(bytes) {
+                return Err(stopped(why, schema, bindings.rows).into());
             }
             work.guard.begin();
             bind(schema, bindings, row, &mut binding);
             let condition = work.fold(&schema.condition, &schema.slots, &mut binding);
-            if let Some(stop) = work.guard.stopped() {
-                return Err(stopped(stop, schema, bindings.rows).into());
+            if let Some(why) = work.guard.interruption() {
+                return Err(stopped(why, schema, bindings.rows).into());
             }
             match &schema.product {
                 Product::Axiom { predicate, arguments } => {
@@ -204,16 +204,16 @@ pub(crate) fn instantiate(
                         Err(NoCost::Negative) => return Err(Failure::NegativeCost),
                     };
                     let all = expand(&mut work, schema, effects, &mut binding);
-                    if let Some(stop) = work.guard.stopped() {
-                        return Err(stopped(stop, schema, bindings.rows).into());
+                    if let Some(why) = work.guard.interruption() {
+                        return Err(stopped(why, schema, bindings.rows).into());
                     }
                     let mut clashes = clashes(&work, values, &all);
                     let Some(changes) = changes(&mut work, schema, numbers, &mut binding, &mut clashes)
                     else {
                         continue;
                     };
-                    if let Some(stop) = work.guard.stopped() {
-                        return Err(stopped(stop, schema, bindings.rows).into());
+                    if let Some(why) = work.guard.interruption() {
+                        return Err(stopped(why, schema, bindings.rows).into());
                     }
                     let arguments = &binding[..schema.parameters];
                     for precondition in alternatives {
@@ -226,7 +226,7 @@ pub(crate) fn instantiate(
                         }
                         let size =
                             operators.add(&mut work, *id, arguments, precondition, (&all, &changes), cost);
-                        bytes += budget::instance(arguments.len(), size);
+                        bytes += memory::instance(arguments.len(), size);
                     }
                 }
             }
@@ -243,8 +243,8 @@ pub(crate) fn instantiate(
             None => refuted.push(conjunct.clone()),
         }
     }
-    if let Some(stop) = work.guard.stopped() {
-        return Err(stopped_at(stop, Name::new("goal"), 1).into());
+    if let Some(why) = work.guard.interruption() {
+        return Err(stopped_at(why, Name::new("goal"), 1).into());
     }
     let mut exclusive = None;
     match consistent(literals) {
@@ -267,14 +267,14 @@ pub(crate) fn instantiate(
     Ok(RawTask { operators, rules, goal: literals, refuted, exclusive, atoms, numbers, metric })
 }
 
-fn stopped(stop: Stop, schema: &Schema, instances: usize) -> GroundError {
-    stopped_at(stop, schema.name.clone(), instances)
+fn stopped(why: Interrupted, schema: &Schema, instances: usize) -> GroundError {
+    stopped_at(why, schema.name.clone(), instances)
 }
 
-fn stopped_at(stop: Stop, schema: Name, instances: usize) -> GroundError {
-    match stop {
-        Stop::Interrupted => GroundError::Interrupted { schema },
-        Stop::Memory => GroundError::Limit { schema, instances },
+fn stopped_at(why: Interrupted, schema: Name, instances: usize) -> GroundError {
+    match why {
+        Interrupted::Cancelled | Interrupted::Work => GroundError::Interrupted { schema },
+        Interrupted::Memory => GroundError::Limit { schema, instances },
     }
 }
 

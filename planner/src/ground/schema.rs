@@ -1,10 +1,10 @@
 //! Action and axiom schemas, normalised for the join.
 
-use super::budget;
 use super::cost::{CostModel, CostTerm};
 use super::error::{GroundError, Origin};
 use super::fluents::Fluents;
 use super::formula::Formula;
+use super::memory;
 use super::universe::{Range, Universe};
 use pddl::model::{
     Action, ActionId, Application, AssignOperator, AssignedValue, Axiom, Domain, Effect, EffectKind,
@@ -76,7 +76,7 @@ impl Schema {
             Product::Action { effects, .. } => effects.iter().map(|e| 1 + e.condition.leaves()).sum(),
             Product::Axiom { .. } => 1,
         };
-        budget::instance(self.parameters + self.hoisted.len(), self.condition.leaves() + effects)
+        memory::instance(self.parameters + self.hoisted.len(), self.condition.leaves() + effects)
     }
 }
 

@@ -14,11 +14,13 @@
 use crate::heuristics::Costs;
 use crate::heuristics::repetitions::Repetitions;
 use crate::ids::id32;
-use crate::search::{Job, Meter};
+use crate::search::{Job, SearchMeter};
 use crate::task::{ALONE, AXIOM, Relaxation, Way};
-use crate::watch::CHUNK;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
+
+/// Nodes between two looks at the meter.
+const STRIDE: usize = 1 << 12;
 
 /// Not reached.
 pub(crate) const UNREACHED: u32 = u32::MAX;
@@ -52,7 +54,7 @@ struct Node {
 /// Scratch for explorations of one task under one set of costs.
 pub(crate) struct Explorer<'a> {
     graph: &'a Relaxation,
-    meter: &'a Meter<'a>,
+    meter: &'a SearchMeter<'a>,
     combine: Combine,
     repetitions: Option<Repetitions<'a>>,
     /// The first node that raises a comparison that holds already; empty where nobody counts.
@@ -92,7 +94,7 @@ impl<'a> Explorer<'a> {
         let mut template = vec![Node { cost: 0, missing: 0 }; graph.nodes()];
         for (n, node) in template.iter_mut().enumerate() {
             // What is not filled in when the meter is stopped is not explored.
-            if n.is_multiple_of(CHUNK) && job.meter.spend(8 * CHUNK) {
+            if n.is_multiple_of(STRIDE) && job.meter.spend(8 * STRIDE) {
                 break;
             }
             let operator = graph.operator[n];

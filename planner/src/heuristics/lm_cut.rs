@@ -11,12 +11,12 @@
 use super::explorer::UNREACHED;
 use super::{Combine, Costs, Counting, Estimate, Explorer, Heuristic, View};
 use crate::ids::{OperatorId, id32};
-use crate::search::{Job, Meter};
+use crate::search::{Job, SearchMeter};
 use crate::task::{AXIOM, Relaxation, Rows};
 
 pub(crate) struct LmCut<'a> {
     graph: &'a Relaxation,
-    meter: &'a Meter<'a>,
+    meter: &'a SearchMeter<'a>,
     explorer: Explorer<'a>,
     goal: Vec<u32>,
     achieved_by: Rows,
@@ -38,7 +38,7 @@ impl<'a> LmCut<'a> {
             // Nobody reads it once the meter is stopped.
             achieved_by: graph
                 .effects
-                .transposed(graph.propositions(), job.meter)
+                .transposed(graph.propositions(), job.meter.meter())
                 .unwrap_or_else(|_| Rows::empty(graph.propositions())),
             costs: job.task.operators.iter().map(|o| costs.of(o.cost)).collect(),
             remaining: Vec::new(),

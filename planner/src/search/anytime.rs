@@ -15,11 +15,12 @@ use super::lazy::{Lazy, LazySettings, Pruning};
 use super::portfolio::{self, Alarm, Sink, Threads};
 use super::windows::Windows;
 use super::{
-    Bound, Budget, Engine, Job, Limit, Meter, Order, Outcome, Plan, Query, Report, SearchConfiguration,
+    Bound, Engine, Job, Limit, Order, Outcome, Plan, Query, Report, SearchConfiguration, SearchMeter,
     Searcher, Statistics, Turn, solve,
 };
 use crate::heuristics::{Costs, HeuristicKind};
 use crate::task::Task;
+use budget::Budget;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::{Mutex, PoisonError};
 
@@ -75,17 +76,14 @@ pub fn improve(
         }
         best.plan.clone()
     };
-    let expansions = budget.expansions.map(|e| e.saturating_sub(report.statistics.expanded));
+    let work = budget.work.map(|e| e.saturating_sub(report.statistics.expanded));
     let over = AtomicBool::new(false);
     let interrupted = || over.load(Relaxed) || (budget.interrupted)();
     // The searches below the bound have most of the memory: windows are small.
-    let rest = Budget { expansions, memory_bytes: budget.memory_bytes.map(|m| m / 8 * 7), ..*budget };
-    let small = Budget {
-        expansions: None,
-        memory_bytes: budget.memory_bytes.map(|m| m / 8),
-        interrupted: &interrupted,
-    };
-    let (barred, meter) = (query.barred(task), Meter::new(small));
+    let rest = Budget { work, memory_bytes: budget.memory_bytes.map(|m| m / 8 * 7), ..*budget };
+    let small =
+        Budget { work: None, memory_bytes: budget.memory_bytes.map(|m| m / 8), interrupted: &interrupted };
+    let (barred, meter) = (query.barred(task), SearchMeter::new(small));
     let polish = |most| {
         Windows { task, query: *query, barred: &barred, meter: &meter, most }
             .run(offer(&Plan { operators: Vec::new(), cost: u64::MAX }), &mut |plan| offer(&plan))
@@ -138,8 +136,8 @@ fn improve_metric(
     };
     let mut best = (task.quality(query.state, &first.operators), first.clone());
     let bound = Bound::none();
-    let expansions = budget.expansions.map(|e| e.saturating_sub(report.statistics.expanded));
-    let rest = Budget { expansions, ..*budget };
+    let work = budget.work.map(|e| e.saturating_sub(report.statistics.expanded));
+    let rest = Budget { work, ..*budget };
     let mut better = |plan: &Plan| {
         let quality = task.quality(query.state, &plan.operators);
         if quality.is_some_and(|new| best.0.is_none_or(|old| new.is_below(old))) {

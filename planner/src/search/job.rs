@@ -1,6 +1,6 @@
 //! One search's share of a question: what it needs to know, and the bound that searches share.
 
-use super::{Barred, Meter};
+use super::{Barred, SearchMeter};
 use crate::heuristics::LandmarkGraph;
 use crate::task::{Goal, Relaxation, State, Task};
 use std::sync::OnceLock;
@@ -13,7 +13,7 @@ pub(crate) struct Job<'a> {
     pub(crate) state: &'a State,
     pub(crate) goal: &'a Goal,
     pub(crate) barred: &'a Barred,
-    pub(crate) meter: &'a Meter<'a>,
+    pub(crate) meter: &'a SearchMeter<'a>,
     pub(crate) bound: &'a Bound,
     pub(crate) shared: &'a Shared,
 }

@@ -1,17 +1,17 @@
 //! What one search has used up, and when it has to stop or pause.
 //!
-//! Problem: a search must end within milliseconds of an interruption, also in the middle of one large
+//! Problem: a search must end within milliseconds of a cancellation, also in the middle of one large
 //! estimate or while its landmarks are being found, and a portfolio must deal out turns without a
-//! clock, so that the same call gives the same answer. Idea: whatever loops [`Meter::spend`]s units of
-//! work, about a nanosecond each; the caller's closure is asked every so many units, and a turn is a
-//! number of units. Invariant: once stopped, a meter stays stopped, and no estimate made after that is
-//! believed.
+//! clock, so that the same call gives the same answer. Idea: every loop [spends](SearchMeter::spend) units of
+//! work, about a nanosecond each; a turn is a number of units. Expanded states and bytes are compared with
+//! the turn between two steps of the search. Invariant: once stopped, a meter stays stopped, and the search
+//! discards every estimate that it computed after that.
 
-use super::{Budget, Limit};
-use crate::watch::{INTERVAL, Interrupted, Spend};
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering::Relaxed};
+use super::Limit;
+use budget::{Budget, Meter};
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
-/// Bytes for whom nobody sets a limit.
+/// Bytes for a search without a limit.
 pub(crate) const UNLIMITED: usize = usize::MAX / 8;
 
 /// Work of building a state, looking it up and storing it: some misses of the cache, then its words.
@@ -19,21 +19,19 @@ pub(crate) fn price_of_state(words: usize) -> usize {
     256 + words * 16
 }
 
-/// Counts for one search. Only one thread writes at a time.
+/// Counts for one search. Only one thread at a time writes.
 #[derive(Debug)]
-pub(crate) struct Meter<'a> {
+pub(crate) struct SearchMeter<'a> {
     budget: Budget<'a>,
-    work: AtomicU64,
-    next_question: AtomicU64,
-    stopped: AtomicBool,
-    /// Bytes that the search held when it was last asked.
+    meter: Meter<'a>,
+    /// Bytes that the search held when it last reported them.
     held: AtomicUsize,
 }
 
 /// A turn of a search.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Turn {
-    /// It pauses when its meter shows so much work.
+    /// The search pauses when its meter shows so much work.
     pub(crate) until: u64,
     /// The bytes that it may hold.
     pub(crate) bytes: usize,
@@ -49,60 +47,48 @@ pub(crate) enum Signal {
     Stop(Limit),
 }
 
-impl Spend for Meter<'_> {
-    fn try_spend(&self, units: usize) -> Result<(), Interrupted> {
-        if self.spend(units) { Err(Interrupted) } else { Ok(()) }
-    }
-}
-
-impl<'a> Meter<'a> {
+impl<'a> SearchMeter<'a> {
     pub(crate) fn new(budget: Budget<'a>) -> Self {
-        Self {
-            budget,
-            work: AtomicU64::new(0),
-            next_question: AtomicU64::new(0),
-            stopped: AtomicBool::new(false),
-            held: AtomicUsize::new(0),
-        }
+        // The budget's work is a number of expanded states, which `signal` compares.
+        let meter = Meter::new(Budget { work: None, ..budget });
+        Self { budget, meter, held: AtomicUsize::new(0) }
     }
 
     /// Adds work. Answers whether the caller of the search wants it to stop.
+    #[inline]
     pub(crate) fn spend(&self, units: usize) -> bool {
-        let work = self.work.load(Relaxed) + units as u64;
-        self.work.store(work, Relaxed);
-        if work >= self.next_question.load(Relaxed) {
-            self.next_question.store(work + INTERVAL as u64, Relaxed);
-            if (self.budget.interrupted)() {
-                self.stopped.store(true, Relaxed);
-            }
-        }
-        self.is_stopped()
+        self.meter.spend(units).is_err()
     }
 
-    /// Whether what was computed last may be incomplete.
+    /// Counts the work, for functions that grounding calls too.
+    pub(crate) fn meter(&self) -> &Meter<'a> {
+        &self.meter
+    }
+
+    /// Whether the last results may be incomplete.
     pub(crate) fn is_stopped(&self) -> bool {
-        self.stopped.load(Relaxed)
+        self.meter.interruption().is_some()
     }
 
     pub(crate) fn work(&self) -> u64 {
-        self.work.load(Relaxed)
+        self.meter.work()
     }
 
     pub(crate) fn held(&self) -> usize {
         self.held.load(Relaxed)
     }
 
-    /// The search is no more.
+    /// The search ended and holds nothing.
     pub(crate) fn release(&self) {
         self.held.store(0, Relaxed);
     }
 
-    /// Where the whole budget is one turn.
+    /// The whole budget as one turn.
     pub(crate) fn whole(&self) -> Turn {
         Turn {
             until: u64::MAX,
             bytes: self.budget.memory_bytes.unwrap_or(UNLIMITED),
-            expansions: self.budget.expansions.unwrap_or(u64::MAX),
+            expansions: self.budget.work.unwrap_or(u64::MAX),
         }
     }
 

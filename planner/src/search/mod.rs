@@ -6,7 +6,6 @@
 
 mod anytime;
 mod bfws;
-mod budget;
 mod chance;
 mod configuration;
 mod distance;
@@ -35,14 +34,13 @@ mod windows;
 
 pub use anytime::{Improved, Quality, improve};
 pub use bfws::{BfwsSettings, Count, Width};
-pub use budget::{Budget, Limit};
 pub use configuration::{Engine, Order, SearchConfiguration};
 pub use distance::Distance;
 pub use eager::EagerSettings;
 pub(crate) use job::{Bound, Job, Shared};
 pub use lazy::{Exploration, LazySettings, Pruning};
-pub(crate) use meter::{Meter, Turn};
-pub use outcome::{Outcome, Plan, Report, Statistics, UnsolvableReason};
+pub(crate) use meter::{SearchMeter, Turn};
+pub use outcome::{Limit, Outcome, Plan, Report, Statistics, UnsolvableReason};
 pub use portfolio::Threads;
 pub(crate) use query::Barred;
 pub use query::Query;
@@ -53,6 +51,7 @@ pub(crate) use searcher::Searcher;
 use crate::ground::Feature;
 use crate::heuristics::{Combine, Costs, Explorer};
 use crate::task::{Impossible, Task};
+use budget::Budget;
 use portfolio::Sink;
 
 /// Looks for a plan.
@@ -89,7 +88,7 @@ pub fn solve(
 
 /// The literals of the goal that even the delete relaxation cannot reach.
 fn relaxed_unreachable(task: &Task, query: &Query<'_>, budget: &Budget<'_>) -> Option<UnsolvableReason> {
-    let (barred, meter) = (query.barred(task), Meter::new(*budget));
+    let (barred, meter) = (query.barred(task), SearchMeter::new(*budget));
     let (bound, shared) = (Bound::none(), Shared::default());
     let (state, goal) = (query.state, query.goal);
     let job = Job { task, state, goal, barred: &barred, meter: &meter, bound: &bound, shared: &shared };

@@ -1,6 +1,5 @@
 //! What comes of a search.
 
-use super::Limit;
 use crate::ground::Feature;
 use crate::ids::OperatorId;
 use crate::task::{Impossible, Task};
@@ -28,6 +27,19 @@ pub enum UnsolvableReason {
     Impossible(Impossible),
     /// Every reachable state was visited.
     SpaceExhausted,
+}
+
+/// Which limit ended a search.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Limit {
+    /// The caller cancelled it.
+    Interrupted,
+    /// It expanded as many states as allowed.
+    Expansions,
+    /// States and open lists hold as many bytes as allowed.
+    Memory,
+    /// An incomplete search gave up without an answer.
+    Incomplete,
 }
 
 /// The answer.

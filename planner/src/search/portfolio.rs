@@ -12,9 +12,10 @@
 //! spirit; portfolios: Helmert, Röger & Karpas, "Fast Downward Stone Soup", 2011.
 
 use super::meter::UNLIMITED;
-use super::{Barred, Bound, Budget, Engine, Job, Limit, Meter, Outcome, Plan, Query, Report, Searcher};
+use super::{Barred, Bound, Engine, Job, Limit, Outcome, Plan, Query, Report, SearchMeter, Searcher};
 use super::{Shared, Statistics, Turn};
 use crate::task::Task;
+use budget::Budget;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -48,7 +49,7 @@ pub(crate) enum Sink<'s> {
 struct Member<'a> {
     engine: Engine,
     weight: u64,
-    meter: &'a Meter<'a>,
+    meter: &'a SearchMeter<'a>,
     /// The pace of the others when it joined them: it makes up for nothing that it missed.
     head_start: u64,
     /// Built when its first turn comes.
@@ -80,7 +81,7 @@ struct Portfolio<'a, 's> {
     bound: &'a Bound,
     shared: &'a Shared,
     budget: Budget<'a>,
-    meters: &'a [Meter<'a>],
+    meters: &'a [SearchMeter<'a>],
     over: &'a AtomicBool,
     pool: Mutex<Pool<'a, 's>>,
 }
@@ -99,7 +100,7 @@ pub(crate) fn run(
     let (over, shared) = (AtomicBool::new(false), Shared::default());
     let interrupted = || over.load(Relaxed) || (budget.interrupted)();
     let inner = Budget { interrupted: &interrupted, ..*budget };
-    let meters: Vec<Meter<'_>> = members.iter().map(|_| Meter::new(inner)).collect();
+    let meters: Vec<SearchMeter<'_>> = members.iter().map(|_| SearchMeter::new(inner)).collect();
     let idle = members.iter().zip(&meters).map(|(&(engine, weight), meter)| Member {
         engine,
         weight: u64::from(weight.max(1)),
@@ -161,7 +162,7 @@ impl<'a, 's> Portfolio<'a, 's> {
     /// Gives turns until there is an answer, nothing left to do, or so much work was done in all.
     fn work(&self, most: u64) {
         let _alarm = Alarm(self.over);
-        while self.meters.iter().map(Meter::work).sum::<u64>() < most {
+        while self.meters.iter().map(SearchMeter::work).sum::<u64>() < most {
             let Some((mut member, turn)) = self.take() else { return };
             let meter = member.meter;
             let searcher = member.searcher.get_or_insert_with(|| {
@@ -182,7 +183,7 @@ impl<'a, 's> Portfolio<'a, 's> {
         if self.over.load(Relaxed) {
             return None;
         }
-        let done: u64 = self.meters.iter().map(Meter::work).sum();
+        let done: u64 = self.meters.iter().map(SearchMeter::work).sum();
         // Where only late members are idle, they join at once.
         let waits = |member: &Member<'_>| done < member.engine.joins_after();
         let slowest = pool.idle.iter().filter(|m| m.searcher.is_some()).map(Member::pace).min();
@@ -192,11 +193,11 @@ impl<'a, 's> Portfolio<'a, 's> {
         let next = (0..pool.idle.len()).min_by_key(|&i| (waits(&pool.idle[i]), pool.idle[i].pace()))?;
         let member = pool.idle.remove(next);
         let work = member.meter.work();
-        let others: usize = self.meters.iter().map(Meter::held).sum::<usize>() - member.meter.held();
+        let others: usize = self.meters.iter().map(SearchMeter::held).sum::<usize>() - member.meter.held();
         let turn = Turn {
             until: work + FIRST_TURN.max(work / 4),
             bytes: self.budget.memory_bytes.map_or(UNLIMITED, |most| most.saturating_sub(others)),
-            expansions: match self.budget.expansions {
+            expansions: match self.budget.work {
                 Some(most) => member.expanded + most.saturating_sub(pool.expanded),
                 None => u64::MAX,
             },

@@ -16,9 +16,10 @@
 use super::distance::Distance;
 use super::elimination::without_needless;
 use super::regression::Kernel;
-use super::{Budget, Limit, Outcome, Plan, Query, Report, SearchConfiguration, Statistics, solve};
+use super::{Limit, Outcome, Plan, Query, Report, SearchConfiguration, Statistics, solve};
 use crate::ids::OperatorId;
 use crate::task::{Goal, Literals, State, Task};
+use budget::Budget;
 
 /// What decides between a repaired plan and a new one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -140,8 +141,8 @@ pub fn repair(
     let reused = repair.reuse(budget);
     let fresh = (reused.plan().is_none() || preference != Preference::Fastest).then(|| {
         let spent = reused.report.statistics.expanded;
-        let left = budget.expansions.map(|most| most.saturating_sub(spent));
-        repair.afresh(configuration, &Budget { expansions: left, ..*budget })
+        let left = budget.work.map(|most| most.saturating_sub(spent));
+        repair.afresh(configuration, &Budget { work: left, ..*budget })
     });
     Repaired::of(preference, reused, fresh)
 }
@@ -280,9 +281,8 @@ impl Work<'_> {
     fn search(&mut self, query: &Query<'_>) -> Option<Vec<OperatorId>> {
         let task = self.repair.task;
         let most = GAP.min((WORK / task.relaxation.nodes().max(1)) as u64).max(16);
-        let left =
-            self.budget.expansions.map_or(most, |e| most.min(e.saturating_sub(self.statistics.expanded)));
-        let budget = Budget { expansions: Some(left), ..*self.budget };
+        let left = self.budget.work.map_or(most, |e| most.min(e.saturating_sub(self.statistics.expanded)));
+        let budget = Budget { work: Some(left), ..*self.budget };
         let report = solve(task, query, &SearchConfiguration::default(), &budget);
         self.statistics += report.statistics;
         match report.outcome {

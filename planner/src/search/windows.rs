@@ -14,7 +14,9 @@ use super::anytime::counted;
 use super::lazy::{Lazy, LazySettings, Pruning};
 use super::regression::Kernel;
 use super::reordering::{Arrangement, arranged};
-use super::{Barred, Bound, Job, Meter, Order, Outcome, Plan, Query, Searcher, Shared, Statistics, Turn};
+use super::{
+    Barred, Bound, Job, Order, Outcome, Plan, Query, SearchMeter, Searcher, Shared, Statistics, Turn,
+};
 use crate::heuristics::{Costs, HeuristicKind};
 use crate::ids::OperatorId;
 use crate::task::{Goal, Literals, State, Task};
@@ -33,7 +35,7 @@ pub(crate) struct Windows<'a> {
     pub(crate) task: &'a Task,
     pub(crate) query: Query<'a>,
     pub(crate) barred: &'a Barred,
-    pub(crate) meter: &'a Meter<'a>,
+    pub(crate) meter: &'a SearchMeter<'a>,
     /// Work in all, at most.
     pub(crate) most: u64,
 }

@@ -10,9 +10,10 @@
 //!
 //! Source: Thiébaux, Hoffmann & Nebel, "In defense of PDDL axioms", AIJ 2005, §2.
 
+use super::sort::sort_by_count;
 use super::{Fact, Literals, Rows, contains, for_each_set, set, unset};
 use crate::ids::{FactId, id32};
-use crate::watch::{Interrupted, Spend, Watch, sort_by_count};
+use budget::{Interrupted, Meter};
 use pddl::model::{Idx, IndexVec};
 
 /// `head` holds where `body` does.
@@ -62,9 +63,9 @@ impl AxiomProgram {
     pub(crate) fn new(
         facts: &IndexVec<FactId, Fact>,
         rules: Vec<AxiomRule>,
-        watch: &Watch<'_>,
+        meter: &Meter<'_>,
     ) -> Result<Self, NoProgram> {
-        let order = components(facts, &rules, watch)?;
+        let order = components(facts, &rules, meter)?;
         let mut component_of = vec![usize::MAX; facts.len()];
         for (i, members) in order.iter().enumerate() {
             for m in members {
@@ -73,7 +74,7 @@ impl AxiomProgram {
         }
         let places: Vec<u32> = (0..id32(rules.len())).collect();
         let component = |rule: u32| component_of[rules[rule as usize].head.index()];
-        let places = sort_by_count(&places, order.len(), watch, component)?;
+        let places = sort_by_count(&places, order.len(), meter, component)?;
         let mut rules: Vec<Option<AxiomRule>> = rules.into_iter().map(Some).collect();
         let take = |place: &u32| rules[*place as usize].take().expect("each has one place");
         let sorted: Vec<AxiomRule> = places.iter().map(take).collect();
@@ -84,7 +85,7 @@ impl AxiomProgram {
             let end = start + sorted[start..].partition_point(|r| component_of[r.head.index()] == component);
             let own = |f: &FactId| component_of[f.index()] == component;
             for rule in &sorted[start..end] {
-                watch.try_spend(16 + 4 * rule.body.len())?;
+                meter.spend(16 + 4 * rule.body.len())?;
                 if let Some(&f) = rule.body.negative.iter().find(|f| own(f)) {
                     return Err(NoProgram::NotStratified(f));
                 }
@@ -95,12 +96,12 @@ impl AxiomProgram {
             start = end;
         }
         let mut program = Self { rules: sorted, components: built, ..Self::default() };
-        program.index(facts.len(), &component_of, watch)?;
+        program.index(facts.len(), &component_of, meter)?;
         Ok(program)
     }
 
     /// Notes who reads what.
-    fn index(&mut self, facts: usize, component_of: &[usize], watch: &Watch<'_>) -> Result<(), Interrupted> {
+    fn index(&mut self, facts: usize, component_of: &[usize], meter: &Meter<'_>) -> Result<(), Interrupted> {
         self.read = vec![0; facts.div_ceil(64)];
         let (mut reads, mut needs) = (Rows::default(), Rows::default());
         for component in &self.components {
@@ -108,7 +109,7 @@ impl AxiomProgram {
             let own = component_of[component.heads[0].index()];
             let mut outside: Vec<u32> = Vec::new();
             for rule in rules {
-                watch.try_spend(64 + 8 * rule.body.len())?;
+                meter.spend(64 + 8 * rule.body.len())?;
                 let (inside, others): (Vec<FactId>, Vec<FactId>) =
                     rule.body.positive.iter().partition(|f| component_of[f.index()] == own);
                 needs.push(inside.into_iter().map(|f| f.0));
@@ -119,8 +120,8 @@ impl AxiomProgram {
             outside.iter().for_each(|&f| set(&mut self.read, FactId(f)));
             reads.push(outside);
         }
-        self.readers = reads.transposed(facts, watch)?;
-        self.followers = needs.transposed(facts, watch)?;
+        self.readers = reads.transposed(facts, meter)?;
+        self.followers = needs.transposed(facts, meter)?;
         Ok(())
     }
 
@@ -200,12 +201,12 @@ impl AxiomProgram {
 fn components(
     facts: &IndexVec<FactId, Fact>,
     rules: &[AxiomRule],
-    watch: &Watch<'_>,
+    meter: &Meter<'_>,
 ) -> Result<Vec<Vec<FactId>>, Interrupted> {
     let n = facts.len();
     let mut below: Vec<Vec<u32>> = vec![Vec::new(); n];
     for rule in rules {
-        watch.try_spend(8 + 4 * rule.body.len())?;
+        meter.spend(8 + 4 * rule.body.len())?;
         let body = rule.body.positive.iter().chain(rule.body.negative.iter());
         below[rule.head.index()].extend(body.filter(|&&f| facts[f].derived).map(|f| f.0));
     }
@@ -224,7 +225,7 @@ fn components(
                 stack.push(v);
                 on_stack[v] = true;
             }
-            watch.try_spend(8)?;
+            meter.spend(8)?;
             if let Some(&w) = below[v].get(*edge) {
                 *edge += 1;
                 let w = w as usize;
@@ -317,7 +318,7 @@ mod tests {
                 head: FactId(*head),
                 body: Literals { positive: literals(positive), negative: literals(negative) },
             });
-            let program = AxiomProgram::new(&facts, built.collect(), &crate::watch::Watch::new(&|| false)).unwrap();
+            let program = AxiomProgram::new(&facts, built.collect(), &budget::Meter::default()).unwrap();
             let mut before = [0_u64];
             program.close(&mut before);
             prop_assert_eq!(before[0], by_definition(&rules, 0));

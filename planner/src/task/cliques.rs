@@ -11,14 +11,14 @@
 
 use super::relaxation::Relaxation;
 use crate::ids::id32;
-use crate::watch::{Interrupted, Spend, Watch};
+use budget::{Interrupted, Meter};
 use rustc_hash::FxHashMap;
 
 /// A proposition without a clique.
 pub(crate) const ALONE: u32 = u32::MAX;
 
 /// The clique of each proposition, or [`ALONE`], and how many cliques there are.
-pub(super) fn cliques(graph: &Relaxation, watch: &Watch<'_>) -> Result<(Vec<u32>, usize), Interrupted> {
+pub(super) fn cliques(graph: &Relaxation, meter: &Meter<'_>) -> Result<(Vec<u32>, usize), Interrupted> {
     let mut of = vec![ALONE; graph.propositions()];
     if !graph.ways.is_empty() {
         // Comparisons of numbers have costs of their own.
@@ -28,7 +28,7 @@ pub(super) fn cliques(graph: &Relaxation, watch: &Watch<'_>) -> Result<(Vec<u32>
     let mut first: Vec<u32> = Vec::new();
     for p in 0..id32(graph.propositions()) {
         let (_, moves) = graph.waiting_and_moves(p);
-        watch.try_spend(8 + 64 * moves.len())?;
+        meter.spend(8 + 64 * moves.len())?;
         let Some(price) = moves.first().map(|&n| graph.price(n)) else { continue };
         if moves.iter().any(|&n| graph.price(n) != price) {
             continue;
@@ -58,8 +58,9 @@ pub(super) fn cliques(graph: &Relaxation, watch: &Watch<'_>) -> Result<(Vec<u32>
 mod tests {
     use crate::heuristics::{Combine, Costs, Counting, Explorer};
     use crate::ids::id32;
-    use crate::search::{Bound, Budget, Job, Meter, Query, Shared};
+    use crate::search::{Bound, Job, Query, SearchMeter, Shared};
     use crate::test_support::Grounded;
+    use budget::Budget;
     use proptest::prelude::*;
     use std::fmt::Write;
 
@@ -98,7 +99,7 @@ mod tests {
     fn costs(grounded: &Grounded, costs: Costs, combine: Combine) -> [Vec<u32>; 2] {
         let task = &grounded.task;
         let query = Query::of(task);
-        let (barred, meter) = (query.barred(task), Meter::new(Budget::default()));
+        let (barred, meter) = (query.barred(task), SearchMeter::new(Budget::default()));
         let (bound, shared) = (Bound::none(), Shared::default());
         let (state, goal) = (query.state, query.goal);
         let job = Job { task, state, goal, barred: &barred, meter: &meter, bound: &bound, shared: &shared };

@@ -13,8 +13,9 @@
 
 use super::Rows;
 use super::relaxation::Relaxation;
+use super::sort::sort_by_count;
 use crate::ids::id32;
-use crate::watch::{Interrupted, Spend, Watch, sort_by_count};
+use budget::{Interrupted, Meter};
 use rustc_hash::FxHashMap;
 
 /// Kept achievers looked at, for each achiever of a proposition on average.
@@ -22,7 +23,7 @@ const LOOKS: usize = 64;
 
 struct Work<'g> {
     graph: &'g Relaxation,
-    watch: &'g Watch<'g>,
+    meter: &'g Meter<'g>,
     /// Kept achievers of the current proposition, by their rarest need.
     by_need: Vec<Vec<u32>>,
     touched: Vec<u32>,
@@ -33,13 +34,13 @@ struct Work<'g> {
 }
 
 /// The undominated part of `graph`.
-pub(crate) fn undominated(graph: &Relaxation, watch: &Watch<'_>) -> Result<Relaxation, Interrupted> {
-    let order = by_needs_and_price(graph, watch)?;
-    let achievers = graph.effects.transposed_in(order.into_iter(), graph.propositions(), watch)?;
+pub(crate) fn undominated(graph: &Relaxation, meter: &Meter<'_>) -> Result<Relaxation, Interrupted> {
+    let order = by_needs_and_price(graph, meter)?;
+    let achievers = graph.effects.transposed_in(order.into_iter(), graph.propositions(), meter)?;
     let mut kept = Rows::default();
     let mut work = Work {
         graph,
-        watch,
+        meter,
         by_need: vec![Vec::new(); graph.propositions()],
         touched: Vec::new(),
         free: Vec::new(),
@@ -63,15 +64,15 @@ pub(crate) fn undominated(graph: &Relaxation, watch: &Watch<'_>) -> Result<Relax
         kept.push(undominated.iter().copied());
         work.clear();
     }
-    graph.with_effects(&kept.transposed(graph.nodes(), watch)?, watch)
+    graph.with_effects(&kept.transposed(graph.nodes(), meter)?, meter)
 }
 
 /// The nodes: those with few needs first, then the cheap ones.
-fn by_needs_and_price(graph: &Relaxation, watch: &Watch<'_>) -> Result<Vec<u32>, Interrupted> {
+fn by_needs_and_price(graph: &Relaxation, meter: &Meter<'_>) -> Result<Vec<u32>, Interrupted> {
     let nodes: Vec<u32> = (0..id32(graph.nodes())).collect();
     let mut ranks: FxHashMap<(bool, u32), usize> = FxHashMap::default();
     let mut most = 0;
-    for part in watch.parts(&nodes, 8) {
+    for part in meter.chunks(&nodes, 8) {
         for &node in part? {
             ranks.entry(graph.price(node)).or_insert(0);
             most = most.max(graph.preconditions.row(node).len());
@@ -82,16 +83,16 @@ fn by_needs_and_price(graph: &Relaxation, watch: &Watch<'_>) -> Result<Vec<u32>,
     prices.iter().enumerate().for_each(|(rank, price)| *ranks.entry(*price).or_default() = rank);
     let cheap = match prices.len() {
         0 | 1 => nodes,
-        different => sort_by_count(&nodes, different, watch, |node| ranks[&graph.price(node)])?,
+        different => sort_by_count(&nodes, different, meter, |node| ranks[&graph.price(node)])?,
     };
-    sort_by_count(&cheap, most + 1, watch, |node| graph.preconditions.row(node).len())
+    sort_by_count(&cheap, most + 1, meter, |node| graph.preconditions.row(node).len())
 }
 
 impl Work<'_> {
     fn is_dominated(&mut self, node: u32, proposition: u32, looks: &mut usize) -> Result<bool, Interrupted> {
         let graph = self.graph;
         let needs = graph.preconditions.row(node);
-        self.watch.try_spend(16 + 4 * needs.len())?;
+        self.meter.spend(16 + 4 * needs.len())?;
         for &p in needs {
             self.mark[p as usize] = node;
         }
@@ -110,7 +111,7 @@ impl Work<'_> {
                 }
                 *looks -= 1;
                 let row = graph.preconditions.row(other);
-                self.watch.try_spend(8 + row.len())?;
+                self.meter.spend(8 + row.len())?;
                 if row.iter().all(|&q| self.mark[q as usize] == node) && graph.price(other) <= price {
                     return Ok(true);
                 }

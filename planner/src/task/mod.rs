@@ -20,6 +20,7 @@ mod packing;
 mod relaxation;
 mod repetition;
 mod rows;
+mod sort;
 mod state;
 mod successors;
 

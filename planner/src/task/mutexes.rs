@@ -10,7 +10,7 @@
 
 use super::{Operator, Operators, Rows, State, contains};
 use crate::ids::{FactId, id32};
-use crate::watch::{Interrupted, Spend, Watch};
+use budget::{Interrupted, Meter};
 use pddl::model::Idx;
 
 /// The groups.
@@ -31,20 +31,20 @@ impl Mutexes {
         groups: &[Vec<u32>],
         operators: &Operators,
         initial: &State,
-        watch: &Watch<'_>,
+        meter: &Meter<'_>,
     ) -> Result<Self, Interrupted> {
         let mut rows = Rows::default();
         for group in groups {
-            watch.try_spend(8 + 4 * group.len())?;
+            meter.spend(8 + 4 * group.len())?;
             rows.push(group.iter().copied());
         }
-        let of = rows.transposed(facts, watch)?;
+        let of = rows.transposed(facts, meter)?;
         let one = |group: &Vec<u32>| group.iter().filter(|&&f| initial.contains(FactId(f))).count() == 1;
         let mut mutexes = Self { groups: rows, of, exact: groups.iter().map(one).collect() };
         if !groups.is_empty() {
             for operator in operators.iter() {
                 let (deletes, adds) = (operator.deletes.len(), operator.adds.len());
-                watch.try_spend(16 + 8 * deletes * (1 + adds) + 16 * operator.conditional.len())?;
+                meter.spend(16 + 8 * deletes * (1 + adds) + 16 * operator.conditional.len())?;
                 mutexes.leave(&operator);
             }
         }

@@ -11,12 +11,13 @@
 //! Source: Hoffmann & Nebel, "The FF planning system", JAIR 2001, §3; negations as in Helmert 2006.
 
 use super::cliques::cliques;
+use super::sort::sort_by_count;
 use super::{
     AxiomProgram, Fact, Goal, Literals, LiteralsRef, Numeric, Operators, Rows, Way, Ways, contains,
     for_each_set,
 };
 use crate::ids::{FactId, id32};
-use crate::watch::{Interrupted, Spend, Watch, sort_by_count};
+use budget::{Interrupted, Meter};
 use pddl::model::{Idx, IndexVec};
 use rustc_hash::FxHashMap;
 
@@ -63,7 +64,7 @@ impl Relaxation {
         axioms: &AxiomProgram,
         numeric: &Numeric,
         goal: &Goal,
-        watch: &Watch<'_>,
+        meter: &Meter<'_>,
     ) -> Result<Self, Interrupted> {
         let mut graph = Self { facts: facts.len(), negation: vec![0; facts.len()], ..Self::default() };
         let conditions = operators.iter().flat_map(|o| {
@@ -73,7 +74,7 @@ impl Relaxation {
         });
         let bodies = axioms.rules().iter().map(|r| r.body.as_ref());
         for literals in conditions.chain(bodies).chain([goal.literals.as_ref()]) {
-            watch.try_spend(8 + literals.negative.len())?;
+            meter.spend(8 + literals.negative.len())?;
             for &f in literals.negative {
                 if graph.negation[f.index()] == 0 {
                     let proposition = id32(graph.facts + graph.negated.len());
@@ -90,7 +91,7 @@ impl Relaxation {
             comparisons.map(|(c, position)| (c.fact, position)).collect();
         for (id, op) in operators.enumerate() {
             graph.ways.set_takings(id.0, numeric.takings(&op, &comparisons));
-            watch.try_spend(32 + 8 * op.size())?;
+            meter.spend(32 + 8 * op.size())?;
             graph.node(id.0, op.cost, &[op.precondition], op.adds, op.deletes);
             for influenced in op.numeric.into_iter().flat_map(|e| numeric.influences(e)) {
                 let (facts, ways): (Vec<FactId>, Vec<Way>) = influenced.holds.into_iter().unzip();
@@ -107,28 +108,28 @@ impl Relaxation {
                 }
             }
             for e in op.conditional.iter() {
-                watch.try_spend(32 + 8 * (op.precondition.len() + e.condition.len() + e.adds.len()))?;
+                meter.spend(32 + 8 * (op.precondition.len() + e.condition.len() + e.adds.len()))?;
                 graph.node(id.0, op.cost, &[op.precondition, e.condition], e.adds, e.deletes);
             }
         }
         for rule in axioms.rules() {
-            watch.try_spend(32 + 8 * rule.body.len())?;
+            meter.spend(32 + 8 * rule.body.len())?;
             graph.node(AXIOM, 0, &[rule.body.as_ref()], &[rule.head], &[]);
         }
         graph.first_move = id32(graph.nodes());
-        graph.index(watch)?;
+        graph.index(meter)?;
         Ok(graph)
     }
 
     /// Finds who needs what.
-    fn index(&mut self, watch: &Watch<'_>) -> Result<(), Interrupted> {
-        self.needed_by = self.preconditions.transposed(self.propositions(), watch)?;
+    fn index(&mut self, meter: &Meter<'_>) -> Result<(), Interrupted> {
+        self.needed_by = self.preconditions.transposed(self.propositions(), meter)?;
         let starts = (0..id32(self.propositions())).map(|p| {
             let row = self.needed_by.row(p);
-            watch.try_spend(32).map(|()| id32(row.partition_point(|&node| node < self.first_move)))
+            meter.spend(32).map(|()| id32(row.partition_point(|&node| node < self.first_move)))
         });
         self.moves_at = starts.collect::<Result<_, _>>()?;
-        (self.clique, self.cliques) = cliques(self, watch)?;
+        (self.clique, self.cliques) = cliques(self, meter)?;
         Ok(())
     }
 
@@ -164,7 +165,7 @@ impl Relaxation {
 
     /// The same graph with these effects for each node; nodes without effects go, and moves come last,
     /// by what they need.
-    pub(crate) fn with_effects(&self, effects: &Rows, watch: &Watch<'_>) -> Result<Self, Interrupted> {
+    pub(crate) fn with_effects(&self, effects: &Rows, meter: &Meter<'_>) -> Result<Self, Interrupted> {
         let mut graph = Self {
             facts: self.facts,
             negated: self.negated.clone(),
@@ -175,18 +176,18 @@ impl Relaxation {
         };
         let (mut moves, mut others) = (Vec::new(), Vec::new());
         for node in 0..id32(effects.len()) {
-            watch.try_spend(4)?;
+            meter.spend(4)?;
             let is_move = self.preconditions.row(node).len() == 1;
             if !effects.row(node).is_empty() {
                 (if is_move { &mut moves } else { &mut others }).push(node);
             }
         }
         let needed = |node: u32| self.preconditions.row(node)[0] as usize;
-        let moves = sort_by_count(&moves, self.propositions(), watch, needed)?;
+        let moves = sort_by_count(&moves, self.propositions(), meter, needed)?;
         graph.first_move = id32(others.len());
         for node in others.into_iter().chain(moves) {
             let (needs, achieves) = (self.preconditions.row(node), effects.row(node));
-            watch.try_spend(16 + 2 * (needs.len() + achieves.len()))?;
+            meter.spend(16 + 2 * (needs.len() + achieves.len()))?;
             if needs.is_empty() {
                 graph.free.push(id32(graph.operator.len()));
             }
@@ -204,7 +205,7 @@ impl Relaxation {
             }
             graph.effects.push(achieves.iter().copied());
         }
-        graph.index(watch)?;
+        graph.index(meter)?;
         Ok(graph)
     }
 

@@ -5,7 +5,7 @@
 //! Invariant: rows do not change once they are pushed. Cost: four bytes an item and a row.
 
 use crate::ids::id32;
-use crate::watch::{Interrupted, Spend};
+use budget::{Interrupted, Meter};
 
 /// Rows of `u32` behind each other.
 #[derive(Clone, Debug, Default)]
@@ -78,8 +78,8 @@ impl Rows {
     }
 
     /// For each of `n` items, the rows that hold it, in order.
-    pub(crate) fn transposed(&self, n: usize, watch: &impl Spend) -> Result<Self, Interrupted> {
-        self.transposed_in(0..id32(self.len()), n, watch)
+    pub(crate) fn transposed(&self, n: usize, meter: &Meter<'_>) -> Result<Self, Interrupted> {
+        self.transposed_in(0..id32(self.len()), n, meter)
     }
 
     /// For each of `n` items, the rows that hold it, in the order in which the rows are given.
@@ -87,21 +87,21 @@ impl Rows {
         &self,
         order: impl Iterator<Item = u32>,
         n: usize,
-        watch: &impl Spend,
+        meter: &Meter<'_>,
     ) -> Result<Self, Interrupted> {
         let mut starts = vec![0_u32; n + 1];
-        for part in watch.parts(&self.items, 2) {
+        for part in meter.chunks(&self.items, 2) {
             part?.iter().for_each(|&item| starts[item as usize + 1] += 1);
         }
         for i in 0..n {
             starts[i + 1] += starts[i];
         }
-        watch.try_spend(n)?;
+        meter.spend(n)?;
         let mut fill = starts.clone();
         let mut items = vec![0; self.items.len()];
         for row in order {
             let own = self.row(row);
-            watch.try_spend(4 + 8 * own.len())?;
+            meter.spend(4 + 8 * own.len())?;
             for &item in own {
                 items[fill[item as usize] as usize] = row;
                 fill[item as usize] += 1;
@@ -114,7 +114,7 @@ impl Rows {
 #[cfg(test)]
 mod tests {
     use super::Rows;
-    use crate::watch::Watch;
+    use budget::Meter;
 
     #[test]
     fn rows_are_transposed_in_any_order() {
@@ -123,10 +123,10 @@ mod tests {
         rows.push([]);
         rows.push_sorted([2, 1]);
         assert_eq!((rows.row(0), rows.row(1), rows.row(2)), (&[1, 3][..], &[][..], &[1, 2][..]));
-        let watch = Watch::new(&|| false);
-        let by_item = rows.transposed(4, &watch).unwrap();
+        let meter = Meter::default();
+        let by_item = rows.transposed(4, &meter).unwrap();
         assert_eq!((by_item.row(0), by_item.row(1), by_item.row(3)), (&[][..], &[0, 2][..], &[0][..]));
-        let reversed = rows.transposed_in([2, 1, 0].into_iter(), 4, &watch).unwrap();
+        let reversed = rows.transposed_in([2, 1, 0].into_iter(), 4, &meter).unwrap();
         assert_eq!(reversed.row(1), &[2, 0]);
     }
 }

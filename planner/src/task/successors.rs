@@ -10,7 +10,7 @@
 
 use super::{Operators, contains};
 use crate::ids::{FactId, OperatorId, id32};
-use crate::watch::{Interrupted, Spend, Watch};
+use budget::{Interrupted, Meter};
 use pddl::model::Idx;
 
 #[derive(Clone, Debug)]
@@ -62,7 +62,7 @@ impl Keys {
 /// a million takes long at a stretch.
 struct Sorter<'k> {
     keys: &'k Keys,
-    watch: &'k Watch<'k>,
+    meter: &'k Meter<'k>,
     counts: Vec<u32>,
     sorted: Vec<u32>,
 }
@@ -71,21 +71,21 @@ impl Sorter<'_> {
     /// Sorts operators whose keys agree up to `depth`.
     fn sort(&mut self, items: &mut [u32], depth: usize) -> Result<(), Interrupted> {
         let keys = self.keys;
-        self.watch.try_spend(64 * items.len().min(FEW))?;
+        self.meter.spend(64 * items.len().min(FEW))?;
         if items.len() <= FEW {
             let rest = |i: u32| keys.of(i).get(depth..).unwrap_or(&[]);
             items.sort_unstable_by(|&a, &b| rest(a).cmp(rest(b)).then(a.cmp(&b)));
             return Ok(());
         }
         self.counts.fill(0);
-        self.watch.try_spend(self.counts.len() / 4)?;
-        for part in self.watch.parts(items, 8) {
+        self.meter.spend(self.counts.len() / 4)?;
+        for part in self.meter.chunks(items, 8) {
             part?.iter().for_each(|&i| self.counts[keys.symbol(i, depth) as usize + 1] += 1);
         }
         for i in 1..self.counts.len() {
             self.counts[i] += self.counts[i - 1];
         }
-        for part in self.watch.parts(items, 8) {
+        for part in self.meter.chunks(items, 8) {
             for &i in part? {
                 let place = &mut self.counts[keys.symbol(i, depth) as usize];
                 self.sorted[*place as usize] = i;
@@ -126,17 +126,17 @@ pub(crate) struct SuccessorTree {
 }
 
 impl SuccessorTree {
-    pub(crate) fn new(facts: usize, operators: &Operators, watch: &Watch<'_>) -> Result<Self, Interrupted> {
+    pub(crate) fn new(facts: usize, operators: &Operators, meter: &Meter<'_>) -> Result<Self, Interrupted> {
         let mut frequency = vec![0_u32; facts];
         for op in operators.iter() {
-            watch.try_spend(8 + op.precondition.positive.len())?;
+            meter.spend(8 + op.precondition.positive.len())?;
             for f in op.precondition.positive {
                 frequency[f.index()] += 1;
             }
         }
         let mut keys = Keys::default();
         for op in operators.iter() {
-            watch.try_spend(16 + 8 * op.precondition.len())?;
+            meter.spend(16 + 8 * op.precondition.len())?;
             let start = keys.literals.len();
             keys.literals.extend(op.precondition.positive.iter().map(|f| f.0 << 1));
             keys.literals[start..]
@@ -149,17 +149,17 @@ impl SuccessorTree {
             0..=FEW => (Vec::new(), Vec::new()),
             many => (vec![0; 2 * facts + 2], vec![0; many]),
         };
-        Sorter { keys: &keys, watch, counts, sorted: buffer }.sort(&mut sorted, 0)?;
+        Sorter { keys: &keys, meter, counts, sorted: buffer }.sort(&mut sorted, 0)?;
         let unconditional = sorted.partition_point(|&i| keys.of(i).is_empty());
         let mut tree = Self { unconditional, ..Self::default() };
-        tree.build(&keys, &sorted, watch)?;
+        tree.build(&keys, &sorted, meter)?;
         tree.operators = sorted.into_iter().map(OperatorId).collect();
         Ok(tree)
     }
 
     /// Appends the nodes. The operators of a branch lie together in the sorted order, those of its node
     /// first. (No recursion: a precondition may be as long as there are facts.)
-    fn build(&mut self, keys: &Keys, sorted: &[u32], watch: &Watch<'_>) -> Result<(), Interrupted> {
+    fn build(&mut self, keys: &Keys, sorted: &[u32], meter: &Meter<'_>) -> Result<(), Interrupted> {
         let mut open = vec![Branch { node: None, at: self.unconditional, end: sorted.len() }];
         while let Some(depth) = open.len().checked_sub(1) {
             let Branch { node, at, end } = &mut open[depth];
@@ -170,7 +170,7 @@ impl SuccessorTree {
                 open.pop();
                 continue;
             }
-            watch.try_spend(32)?;
+            meter.spend(32)?;
             let literal = keys.of(sorted[*at])[depth];
             let branch = *at + gallop(&sorted[*at..*end], |i| keys.of(i)[depth] == literal);
             let ends = *at + gallop(&sorted[*at..branch], |i| keys.of(i).len() == depth + 1);

@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 use super::breadth;
 use super::oracle::Oracle;
 use crate::ids::OperatorId;
-use crate::search::Budget;
+use budget::Budget;
 
 /// States that are visited: it is one line of an explanation, and somebody waits for it.
 pub(super) const STATES: u32 = 2_000;

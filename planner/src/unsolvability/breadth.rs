@@ -6,8 +6,9 @@
 use std::ops::ControlFlow;
 
 use crate::ids::{OperatorId, StateId};
-use crate::search::{Budget, Query, StateRegistry};
+use crate::search::{Query, StateRegistry};
 use crate::task::Task;
+use budget::Budget;
 
 /// What a visit has left behind.
 pub(super) struct Visited<'t> {
@@ -36,7 +37,7 @@ pub(super) fn visit<'t>(
     while visited < known {
         let asks = visited % 256 == 0;
         let is_over = visited >= most
-            || budget.expansions.is_some_and(|most| u64::from(visited) >= most)
+            || budget.work.is_some_and(|most| u64::from(visited) >= most)
             || (asks && (budget.interrupted)())
             || (asks && budget.memory_bytes.is_some_and(|most| registry.memory() > most));
         if visited > 0 && is_over {

@@ -29,8 +29,9 @@ pub use space::{Nearest, Space};
 pub use words::Words;
 
 use crate::ids::{FactId, OperatorId};
-use crate::search::{Budget, Query, UnsolvableReason};
+use crate::search::{Query, UnsolvableReason};
 use crate::task::{Impossible, Operator, State, Task};
+use budget::Budget;
 use goal::Walk;
 use needs::{Binding, Needs};
 use oracle::Oracle;

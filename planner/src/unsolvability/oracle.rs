@@ -7,8 +7,9 @@
 use super::Wanted;
 use crate::heuristics::{Combine, Costs, Explorer};
 use crate::ids::{FactId, OperatorId, id32};
-use crate::search::{Bound, Budget, Job, Meter, Query, Shared};
+use crate::search::{Bound, Job, Query, SearchMeter, Shared};
 use crate::task::{AtomStatus, Literals, LiteralsRef, Task};
+use budget::Budget;
 use pddl::model::{ActionId, Domain, EffectKind, Idx, Name, ObjectId, PredicateId, Problem, TypeSet};
 
 pub(super) struct Oracle<'a> {
@@ -38,7 +39,7 @@ impl<'a> Oracle<'a> {
     ) -> Self {
         let excluded = [query.excluded, never].concat();
         let without = Query { excluded: &excluded, ..query };
-        let (barred, meter) = (without.barred(task), Meter::new(Budget::default()));
+        let (barred, meter) = (without.barred(task), SearchMeter::new(Budget::default()));
         let (bound, shared) = (Bound::none(), Shared::default());
         let (state, goal) = (query.state, query.goal);
         let job = Job { task, state, goal, barred: &barred, meter: &meter, bound: &bound, shared: &shared };

@@ -13,8 +13,8 @@ use super::oracle::Oracle;
 use super::ranges::{NeverCompares, Ranges};
 use super::{Pattern, Wanted};
 use crate::ids::id32;
-use crate::search::Budget;
 use analysis::invariants::{Change, changes};
+use budget::Budget;
 use pddl::model::{Action, ActionId, Axiom, Condition, Name, ObjectId};
 use std::cell::OnceCell;
 

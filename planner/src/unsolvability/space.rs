@@ -8,8 +8,9 @@
 use super::breadth::{self, Visited};
 use crate::ids::{FactId, FluentId, OperatorId, StateId, id32};
 use crate::number::Number;
-use crate::search::{Budget, Query};
+use crate::search::Query;
 use crate::task::{Task, contains};
+use budget::Budget;
 use pddl::model::{GroundApplication, Idx};
 use std::ops::ControlFlow;
 

@@ -71,7 +71,7 @@ fn problem(choices: &mut Choices<'_>, domain: &str) -> String {
 /// What the planner finds.
 fn plan(domain: &Domain, problem: &Problem) -> Vec<String> {
     let task = ground(domain, problem, &GroundOptions::default()).unwrap();
-    let budget = Budget { expansions: Some(20_000), ..Budget::default() };
+    let budget = Budget { work: Some(20_000), ..Budget::default() };
     let report = solve(&task, &Query::of(&task), &SearchConfiguration::default(), &budget);
     let Outcome::Solved(plan) = report.outcome else { panic!("every place can be reached") };
     plan.operators.iter().map(|&o| task.operator_name(o)).collect()

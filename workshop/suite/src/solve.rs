@@ -158,7 +158,8 @@ impl Question<'_> {
     pub(crate) fn answer(&self, problem: &Problem, search: SearchConfiguration) -> Answer {
         let domain: &Domain = self.task.domain;
         let memory_bytes = self.limits.memory_bytes;
-        let options = GroundOptions { memory_bytes, interrupted: self.over, ..GroundOptions::default() };
+        let budget = Budget { memory_bytes, interrupted: self.over, ..Budget::default() };
+        let options = GroundOptions { budget, ..GroundOptions::default() };
         let grounded = match ground(domain, problem, &options) {
             Ok(grounded) => grounded,
             Err(error) => {
@@ -172,7 +173,7 @@ impl Question<'_> {
             }
         };
         let memory_bytes = memory_bytes.map(|most| most.saturating_sub(grounded.memory_bytes()));
-        let budget = Budget { expansions: None, memory_bytes, interrupted: self.over };
+        let budget = Budget { memory_bytes, ..budget };
         let plan = match solve(&grounded, &Query::of(&grounded), &search, &budget).outcome {
             Outcome::Solved(plan) => plan,
             Outcome::Unsolvable(_) => return Answer::Unsolvable,

@@ -10,13 +10,13 @@
 use super::graph::LandmarkGraph;
 use crate::heuristics::{Costs, Estimate, Heuristic, View};
 use crate::ids::{OperatorId, StateId, id32};
-use crate::search::{Job, Meter};
+use crate::search::{Job, SearchMeter};
 use crate::task::{Relaxation, Task, contains};
 
 pub(crate) struct LandmarkCount<'a> {
     task: &'a Task,
     graph: &'a Relaxation,
-    meter: &'a Meter<'a>,
+    meter: &'a SearchMeter<'a>,
     landmarks: &'a LandmarkGraph,
     /// What each landmark counts.
     prices: Vec<u32>,

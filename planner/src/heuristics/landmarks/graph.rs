@@ -10,7 +10,7 @@
 
 use super::labels::Labels;
 use crate::ids::{FactId, id32};
-use crate::search::{Job, Meter};
+use crate::search::{Job, SearchMeter};
 use crate::task::{Relaxation, Rows, Task};
 use pddl::model::PredicateId;
 use rustc_hash::FxHashMap;
@@ -44,7 +44,7 @@ struct Builder<'a> {
     task: &'a Task,
     graph: &'a Relaxation,
     labels: &'a Labels,
-    meter: &'a Meter<'a>,
+    meter: &'a SearchMeter<'a>,
     achieved_by: Rows,
     found: LandmarkGraph,
     facts: FxHashMap<u32, u32>,
@@ -68,7 +68,7 @@ impl LandmarkGraph {
         graph: &Relaxation,
         labels: Option<&Labels>,
         goal: &[u32],
-        meter: &Meter<'_>,
+        meter: &SearchMeter<'_>,
     ) -> Self {
         let empty = Self { landmarks: Vec::new(), of: FxHashMap::default() };
         let Some(labels) = labels else {
@@ -85,7 +85,7 @@ impl LandmarkGraph {
             meter,
             achieved_by: graph
                 .effects
-                .transposed(graph.propositions(), meter)
+                .transposed(graph.propositions(), meter.meter())
                 .unwrap_or_else(|_| Rows::empty(graph.propositions())),
             found: empty,
             facts: FxHashMap::default(),

@@ -9,7 +9,7 @@
 //! Source: Zhu & Givan, "Landmark extraction via planning graph propagation", ICAPS 2003 doctoral
 //! consortium; Keyder, Richter & Helmert, "Sound and complete landmarks for and/or graphs", ECAI 2010.
 
-use crate::search::{Barred, Meter};
+use crate::search::{Barred, SearchMeter};
 use crate::task::{AXIOM, Relaxation};
 use std::collections::VecDeque;
 
@@ -29,7 +29,7 @@ impl Labels {
         graph: &Relaxation,
         initial: Vec<bool>,
         barred: &Barred,
-        meter: &Meter<'_>,
+        meter: &SearchMeter<'_>,
     ) -> Option<Self> {
         let mut labels = Self { of: vec![None; graph.propositions()], initial };
         let usable = |node: u32| {

@@ -10,18 +10,15 @@
 //! The estimates were measured: a satellite task of a million instances takes 470 bytes for each, where
 //! [`instance`] says 470.
 
-use super::error::GroundOptions;
-use crate::watch::{Spend, Watch};
+use budget::{Budget, Interrupted, Meter};
 use std::cell::Cell;
 
 /// Bytes beyond which 32-bit positions might not do.
 const MOST: usize = if usize::BITS > 36 { 1 << 36 } else { usize::MAX };
 
-impl GroundOptions<'_> {
-    /// The budget in bytes.
-    pub(super) fn bytes(&self) -> usize {
-        self.memory_bytes.unwrap_or(MOST).min(MOST)
-    }
+/// The budget, with a limit of bytes that keeps the invariant.
+pub(super) fn limited(budget: Budget<'_>) -> Budget<'_> {
+    Budget { memory_bytes: Some(budget.memory_bytes.unwrap_or(MOST).min(MOST)), ..budget }
 }
 
 /// Bytes that a ground atom of so many arguments takes: its numbers, its keys, its fact.
@@ -34,66 +31,43 @@ pub(super) fn instance(parameters: usize, parts: usize) -> usize {
     250 + 8 * parameters + 30 * parts
 }
 
-/// Why an expansion was not finished.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Stop {
-    /// The caller said so.
-    Interrupted,
-    /// It is too large.
-    Memory,
-}
-
-/// Watches over the expansion of one formula after the other.
+/// Limits the expansion of one formula after the other.
 pub(super) struct Guard<'a> {
-    options: &'a GroundOptions<'a>,
-    watch: &'a Watch<'a>,
+    meter: &'a Meter<'a>,
     parts: Cell<usize>,
-    stop: Cell<Option<Stop>>,
 }
 
 impl<'a> Guard<'a> {
-    pub(super) fn new(options: &'a GroundOptions<'a>, watch: &'a Watch<'a>) -> Self {
-        Self { options, watch, parts: Cell::new(0), stop: Cell::new(None) }
+    pub(super) fn new(meter: &'a Meter<'a>) -> Self {
+        Self { meter, parts: Cell::new(0) }
     }
 
     /// The next instance begins.
     pub(super) fn begin(&self) {
         self.parts.set(0);
-        self.spend(256);
+        // Callers ask `interruption` at the end of the expansion.
+        let _ = self.meter.spend(256);
     }
 
-    fn spend(&self, units: usize) {
-        if self.watch.try_spend(units).is_err() {
-            self.stop.set(Some(Stop::Interrupted));
-        }
-    }
-
-    /// A part that is looked at. Answers whether to go on.
+    /// Counts a part that is looked at. Answers whether to go on.
     pub(super) fn look(&self) -> bool {
-        self.spend(16);
-        self.stop.get().is_none()
+        self.meter.spend(16).is_ok()
     }
 
-    /// A part that is kept.
+    /// Counts a part that is kept.
     pub(super) fn keep(&self) {
         let parts = self.parts.get() + 1;
         self.parts.set(parts);
-        self.spend(32);
-        if instance(0, parts) > self.options.bytes() {
-            self.stop.set(Some(Stop::Memory));
-        }
+        let _ = self.meter.spend(32).and_then(|()| self.meter.hold(instance(0, parts)));
     }
 
     /// Whether so many parts may be looked at, each of which may be kept.
     pub(super) fn allows(&self, parts: usize) -> bool {
-        if parts > self.options.bytes() {
-            self.stop.set(Some(Stop::Memory));
-        }
-        self.stop.get().is_none()
+        self.meter.hold(parts).is_ok()
     }
 
-    /// Whether the expansion was cut short.
-    pub(super) fn stopped(&self) -> Option<Stop> {
-        self.stop.get()
+    /// Why the expansion was cut short.
+    pub(super) fn interruption(&self) -> Option<Interrupted> {
+        self.meter.interruption()
     }
 }
