@@ -1,19 +1,21 @@
-//! Work on all cores, answers in order.
+//! Many inputs on all cores, answers in order.
 //!
-//! Invariant: `done` is called once per piece of work, in the order of the work, as soon as that and all before it are
-//! done. Answers that come early wait.
+//! Idea: rayon's threads take one input after the other, in order, and send their answers; the caller's thread puts
+//! them in order again, so that whatever writes results needs no lock.
+//! Invariant: `done` is called once per input, in the order of the inputs, on the caller's thread, as soon as that
+//! input and all before it are done. No thread works on more than one input, which bounds memory. Calls are not nested:
+//! the caller waits, and must not be one of rayon's threads.
 
+use rayon::iter::{ParallelBridge, ParallelIterator};
 use std::collections::BTreeMap;
-use std::num::NonZero;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 
-/// How many pieces of work are done at once.
+/// How many inputs are worked on at once.
 pub(crate) fn width() -> usize {
-    std::thread::available_parallelism().map_or(1, NonZero::get)
+    rayon::current_num_threads()
 }
 
-/// Does all the work.
+/// Answers all inputs.
 pub(crate) fn in_order<W: Sync, A: Send>(
     work: &[W],
     answer: impl Fn(&W) -> A + Sync,
@@ -23,22 +25,16 @@ pub(crate) fn in_order<W: Sync, A: Send>(
         done(piece, answer(piece));
         return;
     }
-    let next = AtomicUsize::new(0);
     let (send, receive) = mpsc::channel();
-    std::thread::scope(|scope| {
-        for _ in 0..width().min(work.len()) {
-            let (send, next, answer) = (send.clone(), &next, &answer);
-            scope.spawn(move || {
-                loop {
-                    let position = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(piece) = work.get(position) else { break };
-                    if send.send((position, answer(piece))).is_err() {
-                        break;
-                    }
-                }
-            });
-        }
-        drop(send);
+    rayon::in_place_scope(|scope| {
+        scope.spawn(|_| {
+            // Indexed iterators would give each thread a far half; a bridge hands out the next input.
+            let inputs = work.iter().enumerate().par_bridge();
+            let sent = inputs
+                .try_for_each_with(send, |send, (position, piece)| send.send((position, answer(piece))));
+            // The receiver is gone only if `done` has panicked, and then the scope passes the panic on.
+            drop(sent);
+        });
         let mut early = BTreeMap::new();
         let mut awaited = 0;
         for (position, found) in receive {
