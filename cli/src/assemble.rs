@@ -9,7 +9,7 @@
 use crate::console::Console;
 use crate::disk::{Disk, show};
 use crate::exit::Exit;
-use crate::render::Message;
+use crate::render;
 use agents::{Agent, skills};
 use diagnostics::{Finding, Place, SourceId};
 use dsr::{Graph, Time};
@@ -50,7 +50,7 @@ impl LoadError {
         match self {
             Self::Wrong(errors) => show(&errors.sources, &errors.findings, console),
             Self::Missing { .. } | Self::NoManifest { .. } => {
-                Message::error(self.to_string()).show(console);
+                render::error(self.to_string(), console);
                 Exit::Unreadable
             }
         }

@@ -3,8 +3,8 @@
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::files;
-use crate::render::{At, Message};
-use diagnostics::{Finding, Place, Sources};
+use crate::render;
+use diagnostics::{Finding, Sources};
 use mission::{FileError, Files};
 use std::fs;
 use std::io::ErrorKind;
@@ -38,19 +38,8 @@ impl Files for Disk {
     }
 }
 
-/// Shows findings at their places. [`Exit::Unreadable`] if there is an error among them.
+/// Shows all findings at their places. [`Exit::Unreadable`] if there is an error among them.
 pub(crate) fn show(sources: &Sources, findings: &[Finding], console: &mut Console<'_>) -> Exit {
-    for finding in findings {
-        let place = |place: Place| At { source: &sources[place.source], span: place.span };
-        let message = Message {
-            severity: finding.severity,
-            code: Some(finding.code),
-            text: finding.message.clone(),
-            at: Some(place(finding.place)),
-            labels: finding.related.iter().map(|(at, text)| (place(*at), text.clone())).collect(),
-            help: finding.help.clone(),
-        };
-        message.show(console);
-    }
+    findings.iter().for_each(|finding| render::show(sources, finding, console));
     if findings.iter().any(Finding::is_error) { Exit::Unreadable } else { Exit::Yes }
 }

@@ -12,7 +12,7 @@
 
 use crate::console::{Console, Form};
 use crate::exit::Exit;
-use crate::render::Message;
+use crate::render::error_with_help;
 use clap::Args;
 use lints::{Level, Lint};
 use pddl::Explanation;
@@ -53,15 +53,14 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
             Exit::Yes
         }
         Err(unknown) => {
-            let mut message = Message::error(format!("no diagnostic has the code `{code}`"));
             let names = lints::all().flat_map(|lint| [lint.code(), lint.name]);
             let suggestion =
                 unknown.suggestion.map(str::to_owned).or_else(|| diagnostics::nearest(code, names));
-            message.help = Some(match suggestion {
+            let help = match suggestion {
                 Some(nearest) => format!("did you mean `{nearest}`?"),
                 None => "`pelea explain` lists all codes".to_owned(),
-            });
-            message.show(console);
+            };
+            error_with_help(format!("no diagnostic has the code `{code}`"), Some(help), console);
             Exit::Unreadable
         }
     }

@@ -10,12 +10,13 @@
 //!
 //! With `--stdout`, and for standard input, it has the field `text` as well.
 
-use crate::check::{entries, is_source};
 use crate::console::{Console, Form};
 use crate::exit::Exit;
 use crate::files::{self, FileError};
-use crate::render::{Message, show_all};
+use crate::nearby::{entries, is_source};
+use crate::render::{error, show_all};
 use clap::Args;
+use diagnostics::Sources;
 use pddl::Source;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -73,8 +74,10 @@ fn file(path: &Path, arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     let text = match pddl::format(&source) {
         Ok(text) => text,
         Err(diagnostics) => {
-            show_all(&source, &diagnostics, console);
-            console.note(&format!("{} is left as it is", source.name()));
+            let (sources, id) = Sources::of(source);
+            let findings: Vec<_> = diagnostics.iter().map(|d| d.finding(id)).collect();
+            show_all(&sources, &findings, console);
+            console.note(&format!("{} is left as it is", sources[id].name()));
             return Exit::Unreadable;
         }
     };
@@ -100,8 +103,8 @@ fn said(source: &Source, written: bool) -> String {
     format!("{}: {done}", source.name())
 }
 
-fn failed(error: &FileError, exit: Exit, console: &mut Console<'_>) -> Exit {
-    Message::error(error.to_string()).show(console);
+fn failed(why: &FileError, exit: Exit, console: &mut Console<'_>) -> Exit {
+    error(why.to_string(), console);
     exit
 }
 

@@ -17,7 +17,7 @@
 //!
 //! Members: `arguments` (the tree of commands), `run`, `plan`, `validate`, `check`, `test`, `fmt`, `dsr`, `lsp`, `explain` (one each),
 //! `task` (a domain with its problem, read from files), `assemble` (a mission, from its folder to what runs it),
-//! `scenario`, `pool` (work on all cores), `files`, `disk` (mission folders), `memory`, `clock`, `render`
+//! `scenario`, `pool` (work on all cores), `files`, `nearby` (what is in folders), `disk` (mission folders), `memory`, `clock`, `render`
 //! (diagnostics as text with excerpts, or as JSON), `console` and `exit`.
 
 mod arguments;
@@ -33,6 +33,7 @@ mod files;
 mod fmt;
 mod lsp;
 mod memory;
+mod nearby;
 mod plan;
 mod pool;
 mod render;

@@ -27,10 +27,11 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::files;
 use crate::memory;
-use crate::render::Message;
+use crate::render::{self, show};
 use crate::task::TaskFiles;
-use crate::validate::{Figure, finding_message};
+use crate::validate::{self, Figure};
 use clap::Args;
+use diagnostics::{Finding, Place};
 use pddl::{PlanStep, Severity, Source, Span};
 use planner::{
     Budget, GroundError, GroundOptions, Limit, Origin, Outcome, Quality, Query, Report, SearchConfiguration,
@@ -101,7 +102,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     let mut answer = Answer::of(configuration.name);
 
     let watch = Stopwatch::start();
-    let files = match TaskFiles::read(&arguments.domain, &arguments.problem, console) {
+    let files = match TaskFiles::read(&arguments.domain, &[], &arguments.problem, console) {
         Ok(files) => files,
         Err(exit) => return exit,
     };
@@ -154,22 +155,18 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         Outcome::Unsolvable(reason) => {
             let why = Unsolvable::of(&files.domain, &files.problem, &task, reason, &budget);
             let sentence = why.words().sentence();
-            Message::error(format!("there is no plan: {sentence}"))
-                .at(&files.problem_source, files.problem.goal_span)
-                .show(console);
+            let place = Place { source: files.problem_file, span: files.problem.goal_span };
+            show(&files.sources, &Finding::answer(place, format!("there is no plan: {sentence}")), console);
             why.words().lines().iter().for_each(|line| console.note(line));
             answer.unsolvable = Some(why.record(&files));
-            answer.end("unsolvable", &sentence, console);
+            answer.end("unsolvable", &sentence);
+            console.record(&answer);
             Exit::No
         }
         Outcome::Unsupported(feature) => {
             let text = format!("this search does not support {feature}");
             let span = files.problem.metric.as_ref().map_or(files.problem.goal_span, |m| m.expression.span);
-            let mut message = Message::error(text.clone()).at(&files.problem_source, span);
-            message.severity = Severity::Unsupported;
-            message.show(console);
-            answer.end("unsupported", &text, console);
-            Exit::Unsupported
+            unsupported(Place { source: files.problem_file, span }, text, &files, &mut answer, console)
         }
         Outcome::LimitReached(limit) => no_answer(limit_words(*limit), &mut answer, console),
     }
@@ -186,7 +183,8 @@ pub(crate) fn limit_words(limit: Limit) -> &'static str {
 }
 
 fn no_answer(limit: &str, answer: &mut Answer, console: &mut Console<'_>) -> Exit {
-    answer.end("limit", limit, console);
+    answer.end("limit", limit);
+    console.record(answer);
     console.note(&format!("no plan found: {limit}"));
     Exit::Limit
 }
@@ -200,20 +198,29 @@ fn not_grounded(
     match error {
         GroundError::Unsupported { origin, span, .. } => {
             let source = match origin {
-                Origin::Domain => &files.domain_source,
-                Origin::Problem => &files.problem_source,
+                Origin::Domain => files.domain_file,
+                Origin::Problem => files.problem_file,
             };
-            let text = error.to_string();
-            let mut message = Message::error(text.clone()).at(source, *span);
-            message.severity = Severity::Unsupported;
-            message.show(console);
-            answer.end("unsupported", &text, console);
-            Exit::Unsupported
+            unsupported(Place { source, span: *span }, error.to_string(), files, answer, console)
         }
         GroundError::Limit { .. } | GroundError::Interrupted { .. } => {
             no_answer(&error.to_string(), answer, console)
         }
     }
+}
+
+fn unsupported(
+    place: Place,
+    text: String,
+    files: &TaskFiles,
+    answer: &mut Answer,
+    console: &mut Console<'_>,
+) -> Exit {
+    answer.end("unsupported", &text);
+    let severity = Severity::Unsupported;
+    show(&files.sources, &Finding { severity, ..Finding::answer(place, text) }, console);
+    console.record(answer);
+    Exit::Unsupported
 }
 
 fn solved(
@@ -235,7 +242,7 @@ fn solved(
     match &arguments.output {
         Some(path) => {
             if let Err(error) = files::write(path, &text) {
-                Message::error(error.to_string()).show(console);
+                render::error(error.to_string(), console);
                 return Exit::Unwritable;
             }
             console.note(&format!(
@@ -282,14 +289,13 @@ fn bug(
     files: &TaskFiles,
     console: &mut Console<'_>,
 ) -> Exit {
-    let source = Source::new("<plan>", text);
+    let mut sources = files.sources.clone();
+    let file = sources.push(Source::new("<plan>", text));
     if let Some(finding) = explain(&files.domain, &files.problem, plan, verdict) {
-        finding_message(&finding, verdict, files, &source).show(console);
+        show(&sources, &validate::answer(&finding, verdict, files, file), console);
     }
-    Message::error(
-        "a bug in pelea: the planner's plan is not valid, so it was not written; please report it",
-    )
-    .show(console);
+    let text = "a bug in pelea: the planner's plan is not valid, so it was not written; please report it";
+    render::error(text, console);
     Exit::Bug
 }
 
@@ -335,10 +341,9 @@ impl Answer {
         }
     }
 
-    fn end(&mut self, outcome: &'static str, message: &str, console: &mut Console<'_>) {
+    fn end(&mut self, outcome: &'static str, message: &str) {
         self.outcome = outcome;
         self.message = Some(message.to_owned());
-        console.record(self);
     }
 
     fn solved(&mut self, valid: &Valid, kind: &'static str, console: &mut Console<'_>) {

@@ -14,17 +14,72 @@
 
 use crate::console::{Console, Form};
 use ariadne::{CharSet, Color, Config, IndexType, Label, Report, ReportKind};
-use pddl::{Diagnostic, Severity, Source, Span};
+use diagnostics::{Finding, Place, SourceId, Sources};
+use pddl::{Severity, Source, Span};
 use serde::Serialize;
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// More than this for one file would only scroll the first ones away.
-pub(crate) const MOST_PER_FILE: usize = 50;
+/// Findings shown of one file; more would only scroll the first ones away.
+const MOST_PER_FILE: usize = 50;
 
 /// `1 error`, `2 errors`.
 pub(crate) fn counted(count: usize, one: &str, more: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { more })
+}
+
+/// Shows an error that has no place in a text: a missing file, an argument.
+pub(crate) fn error(text: impl Into<String>, console: &mut Console<'_>) {
+    error_with_help(text, None, console);
+}
+
+/// Shows an error that has no place in a text, with advice.
+pub(crate) fn error_with_help(text: impl Into<String>, help: Option<String>, console: &mut Console<'_>) {
+    let text = text.into();
+    let advice = help.as_ref().map(|help| format!("  help: {help}\n")).unwrap_or_default();
+    console.block(&format!("{}: {text}\n{advice}", word(Severity::Error)));
+    console.record(&DiagnosticRecord {
+        kind: "diagnostic",
+        severity: Severity::Error,
+        code: None,
+        message: &text,
+        place: None,
+        labels: Vec::new(),
+        help: help.as_deref(),
+    });
+}
+
+/// Shows a finding at its places.
+pub(crate) fn show(sources: &Sources, finding: &Finding, console: &mut Console<'_>) {
+    match console.form() {
+        Form::Text => {
+            let text = text(sources, finding, console.colour());
+            console.block(&text);
+        }
+        Form::Json => console.record(&record(sources, finding)),
+    }
+}
+
+/// Shows findings, of each file the first [`MOST_PER_FILE`] and how many more there are; as JSON all of them. Returns the
+/// worst severity.
+pub(crate) fn show_all(
+    sources: &Sources,
+    findings: &[Finding],
+    console: &mut Console<'_>,
+) -> Option<Severity> {
+    let mut counts: BTreeMap<SourceId, usize> = BTreeMap::new();
+    for finding in findings {
+        let count = counts.entry(finding.place.source).or_default();
+        *count += 1;
+        if *count <= MOST_PER_FILE || console.form() == Form::Json {
+            show(sources, finding, console);
+        }
+    }
+    for (id, count) in counts.into_iter().filter(|(_, count)| *count > MOST_PER_FILE) {
+        console.note(&format!("… and {} more in {}", count - MOST_PER_FILE, sources[id].name()));
+    }
+    findings.iter().map(|finding| finding.severity).max()
 }
 
 /// A span with its source.
@@ -34,152 +89,93 @@ pub(crate) struct At<'a> {
     pub(crate) span: Span,
 }
 
-/// What the edge shows, whoever found it.
-pub(crate) struct Message<'a> {
-    pub(crate) severity: Severity,
-    pub(crate) code: Option<&'static str>,
-    pub(crate) text: String,
-    pub(crate) at: Option<At<'a>>,
-    pub(crate) labels: Vec<(At<'a>, String)>,
-    pub(crate) help: Option<String>,
+fn at(sources: &Sources, place: Place) -> At<'_> {
+    At { source: &sources[place.source], span: place.span }
 }
 
-impl<'a> Message<'a> {
-    /// An error without a place.
-    pub(crate) fn error(text: impl Into<String>) -> Self {
-        Self {
-            severity: Severity::Error,
-            code: None,
-            text: text.into(),
-            at: None,
-            labels: Vec::new(),
-            help: None,
+/// With frames, unless a text is too long for them.
+fn text(sources: &Sources, finding: &Finding, colour: bool) -> String {
+    let primary = at(sources, finding.place);
+    let labels: Vec<(At<'_>, &str)> =
+        finding.related.iter().map(|(place, text)| (at(sources, *place), text.as_str())).collect();
+    if is_long(primary) || labels.iter().any(|(at, _)| is_long(*at)) {
+        return plain(finding, primary, &labels);
+    }
+    let kind = match finding.severity {
+        Severity::Error => ReportKind::Error,
+        Severity::Warning => ReportKind::Warning,
+        Severity::Unsupported => ReportKind::Custom("Unsupported", Color::Yellow),
+    };
+    let config =
+        Config::default().with_color(colour).with_char_set(CharSet::Unicode).with_index_type(IndexType::Byte);
+    let span = (primary.source.name().to_owned(), bytes(primary));
+    let mut report = Report::build(kind, span.clone()).with_config(config).with_message(&finding.message);
+    if let Some(code) = finding.code {
+        report = report.with_code(code);
+    }
+    if let Some(help) = &finding.help {
+        report = report.with_help(help);
+    }
+    if labels.iter().all(|(at, _)| at.source.name() != primary.source.name() || at.span != primary.span) {
+        report = report.with_label(Label::new(span).with_message("here"));
+    }
+    let mut texts = vec![(primary.source.name().to_owned(), harmless(primary.source.text()))];
+    for (order, (at, text)) in (1..).zip(&labels) {
+        let span = (at.source.name().to_owned(), bytes(*at));
+        report = report.with_label(Label::new(span).with_message(text).with_order(order));
+        if texts.iter().all(|(name, _)| name != at.source.name()) {
+            texts.push((at.source.name().to_owned(), harmless(at.source.text())));
         }
     }
-
-    /// The same at a place.
-    pub(crate) fn at(mut self, source: &'a Source, span: Span) -> Self {
-        self.at = Some(At { source, span });
-        self
-    }
-
-    fn of(source: &'a Source, diagnostic: &Diagnostic) -> Self {
-        Self {
-            severity: diagnostic.severity,
-            code: Some(diagnostic.code()),
-            text: diagnostic.message(),
-            at: Some(At { source, span: diagnostic.span }),
-            labels: diagnostic
-                .labels
-                .iter()
-                .map(|(span, text)| (At { source, span: *span }, text.to_string()))
-                .collect(),
-            help: diagnostic.help(),
-        }
-    }
-
-    /// Shows it.
-    pub(crate) fn show(&self, console: &mut Console<'_>) {
-        match console.form() {
-            Form::Text => {
-                let text = self.text(console.colour());
-                console.block(&text);
+    let mut text = Vec::new();
+    match report.finish().write(ariadne::sources(texts), &mut text) {
+        Ok(()) => {
+            let mut text = String::from_utf8_lossy(&text).into_owned();
+            if !colour {
+                // The name of a kind of our own is coloured whatever the configuration says.
+                text = text.replace("\u{1b}[33m", "").replace("\u{1b}[0m", "");
             }
-            Form::Json => console.record(&self.record()),
+            text.lines().map(|line| format!("{}\n", line.trim_end())).collect()
         }
+        Err(_) => format!("{}: {}\n", word(finding.severity), finding.message),
     }
+}
 
-    fn text(&self, colour: bool) -> String {
-        let Some(at) = self.at else {
-            let help = self.help.as_ref().map(|help| format!("  help: {help}\n")).unwrap_or_default();
-            return format!("{}: {}\n{help}", word(self.severity), self.text);
-        };
-        let places = || std::iter::once(at).chain(self.labels.iter().map(|(at, _)| *at));
-        if places().any(is_long) {
-            return self.plain(at);
-        }
-        let kind = match self.severity {
-            Severity::Error => ReportKind::Error,
-            Severity::Warning => ReportKind::Warning,
-            Severity::Unsupported => ReportKind::Custom("Unsupported", Color::Yellow),
-        };
-        let config = Config::default()
-            .with_color(colour)
-            .with_char_set(CharSet::Unicode)
-            .with_index_type(IndexType::Byte);
-        let primary = (at.source.name().to_owned(), bytes(at));
-        let mut report = Report::build(kind, primary.clone()).with_config(config).with_message(&self.text);
-        if let Some(code) = self.code {
-            report = report.with_code(code);
-        }
-        if let Some(help) = &self.help {
-            report = report.with_help(help);
-        }
-        if self
-            .labels
+/// Without frames: a head, the places, and the pieces of their lines around them.
+fn plain(finding: &Finding, primary: At<'_>, labels: &[(At<'_>, &str)]) -> String {
+    let code = finding.code.map(|code| format!("[{code}] ")).unwrap_or_default();
+    let mut text = format!("{code}{}: {}\n", word(finding.severity), finding.message);
+    for (At { source, span }, note) in std::iter::once((primary, "here")).chain(labels.iter().copied()) {
+        let place = source.line_column(span.start);
+        let column = place.column as usize - 1;
+        let skip = column.saturating_sub(WINDOW / 2);
+        let shown: String = source.line(place.line).chars().skip(skip).take(WINDOW).collect();
+        let shown = harmless(&shown).replace('\t', " ");
+        let (before, after) = (" ".repeat(column - skip), if skip > 0 { "… " } else { "" });
+        text += &format!("   {}:{}:{}\n", source.name(), place.line, place.column);
+        text += &format!("   {after}{}\n", shown.trim_end());
+        text += &format!("   {}{before}^ {note}\n", " ".repeat(after.chars().count()));
+    }
+    if let Some(help) = &finding.help {
+        text += &format!("   Help: {help}\n");
+    }
+    text
+}
+
+fn record<'a>(sources: &Sources, finding: &'a Finding) -> DiagnosticRecord<'a> {
+    let place = |place: Place| PlaceRecord::of(at(sources, place));
+    DiagnosticRecord {
+        kind: "diagnostic",
+        severity: finding.severity,
+        code: finding.code,
+        message: &finding.message,
+        place: Some(place(finding.place)),
+        labels: finding
+            .related
             .iter()
-            .all(|(place, _)| place.source.name() != at.source.name() || place.span != at.span)
-        {
-            report = report.with_label(Label::new(primary).with_message("here"));
-        }
-        let mut texts = vec![(at.source.name().to_owned(), harmless(at.source.text()))];
-        for (order, (place, text)) in (1..).zip(&self.labels) {
-            let span = (place.source.name().to_owned(), bytes(*place));
-            report = report.with_label(Label::new(span).with_message(text).with_order(order));
-            if texts.iter().all(|(name, _)| name != place.source.name()) {
-                texts.push((place.source.name().to_owned(), harmless(place.source.text())));
-            }
-        }
-        let mut text = Vec::new();
-        match report.finish().write(ariadne::sources(texts), &mut text) {
-            Ok(()) => {
-                let mut text = String::from_utf8_lossy(&text).into_owned();
-                if !colour {
-                    // The name of a kind of our own is coloured whatever the configuration says.
-                    text = text.replace("\u{1b}[33m", "").replace("\u{1b}[0m", "");
-                }
-                text.lines().map(|line| format!("{}\n", line.trim_end())).collect()
-            }
-            Err(_) => format!("{}: {}\n", word(self.severity), self.text),
-        }
-    }
-
-    /// A head, places, and pieces of their lines.
-    fn plain(&self, at: At<'_>) -> String {
-        let code = self.code.map(|code| format!("[{code}] ")).unwrap_or_default();
-        let mut text = format!("{code}{}: {}\n", word(self.severity), self.text);
-        let labels = self.labels.iter().map(|(at, note)| (*at, note.as_str()));
-        for (At { source, span }, note) in std::iter::once((at, "here")).chain(labels) {
-            let place = source.line_column(span.start);
-            let column = place.column as usize - 1;
-            let skip = column.saturating_sub(WINDOW / 2);
-            let shown: String = source.line(place.line).chars().skip(skip).take(WINDOW).collect();
-            let shown = harmless(&shown).replace('\t', " ");
-            let (before, after) = (" ".repeat(column - skip), if skip > 0 { "… " } else { "" });
-            text += &format!("   {}:{}:{}\n", source.name(), place.line, place.column);
-            text += &format!("   {after}{}\n", shown.trim_end());
-            text += &format!("   {}{before}^ {note}\n", " ".repeat(after.chars().count()));
-        }
-        if let Some(help) = &self.help {
-            text += &format!("   Help: {help}\n");
-        }
-        text
-    }
-
-    fn record(&self) -> DiagnosticRecord<'_> {
-        DiagnosticRecord {
-            kind: "diagnostic",
-            severity: self.severity,
-            code: self.code,
-            message: &self.text,
-            place: self.at.map(PlaceRecord::of),
-            labels: self
-                .labels
-                .iter()
-                .map(|(at, message)| LabelRecord { message, place: PlaceRecord::of(*at) })
-                .collect(),
-            help: self.help.as_deref(),
-        }
+            .map(|(at, message)| LabelRecord { message, place: place(*at) })
+            .collect(),
+        help: finding.help.as_deref(),
     }
 }
 
@@ -228,22 +224,6 @@ fn bytes(at: At<'_>) -> Range<usize> {
     start..end
 }
 
-/// Shows all diagnostics of a source, and answers the worst severity.
-pub(crate) fn show_all(
-    source: &Source,
-    diagnostics: &[Diagnostic],
-    console: &mut Console<'_>,
-) -> Option<Severity> {
-    let shown = if console.form() == Form::Json { diagnostics.len() } else { MOST_PER_FILE };
-    for diagnostic in diagnostics.iter().take(shown) {
-        Message::of(source, diagnostic).show(console);
-    }
-    if diagnostics.len() > shown {
-        console.note(&format!("… and {} more in {}", diagnostics.len() - shown, source.name()));
-    }
-    diagnostics.iter().map(|d| d.severity).max()
-}
-
 /// A place as JSON.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct PlaceRecord {
@@ -286,32 +266,38 @@ struct DiagnosticRecord<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::{At, Message, bytes};
+    use super::{At, bytes, text};
+    use diagnostics::{Finding, Place, Sources};
     use pddl::{Source, Span};
+
+    fn shown(source: Source, span: Span, message: &str) -> String {
+        let (sources, source) = Sources::of(source);
+        text(&sources, &Finding::answer(Place { source, span }, message), false)
+    }
 
     #[test]
     fn of_a_long_line_a_piece_is_shown() {
         let source = Source::new("x", format!("a\n{}(p){}", "(and ".repeat(1000), ")".repeat(1000)));
-        let shown = Message::error("too deep").at(&source, Span::new(5002, 6005)).text(false);
+        let text = shown(source, Span::new(5002, 6005), "too deep");
         expect_test::expect![[r#"
             Error: too deep
                x:2:5001
                … (and (and (and (and (and (and (and (and (and (and (p))))))))))))))))))))))))))))))))))))))))))))))))
                                                                    ^ here
         "#]]
-        .assert_eq(&shown);
+        .assert_eq(&text);
     }
 
     #[test]
     fn spans_of_any_kind_are_shown() {
         for text in ["", "é", "(a\n b)", "\u{1F600}x"] {
-            let source = Source::new("x", text);
             for start in 0..8 {
                 for end in start..9 {
                     let span = Span::new(start, end);
+                    let source = Source::new("x", text);
                     let range = bytes(At { source: &source, span });
                     assert!(text.get(range).is_some());
-                    let shown = Message::error("nothing").at(&source, span).text(false);
+                    let shown = shown(source, span, "nothing");
                     assert!(shown.starts_with("Error: nothing"), "{shown}");
                 }
             }

@@ -8,7 +8,7 @@ use crate::console::Console;
 use crate::disk::{Disk, show};
 use crate::exit::Exit;
 use crate::files;
-use crate::render::Message;
+use crate::render;
 use diagnostics::{Finding, Place};
 use dsr::Snapshot;
 use mission::scenario::{Disruption, GraphCondition, Scenario, Trigger};
@@ -67,7 +67,7 @@ impl ScenarioError {
         match self {
             Self::Wrong(errors) => show(&errors.sources, &errors.findings, console),
             Self::Unknown { help, .. } => {
-                Message { help: help.clone(), ..Message::error(self.to_string()) }.show(console);
+                render::error_with_help(self.to_string(), help.clone(), console);
                 Exit::Unreadable
             }
         }

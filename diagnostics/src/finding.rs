@@ -24,8 +24,8 @@ pub struct Place {
 /// A message to an author. The code is for programs, the rest for people.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Finding {
-    /// Stable code, `E0801`.
-    pub code: &'static str,
+    /// Stable code, `E0801`; `None` for an answer at a place (there is no plan, this plan is invalid).
+    pub code: Option<&'static str>,
     /// Its severity.
     pub severity: Severity,
     /// One sentence without a full stop.
@@ -41,8 +41,13 @@ pub struct Finding {
 impl Finding {
     /// An error.
     pub fn error(code: &'static str, place: Place, message: impl Into<String>) -> Self {
+        Self { code: Some(code), ..Self::answer(place, message) }
+    }
+
+    /// An error that is an answer at a place, and has no code.
+    pub fn answer(place: Place, message: impl Into<String>) -> Self {
         let message = message.into();
-        Self { code, severity: Severity::Error, message, place, related: Vec::new(), help: None }
+        Self { code: None, severity: Severity::Error, message, place, related: Vec::new(), help: None }
     }
 
     /// A warning.

@@ -27,6 +27,13 @@ impl Sources {
         Self::default()
     }
 
+    /// Only this one, with its id.
+    pub fn of(source: Source) -> (Self, SourceId) {
+        let mut sources = Self::new();
+        let id = sources.push(source);
+        (sources, id)
+    }
+
     /// Adds one.
     pub fn push(&mut self, source: Source) -> SourceId {
         let id = SourceId(u32::try_from(self.0.len()).expect("there are fewer than 2^32 files"));
@@ -65,7 +72,8 @@ impl Sources {
     pub fn describe(&self, finding: &Finding) -> String {
         let severity = finding.severity.word();
         let place = self.place(finding.place);
-        let mut text = format!("{place}: {severity}[{}]: {}\n", finding.code, finding.message);
+        let code = finding.code.map(|code| format!("[{code}]")).unwrap_or_default();
+        let mut text = format!("{place}: {severity}{code}: {}\n", finding.message);
         for (place, message) in &finding.related {
             let _ = writeln!(text, "  {}: {message}", self.place(*place));
         }

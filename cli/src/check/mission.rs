@@ -14,11 +14,12 @@
 //!
 //! `checked` is false, and the counts of what is in it are missing, where a file keeps the rest from being read.
 
-use super::{Tally, is_source};
+use super::Tally;
 use crate::assemble::{LoadError, assemble, load};
 use crate::console::Console;
 use crate::disk::show;
 use crate::exit::Exit;
+use crate::nearby::is_source;
 use crate::render::counted;
 use crate::scenario::{self, ScenarioError};
 use diagnostics::{Finding, SourceId};

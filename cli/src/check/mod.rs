@@ -13,24 +13,21 @@
 mod mission;
 mod summary;
 
-use crate::console::{Console, Form};
-use crate::disk::show;
+use crate::console::Console;
 use crate::exit::Exit;
-use crate::render::{MOST_PER_FILE, Message, counted};
+use crate::files;
+use crate::nearby::{MANIFEST, beside, entries, is_source, provider};
+use crate::render::{counted, show, show_all};
 use crate::task::read_source;
 use clap::Args;
-use diagnostics::SourceId;
+use diagnostics::{Finding, Place, SourceId};
 use lints::Level;
 use pddl::{SequentialPlan, Severity, Source};
-use project::{FileKind, Header, Need, Project, Reading};
+use project::{FileKind, Header, Need, Project};
 use serde::Serialize;
 use std::collections::BTreeSet;
-use std::fs;
 use std::path::{Path, PathBuf};
 use validator::{Validator, Verdict, explain};
-
-/// What makes a folder a mission.
-pub(crate) const MANIFEST: &str = "mission.toml";
 
 /// What to check.
 #[derive(Debug, Args)]
@@ -145,20 +142,6 @@ fn sources_below(folder: &Path, found: &mut Vec<PathBuf>, missions: &mut Vec<Pat
     }
 }
 
-/// Whether a file is checked and formatted where its folder is given; plans are where they are named.
-pub(crate) fn is_source(path: &Path) -> bool {
-    FileKind::is_definition(&path.to_string_lossy())
-}
-
-/// What is in a folder, in order; nothing if it cannot be read.
-pub(crate) fn entries(folder: &Path) -> Vec<PathBuf> {
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let mut paths: Vec<PathBuf> =
-        fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).collect();
-    paths.sort();
-    paths
-}
-
 /// Adds the files that define what others need and no file given defines.
 fn find_needs(files: &mut Vec<Candidate>) {
     let mut sought = BTreeSet::new();
@@ -170,7 +153,7 @@ fn find_needs(files: &mut Vec<Candidate>) {
         if kind == FileKind::Plan {
             for path in beside(&path) {
                 if files.iter().all(|file| file.path != path)
-                    && let Ok(source) = crate::files::read(&path)
+                    && let Ok(source) = files::read(&path)
                 {
                     files.push(Candidate::new(path, source, false));
                 }
@@ -180,33 +163,11 @@ fn find_needs(files: &mut Vec<Candidate>) {
             if files.iter().any(|f| f.defines(&name)) || !sought.insert((path.clone(), name.clone())) {
                 continue;
             }
-            if let Some(found) = nearby(&path).into_iter().find_map(|path| {
-                let source = crate::files::read(&path).ok()?;
-                let candidate = Candidate::new(path, source, false);
-                candidate.defines(&name).then_some(candidate)
-            }) {
-                files.push(found);
+            if let Some((path, source)) = provider(&path, &name) {
+                files.push(Candidate::new(path, source, false));
             }
         }
     }
-}
-
-/// The sources in a file's folder.
-fn beside(path: &Path) -> Vec<PathBuf> {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    entries(folder).into_iter().filter(|p| is_source(p)).collect()
-}
-
-/// The sources beside a file, then those of the robots in the folders above it.
-pub(crate) fn nearby(path: &Path) -> Vec<PathBuf> {
-    let absolute = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    let mut paths = beside(path);
-    for above in absolute.ancestors().skip(1) {
-        for robot in entries(&above.join("robots")).iter().filter(|p| p.is_dir()) {
-            paths.extend(entries(robot).into_iter().filter(|p| is_source(p)));
-        }
-    }
-    paths
 }
 
 /// What was found in a file.
@@ -284,31 +245,24 @@ impl<'a> Checked<'a> {
         self.tallies[index] = Tally::of(findings.iter().map(|finding| finding.severity));
         // A file that was not given speaks up if it keeps a given one from being checked.
         if given || self.tallies[index].errors > 0 {
-            let shown = if console.form() == Form::Json { findings.len() } else { MOST_PER_FILE };
-            show(self.project.sources(), &findings[..findings.len().min(shown)], console);
-            if findings.len() > shown {
-                console.note(&format!("… and {} more in {}", findings.len() - shown, self.project.path(id)));
-            }
+            show_all(self.project.sources(), &findings, console);
         }
         self.meaning(id, console);
     }
 
     /// A problem that can be read may still have no meaning: its domain's axioms may go round.
     fn meaning(&mut self, id: SourceId, console: &mut Console<'_>) {
-        let provider = self.project.domain_of(id).filter(|&domain| domain != id);
-        if let Some(provider) = provider
-            && let Some(Reading::Domain(domain)) = self.project.reading(provider).filter(|r| r.is_sound())
-            && let Some(Reading::Problem(problem)) = self.project.reading(id).filter(|r| r.is_sound())
-            && let Err(refusal) = Validator::new(&domain.draft, &problem.draft)
+        if self.project.kind(id) == FileKind::Problem
+            && let Ok(task) = self.project.task(id)
+            && let Err(refusal) = Validator::new(task.domain, task.problem)
             && matches!(*refusal, Verdict::IllFormed(_))
-            && let Some(finding) =
-                explain(&domain.draft, &problem.draft, &SequentialPlan::default(), &refusal)
-            && let Some(index) = self.files.iter().position(|file| file.id == provider)
-            && self.ill_formed.insert(provider)
+            && let Some(why) = explain(task.domain, task.problem, &SequentialPlan::default(), &refusal)
+            && let Some(index) = self.files.iter().position(|file| file.id == task.domain_file)
+            && self.ill_formed.insert(task.domain_file)
         {
             self.tallies[index].errors += 1;
-            let source = self.project.source(provider);
-            Message::error(finding.sentence).at(source, finding.place.span).show(console);
+            let place = Place { source: task.domain_file, span: why.place.span };
+            show(self.project.sources(), &Finding::answer(place, why.sentence), console);
         }
     }
 }

@@ -12,7 +12,7 @@ mod world;
 
 use crate::console::Console;
 use crate::exit::Exit;
-use crate::render::Message;
+use crate::render;
 use clap::Subcommand;
 use dsr::{Damage, Folder, Graph, Journal, Recording, RecordingError, Settings, Snapshot, Time, Version};
 use std::path::Path;
@@ -53,7 +53,7 @@ pub(crate) struct Failed(Exit, String);
 
 impl Failed {
     pub(crate) fn show(self, console: &mut Console<'_>) -> Exit {
-        Message::error(self.1).show(console);
+        render::error(self.1, console);
         self.0
     }
 }
@@ -116,7 +116,7 @@ fn open(path: &Path, console: &mut Console<'_>) -> Result<(Recording, Exit), Fai
             | Damage::OtherDictionary { .. }
             | Damage::OtherHistory { .. } => console.note(&format!("note: {damage}")),
             Damage::Corrupt { .. } | Damage::Format { .. } | Damage::Unreadable { .. } => {
-                Message::error(damage.to_string()).show(console);
+                render::error(damage.to_string(), console);
                 exit = Exit::Unreadable;
             }
         }

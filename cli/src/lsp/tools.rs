@@ -4,8 +4,7 @@ use crate::clock::{Deadline, Seconds};
 use crate::memory;
 use crate::plan::{Unsolvable, limit_words, written};
 use ::lsp::{File, Judged, Limits, Planned, Remark, Task};
-use pddl::model::{Domain, Problem};
-use pddl::{Severity, Source, Span, parse_domain, parse_plan, parse_problem};
+use pddl::{Severity, Source, Span, parse_plan};
 use planner::{
     Budget, GroundError, GroundOptions, Origin, Outcome, Query, SearchConfiguration, ground, solve,
 };
@@ -16,7 +15,9 @@ pub(super) struct Tools;
 
 impl ::lsp::Tools for Tools {
     fn plan(&self, task: &Task, limits: &Limits) -> Planned {
-        let Some((domain, problem)) = models(task) else { return Planned::Unreadable };
+        let Ok(project::Task { domain, problem, .. }) = task.project.task(task.problem) else {
+            return Planned::Unreadable;
+        };
         let configuration = match limits.search.as_deref().map(SearchConfiguration::named) {
             None => SearchConfiguration::portfolio(),
             Some(Some(configuration)) => configuration,
@@ -27,7 +28,7 @@ impl ::lsp::Tools for Tools {
         let memory = memory::budget();
         let budget = Budget { memory_bytes: Some(memory), interrupted: &interrupted, ..Budget::default() };
         let options = GroundOptions { budget, ..GroundOptions::default() };
-        let grounded = match ground(&domain, &problem, &options) {
+        let grounded = match ground(domain, problem, &options) {
             Ok(grounded) => grounded,
             Err(error) => return not_grounded(&error),
         };
@@ -36,21 +37,21 @@ impl ::lsp::Tools for Tools {
         match report.outcome {
             Outcome::Solved(found) => {
                 let (text, plan) = written(&grounded, &found);
-                match validate(&domain, &problem, &plan) {
+                match validate(domain, problem, &plan) {
                     Verdict::Valid(valid) => Planned::Solved {
                         text: format!("{text}; cost = {}\n", valid.cost()),
                         steps: plan.steps.len(),
                         cost: valid.cost().to_string(),
                     },
                     verdict => {
-                        let why = explain(&domain, &problem, &plan, &verdict);
+                        let why = explain(domain, problem, &plan, &verdict);
                         let why = why.map(|finding| finding.sentence).unwrap_or_default();
                         Planned::Limit(format!("a bug in pelea: the planner's plan is not valid: {why}"))
                     }
                 }
             }
             Outcome::Unsolvable(reason) => {
-                let why = Unsolvable::of(&domain, &problem, &grounded, &reason, &budget);
+                let why = Unsolvable::of(domain, problem, &grounded, &reason, &budget);
                 let mut sentence = format!("there is no plan: {}", why.words().sentence());
                 why.words().lines().iter().for_each(|line| sentence += &format!("\n{line}"));
                 Planned::Unsolvable(remark(Severity::Error, sentence, (File::Problem, problem.goal_span)))
@@ -61,15 +62,17 @@ impl ::lsp::Tools for Tools {
     }
 
     fn validate(&self, task: &Task, plan: &Source) -> Judged {
-        let Some((domain, problem)) = models(task) else { return Judged::Unreadable };
-        let Some(plan) = parse_plan(plan, &domain, &problem).model else { return Judged::Unreadable };
-        let verdict = validate(&domain, &problem, &plan);
+        let Ok(project::Task { domain, problem, .. }) = task.project.task(task.problem) else {
+            return Judged::Unreadable;
+        };
+        let Some(plan) = parse_plan(plan, domain, problem).model else { return Judged::Unreadable };
+        let verdict = validate(domain, problem, &plan);
         if let Verdict::Valid(valid) = &verdict {
             return Judged::Valid { steps: valid.steps as usize, cost: valid.cost().to_string() };
         }
         let severity =
             if matches!(verdict, Verdict::Unsupported(_)) { Severity::Unsupported } else { Severity::Error };
-        let found = explain(&domain, &problem, &plan, &verdict);
+        let found = explain(domain, problem, &plan, &verdict);
         let remarks = found.map(|finding| Remark {
             severity,
             sentence: finding.sentence,
@@ -78,20 +81,6 @@ impl ::lsp::Tools for Tools {
         });
         Judged::Not(remarks.into_iter().collect())
     }
-}
-
-/// What the texts mean, if they have no errors.
-fn models(task: &Task) -> Option<(Domain, Problem)> {
-    let mut imports: Vec<Domain> = Vec::new();
-    for import in &task.imports {
-        let known: Vec<&Domain> = imports.iter().collect();
-        let domain = parse_domain(import, &known).model?;
-        imports.push(domain);
-    }
-    let known: Vec<&Domain> = imports.iter().collect();
-    let domain = parse_domain(&task.domain, &known).model?;
-    let problem = parse_problem(&task.problem, &domain).model?;
-    Some((domain, problem))
 }
 
 fn not_grounded(error: &GroundError) -> Planned {

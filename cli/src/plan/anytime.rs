@@ -14,7 +14,7 @@ use crate::clock::Stopwatch;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::files;
-use crate::render::Message;
+use crate::render;
 use crate::task::TaskFiles;
 use crate::validate::Figure;
 use pddl::model::Objective;
@@ -102,7 +102,7 @@ impl Writer<'_> {
         let file = self.output.map(|path| numbered(path, self.count));
         if let Some(file) = &file {
             files::write(file, &format!("{text}; cost = {} ({kind})\n", valid.cost())).map_err(|error| {
-                Message::error(error.to_string()).show(console);
+                render::error(error.to_string(), console);
                 Exit::Unwritable
             })?;
         }

@@ -17,12 +17,13 @@ use super::{bug, limit_words, written};
 use crate::clock::{Deadline, Seconds, Stopwatch};
 use crate::console::Console;
 use crate::exit::Exit;
-use crate::render::{Message, show_all};
+use crate::render::{show, show_all};
 use crate::task::{TaskFiles, read_source};
 use crate::validate::Figure;
 use clap::ValueEnum;
+use diagnostics::{Finding, Place, SourceId, Sources};
 use pddl::model::{ActionId, ObjectId};
-use pddl::{Plan, PlanStep, Severity, Source, parse_plan};
+use pddl::{Plan, PlanStep, Severity, parse_plan};
 use planner::{
     Attempt, Budget, OperatorId, Outcome, Preference, Query, Repair, Repaired, Report, SearchConfiguration,
     Task, Way,
@@ -58,7 +59,8 @@ impl Prefer {
 
 /// The plan that no longer fits.
 pub(super) struct OldPlan {
-    source: Source,
+    sources: Sources,
+    file: SourceId,
     steps: Vec<PlanStep>,
 }
 
@@ -68,19 +70,19 @@ impl OldPlan {
     /// # Errors
     /// The exit code where it cannot be read, or is no sequence of steps.
     pub(super) fn read(path: &Path, files: &TaskFiles, console: &mut Console<'_>) -> Result<Self, Exit> {
-        let source = read_source(path, console)?;
-        let parsed = parse_plan(&source, &files.domain, &files.problem);
-        let worst = show_all(&source, &parsed.diagnostics, console);
+        let (sources, file) = Sources::of(read_source(path, console)?);
+        let parsed = parse_plan(&sources[file], &files.domain, &files.problem);
+        let findings: Vec<_> = parsed.diagnostics.iter().map(|d| d.finding(file)).collect();
+        let worst = show_all(&sources, &findings, console);
         let kind = match parsed.model {
-            Some(Plan::Sequential(plan)) => return Ok(Self { source, steps: plan.steps }),
+            Some(Plan::Sequential(plan)) => return Ok(Self { sources, file, steps: plan.steps }),
             Some(Plan::Temporal(_)) => "a plan with times",
             Some(Plan::Hierarchical(_)) => "a plan with its decomposition",
             None if worst == Some(Severity::Unsupported) => return Err(Exit::Unsupported),
             None => return Err(Exit::Unreadable),
         };
-        let mut message = Message::error(format!("{}: {kind} cannot be repaired", source.name()));
-        message.severity = Severity::Unsupported;
-        message.show(console);
+        let refusal = Finding::answer(Sources::start_of(file), format!("{kind} cannot be repaired"));
+        show(&sources, &Finding { severity: Severity::Unsupported, ..refusal }, console);
         Err(Exit::Unsupported)
     }
 
@@ -99,18 +101,17 @@ impl OldPlan {
                 operators.push(operator);
                 continue;
             }
-            let text = self.source.text();
-            let text = text.get(step.span.start as usize..step.span.end as usize).unwrap_or_default();
+            let text = self.sources[self.file].slice(step.span);
             left_out.push(text.to_owned());
             if left_out.len() > WARNINGS {
                 continue;
             }
-            let mut message = Message::error(format!(
+            let place = Place { source: self.file, span: step.span };
+            let message = format!(
                 "{text} can never be done in this problem, or does nothing for its goal; it is left out"
-            ))
-            .at(&self.source, step.span);
-            message.severity = Severity::Warning;
-            message.show(console);
+            );
+            let severity = Severity::Warning;
+            show(&self.sources, &Finding { severity, ..Finding::answer(place, message) }, console);
         }
         if left_out.len() > WARNINGS {
             console.note(&format!("left out as well: {}", left_out[WARNINGS..].join(" ")));
@@ -231,7 +232,7 @@ pub(super) fn run(
         None => {}
     }
     let old_steps = old.steps.len();
-    let old = old.source.name().to_owned();
+    let old = old.sources[old.file].name().to_owned();
     let record = RepairRecord { old, old_steps, left_out, prefer, way, reused, scratch, scratch_limit };
     Ok((record, repaired.report()))
 }

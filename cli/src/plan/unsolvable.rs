@@ -48,7 +48,7 @@ impl<'a> Unsolvable<'a> {
 
     /// As data.
     pub(super) fn record(&self, files: &TaskFiles) -> UnsolvableRecord {
-        let place = |span| PlaceRecord::of(At { source: &files.problem_source, span });
+        let place = |span| PlaceRecord::of(At { source: files.problem_source(), span });
         let never = |never: &Never| match never {
             Never::Literal(id) => self.literal(*id),
             Never::Number(own) => number(own),

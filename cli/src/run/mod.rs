@@ -16,7 +16,7 @@ use crate::console::{Console, Form};
 use crate::disk::show;
 use crate::exit::Exit;
 use crate::files;
-use crate::render::Message;
+use crate::render;
 use crate::scenario::{self, Staged};
 use clap::{Args, ValueEnum};
 use content::Content;
@@ -107,10 +107,9 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     let language = arguments.lang.clone().unwrap_or_else(|| mission.manifest.language.clone());
     if mission.words(&language).is_none() {
         let text = format!("`{}` has no words in `{language}`", arguments.mission.display());
-        let mut message = Message::error(text);
         let known: Vec<_> = mission.languages().collect();
-        message.help = Some(format!("its languages are: {}", known.join(", ")));
-        message.show(console);
+        let help = format!("its languages are: {}", known.join(", "));
+        render::error_with_help(text, Some(help), console);
         return Exit::Unreadable;
     }
     let runtime = tokio::runtime::Builder::new_current_thread()
@@ -137,7 +136,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     runtime.shutdown_background();
     match journal.map(Journal::close) {
         Some(Err(error)) => {
-            Message::error(error.to_string()).show(console);
+            render::error(error.to_string(), console);
             exit.and(Exit::Unwritable)
         }
         Some(Ok(progress)) if progress.gaps > 0 => {

@@ -1,7 +1,7 @@
 //! Suites on a disk.
 
-use crate::check::{MANIFEST as MISSION, nearby};
 use crate::files::{self, FileError};
+use crate::nearby::{MANIFEST as MISSION, entries, provider};
 use pddl::Source;
 use project::{FileKind, Header};
 use std::collections::BTreeSet;
@@ -22,7 +22,7 @@ pub(super) fn folders(folder: &Path, found: &mut Vec<PathBuf>) {
 }
 
 fn folders_in(folder: &Path) -> Vec<PathBuf> {
-    let mut below = crate::check::entries(folder);
+    let mut below = entries(folder);
     below.retain(|path| {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         path.is_dir() && !path.is_symlink() && !name.starts_with('.') && name != "target"
@@ -46,7 +46,7 @@ pub(super) fn read_with(folder: &Path, expected: &Source) -> Result<Folder, File
 }
 
 fn files_below(root: &Path, folder: &Path, found: &mut Vec<File>) -> Result<(), FileError> {
-    for path in crate::check::entries(folder) {
+    for path in entries(folder) {
         let relative = with_slashes(path.strip_prefix(root).unwrap_or(&path));
         if path.is_file() && FileKind::is_source(&relative) {
             let source = files::read(&path)?;
@@ -74,14 +74,10 @@ fn elsewhere(folder: &Path, files: &[File]) -> Vec<Source> {
         if !defined.insert(name.clone()) {
             continue;
         }
-        let above = folder.parent().map(|above| above.join(EXPECTED));
-        let candidates =
-            nearby(&folder.join(EXPECTED)).into_iter().chain(above.iter().flat_map(|p| nearby(p)));
-        let provider = candidates.filter_map(|path| files::read(&path).ok()).find_map(|source| {
+        let folders = [Some(folder), folder.parent()];
+        let mut near = folders.into_iter().flatten().map(|folder| folder.join(EXPECTED));
+        if let Some((_, source)) = near.find_map(|beside| provider(&beside, &name)) {
             let header = Header::of(source.name(), source.text());
-            header.defines(&name).then_some((source, header))
-        });
-        if let Some((source, header)) = provider {
             needed.extend(header.needs.into_iter().map(|need| need.name));
             found.push(source);
         }

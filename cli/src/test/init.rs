@@ -6,7 +6,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::files;
 use crate::memory;
-use crate::render::Message;
+use crate::render;
 use pddl::Source;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -27,13 +27,13 @@ fn one(folder: &Path, timeout: Seconds, console: &mut Console<'_>) -> Exit {
         None
     };
     if let Some(refusal) = refusal {
-        Message::error(refusal).show(console);
+        render::error(refusal, console);
         return Exit::Unreadable;
     }
     let found = match find::read_with(folder, &Source::new("", "")) {
         Ok(found) => found,
         Err(error) => {
-            Message::error(error.to_string()).show(console);
+            render::error(error.to_string(), console);
             return Exit::Unreadable;
         }
     };
@@ -42,7 +42,7 @@ fn one(folder: &Path, timeout: Seconds, console: &mut Console<'_>) -> Exit {
     let limits = Limits { now: &now, memory_bytes: Some(memory::budget()) };
     let text = draft(found, timeout.duration(), &limits);
     if let Err(error) = files::write(&path, &text) {
-        Message::error(error.to_string()).show(console);
+        render::error(error.to_string(), console);
         return Exit::Unwritable;
     }
     console.result(&format!("{}: written; read it, it says what is so, not what should be", path.display()));

@@ -26,7 +26,7 @@ use crate::disk;
 use crate::exit::Exit;
 use crate::memory;
 use crate::pool;
-use crate::render::Message;
+use crate::render;
 use clap::Args;
 use diagnostics::Finding;
 use std::ops::ControlFlow;
@@ -72,16 +72,16 @@ fn once(paths: &[PathBuf], filter: &[String], console: &mut Console<'_>) -> Exit
         if !path.is_dir() {
             let name = path.display();
             let why = if path.exists() { "it is no folder" } else { "there is no such folder" };
-            Message::error(format!("cannot test `{name}`: {why}")).show(console);
+            render::error(format!("cannot test `{name}`: {why}"), console);
             return Exit::Unreadable;
         }
         find::folders(path, &mut folders);
     }
     folders.dedup();
     if folders.is_empty() {
-        let mut message = Message::error("there is no suite here: no folder has an `expected.toml`");
-        message.help = Some("`pelea test --init FOLDER` writes a first one".to_owned());
-        message.show(console);
+        let help = "`pelea test --init FOLDER` writes a first one".to_owned();
+        let text = "there is no suite here: no folder has an `expected.toml`";
+        render::error_with_help(text, Some(help), console);
         return Exit::Unreadable;
     }
     run_folders(&folders, filter, console)
@@ -95,7 +95,7 @@ fn run_folders(folders: &[PathBuf], filter: &[String], console: &mut Console<'_>
         match find::read(folder) {
             Ok(found) => suites.push(Suite::read(found)),
             Err(error) => {
-                Message::error(error.to_string()).show(console);
+                render::error(error.to_string(), console);
                 exit = Exit::Unreadable;
                 unreadable += 1;
             }

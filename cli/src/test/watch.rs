@@ -7,7 +7,7 @@
 use super::{Arguments, SETTLED, find, run_folders};
 use crate::console::Console;
 use crate::exit::Exit;
-use crate::render::Message;
+use crate::render;
 use notify::{Event, EventKind, RecursiveMode, Watcher};
 use std::collections::BTreeSet;
 use std::fs;
@@ -66,7 +66,7 @@ pub(super) fn watch(
 }
 
 fn failed(error: &notify::Error, console: &mut Console<'_>) -> Exit {
-    Message::error(format!("cannot watch: {error}")).show(console);
+    render::error(format!("cannot watch: {error}"), console);
     Exit::Unreadable
 }
 

@@ -33,7 +33,7 @@ impl AdviceRecord {
     pub(super) fn of(task: &TaskFiles, plan: &Plan, repair: &Repair) -> Self {
         let TaskFiles { domain, problem, .. } = task;
         let part =
-            |span: pddl::Span| task.domain_source.text().get(span.range()).unwrap_or_default().to_owned();
+            |span: pddl::Span| task.domain_source().text().get(span.range()).unwrap_or_default().to_owned();
         let text = match repair {
             Repair::Without { span } => format!("taking `{}` out of the condition", part(*span)),
             _ => show_repair(domain, problem, plan, repair),

@@ -143,8 +143,8 @@ impl Places<'_> {
 
     pub(super) fn place(&self, place: Place) -> PlaceRecord {
         let source = match place.file {
-            File::Domain => &self.task.domain_source,
-            File::Problem => &self.task.problem_source,
+            File::Domain => self.task.domain_source(),
+            File::Problem => self.task.problem_source(),
             File::Plan => self.source,
         };
         PlaceRecord::of(At { source, span: place.span })

@@ -20,6 +20,8 @@ use thiserror::Error;
 #[derive(Debug)]
 pub(super) struct Group {
     pub(super) domain: PathBuf,
+    /// Files among those given that the domain needs.
+    pub(super) imports: Vec<PathBuf>,
     pub(super) problem: PathBuf,
     pub(super) plans: Vec<PathBuf>,
 }
@@ -77,7 +79,12 @@ pub(super) fn gather(arguments: &Arguments) -> Gathered {
         [first, ..] if first.is_dir() => gathered.tasks(paths),
         [domain, problem, plans @ ..] if !plans.is_empty() => {
             let plans = gathered.plans(plans);
-            gathered.groups.push(Group { domain: domain.clone(), problem: problem.clone(), plans });
+            gathered.groups.push(Group {
+                domain: domain.clone(),
+                imports: Vec::new(),
+                problem: problem.clone(),
+                plans,
+            });
         }
         _ => gathered.faults.push(Fault::Nothing),
     }
@@ -153,7 +160,10 @@ impl Gathered {
                 continue;
             };
             let position = *positions.entry((domain, problem)).or_insert_with(|| {
-                let group = Group { domain: path(domain), problem: path(problem), plans: Vec::new() };
+                let mut imports: Vec<PathBuf> = project.with_imports(domain).into_iter().map(path).collect();
+                imports.pop();
+                let (domain, problem) = (path(domain), path(problem));
+                let group = Group { domain, imports, problem, plans: Vec::new() };
                 self.groups.push(group);
                 self.groups.len() - 1
             });
@@ -164,7 +174,7 @@ impl Gathered {
 
 /// All files in a folder and below, in order. Hidden folders and links to folders are passed over.
 fn below(folder: &Path, visit: &mut dyn FnMut(PathBuf)) {
-    for path in crate::check::entries(folder) {
+    for path in crate::nearby::entries(folder) {
         if path.is_file() {
             visit(path);
         } else if path.is_dir() && !path.is_symlink() {

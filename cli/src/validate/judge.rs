@@ -6,8 +6,9 @@ use super::network::DecompositionRecord;
 use super::record::{VerdictRecord, Word, happenings};
 use super::{Outcome, page};
 use crate::console::{Console, Form};
-use crate::render::{At, Message, show_all};
+use crate::render::{show, show_all};
 use crate::task::{TaskFiles, read_source};
+use diagnostics::SourceId;
 use pddl::{Plan, Severity, Source, parse_plan, print_plan};
 use std::path::Path;
 use validator::{
@@ -29,7 +30,7 @@ impl Judge<'_> {
     /// Judges the plan in a file.
     pub(super) fn plan(&self, path: &Path, console: &mut Console<'_>) -> Outcome {
         match read_source(path, console) {
-            Ok(source) => self.source(&source, console),
+            Ok(source) => self.source(source, console),
             Err(_) => {
                 let record = VerdictRecord::of(&path.display().to_string(), Word::Unreadable);
                 record.say(console);
@@ -42,10 +43,14 @@ impl Judge<'_> {
         }
     }
 
-    fn source(&self, source: &Source, console: &mut Console<'_>) -> Outcome {
+    fn source(&self, source: Source, console: &mut Console<'_>) -> Outcome {
         let task = self.task;
+        let mut sources = task.sources.clone();
+        let file = sources.push(source);
+        let source = &sources[file];
         let parsed = parse_plan(source, &task.domain, &task.problem);
-        let worst = show_all(source, &parsed.diagnostics, console);
+        let findings: Vec<_> = parsed.diagnostics.iter().map(|d| d.finding(file)).collect();
+        let worst = show_all(&sources, &findings, console);
         let Some(plan) = parsed.model else {
             let unsupported = worst == Some(Severity::Unsupported);
             let word = if unsupported { Word::Unsupported } else { Word::Unreadable };
@@ -90,9 +95,7 @@ impl Judge<'_> {
         let finding = explain(&task.domain, &task.problem, &plan, &verdict);
         if let Some(finding) = &finding {
             if !reported_by_the_parser(&verdict) {
-                let mut message = finding_message(finding, &verdict, task, source);
-                message.help = help;
-                message.show(console);
+                show(&sources, &answer(finding, &verdict, task, file).help_if(help), console);
             }
             record.message = Some(finding.sentence.clone());
         }
@@ -160,26 +163,25 @@ fn reported_by_the_parser(verdict: &Verdict) -> bool {
     )
 }
 
-/// A finding with its excerpts.
-pub(crate) fn finding_message<'a>(
+/// A finding about a verdict, at its places.
+pub(crate) fn answer(
     finding: &Finding,
     verdict: &Verdict,
-    task: &'a TaskFiles,
-    plan: &'a Source,
-) -> Message<'a> {
-    let at = |place: Place| At {
+    task: &TaskFiles,
+    plan: SourceId,
+) -> diagnostics::Finding {
+    let at = |place: Place| diagnostics::Place {
         source: match place.file {
-            File::Domain => &task.domain_source,
-            File::Problem => &task.problem_source,
+            File::Domain => task.domain_file,
+            File::Problem => task.problem_file,
             File::Plan => plan,
         },
         span: place.span,
     };
-    let mut message = Message::error(finding.sentence.clone());
+    let mut answer = diagnostics::Finding::answer(at(finding.place), finding.sentence.clone());
     if matches!(verdict, Verdict::Unsupported(_)) {
-        message.severity = Severity::Unsupported;
+        answer.severity = Severity::Unsupported;
     }
-    message.at = Some(at(finding.place));
-    message.labels = finding.notes.iter().map(|(place, text)| (at(*place), text.clone())).collect();
-    message
+    answer.related = finding.notes.iter().map(|(place, text)| (at(*place), text.clone())).collect();
+    answer
 }

@@ -17,14 +17,14 @@ mod page;
 mod record;
 mod tree;
 
-pub(crate) use judge::finding_message;
+pub(crate) use judge::answer;
 pub(crate) use record::Figure;
 
 use crate::console::{Console, Said};
 use crate::exit::Exit;
 use crate::files;
 use crate::pool;
-use crate::render::Message;
+use crate::render;
 use crate::task::TaskFiles;
 use clap::Args;
 use gather::{Fault, Group, gather};
@@ -77,7 +77,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     let mut fixed = None;
     let plans: usize = gathered.groups.iter().map(|group| group.plans.len()).sum();
     if arguments.fix.is_some() && plans > 1 {
-        Message::error("`--fix` takes one plan").show(console);
+        render::error("`--fix` takes one plan", console);
         return Exit::Unreadable;
     }
     for fault in &gathered.faults {
@@ -117,13 +117,13 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     if let Some(path) = &arguments.html
         && let Err(error) = files::write(path, &page::page(&sections))
     {
-        Message::error(error.to_string()).show(console);
+        render::error(error.to_string(), console);
         exit = exit.and(Exit::Unwritable);
     }
     if let (Some(path), Some(plan)) = (&arguments.fix, &fixed)
         && let Err(error) = files::write(path, plan)
     {
-        Message::error(error.to_string()).show(console);
+        render::error(error.to_string(), console);
         exit = exit.and(Exit::Unwritable);
     }
     exit.and(tally.exit())
@@ -131,7 +131,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
 
 /// Says what cannot be judged.
 fn refuse(fault: &Fault, tally: &mut Tally, console: &mut Console<'_>) -> Exit {
-    Message::error(fault.to_string()).show(console);
+    render::error(fault.to_string(), console);
     if let Some(plan) = fault.plan() {
         unreadable(plan, fault.to_string(), console);
         tally.count(Word::Unreadable);
@@ -170,7 +170,7 @@ fn one_task(
     console: &mut Console<'_>,
     mut done: impl FnMut(Outcome),
 ) {
-    let Ok(task) = TaskFiles::read(&group.domain, &group.problem, console) else {
+    let Ok(task) = TaskFiles::read(&group.domain, &group.imports, &group.problem, console) else {
         for plan in &group.plans {
             unreadable(plan, "its domain or problem cannot be read".to_owned(), console);
             done(Outcome { word: Word::Unreadable, section: None, fixed: None });

@@ -200,8 +200,8 @@ fn changes(places: &Places<'_>, diff: &Diff, causes: &[Cause]) -> Changes {
 
 fn row(places: &Places<'_>, watched: &Watched) -> Row {
     let source = match watched.file {
-        File::Domain => &places.task.domain_source,
-        File::Problem | File::Plan => &places.task.problem_source,
+        File::Domain => places.task.domain_source(),
+        File::Problem | File::Plan => places.task.problem_source(),
     };
     // A constraint may stand on several lines.
     let text = |span: Span| source.slice(span).split_whitespace().collect::<Vec<_>>().join(" ");

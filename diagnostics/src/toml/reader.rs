@@ -34,7 +34,7 @@ impl<'a> Reader<'a> {
         let model = read(&mut reader, Table::new("", Span::default(), root.get_ref()));
         if broken {
             // Missing entries follow from the syntax errors, so only those are reported.
-            reader.findings.retain(|f| f.code == "E0701");
+            reader.findings.retain(|f| f.code == Some("E0701"));
         }
         (model, reader.findings)
     }

@@ -26,7 +26,7 @@ pub(super) fn read(
         let Some(id) = loader.source(&join(folder, &name), here) else { continue };
         let source = loader.sources.shared(id);
         let (file, findings) = Reader::read(id, &source, |r, root| file::read(r, root, stem(&name)));
-        let broken = findings.iter().any(|f| f.code == "E0701");
+        let broken = findings.iter().any(|f| f.code == Some("E0701"));
         loader.findings.extend(findings);
         if broken {
             // A file that is not TOML lacks everything below the mistake; that is not worth saying.
@@ -39,7 +39,7 @@ pub(super) fn read(
     }
     names::compare(&files, &said, &lacking, &mut loader.findings);
     let default = &manifest.language;
-    let all_read = !loader.findings.iter().any(|f| f.code == "E0701");
+    let all_read = !loader.findings.iter().any(|f| f.code == Some("E0701"));
     if all_read && !words.iter().any(|w| w.tag() == default) {
         let place = Place { source: from, span: manifest.language_span };
         let message = format!("there is no `{folder}/{default}.toml` for the default language");

@@ -28,7 +28,7 @@ impl Diagnostic {
         let place = |span: Span| Place { source, span };
         let related = self.labels.iter().map(|(span, label)| (place(*span), label.to_string())).collect();
         Finding {
-            code: self.code(),
+            code: Some(self.code()),
             severity: self.severity,
             message: self.message(),
             place: place(self.span),

@@ -44,9 +44,9 @@ pub fn hover(project: &Project, at: Position) -> Option<Hover> {
         if !around || project.source(at.source).slice(place).contains('\n') {
             continue;
         }
-        let explanation = pddl::explain(finding.code)
-            .ok()
-            .or_else(|| lints::find(finding.code).map(|lint| &*lint.explanation));
+        let explanation = finding.code.and_then(|code| {
+            pddl::explain(code).ok().or_else(|| lints::find(code).map(|lint| &*lint.explanation))
+        });
         if let Some(explanation) = explanation {
             span.get_or_insert(place);
             parts.push(format!("**{}** {}: {}", explanation.code, explanation.title, explanation.meaning));

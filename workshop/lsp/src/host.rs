@@ -5,7 +5,9 @@
 //! Invariant: their functions are called on threads of jobs, never on the loop's, with the one exception of
 //! [`Disk::read`] for a file that the client says has changed.
 
+use ::diagnostics::SourceId;
 use pddl::{Severity, Source, Span};
+use project::Project;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -52,15 +54,13 @@ pub enum ReadError {
     Unreadable(String),
 }
 
-/// A problem with all that it needs.
+/// A problem of a project as it was when the request came.
 #[derive(Clone, Debug)]
 pub struct Task {
-    /// The domains that the domain imports.
-    pub imports: Vec<Arc<Source>>,
-    /// The domain.
-    pub domain: Arc<Source>,
-    /// The problem.
-    pub problem: Arc<Source>,
+    /// The files; a snapshot, which shares with the server what was read already.
+    pub project: Project,
+    /// The problem's file.
+    pub problem: SourceId,
 }
 
 /// One of the texts of a task, or the plan for it.

@@ -50,7 +50,7 @@ impl Header {
                     header.name =
                         words.next_if(is_name).map_or_else(String::new, |(_, n)| n.to_ascii_lowercase());
                 }
-                ":domain" | ":import" => {
+                ":domain" | ":import" | ":extends" => {
                     words.next();
                     while let Some((at, needed)) = words.next_if(is_name) {
                         header.needs.push(Need { name: needed.to_ascii_lowercase(), span: span(at, needed) });
@@ -124,8 +124,9 @@ mod tests {
 
     #[test]
     fn names_are_found() {
-        let text = "; (define (problem no))\n(define (Domain D)\n (:import a B)\n (:action x))";
-        check(text, FileKind::Domain, "d", &["a", "b"]);
+        let text =
+            "; (define (problem no))\n(define (Domain D)\n (:import a B)\n (:extends c)\n (:action x))";
+        check(text, FileKind::Domain, "d", &["a", "b", "c"]);
         check("(define(problem p)(:domain D;é\n)(:init (domain q)))", FileKind::Problem, "p", &["d"]);
     }
 

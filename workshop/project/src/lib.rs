@@ -25,7 +25,8 @@
 //! Map, from the ground up: `header` (the names
 //! in a file's head), `pairs` (which
 //! domain a problem means, which problem a plan), `links` (which file needs which), `file` (a file as it was read), `lint` (a domain with all
-//! its problems, looked at by lints), `judge` (what there is to say about a file), `project`.
+//! its problems, looked at by lints), `judge` (what there is to say about a file), `project`,
+//! `task` (a problem with its domain and its imports).
 
 mod file;
 mod header;
@@ -34,9 +35,11 @@ mod links;
 mod lint;
 mod pairs;
 mod project;
+mod task;
 
 pub use file::{FileKind, Reading};
 pub use header::{Header, Need};
 pub use lint::{Fix, Linted};
 pub use pairs::{Candidate, domain_for, problem_for};
 pub use project::Project;
+pub use task::{NoTask, Task, read_domain};

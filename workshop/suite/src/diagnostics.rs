@@ -29,7 +29,7 @@ impl Suite {
         let (exact, loose): (Vec<_>, Vec<_>) = expected.iter().partition(|e| e.value.line.is_some());
         for Written { value, span } in exact.into_iter().chain(loose) {
             let fits = |finding: &Finding| {
-                finding.code == value.code && value.line.is_none_or(|wanted| line(finding) == wanted)
+                finding.code == Some(&*value.code) && value.line.is_none_or(|wanted| line(finding) == wanted)
             };
             match left.iter().position(fits) {
                 Some(position) => drop(left.remove(position)),
@@ -37,7 +37,7 @@ impl Suite {
                     let name = self.source(file).name();
                     let at = value.line.map(|line| format!(" at line {line}")).unwrap_or_default();
                     let message = format!("{} is expected{at} of {name}, and is not there", value.code);
-                    let elsewhere = left.iter().find(|finding| finding.code == value.code);
+                    let elsewhere = left.iter().find(|finding| finding.code == Some(&*value.code));
                     let mut finding = Finding::error("T0301", self.written(*span), message);
                     if let Some(found) = elsewhere {
                         finding = finding.related(found.place, format!("{} is here", value.code));

@@ -40,7 +40,8 @@ pub fn draft(folder: Folder, timeout: Duration, limits: &Limits<'_>) -> String {
         let found = suite.project.findings(*id);
         if !found.is_empty() {
             let line = |f: &diagnostics::Finding| suite.source(*id).line_column(f.place.span.start).line;
-            let codes: Vec<_> = found.iter().map(|f| format!("\"{} at {}\"", f.code, line(f))).collect();
+            let codes: Vec<_> =
+                found.iter().filter_map(|f| Some(format!("\"{} at {}\"", f.code?, line(f)))).collect();
             let _ = writeln!(diagnostics, "{} = [{}]", key(path), codes.join(", "));
         }
     }

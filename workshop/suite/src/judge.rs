@@ -1,9 +1,9 @@
 //! A case, held against what is so.
 
 use crate::suite::{Case, CaseId, Suite, What};
-use diagnostics::{Finding, Place, Sources};
+use diagnostics::{Finding, Place, SourceId, Sources};
 use pddl::Span;
-use pddl::model::{Domain, Problem};
+use project::{NoTask, Task};
 use std::time::Duration;
 
 /// What a case may use up.
@@ -28,20 +28,6 @@ impl std::fmt::Debug for Limits<'_> {
     }
 }
 
-/// A domain with a problem, both without errors.
-pub(crate) struct Task<'a> {
-    pub(crate) domain: &'a Domain,
-    pub(crate) problem: &'a Problem,
-    pub(crate) files: TaskFiles,
-}
-
-/// The files of a task.
-#[derive(Clone, Copy)]
-pub(crate) struct TaskFiles {
-    pub(crate) domain: diagnostics::SourceId,
-    pub(crate) problem: diagnostics::SourceId,
-}
-
 impl Suite {
     /// Runs a case. What differs from what is expected is answered; nothing is a case that passed.
     pub fn run(&self, id: CaseId, limits: &Limits<'_>) -> Vec<Finding> {
@@ -64,25 +50,19 @@ impl Suite {
     ///
     /// # Errors
     /// What keeps it from being one.
-    pub(crate) fn task(&self, problem: diagnostics::SourceId) -> Result<Task<'_>, Box<Finding>> {
-        let without = |place: Place, message: String| Err(Box::new(Finding::error("T0311", place, message)));
-        let project = &self.project;
-        let Some(domain_file) = project.domain_of(problem) else {
-            return without(Sources::start_of(problem), "this problem has no domain".to_owned());
-        };
-        for file in [domain_file, problem] {
-            if !project.reading(file).is_some_and(project::Reading::is_sound) {
-                let first = project.language_findings(file).iter().find(|finding| finding.is_error());
-                let why = first.map_or_else(String::new, |finding| format!(": {}", finding.message));
-                let place = first.map_or(Sources::start_of(file), |finding| finding.place);
-                return without(place, format!("this file has errors{why}"));
-            }
-        }
-        let (Some(domain), Some(model)) = (project.domain(domain_file), project.problem(problem)) else {
-            return without(Sources::start_of(problem), "this is no problem of a domain".to_owned());
-        };
-        let files = TaskFiles { domain: domain_file, problem };
-        Ok(Task { domain, problem: model, files })
+    pub(crate) fn task(&self, problem: SourceId) -> Result<Task<'_>, Box<Finding>> {
+        self.project.task(problem).map_err(|lack| {
+            let start = Sources::start_of(problem);
+            let (place, message) = match lack {
+                NoTask::NoDomain => (start, "this problem has no domain".to_owned()),
+                NoTask::NoProblem => (start, "this is no problem of a domain".to_owned()),
+                NoTask::Errors(file, None) => (Sources::start_of(file), "this file has errors".to_owned()),
+                NoTask::Errors(_, Some(first)) => {
+                    (first.place, format!("this file has errors: {}", first.message))
+                }
+            };
+            Box::new(Finding::error("T0311", place, message))
+        })
     }
 
     /// A place in `expected.toml`.

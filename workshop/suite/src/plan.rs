@@ -2,10 +2,10 @@
 
 use crate::Fault;
 use crate::expected::{Verdict as Wanted, Why};
-use crate::judge::{Task, TaskFiles};
 use crate::suite::{PlanCase, Suite};
 use diagnostics::{Finding, Place, SourceId};
 use pddl::{Severity, Source, Span, parse_plan};
+use project::Task;
 use validator::{
     Cause, Failure, File, NetworkFault, Number, Parent, StepFault, StepIndex, Unsatisfied, Verdict, explain,
     validate,
@@ -76,7 +76,7 @@ impl Suite {
         let says = explain(task.domain, task.problem, &plan, &verdict).map_or_else(
             || Says { sentence: String::new(), place: place(file, Span::default()), notes: vec![] },
             |finding| {
-                let at = |at: validator::Place| place(of(at.file, task.files, file), at.span);
+                let at = |at: validator::Place| place(of(at.file, task, file), at.span);
                 let notes = finding.notes.into_iter().map(|(place, text)| (at(place), text)).collect();
                 Says { sentence: finding.sentence, place: at(finding.place), notes }
             },
@@ -95,10 +95,10 @@ impl Suite {
             Failure::Precondition { parts, .. }
             | Failure::Invariant { parts, .. }
             | Failure::Network { fault: NetworkFault::Precondition { parts, .. } } => {
-                Literals { suite: self, task, file: task.files.domain }.of(parts, &mut missing);
+                Literals { suite: self, task, file: task.domain_file }.of(parts, &mut missing);
             }
             Failure::Goal { parts } => {
-                Literals { suite: self, task, file: task.files.problem }.of(parts, &mut missing);
+                Literals { suite: self, task, file: task.problem_file }.of(parts, &mut missing);
             }
             Failure::Step { .. }
             | Failure::Duration { .. }
@@ -195,10 +195,10 @@ fn place(source: SourceId, span: Span) -> Place {
     Place { source, span }
 }
 
-fn of(file: File, task: TaskFiles, plan: SourceId) -> SourceId {
+fn of(file: File, task: &Task<'_>, plan: SourceId) -> SourceId {
     match file {
-        File::Domain => task.domain,
-        File::Problem => task.problem,
+        File::Domain => task.domain_file,
+        File::Problem => task.problem_file,
         File::Plan => plan,
     }
 }

@@ -7,7 +7,7 @@
 //! answer.
 
 use crate::expected::{Bounds, Solvable, Written};
-use crate::judge::{Limits, Task};
+use crate::judge::Limits;
 use crate::suite::Suite;
 use diagnostics::{Finding, Place, Sources};
 use pddl::model::{Domain, Problem};
@@ -15,6 +15,7 @@ use pddl::{Source, Span, parse_plan};
 use planner::{
     Budget, GroundError, GroundOptions, Limit, Origin, Outcome, Query, SearchConfiguration, ground, solve,
 };
+use project::Task;
 use std::time::Duration;
 use validator::{Number, Valid, Verdict, validate};
 
@@ -107,7 +108,7 @@ impl Suite {
     }
 
     fn failed(&self, task: &Task<'_>, message: String, at: Span) -> Finding {
-        let place = Place { source: task.files.problem, span: task.problem.goal_span };
+        let place = Place { source: task.problem_file, span: task.problem.goal_span };
         Finding::error("T0303", place, message).related(self.written(at), "expected here")
     }
 
@@ -125,21 +126,21 @@ impl Suite {
         match answer {
             Answer::Unsupported { what, origin, span } => {
                 let source = match origin {
-                    Origin::Domain => task.files.domain,
-                    Origin::Problem => task.files.problem,
+                    Origin::Domain => task.domain_file,
+                    Origin::Problem => task.problem_file,
                 };
                 Finding::error("T0305", Place { source, span }, what)
                     .related(self.written(at), "this needs the planner")
             }
             Answer::NotValid(plan) => {
-                let place = Sources::start_of(task.files.problem);
+                let place = Sources::start_of(task.problem_file);
                 let message = format!("a bug in pelea: the planner's plan is not valid: {}", one_line(&plan));
                 Finding::error("T0306", place, message)
             }
             Answer::Unknown(why) => {
                 let message = format!("no answer: {why}");
                 let mut finding = self.failed(task, message, at);
-                finding.code = "T0304";
+                finding.code = Some("T0304");
                 finding.help(format!("`timeout` allows for {} s", timeout.as_secs_f64()))
             }
             Answer::Plan(..) | Answer::Unsolvable => self.failed(task, "no answer".to_owned(), at),

@@ -14,12 +14,12 @@
 //!
 //! The last summary has `null` for its folder and counts everything.
 
-use crate::check::entries;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::files;
+use crate::nearby::entries;
 use crate::pool;
-use crate::render::Message;
+use crate::render;
 use pddl::model::{Domain, Problem};
 use pddl::{Diagnostic, Severity, Source, parse_domain, parse_plan, parse_problem};
 use project::{Candidate, FileKind, Header, domain_for, problem_for};
@@ -76,7 +76,7 @@ pub(super) fn run(paths: &[PathBuf], console: &mut Console<'_>) -> Exit {
         } else if path.is_file() {
             found.push((path.clone(), folder_of(path.parent().unwrap_or(path), path)));
         } else {
-            Message::error(format!("cannot read `{}`: there is no such file", path.display())).show(console);
+            render::error(format!("cannot read `{}`: there is no such file", path.display()), console);
             exit = exit.and(Exit::Unreadable);
         }
     }

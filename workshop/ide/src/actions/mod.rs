@@ -73,14 +73,14 @@ fn of_lint(project: &Project, source: SourceId, linted: &Linted, actions: &mut V
         }),
     };
     if let Some((title, edits)) = mended {
-        let fixes = Some((code, span));
+        let fixes = code.map(|code| (code, span));
         actions.push(CodeAction { title, kind: ActionKind::Fix, fixes, preferred: true, edits });
     }
     let comment = format!("; allow({})", linted.lint);
     actions.push(CodeAction {
         title: format!("Allow it here: `{comment}`"),
         kind: ActionKind::Refactor,
-        fixes: Some((code, span)),
+        fixes: code.map(|code| (code, span)),
         preferred: false,
         edits: of_one(source, before_line(project.source(source), span.start, &comment)),
     });

@@ -34,7 +34,7 @@ pub(crate) fn of_finding(documents: &Documents, client: &Client, finding: &Findi
         message.push_str(help);
     }
     let mut diagnostic = diagnostic(documents, client, finding.severity, finding.place, message, related);
-    diagnostic.code = Some(Code::String(finding.code.to_owned()));
+    diagnostic.code = finding.code.map(|code| Code::String(code.to_owned()));
     diagnostic
 }
 

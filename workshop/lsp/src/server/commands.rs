@@ -22,7 +22,6 @@ use lsp_types::{
     ApplyWorkspaceEditParams, ApplyWorkspaceEditRequest, CodeLensRefreshRequest, ExecuteCommandParams,
     MessageType, ProgressToken, Uri,
 };
-use pddl::Source;
 use project::FileKind;
 use serde_json::{Value, json};
 use std::sync::Arc;
@@ -75,7 +74,7 @@ impl Server {
             search: self.options.plan_search.clone(),
             cancelled: cancel.clone(),
         };
-        let title = format!("planning for {}", task.problem.name());
+        let title = format!("planning for {}", task.project.path(task.problem));
         let token = self.begin_progress(&title, token);
         let running = Running { purpose: Purpose::Plan(about), cancel, answers: Some(id), token };
         let tools = Arc::clone(&self.host.tools);
@@ -109,22 +108,8 @@ impl Server {
     fn task(&self, problem: SourceId, plan: Option<SourceId>) -> Result<(Task, About), String> {
         let project = self.documents.project();
         let domain = project.domain_of(problem).ok_or("no file defines the problem's domain")?;
-        // Imports before those that import them; links have no cycle.
-        let mut imports: Vec<SourceId> = Vec::new();
-        let mut above: Vec<SourceId> = project.needs(domain).iter().flatten().copied().collect();
-        while let Some(import) = above.pop() {
-            imports.retain(|other| *other != import);
-            imports.push(import);
-            above.extend(project.needs(import).iter().flatten());
-        }
-        imports.reverse();
-        let shared = |id: SourceId| -> Arc<Source> { project.sources().shared(id) };
-        let task = Task {
-            imports: imports.iter().copied().map(shared).collect(),
-            domain: shared(domain),
-            problem: shared(problem),
-        };
-        let all = imports.iter().copied().chain([domain, problem]).chain(plan);
+        let task = Task { project: project.clone(), problem };
+        let all = project.with_imports(domain).into_iter().chain([problem]).chain(plan);
         let stamps = all.map(|id| (id, self.documents.stamp(id))).collect();
         Ok((task, About { domain, problem, plan, stamps }))
     }

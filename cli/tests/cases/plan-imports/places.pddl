@@ -1,0 +1,1 @@
+(define (domain places) (:requirements :typing) (:types place) (:predicates (at ?x - place)))

@@ -1,0 +1,5 @@
+(define (domain tour) (:import places) (:requirements :strips :typing)
+  (:predicates (road ?x ?y - place))
+  (:action go :parameters (?x ?y - place)
+    :precondition (and (at ?x) (road ?x ?y))
+    :effect (and (at ?y) (not (at ?x)))))
