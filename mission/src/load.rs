@@ -55,20 +55,23 @@ impl Loader<'_> {
     }
 }
 
-/// Reads the mission in `folder`, or of the `mission.toml` at that path.
-pub(crate) fn load(files: &dyn Files, path: &str) -> Result<Mission, MissionErrors> {
-    let mut loader = Loader { files, sources: Sources::new(), findings: Vec::new() };
-    let mission = load_into(&mut loader, path);
-    let errors = loader.findings.iter().any(Finding::is_error);
-    match mission {
-        Some(mut mission) if !errors => {
-            mission.warnings = loader.findings;
-            mission.sources = loader.sources;
-            Ok(mission)
-        }
-        _ => {
-            loader.findings.sort_by_key(|f| (f.place.source, f.place.span));
-            Err(MissionErrors { sources: loader.sources, findings: loader.findings })
+impl Mission {
+    /// Reads the mission in the folder `path` (or of the `mission.toml` of that path). Every problem of
+    /// every file is in the error.
+    pub fn load(files: &dyn Files, path: &str) -> Result<Self, MissionErrors> {
+        let mut loader = Loader { files, sources: Sources::new(), findings: Vec::new() };
+        let mission = load_into(&mut loader, path);
+        let errors = loader.findings.iter().any(Finding::is_error);
+        match mission {
+            Some(mut mission) if !errors => {
+                mission.warnings = loader.findings;
+                mission.sources = loader.sources;
+                Ok(mission)
+            }
+            _ => {
+                loader.findings.sort_by_key(|f| (f.place.source, f.place.span));
+                Err(MissionErrors { sources: loader.sources, findings: loader.findings })
+            }
         }
     }
 }

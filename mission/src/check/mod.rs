@@ -18,10 +18,10 @@ use crate::mission::Mission;
 use diagnostics::Finding;
 
 /// A check: looks at a mission and adds what it finds.
-pub(crate) type Check = fn(&Mission, &mut Vec<Finding>);
+type Check = fn(&Mission, &mut Vec<Finding>);
 
 /// All checks, by code.
-pub(crate) const ALL: [Check; 7] = [
+const ALL: [Check; 7] = [
     tasks_of_actions::check,
     effects_are_sensed::check,
     intentions_are_heard::check,
@@ -30,3 +30,14 @@ pub(crate) const ALL: [Check; 7] = [
     effects_are_permitted::check,
     claims_are_ordered::check,
 ];
+
+impl Mission {
+    /// What the layers do to each other: everything that the checks find.
+    pub fn check(&self) -> Vec<Finding> {
+        let mut findings = Vec::new();
+        for check in ALL {
+            check(self, &mut findings);
+        }
+        findings
+    }
+}

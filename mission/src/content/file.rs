@@ -4,9 +4,9 @@ use indexmap::IndexMap;
 use pddl::Span;
 use pddl::model::Name;
 
-use super::ReportLabels;
-use diagnostics::SourceId;
+use super::labels::{self, ReportLabels};
 use diagnostics::toml::{Reader, Table, Text};
+use diagnostics::{Place, SourceId};
 
 /// A key with its sentence.
 #[derive(Clone, Debug)]
@@ -47,13 +47,26 @@ pub(crate) struct LanguageFile {
     pub(crate) parts: IndexMap<Name, PartFile>,
 }
 
+impl LanguageFile {
+    /// A place in this file.
+    pub(super) fn place(&self, span: Span) -> Place {
+        Place { source: self.source, span }
+    }
+
+    /// The sentence of a part for an utterance: the part's own, or the general one.
+    pub(super) fn template(&self, part: &str, utterance: &str) -> Option<&str> {
+        let own = self.parts.get(part).and_then(|p| p.sentences.get(utterance));
+        own.or_else(|| self.say.get(utterance)).map(|s| s.text.value.as_str())
+    }
+}
+
 /// Reads a language.
 pub(crate) fn read(reader: &mut Reader<'_>, mut root: Table<'_>, tag: &str) -> LanguageFile {
     let language = root.required_text(reader, "language");
     let say = sentences_at(reader, &mut root, "say");
     let requests = phrases_at(reader, &mut root, "request");
     let grammar = phrases_at(reader, &mut root, "grammar");
-    let labels = labels(reader, &mut root);
+    let labels = labels::read(reader, &mut root);
     let mut parts = IndexMap::new();
     if let Some(mut table) = root.table(reader, "part") {
         for (key, key_span) in table.rest() {
@@ -114,23 +127,4 @@ fn phrases_at(reader: &mut Reader<'_>, table: &mut Table<'_>, key: &str) -> Inde
         }
     }
     all
-}
-
-fn labels(reader: &mut Reader<'_>, root: &mut Table<'_>) -> ReportLabels {
-    root.require(reader, "report");
-    let Some(mut table) = root.table(reader, "report") else { return ReportLabels::default() };
-    let mut of = |key: &str| table.required_text(reader, key).map(|t| t.value).unwrap_or_default();
-    let labels = ReportLabels {
-        heading: of("heading"),
-        item: of("item"),
-        answer: of("answer"),
-        score: of("score"),
-        total: of("total"),
-        unanswered: of("unanswered"),
-        not_reached: of("not-reached"),
-        complete: of("complete"),
-        incomplete: of("incomplete"),
-    };
-    table.finish(reader);
-    labels
 }

@@ -8,7 +8,7 @@ use pddl::model::Name;
 
 use super::file::LanguageFile;
 use super::grammar::normalise;
-use super::required::{Said, place};
+use super::said::Said;
 use super::words::unknown_placeholders;
 use diagnostics::did_you_mean;
 use diagnostics::{Finding, Place, Sources};
@@ -19,7 +19,7 @@ pub(crate) fn check(file: &LanguageFile, said: &Said, findings: &mut Vec<Finding
     for (part, words) in &file.parts {
         let Some(what) = said.parts.get(part) else {
             let help = did_you_mean(part, known_parts());
-            let at = place(file, words.key_span);
+            let at = file.place(words.key_span);
             findings.push(Finding::error("E0806", at, format!("there is no part `{part}`")).help_if(help));
             continue;
         };
@@ -34,7 +34,7 @@ pub(crate) fn check(file: &LanguageFile, said: &Said, findings: &mut Vec<Finding
         {
             if !what.options.contains(option) {
                 let help = did_you_mean(option, what.options.iter().map(Name::as_str));
-                let at = place(file, span);
+                let at = file.place(span);
                 let message = format!("`{part}` does not offer `{option}`");
                 findings.push(
                     Finding::error("E0808", at, message).related(what.place, "declared here").help_if(help),
@@ -49,14 +49,14 @@ pub(crate) fn check(file: &LanguageFile, said: &Said, findings: &mut Vec<Finding
     for (option, phrases) in &file.grammar {
         if !said.options.contains_key(option) {
             let help = did_you_mean(option, said.options.keys().map(Name::as_str));
-            let at = place(file, phrases.key_span);
+            let at = file.place(phrases.key_span);
             findings.push(Finding::error("E0808", at, format!("no item offers `{option}`")).help_if(help));
         }
     }
     for (request, phrases) in &file.requests {
         if !said.requests.contains_key(request) {
             let help = did_you_mean(request, said.requests.keys().map(Name::as_str));
-            let at = place(file, phrases.key_span);
+            let at = file.place(phrases.key_span);
             findings
                 .push(Finding::error("E0809", at, format!("there is no request `{request}`")).help_if(help));
         }
@@ -74,7 +74,7 @@ fn utterance_exists(
     if !said.utterances.contains_key(utterance) {
         let help = did_you_mean(utterance, said.utterances.keys().map(Name::as_str));
         let message = format!("there is no utterance `{utterance}`");
-        findings.push(Finding::error("E0807", place(file, span), message).help_if(help));
+        findings.push(Finding::error("E0807", file.place(span), message).help_if(help));
     }
 }
 
@@ -85,7 +85,7 @@ fn placeholders(file: &LanguageFile, findings: &mut Vec<Finding>) {
             let at = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);
             let span = sentence.text.within(Span::new(at(range.start), at(range.end)));
             findings.push(
-                Finding::error("E0810", place(file, span), format!("nothing fills in `{placeholder}`"))
+                Finding::error("E0810", file.place(span), format!("nothing fills in `{placeholder}`"))
                     .help("a sentence may use {name} and {option}"),
             );
         }
@@ -104,8 +104,8 @@ fn ambiguous(file: &LanguageFile, part: &Name, options: &[Name], findings: &mut 
                 let message =
                     format!("in `{part}`, \"{}\" chooses both `{other}` and `{option}`", phrase.value);
                 findings.push(
-                    Finding::error("E0811", place(file, phrase.span), message)
-                        .related(place(file, first), format!("it chooses `{other}` here")),
+                    Finding::error("E0811", file.place(phrase.span), message)
+                        .related(file.place(first), format!("it chooses `{other}` here")),
                 );
             }
         }
@@ -139,7 +139,7 @@ pub(crate) fn compare(
 fn keys_of(file: &LanguageFile, said: &Said) -> BTreeMap<String, Place> {
     let mut keys = BTreeMap::new();
     let mut add = |key: String, span: Span| {
-        keys.insert(key, place(file, span));
+        keys.insert(key, file.place(span));
     };
     let utterance = |k: &Name| said.utterances.contains_key(k);
     for (key, sentence) in file.say.iter().filter(|(k, _)| utterance(k)) {

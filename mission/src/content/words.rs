@@ -9,32 +9,10 @@ use std::collections::BTreeMap;
 use indexmap::IndexMap;
 use pddl::model::Name;
 
-use super::file::{LanguageFile, PartFile};
+use super::file::{LanguageFile, Phrases};
 use super::grammar::{Phrase, normalise};
-use super::required::Said;
-
-/// Headings and marks of the report.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct ReportLabels {
-    /// Title.
-    pub heading: String,
-    /// Column of the items.
-    pub item: String,
-    /// Column of the answers.
-    pub answer: String,
-    /// Column of the scores.
-    pub score: String,
-    /// The sum.
-    pub total: String,
-    /// Mark of an item that got no answer.
-    pub unanswered: String,
-    /// Mark of an item that was not asked.
-    pub not_reached: String,
-    /// Remark when all items were answered.
-    pub complete: String,
-    /// Remark otherwise.
-    pub incomplete: String,
-}
+use super::labels::ReportLabels;
+use super::said::Said;
 
 /// An option of an item.
 #[derive(Clone, Debug)]
@@ -117,7 +95,7 @@ impl Words {
 
     /// Fills in all templates. What the checks of the mission have reported is left out here.
     pub(crate) fn new(file: &LanguageFile, said: &Said) -> Self {
-        let texts = |phrases: &super::file::Phrases| -> Vec<String> {
+        let texts = |phrases: &Phrases| -> Vec<String> {
             phrases.phrases.iter().map(|t| t.value.clone()).collect()
         };
         let compiled = |texts: &[String]| texts.iter().map(|t| Phrase::new(t)).collect();
@@ -128,7 +106,7 @@ impl Words {
                 let own = file.parts.get(part);
                 let name = own.and_then(|p| p.name.as_ref()).map_or_else(String::new, |t| t.value.clone());
                 let sentences = what.utterances.iter().filter_map(|utterance| {
-                    let template = template(file, own, utterance)?;
+                    let template = file.template(part, utterance)?;
                     let option = own.and_then(|p| p.options.get(utterance)).map(|s| s.text.value.as_str());
                     Some((utterance.clone(), fill(template, &name, option.unwrap_or_default())))
                 });
@@ -161,16 +139,6 @@ impl Words {
             requests,
         }
     }
-}
-
-/// The part's own sentence, or the general one.
-pub(super) fn template<'f>(
-    file: &'f LanguageFile,
-    part: Option<&'f PartFile>,
-    utterance: &str,
-) -> Option<&'f str> {
-    let own = part.and_then(|p| p.sentences.get(utterance));
-    own.or_else(|| file.say.get(utterance)).map(|s| s.text.value.as_str())
 }
 
 fn fill(template: &str, name: &str, option: &str) -> String {

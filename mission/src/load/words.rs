@@ -3,6 +3,7 @@
 use pddl::Span;
 
 use super::Loader;
+use crate::content::said::Said;
 use crate::content::{Words, file, names, required};
 use crate::files::{join, stem};
 use crate::layers::Layers;
@@ -19,7 +20,7 @@ pub(super) fn read(
 ) -> Vec<Words> {
     let folder = &manifest.paths.content;
     let here = Place { source: from, span: Span::default() };
-    let said = required::Said::new(layers);
+    let said = Said::new(layers);
     let (mut files, mut lacking) = (Vec::new(), Vec::new());
     let mut words = Vec::new();
     for name in loader.names(folder, ".toml", here) {

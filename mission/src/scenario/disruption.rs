@@ -9,7 +9,7 @@ use pddl::model::Name;
 
 pub use self::step::Step;
 use super::GraphCondition;
-use super::read::node;
+use super::names::node;
 use crate::layers::Layers;
 use diagnostics::Finding;
 use diagnostics::did_you_mean;

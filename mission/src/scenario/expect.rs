@@ -4,7 +4,7 @@ use pddl::Span;
 use pddl::model::Name;
 
 use super::GraphCondition;
-use super::read::node;
+use super::names::node;
 use crate::layers::Layers;
 use diagnostics::Finding;
 use diagnostics::did_you_mean;

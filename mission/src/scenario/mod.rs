@@ -11,6 +11,7 @@ mod condition;
 mod disruption;
 mod expect;
 mod judge;
+mod names;
 mod patient;
 mod read;
 
@@ -24,7 +25,6 @@ pub use disruption::{Act, Device, Disruption, Step, Trigger};
 pub use expect::{Expectation, Expected, Naming, ReplanExpectation};
 pub use judge::{Outcome, Replan, Violation};
 pub use patient::{Answer, By, Patient, Reply, ReplyRule};
-pub(crate) use read::read;
 
 /// A scenario, read and resolved against its mission.
 #[derive(Clone, Debug)]

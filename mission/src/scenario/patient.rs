@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use pddl::model::{Name, ObjectId};
 
-use super::read::{argument, node};
+use super::names::{argument, node};
 use crate::mission::Mission;
 use diagnostics::toml::{Reader, Table};
 

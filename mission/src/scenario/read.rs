@@ -4,29 +4,46 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use pddl::Source;
-use pddl::model::{ObjectId, PredicateId, TypeId};
 
 use super::{Clinician, Scenario, disruption, expect, patient};
 use crate::errors::MissionErrors;
-use crate::files::stem;
-use crate::layers::Layers;
+use crate::files::{Files, join, stem};
 use crate::mission::Mission;
-use diagnostics::Finding;
 use diagnostics::did_you_mean;
-use diagnostics::toml::{Reader, Table, Text};
+use diagnostics::toml::{Reader, Table};
+use diagnostics::{Finding, Sources};
 
-/// Reads `source` as a scenario of `mission`.
-pub(crate) fn read(mission: &Mission, source: Source) -> Result<Scenario, MissionErrors> {
-    let mut sources = mission.sources.clone();
-    let id = sources.push(source);
-    let source = sources.shared(id);
-    let (scenario, mut findings) =
-        Reader::read(id, &source, |reader, root| read_root(reader, mission, root, &source));
-    match scenario {
-        Some(scenario) if !findings.iter().any(Finding::is_error) => Ok(scenario),
-        _ => {
-            findings.sort_by_key(|f| f.place.span);
-            Err(MissionErrors { sources, findings })
+impl Mission {
+    /// Reads a scenario of the mission's folder by its name.
+    pub fn scenario(&self, files: &dyn Files, name: &str) -> Result<Scenario, MissionErrors> {
+        let path = join(&self.manifest.paths.scenarios, &format!("{name}.toml"));
+        match files.read(&path) {
+            Ok(text) => self.read_scenario(Source::new(path, text)),
+            Err(error) => {
+                let place = Sources::start_of(self.manifest_source);
+                let help = did_you_mean(name, self.scenarios()).or_else(|| {
+                    let all: Vec<&str> = self.scenarios().collect();
+                    Some(format!("the scenarios are: {}", all.join(", ")))
+                });
+                let finding = Finding::error("E0901", place, format!("cannot read `{path}`: {error}"));
+                Err(MissionErrors { sources: self.sources.clone(), findings: vec![finding.help_if(help)] })
+            }
+        }
+    }
+
+    /// Reads a scenario from anywhere.
+    pub fn read_scenario(&self, source: Source) -> Result<Scenario, MissionErrors> {
+        let mut sources = self.sources.clone();
+        let id = sources.push(source);
+        let source = sources.shared(id);
+        let (scenario, mut findings) =
+            Reader::read(id, &source, |reader, root| read_root(reader, self, root, &source));
+        match scenario {
+            Some(scenario) if !findings.iter().any(Finding::is_error) => Ok(scenario),
+            _ => {
+                findings.sort_by_key(|f| f.place.span);
+                Err(MissionErrors { sources, findings })
+            }
         }
     }
 }
@@ -68,49 +85,4 @@ fn read_clinician(reader: &mut Reader<'_>, table: Option<Table<'_>>) -> Clinicia
         table.finish(reader);
     }
     clinician
-}
-
-/// A node of a type, by its name.
-pub(super) fn node(
-    reader: &mut Reader<'_>,
-    layers: &Layers,
-    text: &Text,
-    ty: TypeId,
-    kind: &str,
-) -> Option<ObjectId> {
-    find(reader, layers, text, kind, &|id| layers.is_a(id, ty))
-}
-
-/// A node that may stand as the `position`-th argument of a predicate.
-pub(super) fn argument(
-    reader: &mut Reader<'_>,
-    layers: &Layers,
-    text: &Text,
-    predicate: PredicateId,
-    position: usize,
-    kind: &str,
-) -> Option<ObjectId> {
-    let parameter = layers.nodes.predicates[predicate].variables.parameters().get(position);
-    let objects = &layers.graph.model.objects;
-    let fits = |id| parameter.is_some_and(|p| layers.nodes.types.is_subset(&objects[id].types, &p.types));
-    find(reader, layers, text, kind, &fits)
-}
-
-fn find(
-    reader: &mut Reader<'_>,
-    layers: &Layers,
-    text: &Text,
-    kind: &str,
-    fits: &dyn Fn(ObjectId) -> bool,
-) -> Option<ObjectId> {
-    let graph = &layers.graph.model;
-    let found = graph.object(&text.value.to_ascii_lowercase()).filter(|&id| fits(id));
-    if found.is_none() {
-        let known: Vec<&str> = graph.objects.ids().filter(|&id| fits(id)).map(|id| layers.name(id)).collect();
-        let help = did_you_mean(&text.value, known.iter().copied());
-        let help = help.unwrap_or_else(|| format!("one of: {}", known.join(", ")));
-        let message = format!("there is no {kind} `{}`", text.value);
-        reader.findings.push(Finding::error("E0909", reader.place(text.span), message).help(help));
-    }
-    found
 }
