@@ -2,7 +2,7 @@
 //!
 //! Idea: whether a head instance holds depends only on the ground instances of the body's literals under that head.
 //! So a change of a ground token can only change heads that agree with it wherever the literal names a parameter of
-//! the head. A [`Watch`] keeps, per literal, which parameter stands at which end. This holds for literals at any
+//! the head. A [`Dependency`] keeps, per literal, which parameter stands at which end. This holds for literals at any
 //! depth of negation and quantification.
 
 use dsr::{AttributeId, LabelId, TypeId};
@@ -16,7 +16,7 @@ pub(crate) struct Axiom {
     pub(crate) scope: Scope,
     /// The alternatives of the body.
     pub(crate) body: Vec<Conjunction>,
-    pub(crate) watches: Vec<Watch>,
+    pub(crate) dependencies: Vec<Dependency>,
     /// The types over which a parameter or a quantified variable ranges.
     pub(crate) types: Vec<TypeId>,
     /// The nodes that it names.
@@ -45,7 +45,7 @@ pub(crate) enum Place {
 
 /// A literal of the body, as seen by a change.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Watch {
+pub(crate) struct Dependency {
     pub(crate) token: Token,
     /// One per argument of the token.
     pub(crate) places: Vec<Place>,
@@ -57,13 +57,13 @@ impl Axiom {
             predicate,
             scope,
             body: Vec::new(),
-            watches: Vec::new(),
+            dependencies: Vec::new(),
             types: Vec::new(),
             constants: Vec::new(),
         };
         let parameters = axiom.scope.parameters();
         axiom.types.extend(parameters.flat_map(|variable| axiom.scope.slot(variable).types.clone()));
-        body.iter().for_each(|part| axiom.watch_all(part));
+        body.iter().for_each(|part| axiom.add_part(part));
         axiom.types.sort_unstable();
         axiom.types.dedup();
         axiom.body = body;
@@ -75,13 +75,13 @@ impl Axiom {
         self.scope.parameters().count()
     }
 
-    fn watch_all(&mut self, part: &Conjunction) {
+    fn add_part(&mut self, part: &Conjunction) {
         self.types.extend(part.variables.iter().map(|(_, id)| *id));
-        part.literals.iter().for_each(|(literal, _)| self.watch_literal(literal));
-        part.without.iter().for_each(|part| self.watch_all(part));
+        part.literals.iter().for_each(|(literal, _)| self.add_literal(literal));
+        part.without.iter().for_each(|part| self.add_part(part));
     }
 
-    fn watch_literal(&mut self, literal: &Literal) {
+    fn add_literal(&mut self, literal: &Literal) {
         for term in literal.terms() {
             if let Term::Named(name) = term
                 && !self.constants.contains(name)
@@ -90,36 +90,36 @@ impl Axiom {
             }
         }
         match literal {
-            Literal::Edge { from, label, to } => self.watch(Token::Label(*label), &[from, to]),
-            Literal::Present { holder, attribute } => self.watch_attribute(holder, *attribute),
+            Literal::Edge { from, label, to } => self.add(Token::Label(*label), &[from, to]),
+            Literal::Present { holder, attribute } => self.add_attribute(holder, *attribute),
             Literal::Compare { holder, attribute, right, .. } => {
-                self.watch_attribute(holder, *attribute);
+                self.add_attribute(holder, *attribute);
                 if let Right::Attribute(holder, attribute) = right {
-                    self.watch_attribute(holder, *attribute);
+                    self.add_attribute(holder, *attribute);
                 }
             }
             // A chain of transforms may pass through any frame, so the ends say nothing.
-            Literal::Distance { .. } => self.watch(Token::Transforms, &[]),
+            Literal::Distance { .. } => self.add(Token::Transforms, &[]),
             Literal::Derived { predicate, arguments, .. } => {
-                self.watch(Token::Predicate(*predicate), &arguments.iter().collect::<Vec<_>>());
+                self.add(Token::Predicate(*predicate), &arguments.iter().collect::<Vec<_>>());
             }
             Literal::Same(..) | Literal::Differ(..) => {}
         }
     }
 
-    fn watch_attribute(&mut self, holder: &Holder, attribute: AttributeId) {
-        self.watch(Token::Attribute(attribute), &holder.terms());
+    fn add_attribute(&mut self, holder: &Holder, attribute: AttributeId) {
+        self.add(Token::Attribute(attribute), &holder.terms());
     }
 
-    fn watch(&mut self, token: Token, terms: &[&Term]) {
+    fn add(&mut self, token: Token, terms: &[&Term]) {
         let place = |term: &&Term| match term {
             Term::Named(name) => Place::Named(name.clone()),
             Term::Variable(variable) if variable.index() < self.arity() => Place::Head(variable.index()),
             Term::Variable(_) => Place::Any,
         };
-        let watch = Watch { token, places: terms.iter().map(place).collect() };
-        if !self.watches.contains(&watch) {
-            self.watches.push(watch);
+        let dependency = Dependency { token, places: terms.iter().map(place).collect() };
+        if !self.dependencies.contains(&dependency) {
+            self.dependencies.push(dependency);
         }
     }
 }

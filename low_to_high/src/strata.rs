@@ -8,7 +8,8 @@
 //! linear graph algorithms", SIAM J. Comput. 1972.
 
 use pddl::model::PredicateId;
-use rustc_hash::FxHashMap;
+use petgraph::algo::tarjan_scc;
+use petgraph::graph::{DiGraph, NodeIndex};
 use vocabulary::{Conjunction, Literal};
 
 use crate::axiom::Axiom;
@@ -30,34 +31,32 @@ enum Sign {
     Negative,
 }
 
-/// The components in an order in which they can be derived; an axiom and the predicate that it denies in its own
-/// component, if there is one.
+/// The components in an order in which they can be derived; or an axiom and the predicate of its own component that it
+/// denies.
 pub(crate) fn components(axioms: &[Axiom]) -> Result<Vec<Component>, (usize, PredicateId)> {
-    let mut order: Vec<PredicateId> = axioms.iter().map(|axiom| axiom.predicate).collect();
-    order.sort_unstable();
-    order.dedup();
-    let mut search = Search {
-        axioms,
-        edges: axioms.iter().map(dependencies).collect(),
-        numbers: FxHashMap::default(),
-        low: FxHashMap::default(),
-        stack: Vec::new(),
-        found: Vec::new(),
-    };
-    for &predicate in &order {
-        if !search.numbers.contains_key(&predicate) {
-            search.visit(predicate);
+    let uses: Vec<Vec<(PredicateId, Sign)>> = axioms.iter().map(derived_literals).collect();
+    let mut derived: Vec<PredicateId> = axioms.iter().map(|axiom| axiom.predicate).collect();
+    derived.sort_unstable();
+    derived.dedup();
+    let node = |predicate: &PredicateId| derived.binary_search(predicate).ok();
+    let mut graph = DiGraph::<PredicateId, ()>::new();
+    let nodes: Vec<NodeIndex> = derived.iter().map(|&predicate| graph.add_node(predicate)).collect();
+    for (axiom, uses) in axioms.iter().zip(&uses) {
+        for (on, _) in uses {
+            if let (Some(from), Some(to)) = (node(&axiom.predicate), node(on)) {
+                graph.update_edge(nodes[from], nodes[to], ());
+            }
         }
     }
-    let Search { edges, found, .. } = search;
     let mut components = Vec::new();
-    for mut predicates in found {
+    for found in tarjan_scc(&graph) {
+        let mut predicates: Vec<PredicateId> = found.into_iter().map(|node| graph[node]).collect();
         predicates.sort_unstable();
         let own: Vec<usize> =
             (0..axioms.len()).filter(|&at| predicates.contains(&axioms[at].predicate)).collect();
         let mut recursive = false;
         for &at in &own {
-            for &(on, sign) in &edges[at] {
+            for &(on, sign) in &uses[at] {
                 if predicates.contains(&on) {
                     recursive = true;
                     if sign == Sign::Negative {
@@ -71,7 +70,8 @@ pub(crate) fn components(axioms: &[Axiom]) -> Result<Vec<Component>, (usize, Pre
     Ok(components)
 }
 
-fn dependencies(axiom: &Axiom) -> Vec<(PredicateId, Sign)> {
+/// The derived predicates in the body of an axiom.
+fn derived_literals(axiom: &Axiom) -> Vec<(PredicateId, Sign)> {
     fn collect(part: &Conjunction, sign: Sign, found: &mut Vec<(PredicateId, Sign)>) {
         for (literal, _) in &part.literals {
             if let Literal::Derived { predicate, .. } = literal {
@@ -85,45 +85,4 @@ fn dependencies(axiom: &Axiom) -> Vec<(PredicateId, Sign)> {
     let mut found = Vec::new();
     axiom.body.iter().for_each(|part| collect(part, Sign::Positive, &mut found));
     found
-}
-
-struct Search<'a> {
-    axioms: &'a [Axiom],
-    /// What each axiom depends on.
-    edges: Vec<Vec<(PredicateId, Sign)>>,
-    numbers: FxHashMap<PredicateId, usize>,
-    low: FxHashMap<PredicateId, usize>,
-    stack: Vec<PredicateId>,
-    found: Vec<Vec<PredicateId>>,
-}
-
-impl Search<'_> {
-    /// Depth is bounded by the number of derived predicates.
-    fn visit(&mut self, predicate: PredicateId) {
-        let number = self.numbers.len();
-        self.numbers.insert(predicate, number);
-        self.low.insert(predicate, number);
-        self.stack.push(predicate);
-        let successors: Vec<PredicateId> = (0..self.axioms.len())
-            .filter(|&at| self.axioms[at].predicate == predicate)
-            .flat_map(|at| self.edges[at].iter().map(|(on, _)| *on))
-            .collect();
-        for next in successors {
-            let reached = match self.numbers.get(&next) {
-                None => {
-                    self.visit(next);
-                    self.low[&next]
-                }
-                Some(&number) if self.stack.contains(&next) => number,
-                Some(_) => continue,
-            };
-            let low = self.low[&predicate].min(reached);
-            self.low.insert(predicate, low);
-        }
-        if self.low[&predicate] == number {
-            let at =
-                self.stack.iter().position(|&p| p == predicate).expect("pushed above, popped below only");
-            self.found.push(self.stack.split_off(at));
-        }
-    }
 }

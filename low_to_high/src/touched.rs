@@ -6,7 +6,7 @@ use dsr::{Delta, Holder, NodeId, TypeId};
 use pddl::model::{Name, PredicateId};
 use rustc_hash::FxHashMap;
 
-use crate::axiom::{Axiom, Place, Token, Watch};
+use crate::axiom::{Axiom, Dependency, Place, Token};
 use crate::relations::{Partial, Tuple};
 
 /// Beyond so many partial heads one derivation of everything is cheaper.
@@ -81,9 +81,9 @@ impl Touched {
             return Affected::All;
         }
         let mut partials: Vec<Partial> = Vec::new();
-        for watch in &axiom.watches {
-            for tuple in self.tokens.get(&watch.token).into_iter().flatten() {
-                let Some(partial) = instance(watch, tuple, axiom.arity(), name_of) else { continue };
+        for dependency in &axiom.dependencies {
+            for tuple in self.tokens.get(&dependency.token).into_iter().flatten() {
+                let Some(partial) = instance(dependency, tuple, axiom.arity(), name_of) else { continue };
                 if partial.iter().all(Option::is_none) {
                     return Affected::All;
                 }
@@ -101,13 +101,13 @@ impl Touched {
 
 /// The heads for which the tuple is an instance of the watched literal; `None` if it is for none.
 fn instance(
-    watch: &Watch,
+    dependency: &Dependency,
     tuple: &[NodeId],
     arity: usize,
     name_of: &dyn Fn(NodeId) -> Option<Name>,
 ) -> Option<Partial> {
     let mut partial = vec![None; arity];
-    for (place, &node) in watch.places.iter().zip(tuple) {
+    for (place, &node) in dependency.places.iter().zip(tuple) {
         match place {
             Place::Any => {}
             Place::Named(name) if name_of(node).as_ref() == Some(name) => {}
