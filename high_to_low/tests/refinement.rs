@@ -292,7 +292,7 @@ fn what_is_wrong_with_a_methods_file_is_said_with_its_place() {
     expect![[r#"
         5:58: the deadline of an intention is `(<= ?duration SECONDS)` with a number of seconds
         6:25: what shall hold at the end of an intention is its `at end` effect, not a condition
-        6:69: `nearby` is no token of vocabulary `house`
+        6:69: `nearby` is not a token of vocabulary `house`
         6:94: an intention knows `at start`, `at end` and `at timeout`, not `at failure`
         8:57: `jump` is an action; a method's primitives are durative actions, which say what shall be seen
         9:3: task `u` has no method"#]]

@@ -1,4 +1,4 @@
-//! One alternative of a condition: a pattern of the graph, and which variable of the schema each of its own is.
+//! One alternative of a condition: a pattern of the graph, and the schema's variable for each of the pattern's own.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use crate::scope::Scope;
 #[derive(Debug, Clone)]
 pub struct Alternative {
     pattern: Arc<Pattern>,
-    /// The variables of the schema that stay visible, with the pattern's own; these come first in the pattern.
+    /// The visible variables of the schema, each with its variable in the pattern. They come first in the pattern.
     visible: Vec<(VariableId, Variable)>,
 }
 
@@ -49,13 +49,13 @@ impl Alternative {
         self.visible.iter().copied()
     }
 
-    /// What a binding fixes of the pattern.
+    /// The nodes to which a binding fixes variables of the pattern.
     pub fn fixed(&self, binding: &Binding) -> Vec<(Variable, NodeId)> {
         let fixed = |&(variable, own): &(VariableId, Variable)| Some((own, binding.node(variable)?));
         self.visible.iter().filter_map(fixed).collect()
     }
 
-    /// The pattern with what a binding fixes, for reflexes.
+    /// The pattern together with the nodes that a binding fixes, for reflexes.
     pub fn bound(&self, binding: &Binding) -> Bound {
         Bound { pattern: Arc::clone(&self.pattern), binding: self.fixed(binding) }
     }
@@ -107,7 +107,7 @@ fn write_literal(
         Literal::Differ(a, b) => {
             builder.distinct(term(a), term(b));
         }
-        // Patterns have no equality of nodes, but its opposite and negation.
+        // Patterns cannot say that two nodes are equal; they can deny that they differ.
         Literal::Same(a, b) => {
             builder.without(|builder| {
                 builder.distinct(term(a), term(b));

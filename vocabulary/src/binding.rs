@@ -1,6 +1,6 @@
-//! What the variables of a schema stand for.
+//! Bindings: the nodes and values of a schema's variables.
 //!
-//! Parameters stand for nodes; the results of a skill may also be text, truth values or poses.
+//! Parameters stand for nodes. The results of a skill may also be text, truth values or poses.
 
 use dsr::{Isometry3, NodeId, Value};
 use pddl::model::{Idx, VariableId, Variables};
@@ -14,36 +14,36 @@ pub enum Datum {
     Pose(Isometry3<f64>),
 }
 
-/// What some of the variables of one schema stand for.
+/// Nodes and values for some of the variables of one schema.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Binding {
     nodes: Vec<Option<NodeId>>,
-    /// Sorted by variable; few or none.
+    /// Sorted by variable. Most bindings have no values.
     values: Vec<(VariableId, Datum)>,
 }
 
 impl Binding {
-    /// None of these variables bound.
+    /// A binding of these variables in which all are free.
     pub fn of(variables: &Variables) -> Self {
         Self { nodes: vec![None; variables.slots.len()], values: Vec::new() }
     }
 
-    /// The node for which a variable stands.
+    /// The node that a variable is bound to.
     pub fn node(&self, variable: VariableId) -> Option<NodeId> {
         self.nodes.get(variable.index()).copied().flatten()
     }
 
-    /// The value for which a variable stands.
+    /// The value that a variable is bound to.
     pub fn value(&self, variable: VariableId) -> Option<&Datum> {
         self.values.binary_search_by_key(&variable, |(v, _)| *v).ok().map(|at| &self.values[at].1)
     }
 
-    /// The nodes by variable: what two bindings of parameters are compared by.
+    /// The nodes by variable. Two bindings of parameters are the same if these are.
     pub fn nodes(&self) -> &[Option<NodeId>] {
         &self.nodes
     }
 
-    /// Lets a variable stand for a node.
+    /// Binds a variable to a node.
     pub fn bind(&mut self, variable: VariableId, node: NodeId) -> &mut Self {
         if self.nodes.len() <= variable.index() {
             self.nodes.resize(variable.index() + 1, None);
@@ -52,7 +52,7 @@ impl Binding {
         self
     }
 
-    /// Lets a variable stand for a value.
+    /// Binds a variable to a value.
     pub fn bind_value(&mut self, variable: VariableId, datum: Datum) -> &mut Self {
         match self.values.binary_search_by_key(&variable, |(v, _)| *v) {
             Ok(at) => self.values[at].1 = datum,
@@ -61,7 +61,7 @@ impl Binding {
         self
     }
 
-    /// The same with one more node.
+    /// This binding with one more variable bound.
     #[must_use]
     pub fn with(mut self, variable: VariableId, node: NodeId) -> Self {
         self.bind(variable, node);

@@ -1,11 +1,10 @@
 //! A condition over the graph, compiled to patterns.
 //!
-//! Idea: each disjunct is one [`Alternative`]; what the condition quantifies away is projected out of its matches.
-//! The outermost conjuncts are compiled once more, each on its own, so that an unmet condition can be explained by
-//! its first part that fails (`unmet`).
+//! Idea: each disjunct is one [`Alternative`]. Quantified variables are projected out of its matches. The outermost
+//! conjuncts are also compiled one by one, so that `unmet` can explain a condition by the first part that fails.
 //!
-//! Semantics: variables range over the nodes of their types that exist in the snapshot. A comparison with an
-//! undefined attribute does not hold, whatever it compares. A named node that does not exist is in no edge.
+//! Semantics: a variable ranges over the nodes of its types that exist in the snapshot. A comparison with an undefined
+//! attribute does not hold. A named node that does not exist has no edges.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -66,7 +65,7 @@ impl Condition {
         &self.scope
     }
 
-    /// The alternatives as patterns; none if it can never hold.
+    /// The alternatives as patterns; empty if it can never hold.
     pub fn alternatives(&self) -> &[Alternative] {
         &self.alternatives
     }
@@ -76,7 +75,7 @@ impl Condition {
         self.parts.is_empty()
     }
 
-    /// The tokens on which it depends: a delta that touches none of them does not change it.
+    /// The tokens on which it depends. A delta that touches none of them cannot change it.
     pub fn mentions(&self) -> &Mentions {
         &self.mentions
     }
@@ -93,7 +92,7 @@ impl Condition {
         completions(&self.alternatives, snapshot, binding)
     }
 
-    /// The condition as something that a reflex keeps.
+    /// The condition as one that a reflex keeps up.
     pub fn keep(&self, binding: &Binding) -> Keep {
         Keep { any: self.alternatives.iter().map(|alternative| alternative.bound(binding)).collect() }
     }

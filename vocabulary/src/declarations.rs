@@ -1,8 +1,8 @@
 //! Reading a domain as a vocabulary.
 //!
-//! Idea: types first, parents before children, then constants, predicates, functions and permissions; whatever does
-//! not fit the graph is a [`TokenError`] at its place, and all of them are reported. Invariant: a vocabulary
-//! exists only if there was none.
+//! Idea: read types first, parents before children, then constants, predicates and functions; `permission` reads
+//! `:writes` after them. Each declaration that does not fit the graph is a [`TokenError`] with its place, and all errors
+//! are reported together. Invariant: a domain with an error gives no vocabulary.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ use crate::pose::PoseComponent;
 use crate::token_error::{TokenError, TokenErrorKind};
 use crate::tokens::{Constant, FunctionToken, Sort, Tokens, ValueSort};
 
-/// A vocabulary in the making.
+/// A vocabulary while it is being read.
 pub(crate) struct Reader<'d> {
     pub(crate) domain: &'d Domain,
     pub(crate) builder: VocabularyBuilder,
@@ -72,7 +72,7 @@ impl<'d> Reader<'d> {
         self.errors.push(Located::new(span, kind.into()));
     }
 
-    /// Keeps what the builder gives, or reports why it does not.
+    /// Takes the builder's result, or reports its error.
     pub(crate) fn take<T>(&mut self, span: Span, result: Result<T, VocabularyError>) -> Option<T> {
         result.map_err(|error| self.error(span, error)).ok()
     }
@@ -81,7 +81,7 @@ impl<'d> Reader<'d> {
         self.domain.types[id].name.clone()
     }
 
-    /// Parents before children: a type waits until its parent is known. The hierarchy is acyclic.
+    /// Declares parents before children: a type waits until its parent is known. The hierarchy is acyclic.
     fn types(&mut self) {
         let mut waiting: Vec<_> = self.domain.types.enumerate().map(|(id, _)| id).collect();
         while !waiting.is_empty() {
@@ -93,7 +93,7 @@ impl<'d> Reader<'d> {
         }
     }
 
-    /// Declares a type if its parent is; whether it is done with.
+    /// Declares a type if its parent is declared. Returns whether the type is settled.
     fn type_declared(&mut self, id: pddl::model::TypeId) -> bool {
         let declared = &self.domain.types[id];
         let (name, span) = (declared.name.clone(), declared.span);
@@ -123,7 +123,7 @@ impl<'d> Reader<'d> {
             return true;
         }
         let sort = match (name.as_str(), parent.as_str()) {
-            // The root of the values is never the type of anything that can be stored.
+            // `value`, the root of the values, is never the type of a stored value, so its sort does not matter.
             ("value", "object") => Some(Sort::Value(ValueSort::Text)),
             ("text", "value") => Some(Sort::Value(ValueSort::Text)),
             ("flag", "value") => Some(Sort::Value(ValueSort::Flag)),
@@ -209,7 +209,7 @@ impl<'d> Reader<'d> {
         }
     }
 
-    /// The node types of an argument; reports it if it is about a value.
+    /// The node types of an argument. An argument that is a value is reported.
     fn node_types(
         &mut self,
         name: &Name,
@@ -266,7 +266,7 @@ impl<'d> Reader<'d> {
         }
     }
 
-    /// The functions that the graph computes or keeps as transforms.
+    /// The token of a function that the graph computes or keeps as a transform.
     fn computed(&mut self, function: &Function) -> Option<FunctionToken> {
         let name = &function.name;
         let is_pose = matches!(&function.value, FunctionValue::Object(types)
@@ -296,7 +296,7 @@ impl<'d> Reader<'d> {
             })
     }
 
-    /// The kind of values of a union, if it is a union of values.
+    /// The kind of value of a union, if the union is one of values.
     fn values(&self, types: &TypeSet) -> Option<ValueSort> {
         match self.types.get(&self.domain.types[*types.0.first()?].name)? {
             Sort::Value(sort) => Some(*sort),
@@ -347,7 +347,7 @@ impl<'d> Reader<'d> {
         }
     }
 
-    /// The constant of that id, as the source has it.
+    /// The name of a constant of this domain.
     pub(crate) fn constant_name(&self, id: pddl::model::ObjectId) -> Option<Name> {
         (id.index() < self.domain.constants.len()).then(|| self.domain.constants[id].name.clone())
     }

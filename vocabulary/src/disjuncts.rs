@@ -1,8 +1,8 @@
 //! Conditions as alternatives: disjunctive normal form, variables typed.
 //!
-//! Idea: positive existentials are hoisted (every variable of a schema has a slot of its own, so nothing is
-//! captured), negation stays where it is as a part that must have no match. A variable of several types makes an
-//! alternative for each. Cost: exponential in the disjunctions under one conjunction, therefore bounded.
+//! Idea: positive existentials are hoisted; every variable of a schema has a slot of its own, so no variable is
+//! captured. Negation stays in place as a part that must have no match. A variable of several types gives one
+//! alternative for each type. Cost: exponential in the disjunctions under one conjunction, therefore bounded.
 
 use dsr::TypeId;
 use pddl::Span;
@@ -14,19 +14,19 @@ use crate::scope::Scope;
 /// The most alternatives that one condition may have.
 pub const MAX_ALTERNATIVES: usize = 512;
 
-/// Literals that all hold, together with parts that have no match.
+/// Literals that must all hold, and parts that must have no match.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Conjunction {
-    /// The variables that begin here, each with one type.
+    /// The variables that are quantified here, each with one type.
     pub variables: Vec<(VariableId, TypeId)>,
-    /// What must hold.
+    /// The literals that must hold.
     pub literals: Vec<(Literal, Span)>,
-    /// What must have no match, for the variables that begin there.
+    /// The parts that must have no match, each with variables of its own.
     pub without: Vec<Conjunction>,
 }
 
 impl Conjunction {
-    /// The variables that occur here or in a negated part and begin outside, ascending.
+    /// The variables that occur here or in a negated part and are quantified outside, ascending.
     pub fn free(&self) -> Vec<VariableId> {
         let mut found: Vec<VariableId> = self.literals.iter().flat_map(|(l, _)| l.variables()).collect();
         found.extend(self.without.iter().flat_map(Self::free));
@@ -40,7 +40,7 @@ impl Conjunction {
         let mut both = self.clone();
         both.variables.extend_from_slice(&other.variables);
         for literal in &other.literals {
-            // Distributing repeats literals; each is asked once.
+            // Distribution repeats literals; keep each of them once.
             if !both.literals.iter().any(|(known, _)| *known == literal.0) {
                 both.literals.push(literal.clone());
             }
@@ -51,7 +51,7 @@ impl Conjunction {
 }
 
 impl From<&Conjunction> for Formula {
-    /// What makes a match of the conjunction.
+    /// The condition that the conjunction has a match.
     fn from(conjunction: &Conjunction) -> Self {
         let literals =
             conjunction.literals.iter().map(|(literal, span)| Self::Literal(literal.clone(), *span));
@@ -66,7 +66,7 @@ impl From<&Conjunction> for Formula {
 }
 
 impl Formula {
-    /// The alternatives; `None` if there were more than [`MAX_ALTERNATIVES`].
+    /// The alternatives; `None` if there are more than [`MAX_ALTERNATIVES`].
     pub fn disjuncts(&self, scope: &Scope) -> Option<Vec<Conjunction>> {
         match self {
             Self::Literal(literal, span) => {

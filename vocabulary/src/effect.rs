@@ -1,9 +1,9 @@
 //! An effect on the graph, compiled to edits.
 //!
-//! Semantics: guards of `when` and ranges of `forall` are read in the snapshot before the effect; deletes come before
-//! adds, so an add of the same token wins, as in PDDL. Giving a binary function a value adds its edge and sets its
-//! attribute; `undefined` removes the edge. A change of a number by `increase` and its like is computed from the
-//! snapshot.
+//! Semantics: the guards of `when` and the ranges of `forall` are evaluated in the snapshot before the effect. Deletes
+//! come before adds, so that an add of the same token wins, as in PDDL. An assignment to a binary function adds its edge
+//! and sets its attribute; `undefined` removes the edge. `increase`, `decrease` and the scalings start from the value in
+//! the snapshot.
 
 use std::sync::Arc;
 
@@ -21,10 +21,10 @@ use crate::scope::Scope;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the fields are what the variant is about")]
 pub enum EffectError {
-    /// A variable stands for nothing, or for something of another kind.
-    #[error("`?{variable}` stands for nothing here")]
+    /// A variable is unbound, or bound to a value of another kind.
+    #[error("`?{variable}` is unbound here")]
     Unbound { variable: Name },
-    /// A number that is needed has no value.
+    /// A number in the new value is undefined.
     #[error("the new value is undefined")]
     Undefined { span: Span },
 }
@@ -60,18 +60,13 @@ pub(crate) enum Change {
 pub(crate) enum Given {
     Value(dsr::Value),
     Node(Term),
-    /// The text or truth value for which a variable stands.
+    /// The text or truth value that a variable is bound to.
     Result(VariableId),
     Number(Number),
 }
 
 impl Effect {
-    /// Whether it never changes anything.
-    pub fn is_nothing(&self) -> bool {
-        self.updates.is_empty()
-    }
-
-    /// The edits for a binding of the schema's parameters (and of the results that it uses).
+    /// The edits for a binding of the schema's parameters and of the results that the effect uses.
     pub fn edits(&self, snapshot: &Snapshot, binding: &Binding) -> Result<Vec<Edit>, EffectError> {
         let mut deletes = Vec::new();
         let mut adds = Vec::new();
@@ -206,8 +201,8 @@ fn adjusted(operator: AssignOperator, old: f64, by: f64) -> Option<f64> {
     new.is_finite().then_some(new)
 }
 
-/// Whether the edit would change nothing in this snapshot. False for edits that are not about tokens, and where it
-/// would be refused.
+/// Whether the edit would leave this snapshot unchanged. False for an edit that concerns no token, and for one that the
+/// graph would refuse.
 pub fn is_redundant(snapshot: &Snapshot, edit: &Edit) -> bool {
     let node = |node: &NodeRef| match node {
         NodeRef::Id(id) => Some(*id),

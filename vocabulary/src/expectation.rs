@@ -1,9 +1,9 @@
-//! What can be seen once an effect has happened.
+//! The condition under which an effect can be seen.
 //!
 //! Sensed, not asserted: PELEA does not write the end of an action, it waits to see it. An add is seen when the edge
-//! is there, a delete when it is not, an assignment when the attribute has that value, `undefined` when it has none.
-//! `forall` means every node at the time of looking; `when` means: where the condition holds at that time. What
-//! depends on the value before (`increase`) cannot be awaited.
+//! exists, a delete when it does not exist, an assignment when the attribute has the value, `undefined` when the
+//! attribute has no value. `forall` ranges over the nodes, and `when` evaluates its condition, at the time of looking. An
+//! effect that depends on the value before it (`increase`) cannot be awaited.
 
 use dsr::Comparison;
 use pddl::model::{self, EffectKind};

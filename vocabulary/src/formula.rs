@@ -1,8 +1,8 @@
 //! Conditions as logic over tokens: names resolved, negation normal form.
 //!
-//! Idea: the only negation is [`Formula::None`], "no binding of these variables makes it hold"; a universal is the
-//! absence of a counterexample, a negated literal the absence of that literal (with no variables). That is also the
-//! one form of negation that patterns of the graph have.
+//! Idea: the only negation is [`Formula::None`], "no binding of these variables makes it hold". A universal is the
+//! absence of a counterexample; a negated literal is the absence of that literal, with no variables. Patterns of the
+//! graph have the same single form of negation.
 
 use dsr::{AttributeId, Comparison, LabelId, Value};
 use pddl::Span;
@@ -13,11 +13,11 @@ use pddl::model::{Name, PredicateId, VariableId};
 pub enum Term {
     /// A slot of the schema.
     Variable(VariableId),
-    /// The node of that name, in whatever graph there is.
+    /// The node of that name in the graph that is asked.
     Named(Name),
 }
 
-/// What carries an attribute.
+/// The node or edge that has an attribute.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the fields are the terms of the variant")]
 pub enum Holder {
@@ -48,23 +48,23 @@ pub enum Right {
     Attribute(Holder, AttributeId),
 }
 
-/// Something that the graph shows to hold or not.
+/// An atomic condition on the graph.
 #[derive(Debug, Clone, PartialEq)]
 #[expect(missing_docs, reason = "the fields are the terms of the variant")]
 pub enum Literal {
-    /// The edge is there.
+    /// The edge exists.
     Edge { from: Term, label: LabelId, to: Term },
-    /// The attribute has some value.
+    /// The attribute has a value.
     Present { holder: Holder, attribute: AttributeId },
-    /// The attribute has a value, and it compares so.
+    /// The attribute has a value, and the comparison holds.
     Compare { holder: Holder, attribute: AttributeId, comparison: Comparison, right: Right },
-    /// Both are one node.
+    /// Both terms are the same node.
     Same(Term, Term),
-    /// They are different nodes.
+    /// The terms are different nodes.
     Differ(Term, Term),
-    /// The frames are connected, and their distance in metres compares so.
+    /// The frames are connected, and the comparison holds for their distance in metres.
     Distance { from: Term, to: Term, comparison: Comparison, metres: f64 },
-    /// A predicate that is no token: somebody else evaluates it.
+    /// A predicate that is not a token: the crate that asked for the formula evaluates it.
     Derived { predicate: PredicateId, name: Name, arguments: Vec<Term> },
 }
 
@@ -141,7 +141,7 @@ impl Formula {
         }
     }
 
-    /// The variables that occur outside a quantifier of their own, ascending.
+    /// The free variables, ascending.
     pub fn free(&self) -> Vec<VariableId> {
         let mut found = Vec::new();
         self.collect(&mut Vec::new(), &mut found);

@@ -1,9 +1,10 @@
 //! PDDL read as graph: vocabulary, conditions as patterns, effects as edits.
 //!
-//! The robot's vocabulary, the agents' rules, the methods and the perception of every test are PDDL; the world is a
-//! graph of binary tokens. This crate is the one place where the two meet: a [`Tokens`] is a domain read as a
-//! [`dsr::Vocabulary`], and a [`Link`] reads what any domain that imports it says as graph: a [`Condition`] is
-//! patterns, an [`Effect`] is edits, an expectation is the condition that an effect can be *seen*.
+//! Problem: the robot's vocabulary, the agents' rules, the methods and the perception of every test are PDDL, but the
+//! world is a graph of binary tokens. Idea: this crate alone translates one into the other. [`Tokens`] is a domain read
+//! as a [`dsr::Vocabulary`]. A [`Link`] compiles the schemas of a domain that imports it: a condition becomes patterns
+//! ([`Condition`]), an effect becomes edits ([`Effect`]), and the expectation of an effect is the condition under which
+//! the effect can be *seen*.
 //!
 //! ```
 //! use dsr::{AgentId, Time};
@@ -14,12 +15,12 @@
 //!     (:types robot state - object) (:constants speaking - state)
 //!     (:predicates (is ?r - robot ?s - state)))");
 //! let words = parse_domain(&words, &[]).model.expect("no errors");
-//! let vocabulary = Tokens::new(&words).expect("every token is binary");
+//! let tokens = Tokens::new(&words).expect("every token is binary");
 //!
 //! let world = Source::new("world.pddl", "(define (problem world) (:domain words)
 //!     (:objects clarc - robot) (:init (is clarc speaking)) (:goal (and)))");
 //! let world = parse_problem(&world, &words).model.expect("no errors");
-//! let graph = vocabulary.populate(&[&world], Time(0)).expect("fits the vocabulary");
+//! let graph = tokens.populate(&[&world], Time(0)).expect("fits the vocabulary");
 //!
 //! let rules = Source::new("rules.pddl", "(define (domain rules) (:requirements :typing) (:import words)
 //!     (:action hush :parameters (?r - robot) :precondition (is ?r speaking)
@@ -27,7 +28,7 @@
 //! let rules = parse_domain(&rules, &[&words]).model.expect("no errors");
 //! let hush = rules.actions.iter().next().expect("there is one");
 //!
-//! let link = vocabulary.link(&rules);
+//! let link = tokens.link(&rules);
 //! let before = link.condition(&hush.variables, [&hush.precondition]).expect("made of tokens");
 //! let effect = link.effect(&hush.variables, [&hush.effect]).expect("made of tokens");
 //! let snapshot = graph.snapshot();
@@ -39,11 +40,11 @@
 //! assert_eq!(why.to_string(), "clarc is not speaking");
 //! ```
 //!
-//! Map, from the ground up: `located` (errors with places) → `tokens` (the names), `vocabulary` (reading them),
-//! `permission` → `populate`, `pose` (the initial graph) → `scope`, `formula`, `translate`, `number`, `disjuncts`
-//! (conditions as logic over tokens) → `binding`, `condition`, `alternative`, `unmet` (as patterns) → `effect`,
-//! `lower_effect`, `expectation` (as edits) → `sentence` (all of it in words) → `link` (the door for importing
-//! domains).
+//! Map, from the ground up: `located` (errors with places), `pose` → `tokens` (the names) → `token_error`,
+//! `declarations`, `permission` (reading them) → `populate` (the initial graph) → `formula`, `scope`, `disjuncts`,
+//! `number`, `binding`, `link_error`, `translate` (conditions as logic over tokens) → `alternative`, `condition` (as
+//! patterns) → `effect`, `lower_effect`, `expectation` (effects as edits) → `sentence`, `unmet` (conditions in words) →
+//! `link` (where importing domains enter).
 
 mod alternative;
 mod binding;
@@ -80,7 +81,7 @@ pub use located::Located;
 pub use populate::{PopulateError, PopulateErrorKind};
 pub use pose::PoseComponent;
 pub use scope::{Scope, Slot};
-pub use sentence::{Sentence, Speaker, describe_edit};
+pub use sentence::{Sentence, Speaker};
 pub use token_error::{TokenError, TokenErrorKind};
 pub use tokens::{FunctionToken, Sort, Tokens, ValueSort};
 pub use unmet::Unmet;

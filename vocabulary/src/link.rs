@@ -1,7 +1,7 @@
-//! The door for domains that import a vocabulary: what they say, read as graph.
+//! Compiling the schemas of a domain that imports a vocabulary.
 //!
-//! Ids are each domain's own, so everything is linked by name, once, when a schema is compiled. Nodes are looked up
-//! by name in each snapshot, because tests and worlds bring objects of their own.
+//! Each domain has ids of its own, so a schema is linked by name, once, when it is compiled. Nodes are looked up by name
+//! in each snapshot, because tests and worlds bring objects of their own.
 
 use pddl::model::{self, Domain, VariableId, Variables};
 
@@ -24,7 +24,7 @@ pub struct Link<'a> {
 }
 
 impl Tokens {
-    /// Reads what `domain`, which imports this vocabulary, says about the graph.
+    /// Links a domain that imports this vocabulary.
     pub fn link<'a>(&'a self, domain: &'a Domain) -> Link<'a> {
         Link { tokens: self, domain }
     }
@@ -41,7 +41,7 @@ impl<'a> Link<'a> {
         self.domain
     }
 
-    /// The variables of a schema with their types in the graph.
+    /// The variables of a schema, with their types in the graph.
     pub fn scope(&self, variables: &Variables) -> Result<Scope, Vec<LinkError>> {
         let mut errors = Vec::new();
         let slots = variables.slots.iter().map(|variable| self.slot(variable, &mut errors)).collect();
@@ -74,7 +74,7 @@ impl<'a> Link<'a> {
         slot
     }
 
-    /// The conjunction of some conditions, as patterns of the graph.
+    /// Compiles the conjunction of some conditions to patterns of the graph.
     pub fn condition<'c>(
         &self,
         variables: &Variables,
@@ -85,8 +85,8 @@ impl<'a> Link<'a> {
         self.compile(&scope, &formula)
     }
 
-    /// The conjunction of some conditions, as logic: predicates that are no tokens are allowed, and left to whoever
-    /// evaluates it.
+    /// Translates the conjunction of some conditions to logic. Predicates that are not tokens are allowed; the caller
+    /// evaluates them.
     pub fn formula<'c>(
         &self,
         scope: &Scope,
@@ -95,7 +95,7 @@ impl<'a> Link<'a> {
         self.translate(scope, conditions, Derived::Allowed)
     }
 
-    /// All of some effects, as edits of the graph.
+    /// Compiles some effects to edits of the graph.
     pub fn effect<'c>(
         &self,
         variables: &Variables,
@@ -104,7 +104,7 @@ impl<'a> Link<'a> {
         lower_effect::lower(self.tokens, self.domain, self.scope(variables)?, effects)
     }
 
-    /// The condition that the result of some effects can be seen in the graph.
+    /// Compiles the condition under which the result of some effects can be seen in the graph.
     pub fn expectation<'c>(
         &self,
         variables: &Variables,

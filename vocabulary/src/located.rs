@@ -1,21 +1,21 @@
-//! What is wrong and where: every mistake in a text of PDDL has a span of that text.
+//! Errors with a place: every mistake in a PDDL text has a span of that text.
 
 use std::error::Error;
 use std::fmt;
 
 use pddl::Span;
 
-/// A mistake with its place.
+/// An error with its place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Located<E> {
-    /// Where, in the source of the domain or problem that was read.
+    /// The place, in the source of the domain or problem that was read.
     pub span: Span,
-    /// What.
+    /// The error.
     pub kind: E,
 }
 
 impl<E> Located<E> {
-    /// The mistake at a place.
+    /// An error at a place.
     pub fn new(span: Span, kind: E) -> Self {
         Self { span, kind }
     }

@@ -1,7 +1,7 @@
 //! From the typed model's effects to changes of the graph.
 //!
-//! Idea: nested `forall` and `when` become one guard per change, whose visible variables are those quantified around
-//! it and those that it mentions.
+//! Idea: nested `forall` and `when` become one guard per change. The visible variables of the guard are the variables
+//! quantified around the change and the variables that the guard mentions.
 
 use pddl::Span;
 use pddl::model::{self, Application, AssignOperator, AssignedValue, EffectKind, VariableId};
@@ -98,7 +98,7 @@ impl Lowering<'_> {
             visible.sort_unstable();
             visible.dedup();
             let vocabulary = &self.translator.tokens.vocabulary;
-            // A quantified variable of a value was reported; compiling would only say so again.
+            // A quantified variable of a value was reported already.
             if visible.iter().any(|&variable| !self.translator.scope.is_node(variable)) {
                 return;
             }
@@ -111,7 +111,7 @@ impl Lowering<'_> {
     }
 }
 
-/// The edge that an atom is; reported if it is none.
+/// The edge of an atom. An atom that is not an edge is reported.
 pub(crate) fn edge(
     translator: &mut Translator<'_>,
     atom: &model::Atom,
@@ -128,7 +128,7 @@ pub(crate) fn edge(
     }
 }
 
-/// The change that an assignment is; reported if it is none.
+/// The change of an assignment. An assignment that the graph cannot make is reported.
 pub(crate) fn assignment(
     translator: &mut Translator<'_>,
     operator: AssignOperator,
@@ -219,7 +219,7 @@ fn transform(
     }
 }
 
-/// The constant value of a number, for expectations.
+/// The value of a constant number, for expectations.
 pub(crate) fn constant(number: &Number) -> Option<dsr::Value> {
     number.constant().map(dsr::Value::Number)
 }

@@ -16,7 +16,7 @@ pub(crate) enum Number {
 }
 
 impl Number {
-    /// The value, if it depends on no graph.
+    /// The value, if it is the same in every graph.
     pub(crate) fn constant(&self) -> Option<f64> {
         match self {
             Self::Constant(number) => Some(*number),
@@ -27,7 +27,7 @@ impl Number {
         }
     }
 
-    /// The value in a graph; `None` if something in it is undefined or unbound.
+    /// The value in a graph; `None` if a part is undefined or unbound.
     pub(crate) fn value(&self, snapshot: &Snapshot, binding: &Binding) -> Option<f64> {
         match self {
             Self::Constant(number) => Some(*number),
@@ -59,7 +59,7 @@ pub(crate) fn calculate(operator: ArithmeticOperator, operands: &[f64]) -> Optio
     result.is_finite().then_some(result)
 }
 
-/// The node that a term means here.
+/// The node of a term, under a binding.
 pub(crate) fn node_in(term: &Term, snapshot: &Snapshot, binding: &Binding) -> Option<NodeId> {
     match term {
         Term::Variable(variable) => binding.node(*variable),

@@ -1,7 +1,7 @@
-//! `:writes`: who may write which token, and where.
+//! `:writes`: which agent may write which token, and between which nodes.
 //!
-//! A binary function is an edge and its attribute, so the permission to write it is two. A bare symbol means the
-//! token anywhere; a constant fixes an end.
+//! A binary function is an edge and its attribute, so a permission to write it becomes two. A bare symbol permits the
+//! token anywhere; a constant fixes one end.
 
 use dsr::{End, Permission, Token};
 use pddl::model::{Domain, TokenPattern, TokenSymbol};
@@ -11,7 +11,10 @@ use crate::token_error::{TokenError, TokenErrorKind};
 use crate::tokens::{FunctionToken, Tokens};
 
 impl Tokens {
-    /// Reads a domain as a vocabulary; all that does not fit is reported.
+    /// Reads a domain as a vocabulary.
+    ///
+    /// # Errors
+    /// Every declaration that does not fit the graph.
     pub fn new(domain: &Domain) -> Result<Self, Vec<TokenError>> {
         let mut reader = Reader::new(domain);
         permissions(&mut reader);

@@ -1,8 +1,8 @@
-//! The initial graph, from problems that speak in the vocabulary.
+//! The initial graph, from problems of the vocabulary's domain.
 //!
-//! Objects and constants become nodes, facts become edges, fluents become attributes, the numbers `rt_x` … become
-//! poses. An object that several problems name is one node. Invariant: the graph exists only if everything fitted;
-//! then all of it is one commit, version 1, by the graph itself.
+//! Objects and constants become nodes, facts become edges, fluents become attributes, and the numbers `rt_x` … become
+//! poses. An object that several problems declare is one node. Invariant: a problem with an error gives no graph; without
+//! an error, the whole graph is one commit, version 1, by the graph itself.
 
 use std::sync::Arc;
 
@@ -18,25 +18,25 @@ use crate::tokens::{Constant, FunctionToken, Sort, Tokens};
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the fields are the names that the variant is about")]
 pub enum PopulateErrorKind {
-    /// The problem is of a domain other than the vocabulary.
-    #[error("this is no declaration of vocabulary `{vocabulary}`")]
+    /// The problem belongs to a domain other than the vocabulary.
+    #[error("vocabulary `{vocabulary}` does not declare this")]
     Foreign { vocabulary: Name },
     /// A node has one type.
     #[error("`{name}` has several types; a node has one")]
     SeveralTypes { name: Name },
-    /// Values are not nodes.
+    /// A value is not a node.
     #[error("`{name}` cannot be a value; only nodes can be objects")]
     ValueObject { name: Name },
-    /// Agents and resources belong to the vocabulary, which says what they may do.
+    /// Agents and resources are constants of the vocabulary, which lists their permissions.
     #[error("`{name}` must be a constant of the vocabulary: agents and resources are declared there")]
     LateBuiltIn { name: Name },
-    /// Two problems disagree.
+    /// Two problems give the object different types.
     #[error("`{name}` was given another type before")]
     Disagreement { name: Name },
     /// The graph computes it.
-    #[error("`{name}` is computed by the graph and has no initial value")]
+    #[error("`{name}` has no initial value: the graph computes it")]
     Computed { name: Name },
-    /// Poses are given by their numbers.
+    /// An initial pose is given by its numbers.
     #[error("an initial pose is given by `rt_x`, `rt_y`, `rt_z`, `rt_roll`, `rt_pitch`, `rt_yaw`")]
     Pose,
     /// The graph refuses it.
@@ -44,15 +44,15 @@ pub enum PopulateErrorKind {
     Refused(#[from] TransactionError),
 }
 
-/// Something that does not fit the graph.
+/// A part of a problem that does not fit the graph.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{kind}")]
 pub struct PopulateError {
     /// Which of the given problems, by position.
     pub problem: usize,
-    /// Where in its source.
+    /// The place in its source.
     pub span: Span,
-    /// What.
+    /// The error.
     pub kind: PopulateErrorKind,
 }
 
@@ -60,7 +60,7 @@ pub struct PopulateError {
 type Placed = (usize, Span, Edit);
 
 impl Tokens {
-    /// The graph in which everything holds that the problems say, at version 1.
+    /// The graph of the problems' initial states, at version 1.
     pub fn populate(&self, problems: &[&Problem], time: Time) -> Result<Graph, Vec<PopulateError>> {
         let edits = self.initial(problems)?;
         let graph = Graph::new(Arc::clone(&self.vocabulary));
@@ -72,14 +72,14 @@ impl Tokens {
         }
     }
 
-    /// The first edit without which the graph would not have refused: its place is the place of the mistake.
+    /// The error at the first edit that makes the graph refuse.
     fn culprit(&self, edits: &[Placed], error: TransactionError) -> PopulateError {
         let refused = |count: usize| {
             let mut transaction = Transaction::new(AgentId::DSR);
             transaction.extend(edits[..count].iter().map(|(_, _, edit)| edit.clone()));
             Graph::new(Arc::clone(&self.vocabulary)).commit(&transaction, Time(0)).err()
         };
-        // Unfinished trees of poses may be refused as well, so the last prefix that is accepted counts.
+        // The graph may also refuse an unfinished tree of poses, so the longest accepted prefix counts.
         let accepted = (0..edits.len()).rev().find(|&count| refused(count).is_none()).unwrap_or(0);
         let (problem, span) = edits.get(accepted).map(|&(p, s, _)| (p, s)).unwrap_or_default();
         PopulateError { problem, span, kind: PopulateErrorKind::Refused(error) }

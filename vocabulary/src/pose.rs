@@ -1,9 +1,9 @@
 //! Initial poses, written as numbers.
 //!
-//! Problem: PDDL has no literal for a rigid transform. Idea: six numeric functions of a pair of frames, of which a
-//! problem gives any that are not zero: `(= (rt_x robot screen) 0.2)`. One of them is enough to hang the second
-//! frame below the first. Metres and radians; the rotation is roll about x, then pitch about y, then yaw about z,
-//! about the axes of the parent.
+//! Problem: PDDL has no literal for a rigid transform. Idea: six numeric functions of a pair of frames; a problem gives
+//! those that are not zero: `(= (rt_x robot screen) 0.2)`. One of them is enough to make the second frame a child of the
+//! first. Units are metres and radians. The rotation is roll about x, then pitch about y, then yaw about z, all about the
+//! axes of the parent.
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion};
 use pddl::model::Name;

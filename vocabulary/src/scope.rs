@@ -5,14 +5,14 @@ use pddl::model::{Idx, Name, VariableId};
 
 use crate::tokens::ValueSort;
 
-/// A variable as the graph sees it.
+/// A variable with its type in the graph.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Slot {
     /// Its name without the question mark.
     pub name: Name,
-    /// The node types over which it ranges, none below another; empty if it stands for a value.
+    /// The node types over which it ranges, without subtypes of one another; empty if it stands for a value.
     pub types: Vec<TypeId>,
-    /// The kind of value for which it stands, if it does.
+    /// The kind of value, if it stands for one.
     pub value: Option<ValueSort>,
 }
 
@@ -37,12 +37,12 @@ impl Scope {
         (0..self.parameters).map(VariableId::from_index)
     }
 
-    /// How many variables there are.
+    /// The number of variables.
     pub fn len(&self) -> usize {
         self.slots.len()
     }
 
-    /// Whether there is none.
+    /// Whether the schema has no variables.
     pub fn is_empty(&self) -> bool {
         self.slots.is_empty()
     }

@@ -1,21 +1,19 @@
-//! The graph in the paper's own sentences: "robot is speaking", "person got answer".
+//! Conditions as the sentences of the paper: "robot is speaking", "person got answer".
 //!
-//! An edge is subject, label, object; underscores are spaces. A label that starts with an auxiliary verb takes its
-//! negation behind it ("person is not with robot"), any other one in front ("not: person got answer"). A variable
-//! that nothing binds is "some part", under a negation "any part".
+//! An edge reads subject, label, object; underscores become spaces. A label that starts with an auxiliary verb takes its
+//! negation after the verb ("person is not with robot"), any other label in front ("not: person got answer"). An unbound
+//! variable reads "some part", and under a negation "any part".
 
 use std::fmt;
 
-use dsr::{
-    AttributeId, Comparison, Edit, HolderRef, LabelId, NewValue, NodeRef, Snapshot, Value, Vocabulary,
-};
+use dsr::{AttributeId, Comparison, LabelId, Value, Vocabulary};
 use pddl::model::VariableId;
 use serde::Serialize;
 
 use crate::formula::{Formula, Holder, Literal, Right, Term};
 use crate::scope::Scope;
 
-/// Something said about the graph.
+/// A sentence about the graph.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(transparent)]
 pub struct Sentence(String);
@@ -39,11 +37,11 @@ pub struct Speaker<'a> {
     pub vocabulary: &'a Vocabulary,
     /// The variables.
     pub scope: &'a Scope,
-    /// The name of the node for which a variable stands, if it does for one.
+    /// The name of the node that a variable is bound to; `None` if it is unbound.
     pub name_of: &'a dyn Fn(VariableId) -> Option<String>,
 }
 
-/// How to speak of a variable that nothing binds.
+/// The articles of an unbound variable.
 const SOME: &str = "some";
 const ANY: &str = "any";
 const THAT: &str = "that";
@@ -147,57 +145,6 @@ impl Speaker<'_> {
             }
         }
     }
-}
-
-/// An edit in words, as the graph will be after it; `None` for what is not about tokens.
-pub fn describe_edit(snapshot: &Snapshot, edit: &Edit) -> Option<Sentence> {
-    let vocabulary = snapshot.vocabulary();
-    let node = |node: &NodeRef| match node {
-        NodeRef::Id(id) => snapshot.name(*id).map_or_else(|| id.to_string(), spaced),
-        NodeRef::Name(name) => spaced(name),
-    };
-    let attribute = |holder: &HolderRef, attribute: AttributeId| {
-        let name = attribute_name(vocabulary, attribute);
-        match holder {
-            HolderRef::Node(on) => format!("{name} of {}", node(on)),
-            HolderRef::Edge { from, to, .. } => format!("{name} of {} and {}", node(from), node(to)),
-        }
-    };
-    let text = match edit {
-        // The edges that carry an attribute are told by their attribute.
-        Edit::AddEdge { label, .. } if carries(vocabulary, *label) => return None,
-        Edit::RemoveEdge { from, label, to } if carries(vocabulary, *label) => {
-            format!("{} of {} and {} is not defined", label_text(vocabulary, *label), node(from), node(to))
-        }
-        Edit::AddEdge { from, label, to } => edge(vocabulary, &node(from), *label, &node(to), true),
-        Edit::RemoveEdge { from, label, to } => edge(vocabulary, &node(from), *label, &node(to), false),
-        Edit::SetAttribute { holder, attribute: id, value } => {
-            let value = match value {
-                NewValue::Number(number) => number.to_string(),
-                NewValue::Quantity(number, unit) => format!("{number} {unit}"),
-                NewValue::Text(text) => format!("“{text}”"),
-                NewValue::Bool(truth) => truth.to_string(),
-                NewValue::Node(target) => node(target),
-            };
-            format!("{} is {value}", attribute(holder, *id))
-        }
-        Edit::ClearAttribute { holder, attribute: id } => {
-            format!("{} is not defined", attribute(holder, *id))
-        }
-        Edit::SetTransform { parent, child, .. } | Edit::SampleTransform { parent, child, .. } => {
-            format!("{} has a pose in {}", node(child), node(parent))
-        }
-        Edit::RemoveTransform { parent, child } => {
-            format!("{} has no pose in {}", node(child), node(parent))
-        }
-        _ => return None,
-    };
-    Some(Sentence(text))
-}
-
-/// Whether edges with the label only carry an attribute of the same name.
-fn carries(vocabulary: &Vocabulary, label: LabelId) -> bool {
-    vocabulary.label_name(label).is_some_and(|name| vocabulary.attribute(name).is_some())
 }
 
 fn edge(vocabulary: &Vocabulary, from: &str, label: LabelId, to: &str, affirmed: bool) -> String {

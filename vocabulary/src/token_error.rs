@@ -1,4 +1,4 @@
-//! Why a domain cannot be the vocabulary of a graph.
+//! Why a domain cannot become the vocabulary of a graph.
 
 use dsr::VocabularyError;
 use pddl::model::Name;
@@ -12,13 +12,13 @@ pub enum TokenErrorKind {
     /// Node types form a tree.
     #[error("type `{name}` has several parents; the graph's types have one each")]
     SeveralParents { name: Name },
-    /// The graph's own types have no subtypes and stand below `object`.
+    /// The graph's own types are children of `object` and have no subtypes.
     #[error(
-        "`{name}` is below `{below}`; `agent` and `resource` stand below `object` and nothing below them"
+        "`{name}` is below `{below}`; `agent` and `resource` are children of `object` and have no subtypes"
     )]
     BuiltInType { name: Name, below: Name },
     /// Only `text`, `flag` and `pose` are kinds of values.
-    #[error("`{name}` is no kind of value; there are `text`, `flag` and `pose`")]
+    #[error("`{name}` is not a kind of value; the kinds are `text`, `flag` and `pose`")]
     UnknownValueType { name: Name },
     /// A node has one type.
     #[error("constant `{name}` has several types; a node has one")]
@@ -29,16 +29,16 @@ pub enum TokenErrorKind {
     /// An edge has two ends.
     #[error("predicate `{name}` has {arity} arguments; an edge of the graph has two ends")]
     NotBinary { name: Name, arity: usize },
-    /// A derived predicate is not something that anybody writes.
-    #[error("predicate `{name}` is derived; a token of the vocabulary is written by agents")]
+    /// Agents write tokens; no agent writes a derived predicate.
+    #[error("predicate `{name}` is derived; agents write the tokens of a vocabulary")]
     Derived { name: Name },
     /// Edges are between nodes.
     #[error("`{name}` cannot be about a value (`?{variable}`); tokens are about nodes")]
     ValueArgument { name: Name, variable: Name },
-    /// An attribute hangs on a node or an edge.
-    #[error("function `{name}` has {arity} arguments; an attribute is of a node or of a pair of nodes")]
+    /// An attribute belongs to a node or an edge.
+    #[error("function `{name}` has {arity} arguments; an attribute belongs to a node or to a pair of nodes")]
     FunctionArity { name: Name, arity: usize },
-    /// An attribute is of one type of node.
+    /// An attribute belongs to one type of node.
     #[error("function `{name}`: `?{variable}` has several types; an attribute's argument has one")]
     FunctionArgument { name: Name, variable: Name },
     /// An attribute has one kind.
@@ -54,10 +54,10 @@ pub enum TokenErrorKind {
     #[error("`{name}` is a predicate and a function; a label has one meaning")]
     TwoMeanings { name: Name },
     /// `:writes` names an agent.
-    #[error("`{name}` may not write: it is no constant of type `agent`")]
+    #[error("`{name}` may not write: it is not a constant of type `agent`")]
     NotAnAgent { name: Name },
-    /// Nobody writes what is computed.
-    #[error("nobody can write `{name}`: the graph computes it")]
+    /// The graph computes it, so that no agent can write it.
+    #[error("no agent can write `{name}`: the graph computes it")]
     Computed { name: Name },
     /// The graph refuses it.
     #[error(transparent)]

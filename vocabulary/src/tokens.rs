@@ -1,18 +1,18 @@
-//! The names of a vocabulary and what each is in the graph.
+//! The names of a vocabulary, and what each of them is in the graph.
 //!
 //! | PDDL | graph |
 //! |---|---|
 //! | type | type of nodes; below `frame`: with a pose; `agent` and `resource` are the graph's own |
-//! | type below `value` (`text`, `flag`, `pose`) | no nodes: a kind of attribute |
+//! | type below `value` (`text`, `flag`, `pose`) | a kind of attribute, without nodes |
 //! | constant | a node that always exists; of type `flag`: the truth values `true` and `false` |
 //! | binary predicate | label of edges |
 //! | unary function | attribute of nodes |
-//! | binary function | label whose edges carry one attribute of the same name: undefined = no such edge |
+//! | binary function | label whose edges carry one attribute of the same name; an undefined function has no edge |
 //! | binary function `rt` - pose | edge of the geometric quiver, pose of the second frame in the first |
 //! | binary function `distance` - number | computed by the graph from the poses |
 //! | binary functions `rt_x` … `rt_yaw` - number | parts of an initial pose, in `:init` only |
 //!
-//! Ids of PDDL differ from domain to domain; names link them. Invariant: every id in a [`Tokens`] is of its
+//! The ids of PDDL differ from domain to domain; names link them. Invariant: every id in a [`Tokens`] belongs to its
 //! vocabulary.
 
 use std::sync::Arc;
@@ -34,7 +34,7 @@ pub enum Sort {
     Value(ValueSort),
 }
 
-/// What is not a node.
+/// A kind of value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ValueSort {
     /// Text.
@@ -66,7 +66,7 @@ pub enum FunctionToken {
 pub(crate) enum Constant {
     /// An agent or a resource: the graph makes its node.
     BuiltIn(TypeId),
-    /// A node that populating makes.
+    /// A node of the initial graph.
     Node(TypeId),
     /// A value.
     Value(Value),
@@ -82,7 +82,7 @@ pub struct Tokens {
     pub(crate) functions: FxHashMap<Name, FunctionToken>,
     /// In the order of the source.
     pub(crate) constants: IndexMap<Name, Constant>,
-    /// The domain itself: problems that populate the graph speak in its ids.
+    /// The domain itself: the problems of the initial graph use its ids.
     pub(crate) domain: Arc<Domain>,
 }
 
@@ -97,12 +97,12 @@ impl Tokens {
         &self.vocabulary
     }
 
-    /// What the type of that name is.
+    /// What a type is, by its name.
     pub fn sort(&self, name: &str) -> Option<Sort> {
         self.types.get(name).copied()
     }
 
-    /// The label that a predicate is.
+    /// The label of a predicate.
     pub fn label(&self, predicate: &str) -> Option<LabelId> {
         self.labels.get(predicate).copied()
     }
@@ -112,12 +112,12 @@ impl Tokens {
         self.functions.get(name).copied()
     }
 
-    /// Whether this is a token: something that can stand in the graph or be measured in it.
+    /// Whether the name is a token: the graph can store it or compute it.
     pub fn is_token(&self, name: &str) -> bool {
         self.labels.contains_key(name) || self.functions.contains_key(name)
     }
 
-    /// The value for which a constant stands; `None` if it stands for a node.
+    /// The value of a constant; `None` if the constant is a node.
     pub fn value(&self, constant: &str) -> Option<&Value> {
         match self.constants.get(constant)? {
             Constant::Value(value) => Some(value),
@@ -125,7 +125,7 @@ impl Tokens {
         }
     }
 
-    /// Where a predicate or function of the vocabulary was declared, in its own source.
+    /// The place of a predicate's or function's declaration, in the vocabulary's source.
     pub fn declared(&self, name: &str) -> Option<Span> {
         let predicate = self.domain.predicate(name).map(|id| self.domain.predicates[id].span);
         predicate.or_else(|| self.domain.function(name).map(|id| self.domain.functions[id].span))

@@ -11,7 +11,7 @@ use crate::number::{Number, calculate};
 use crate::scope::Scope;
 use crate::tokens::{FunctionToken, Tokens};
 
-/// Whether predicates that are no tokens may occur.
+/// Whether predicates that are not tokens may occur.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Derived {
     Allowed,
@@ -83,7 +83,7 @@ impl<'a> Translator<'a> {
         }
     }
 
-    /// Quantified variables; those for values are reported.
+    /// Quantified variables. A variable of a value is reported.
     pub(crate) fn quantified(&mut self, variables: &[VariableId], span: Span) -> Vec<VariableId> {
         for &variable in variables {
             if !self.scope.is_node(variable) {
@@ -112,7 +112,7 @@ impl<'a> Translator<'a> {
         Formula::always()
     }
 
-    /// The edge that an atom is, if its predicate is a label.
+    /// The edge of an atom, if its predicate is a label.
     pub(crate) fn edge(&mut self, atom: &Atom) -> Option<Literal> {
         let label = self.tokens.label(&self.domain.predicates[atom.predicate].name)?;
         let &[from, to] = atom.arguments.as_slice() else { return None };
@@ -120,7 +120,7 @@ impl<'a> Translator<'a> {
         Some(Literal::Edge { from, label, to })
     }
 
-    /// A term that must be a node; reported if it is a value.
+    /// A term that must be a node. A value is reported.
     pub(crate) fn node(&mut self, term: model::Term, span: Span) -> Option<Term> {
         match self.term(term) {
             TermOrValue::Term(Term::Variable(variable)) if !self.scope.is_node(variable) => {
@@ -167,7 +167,7 @@ impl<'a> Translator<'a> {
         Some(Formula::Literal(literal, span))
     }
 
-    /// The holder and the attribute that an application is; reported if it is none.
+    /// The holder and the attribute of an application. An application that is not an attribute is reported.
     pub(crate) fn attribute(&mut self, application: &Application) -> Option<(Holder, AttributeId)> {
         let name = self.domain.functions[application.function].name.clone();
         let span = application.span;
@@ -191,7 +191,7 @@ impl<'a> Translator<'a> {
         None
     }
 
-    /// A numeric expression; reported if it has no value here.
+    /// A numeric expression. An expression without a value is reported.
     pub(crate) fn number(&mut self, expression: &Expression) -> Option<Number> {
         match &expression.kind {
             ExpressionKind::Number(number) => Some(Number::Constant(*number)),
@@ -292,7 +292,7 @@ fn flipped(comparison: Comparison) -> Comparison {
     }
 }
 
-/// Whether two numbers compare so.
+/// Whether the comparison holds for two numbers.
 pub(crate) fn holds(comparison: Comparison, left: f64, right: f64) -> bool {
     match comparison {
         Comparison::Equal => left == right,

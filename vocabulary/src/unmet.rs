@@ -1,8 +1,8 @@
-//! Why a condition does not hold: its first part that fails, as the graph has it.
+//! Why a condition does not hold: the first part that fails.
 //!
-//! Idea: walk the outermost conjuncts in the order of the source and keep the bindings that satisfied those before;
-//! the conjunct that leaves none is the reason. With all variables bound that is the first false conjunct; with some
-//! open it is the first that cannot be true together with those before it.
+//! Idea: walk the outermost conjuncts in the order of the source, and keep the bindings that satisfy all conjuncts so
+//! far. The conjunct that leaves no binding is the reason. If all variables are bound, it is the first false conjunct; if
+//! some are free, it is the first that cannot hold together with those before it.
 
 use std::fmt;
 
@@ -15,13 +15,13 @@ use crate::condition::{Condition, completions, first_span};
 use crate::formula::Formula;
 use crate::sentence::{Sentence, Speaker};
 
-/// The bindings that are followed at most; beyond, an explanation may name a later conjunct.
+/// The most bindings that are followed. Beyond that number, an explanation may name a later conjunct.
 const FRONTIER: usize = 256;
 
 /// The first part of a condition that fails.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Unmet {
-    /// What the graph shows instead: "person is not with robot".
+    /// What the graph shows: "person is not with robot".
     pub sentence: Sentence,
     /// What the condition asks for: "person is with robot".
     pub wanted: Sentence,
@@ -59,7 +59,7 @@ impl Unmet {
             frontier = next;
             frontier.truncate(FRONTIER);
         }
-        // A parameter that no conjunct mentions has no node to stand for.
+        // Every conjunct can hold, so a parameter that no conjunct mentions has no node of its type.
         let all = Formula::All(condition.parts.iter().map(|part| part.formula.clone()).collect());
         Self::of(condition, &all, snapshot, binding)
     }

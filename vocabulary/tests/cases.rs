@@ -1,4 +1,4 @@
-//! Case files: a vocabulary, problems that populate it, and rules that are tried on the graph.
+//! Case files: a vocabulary, problems of its initial graph, and rules that are tried on the graph.
 
 #[path = "support/case_file.rs"]
 mod case_file;
@@ -6,23 +6,23 @@ mod case_file;
 use std::fmt::Write as _;
 
 use case_file::{diagnostics, place, sources};
-use dsr::{Snapshot, Time};
+use dsr::{AttributeId, Edit, HolderRef, LabelId, NewValue, NodeRef, Snapshot, Time};
 use pddl::model::{Domain, Idx, Problem, VariableId, Variables};
 use pddl::{Source, parse_domain, parse_problem};
-use vocabulary::{Binding, Tokens, describe_edit, is_redundant};
+use vocabulary::{Binding, Tokens, is_redundant};
 
 #[test]
 fn cases() {
     case_file::run("tests/cases", |text| case(text).unwrap_or_else(|errors| errors));
 }
 
-/// What comes of a case; `Err` at the first step that goes wrong.
+/// The result of a case; `Err` at the first step that fails.
 fn case(text: &str) -> Result<String, String> {
     let sources = sources(text);
     let (_, source) = &sources[0];
     let words = parse_domain(source, &[]);
     let words = words.model.ok_or_else(|| diagnostics(source, &words.diagnostics))?;
-    let vocabulary = Tokens::new(&words)
+    let tokens = Tokens::new(&words)
         .map_err(|errors| errors.iter().map(|error| place(source, error.span, error)).collect::<String>())?;
 
     let mut problems: Vec<(&Source, Problem)> = Vec::new();
@@ -31,7 +31,7 @@ fn case(text: &str) -> Result<String, String> {
         problems.push((source, parsed.model.ok_or_else(|| diagnostics(source, &parsed.diagnostics))?));
     }
     let given: Vec<&Problem> = problems.iter().map(|(_, problem)| problem).collect();
-    let graph = vocabulary.populate(&given, Time(0)).map_err(|errors| {
+    let graph = tokens.populate(&given, Time(0)).map_err(|errors| {
         errors.iter().map(|error| place(problems[error.problem].0, error.span, error)).collect::<String>()
     })?;
     let snapshot = graph.snapshot();
@@ -42,14 +42,14 @@ fn case(text: &str) -> Result<String, String> {
     for (_, source) in sources.iter().filter(|(name, _)| name == "rules") {
         let parsed = parse_domain(source, &[&words]);
         let rules = parsed.model.ok_or_else(|| diagnostics(source, &parsed.diagnostics))?;
-        out.push_str(&tried(source, &vocabulary, &rules, &snapshot));
+        out.push_str(&tried(source, &tokens, &rules, &snapshot));
     }
     Ok(out)
 }
 
-/// Every action of `rules`: its bindings, what it would write for each, and whether that can be seen already.
-fn tried(source: &Source, vocabulary: &Tokens, rules: &Domain, snapshot: &Snapshot) -> String {
-    let link = vocabulary.link(rules);
+/// Every action of `rules`: its bindings, the edits of each, and what of their result cannot be seen yet.
+fn tried(source: &Source, tokens: &Tokens, rules: &Domain, snapshot: &Snapshot) -> String {
+    let link = tokens.link(rules);
     let mut out = String::new();
     for action in &rules.actions {
         let _ = writeln!(out, "{}:", action.name);
@@ -86,7 +86,7 @@ fn tried(source: &Source, vocabulary: &Tokens, rules: &Domain, snapshot: &Snapsh
                 Ok(Ok(edits)) => {
                     for edit in &edits {
                         let already = if is_redundant(snapshot, edit) { " (already)" } else { "" };
-                        if let Some(sentence) = describe_edit(snapshot, edit) {
+                        if let Some(sentence) = written(snapshot, edit) {
                             let _ = writeln!(out, "    {sentence}{already}");
                         }
                     }
@@ -108,4 +108,41 @@ fn names(snapshot: &Snapshot, variables: &Variables, binding: &Binding) -> Strin
         None => format!("{}=_", variables[id].name),
     };
     (0..variables.parameters).map(|at| name(VariableId::from_index(at))).collect::<Vec<_>>().join(" ")
+}
+
+/// An edit as text; `None` for the edge that only carries an attribute.
+fn written(snapshot: &Snapshot, edit: &Edit) -> Option<String> {
+    let vocabulary = snapshot.vocabulary();
+    let node = |node: &NodeRef| match node {
+        NodeRef::Id(id) => snapshot.name(*id).unwrap_or("?").to_owned(),
+        NodeRef::Name(name) => name.to_string(),
+    };
+    let label = |id: &LabelId| vocabulary.label_name(*id).map_or("?", |name| name).replace('_', " ");
+    let carries = |id: &LabelId| vocabulary.label_name(*id).is_some_and(|name| vocabulary.attribute(name).is_some());
+    let attribute = |holder: &HolderRef, id: AttributeId| {
+        let name = vocabulary.attribute_name(id).map_or("?", |name| name);
+        match holder {
+            HolderRef::Node(on) => format!("{name} of {}", node(on)),
+            HolderRef::Edge { from, to, .. } => format!("{name} of {} and {}", node(from), node(to)),
+        }
+    };
+    Some(match edit {
+        Edit::AddEdge { label: id, .. } if carries(id) => return None,
+        Edit::RemoveEdge { from, label: id, to } if carries(id) => {
+            format!("{} of {} and {} is not defined", label(id), node(from), node(to))
+        }
+        Edit::AddEdge { from, label: id, to } => format!("{} {} {}", node(from), label(id), node(to)),
+        Edit::RemoveEdge { from, label: id, to } => format!("not: {} {} {}", node(from), label(id), node(to)),
+        Edit::SetAttribute { holder, attribute: id, value } => {
+            let value = match value {
+                NewValue::Number(number) => number.to_string(),
+                NewValue::Bool(truth) => truth.to_string(),
+                NewValue::Node(target) => node(target),
+                other => format!("{other:?}"),
+            };
+            format!("{} is {value}", attribute(holder, *id))
+        }
+        Edit::ClearAttribute { holder, attribute: id } => format!("{} is not defined", attribute(holder, *id)),
+        other => format!("{other:?}"),
+    })
 }

@@ -1,4 +1,4 @@
-//! Case files: several PDDL sources in one file, and what is expected of them in a second one.
+//! Case files: several PDDL sources in one file, and the expected result in a second one.
 //!
 //! A line `;;; NAME` starts a source. Each source keeps its line numbers in the file, so an expected `7:3` is a place
 //! that an editor finds. `UPDATE_EXPECT=1 cargo test` writes the expectations.
@@ -25,13 +25,13 @@ pub(crate) fn sources(text: &str) -> Vec<(String, Source)> {
     found.into_iter().map(|(name, text)| (name.clone(), Source::new(name, text))).collect()
 }
 
-/// `7:3 what is wrong`.
+/// A message with its place: `7:3 message`.
 pub(crate) fn place(source: &Source, span: Span, what: &dyn std::fmt::Display) -> String {
     let at = source.line_column(span.start);
     format!("{}:{} {what}\n", at.line, at.column)
 }
 
-/// What the reader of a source has to say.
+/// The errors of a source.
 pub(crate) fn diagnostics(source: &Source, diagnostics: &[Diagnostic]) -> String {
     diagnostics
         .iter()
