@@ -1,4 +1,4 @@
-//! One delta of the Barthel test: the last option was said, so its item is described; and all of it from scratch.
+//! One delta of the Barthel test (the last option was said, so its item is described), and a derivation from scratch.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -61,7 +61,7 @@ fn bench(criterion: &mut Criterion) {
         })
         .expect("the graph itself may write");
 
-    // There and back, so that every update starts from the same facts: two updates per iteration.
+    // Two updates per iteration, there and back, so that each iteration starts from the same facts.
     let mut seen = before.clone();
     criterion.bench_function("low_to_high/two updates (barthel)", |bencher| {
         bencher.iter(|| {

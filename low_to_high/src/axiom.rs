@@ -1,8 +1,8 @@
-//! An axiom, compiled: alternatives of its body, and where the graph can touch it.
+//! An axiom, compiled: the alternatives of its body, and the literals on which it depends.
 //!
-//! Idea: whether a head instance holds depends only on the ground instances of the body's literals under that head.
-//! So a change of a ground token can only change heads that agree with it wherever the literal names a parameter of
-//! the head. A [`Dependency`] keeps, per literal, which parameter stands at which end. This holds for literals at any
+//! Idea: whether a head instance holds depends only on the ground instances of the body's literals under that head. So a
+//! change of a ground token can change only the heads that agree with it wherever the literal names a parameter of the
+//! head. A [`Dependency`] keeps, for each literal, which parameter is at which end. This is true for literals at any
 //! depth of negation and quantification.
 
 use dsr::{AttributeId, LabelId, TypeId};
@@ -19,11 +19,11 @@ pub(crate) struct Axiom {
     pub(crate) dependencies: Vec<Dependency>,
     /// The types over which a parameter or a quantified variable ranges.
     pub(crate) types: Vec<TypeId>,
-    /// The nodes that it names.
+    /// The nodes that it mentions by name.
     pub(crate) constants: Vec<Name>,
 }
 
-/// What a literal depends on.
+/// The kind of change that can change a literal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Token {
     Label(LabelId),
@@ -32,7 +32,7 @@ pub(crate) enum Token {
     Predicate(PredicateId),
 }
 
-/// What stands at one place of a literal.
+/// An argument of a literal, as seen from the head.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Place {
     /// This parameter of the head.
@@ -43,7 +43,7 @@ pub(crate) enum Place {
     Any,
 }
 
-/// A literal of the body, as seen by a change.
+/// A literal of the body, on which the axiom depends.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Dependency {
     pub(crate) token: Token,
@@ -70,7 +70,7 @@ impl Axiom {
         axiom
     }
 
-    /// How many parameters the head has.
+    /// The number of the head's parameters.
     pub(crate) fn arity(&self) -> usize {
         self.scope.parameters().count()
     }
@@ -98,7 +98,7 @@ impl Axiom {
                     self.add_attribute(holder, *attribute);
                 }
             }
-            // A chain of transforms may pass through any frame, so the ends say nothing.
+            // A chain of transforms may pass through any frame, so the two ends do not restrict the head.
             Literal::Distance { .. } => self.add(Token::Transforms, &[]),
             Literal::Derived { predicate, arguments, .. } => {
                 self.add(Token::Predicate(*predicate), &arguments.iter().collect::<Vec<_>>());

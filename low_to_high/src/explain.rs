@@ -1,9 +1,9 @@
 //! Why a fact is perceived, or what is missing for it, down to the tokens.
 //!
-//! Idea: for a fact that holds, the first match of the first alternative that gives it, each derived literal replaced
-//! by its own reasons. For one that does not, the alternative that lacks least: the literals that fail when it is
-//! walked in the order of the source, and for a negated part what stands in its way. A predicate that depends on
-//! itself is explained once.
+//! Idea: a fact that holds is explained by the first match of the first alternative that gives it, with each derived
+//! literal replaced by its own reasons. A fact that does not hold is explained by the alternative that lacks the fewest
+//! tokens: the literals that fail in the order of the source, and for a negated part the tokens that match it. A
+//! predicate that depends on itself is explained once.
 
 use std::ops::ControlFlow;
 
@@ -17,23 +17,23 @@ use crate::fact::Fact;
 use crate::low_to_high::LowToHigh;
 use crate::query::{Environment, Query};
 
-/// The bindings that are followed at most while looking for what is missing.
+/// The most bindings that are followed while looking for the missing tokens.
 const FRONTIER: usize = 64;
 
 /// Why a fact holds or does not.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Explanation {
-    /// It holds, because the graph shows this.
+    /// It holds; the tokens that support it.
     Holds(Vec<Sentence>),
-    /// It does not hold, because the graph shows this.
+    /// It does not hold; what the graph shows instead.
     Absent(Vec<Sentence>),
-    /// Nothing derives it: it is no matter of perception, or it is about no node.
+    /// No axiom derives it, or an argument is not a node.
     NotPerceived,
 }
 
 impl LowToHigh {
-    /// Why a fact, auxiliary or not, holds or does not; `snapshot` is the graph last seen.
+    /// Why a fact holds or does not; it may be auxiliary. `snapshot` is the one of the last update.
     pub fn why(&self, snapshot: &Snapshot, fact: &Fact) -> Explanation {
         let tuple: Option<Vec<NodeId>> = fact.arguments.iter().map(|name| snapshot.node(name)).collect();
         let (Some(predicate), Some(tuple)) = (self.perception.find(&fact.predicate), tuple) else {
@@ -48,7 +48,7 @@ impl LowToHigh {
         }
     }
 
-    /// The sentences of [`LowToHigh::why`]: the tokens that support the fact, or those that it lacks.
+    /// The sentences of [`LowToHigh::why`]: the tokens that support the fact, or those that are missing.
     pub fn explain(&self, snapshot: &Snapshot, fact: &Fact) -> Vec<String> {
         match self.why(snapshot, fact) {
             Explanation::Holds(said) | Explanation::Absent(said) => {
@@ -62,7 +62,7 @@ impl LowToHigh {
 struct Explaining<'a> {
     seen: &'a LowToHigh,
     query: Query<'a>,
-    /// What is being explained, outermost first.
+    /// The facts that are being explained, outermost first.
     path: Vec<(PredicateId, Vec<NodeId>)>,
 }
 
@@ -111,7 +111,7 @@ impl<'a> Explaining<'a> {
         found
     }
 
-    /// All of a match in words.
+    /// A whole match in words.
     fn affirmed(&mut self, axiom: &Axiom, part: &Conjunction, environment: &Environment) -> Vec<Sentence> {
         let mut said = Vec::new();
         for (literal, _) in &part.literals {
@@ -148,7 +148,7 @@ impl<'a> Explaining<'a> {
         }
     }
 
-    /// A negated part in words, which has no match.
+    /// A negated part without a match, in words.
     fn denied_part(&mut self, axiom: &Axiom, part: &Conjunction, environment: &Environment) -> Vec<Sentence> {
         if let ([(literal, _)], [], []) =
             (part.literals.as_slice(), part.without.as_slice(), part.variables.as_slice())
@@ -159,7 +159,7 @@ impl<'a> Explaining<'a> {
         vec![self.speak(axiom, environment, |speaker| speaker.say(&none))]
     }
 
-    /// The derived predicate and the nodes of a literal, if it is one and all its variables are bound.
+    /// The fact of a derived literal whose variables are all bound.
     fn ground(&self, literal: &Literal, environment: &Environment) -> Option<(PredicateId, Vec<NodeId>)> {
         let Literal::Derived { predicate, arguments, .. } = literal else { return None };
         let node = |term: &Term| match term {
@@ -182,7 +182,7 @@ impl<'a> Explaining<'a> {
             }
             for part in &axiom.body {
                 let said = self.lacking(axiom, part, tuple);
-                // An alternative of which nothing can be said (it goes round in a circle) explains nothing.
+                // An alternative without a sentence depends only on itself, and explains nothing.
                 if !said.is_empty() && least.as_ref().is_none_or(|least| said.len() < least.len()) {
                     least = Some(said);
                 }
@@ -192,7 +192,7 @@ impl<'a> Explaining<'a> {
         least.unwrap_or_default()
     }
 
-    /// Whether the axiom's parameters range over these nodes.
+    /// Whether the nodes have the types of the axiom's parameters.
     fn is_about(&self, axiom: &Axiom, tuple: &[NodeId]) -> bool {
         let vocabulary = self.query.snapshot.vocabulary();
         axiom.scope.parameters().zip(tuple).all(|(variable, &node)| {
@@ -201,7 +201,7 @@ impl<'a> Explaining<'a> {
         })
     }
 
-    /// What an alternative lacks for a head: the literals that fail, one after the other.
+    /// What an alternative lacks for a head: the literals that fail, in the order of the source.
     fn lacking(&mut self, axiom: &Axiom, part: &Conjunction, tuple: &[NodeId]) -> Vec<Sentence> {
         let mut frontier = vec![self.head(axiom, tuple)];
         let mut said = Vec::new();
@@ -228,8 +228,8 @@ impl<'a> Explaining<'a> {
                 .cloned()
                 .collect();
             if free.is_empty() {
-                let obstacle = self.first(without, &[], frontier[0].clone());
-                if let Some(environment) = obstacle {
+                let blocking = self.first(without, &[], frontier[0].clone());
+                if let Some(environment) = blocking {
                     add(&mut said, self.affirmed(axiom, without, &environment));
                 }
             } else {
@@ -239,7 +239,7 @@ impl<'a> Explaining<'a> {
         said
     }
 
-    /// The ways to make one literal hold that agree with an environment.
+    /// The completions of an environment that make one literal hold.
     fn extend(&self, alone: &Conjunction, environment: &Environment, next: &mut Vec<Environment>) {
         let literal = &alone.literals[0].0;
         let unbound: Vec<_> =
@@ -266,7 +266,7 @@ impl<'a> Explaining<'a> {
     }
 }
 
-/// Adds what was not said yet.
+/// Adds the sentences that are new.
 fn add(said: &mut Vec<Sentence>, more: Vec<Sentence>) {
     for sentence in more {
         if !said.contains(&sentence) {

@@ -1,16 +1,16 @@
-//! What LowToHigh says: facts, and which of them came and went.
+//! Facts, and which of them appeared or disappeared.
 
 use std::fmt;
 
 use pddl::model::Name;
 use serde::Serialize;
 
-/// A predicate of names that holds.
+/// A ground atom of the planner, by names.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 pub struct Fact {
-    /// Which predicate.
+    /// The predicate.
     pub predicate: Name,
-    /// The names of the nodes that it is about.
+    /// The names of its arguments, which are nodes.
     pub arguments: Vec<Name>,
 }
 
@@ -24,17 +24,17 @@ impl fmt::Display for Fact {
     }
 }
 
-/// What a delta of the graph means for the planner's predicates. Both lists are sorted and disjoint.
+/// How a delta of the graph changes the planner's facts. Both lists are sorted and disjoint.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub struct Change {
-    /// What holds now and did not before.
+    /// The facts that hold now and did not before.
     pub appeared: Vec<Fact>,
-    /// What held before and does not now.
+    /// The facts that held before and do not now.
     pub disappeared: Vec<Fact>,
 }
 
 impl Change {
-    /// Whether nothing came or went.
+    /// Whether no fact changed.
     pub fn is_empty(&self) -> bool {
         self.appeared.is_empty() && self.disappeared.is_empty()
     }

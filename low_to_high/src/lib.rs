@@ -1,8 +1,8 @@
 //! LowToHigh: from binary tokens and metric attributes to n-ary predicates.
 //!
-//! The graph says `introduction was said in feeding`; the planner thinks in `(introduced feeding)`. A test's
-//! `perception.pddl` says in axioms how the one comes out of the other. [`Perception`] is that file compiled;
-//! [`LowToHigh`] keeps what it derives from a graph, delta by delta, and can say which tokens support a fact or are
+//! Problem: the graph says `introduction was said in feeding`; the planner plans with `(introduced feeding)`. Idea: a
+//! test's `perception.pddl` derives the second from the first by axioms. [`Perception`] is that file, compiled.
+//! [`LowToHigh`] keeps the derived facts up to date, delta by delta, and explains which tokens support a fact or are
 //! missing for it.
 //!
 //! ```
@@ -23,21 +23,21 @@
 //!     (:objects clarc - robot ann - person) (:init) (:goal (and)))");
 //! let world = parse_problem(&world, &words).model.expect("no errors");
 //!
-//! let vocabulary = Tokens::new(&words).expect("every token is binary");
-//! let graph = vocabulary.populate(&[&world], Time(0)).expect("fits the vocabulary");
-//! let perception = Perception::new(&perception, &vocabulary).expect("made of tokens");
+//! let tokens = Tokens::new(&words).expect("every token is binary");
+//! let graph = tokens.populate(&[&world], Time(0)).expect("fits the vocabulary");
+//! let perception = Perception::new(&perception, &tokens).expect("made of tokens");
 //! let mut seen = LowToHigh::new(Arc::new(perception), &graph.snapshot());
 //! assert_eq!(seen.facts().count(), 0);
 //!
-//! let is_with = vocabulary.label("is_with").expect("declared");
+//! let is_with = tokens.label("is_with").expect("declared");
 //! let commit = graph.edit(AgentId::DSR, Time(1), |tx| { tx.add_edge("ann", is_with, "clarc"); }).expect("allowed");
 //! let change = seen.update(&commit.snapshot, &commit.delta);
 //! assert_eq!(change.appeared[0].to_string(), "(present ann)");
 //! assert_eq!(seen.explain(&commit.snapshot, &change.appeared[0]), ["ann is with clarc"]);
 //! ```
 //!
-//! Map, from the ground up: `fact` → `axiom`, `perception`, `strata` (the file, compiled) → `relations` (what is
-//! derived), `query` (matching a body) → `touched` (what of it a delta can change) → `low_to_high` → `explain`.
+//! Map, from the ground up: `fact` → `axiom`, `strata`, `perception` (the file, compiled) → `relations` (the derived
+//! facts), `query` (matching a body) → `touched` (the heads that a delta can change) → `low_to_high` → `explain`.
 
 mod axiom;
 mod explain;

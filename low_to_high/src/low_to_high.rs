@@ -1,9 +1,9 @@
-//! What is perceived of one graph, kept up to date.
+//! The facts perceived in one graph, kept up to date.
 //!
-//! Idea: component by component in the order of derivation, an axiom is asked again only for the heads that the
-//! delta, or a fact that came or went below, can concern (`touched`); the answer replaces what it gave for those
-//! heads. A recursive component is derived from scratch when anything in it is concerned. Invariant: after every
-//! update the facts are those that [`LowToHigh::new`] would derive from the same snapshot.
+//! Idea: update component by component, in the order of derivation. An axiom is evaluated again only for the heads that
+//! the delta, or a changed fact of an earlier component, can affect (`touched`); the result replaces the axiom's earlier
+//! result for those heads. A recursive component is derived from scratch when any of its axioms is affected. Invariant:
+//! after every update the facts are those that [`LowToHigh::new`] would derive from the same snapshot.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
@@ -26,12 +26,12 @@ use crate::touched::{Affected, Touched};
 pub struct LowToHigh {
     pub(crate) perception: Arc<Perception>,
     pub(crate) relations: Relations,
-    /// The nodes of the graph last seen; facts speak in names.
+    /// The names of the nodes in the last snapshot, because facts have names as arguments.
     names: FxHashMap<NodeId, Name>,
     facts: BTreeSet<Fact>,
 }
 
-/// Which tuples of which predicates held before a component was derived again.
+/// Whether each tuple held before its component was derived again.
 type Before = BTreeMap<(PredicateId, Tuple), bool>;
 
 impl LowToHigh {
@@ -49,7 +49,7 @@ impl LowToHigh {
         new
     }
 
-    /// Takes in a delta; `snapshot` is the graph right after it, and the deltas must come without gaps.
+    /// Applies a delta. `snapshot` is the graph right after it; the deltas must come without gaps.
     pub fn update(&mut self, snapshot: &Snapshot, delta: &Delta) -> Change {
         for change in &delta.changes {
             if let dsr::Change::NodeAdded { node, name, .. } = change {
@@ -89,7 +89,7 @@ impl LowToHigh {
         predicates.flat_map(move |(id, _)| self.relations.tuples(id).map(move |tuple| self.fact(id, tuple)))
     }
 
-    /// Whether a fact, auxiliary or not, holds.
+    /// Whether a fact holds; it may be auxiliary.
     pub fn holds(&self, snapshot: &Snapshot, fact: &Fact) -> bool {
         let tuple: Option<Tuple> = fact.arguments.iter().map(|name| snapshot.node(name)).collect();
         match (self.perception.find(&fact.predicate), tuple) {
@@ -111,7 +111,7 @@ impl LowToHigh {
         }
     }
 
-    /// Brings the planner's facts in line with what is derived, where that may have changed.
+    /// Updates the planner's facts from the tuples that may have changed.
     fn publish(&mut self, before: &Before) -> Change {
         let mut change = Change::default();
         for ((predicate, tuple), held) in before {
@@ -176,7 +176,7 @@ impl LowToHigh {
                 self.relations.remove(at, predicate, &tuple);
             }
         }
-        // Without negation inside, each round can only add, up to the least fixpoint.
+        // There is no negation inside the component, so each round only adds, up to the least fixpoint.
         let mut grown = true;
         while grown {
             grown = false;

@@ -1,7 +1,7 @@
 //! `perception.pddl`, compiled.
 //!
-//! Heads are predicates of the planner's domain, which the file imports, or auxiliary ones that it declares itself;
-//! bodies are tokens of the vocabulary, comparisons of attributes, and derived predicates, negated if stratified.
+//! A head is a predicate of the planner's domain, which the file imports, or an auxiliary predicate that the file
+//! declares. A body has tokens of the vocabulary, comparisons of attributes, and derived predicates, negated if stratified.
 
 use std::sync::Arc;
 
@@ -13,20 +13,20 @@ use vocabulary::{Conjunction, LinkErrorKind, Literal, Located, MAX_ALTERNATIVES,
 use crate::axiom::Axiom;
 use crate::strata::{Component, components};
 
-/// The most literals of one alternative: they are kept as bits while matching.
+/// The most literals of one alternative: matching keeps them as bits.
 const MAX_LITERALS: usize = 64;
 
 /// Why an axiom cannot be evaluated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the fields are the names that the variant is about")]
 pub enum PerceptionErrorKind {
-    /// Tokens are written by agents.
-    #[error("`{name}` is a token: agents write it, nothing derives it")]
+    /// Agents write tokens; an axiom cannot derive one.
+    #[error("`{name}` is a token: agents write it, so that no axiom may derive it")]
     DerivesToken { name: Name },
-    /// Nothing can make it true.
+    /// No agent writes it and no axiom derives it.
     #[error("`{name}` is neither a token of vocabulary `{vocabulary}` nor derived here: it never holds")]
     NeverHolds { name: Name, vocabulary: Name },
-    /// Derived from its own absence.
+    /// It depends on its own absence.
     #[error("`{head}` depends on the absence of `{denied}`, which depends on `{head}`")]
     NotStratified { head: Name, denied: Name },
     /// Too many disjunctions.
@@ -35,7 +35,7 @@ pub enum PerceptionErrorKind {
     /// Too long.
     #[error("an alternative of `{name}` has more than {MAX_LITERALS} literals")]
     TooLong { name: Name },
-    /// Something in it is not of the graph.
+    /// A part of it cannot be compiled.
     #[error(transparent)]
     Link(#[from] LinkErrorKind),
 }
@@ -43,7 +43,7 @@ pub enum PerceptionErrorKind {
 /// An axiom that cannot be evaluated.
 pub type PerceptionError = Located<PerceptionErrorKind>;
 
-/// For whom a derived predicate is.
+/// Who reads a derived predicate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     /// The planner: imported from its domain.
@@ -65,16 +65,18 @@ pub(crate) struct Derived {
 #[derive(Debug)]
 pub struct Perception {
     pub(crate) vocabulary: Arc<Vocabulary>,
-    /// By the perception's own ids; those that nothing derives have no axioms.
+    /// By the perception's own ids. A predicate that no axiom derives has no axioms.
     pub(crate) predicates: IndexVec<PredicateId, Derived>,
     pub(crate) axioms: Vec<Axiom>,
-    /// Each after those on which it depends.
+    /// Each component comes after those on which it depends.
     pub(crate) components: Vec<Component>,
 }
 
 impl Perception {
-    /// Compiles the axioms of a domain that imports the vocabulary and the planner's domain; all that cannot be
-    /// evaluated is reported.
+    /// Compiles the axioms of a domain that imports the vocabulary and the planner's domain.
+    ///
+    /// # Errors
+    /// Every axiom that cannot be evaluated.
     pub fn new(domain: &Domain, tokens: &Tokens) -> Result<Self, Vec<PerceptionError>> {
         let link = tokens.link(domain);
         let mut errors = Vec::new();
@@ -85,7 +87,7 @@ impl Perception {
             .iter()
             .map(|predicate| Derived {
                 name: predicate.name.clone(),
-                // What is imported has no place in this source.
+                // An imported predicate has no place in this source.
                 role: if predicate.span == Span::default() { Role::HighLevel } else { Role::Auxiliary },
                 axioms: Vec::new(),
             })
@@ -138,7 +140,7 @@ impl Perception {
         Ok(Self { vocabulary: Arc::clone(tokens.vocabulary()), predicates, axioms, components })
     }
 
-    /// The predicates that some axiom derives, in the order of their declaration.
+    /// The derived predicates, in the order of their declaration.
     pub fn derived(&self) -> impl Iterator<Item = (&Name, Role)> {
         let derived = self.predicates.iter().filter(|predicate| !predicate.axioms.is_empty());
         derived.map(|predicate| (&predicate.name, predicate.role))

@@ -1,9 +1,9 @@
-//! Matching the body of an axiom: depth first, always the part that is cheapest now.
+//! Matching the body of an axiom: depth first, always the cheapest part next.
 //!
-//! Idea: with the variables bound so far, a literal whose variables are all bound filters; an equality, a reference
-//! or an edge with one bound end binds the rest; a derived predicate is read from what was derived before; only when
-//! nothing else is left is a variable drawn from the nodes of its type. A negated part is asked as soon as its outer
-//! variables are bound. Cost: the product of the fan-outs along the way.
+//! Idea: a literal whose variables are all bound is a filter. An equality, a reference or an edge with one bound end
+//! binds its other variables. A derived predicate is read from the facts derived so far. Only if no literal can bind
+//! more, a variable takes each node of its type in turn. A negated part is evaluated as soon as its outer variables are
+//! bound. Cost: the product of the fan-outs along the way.
 
 use std::ops::ControlFlow;
 
@@ -21,13 +21,13 @@ pub(crate) struct Environment {
 }
 
 impl Environment {
-    /// Nothing bound.
+    /// An environment in which all variables are free.
     pub(crate) fn new(scope: &Scope) -> Self {
         let types = (0..scope.len()).map(|at| scope.slot(VariableId::from_index(at)).types.clone()).collect();
         Self { nodes: vec![None; scope.len()], types }
     }
 
-    /// The node of a variable.
+    /// The node that a variable is bound to.
     pub(crate) fn node(&self, variable: VariableId) -> Option<NodeId> {
         self.nodes[variable.index()]
     }
@@ -38,7 +38,7 @@ impl Environment {
     }
 }
 
-/// A graph and what was derived from it.
+/// A graph and the facts derived from it.
 #[derive(Clone, Copy)]
 pub(crate) struct Query<'a> {
     pub(crate) snapshot: &'a Snapshot,
@@ -47,7 +47,7 @@ pub(crate) struct Query<'a> {
 
 pub(crate) type Emit<'e> = &'e mut dyn FnMut(&Environment) -> ControlFlow<()>;
 
-/// What is left to do of a conjunction, as bits: literals first, negated parts after them.
+/// The parts of a conjunction that are not matched yet, as bits: literals first, then negated parts.
 #[derive(Clone, Copy)]
 struct Rest(u128);
 
@@ -67,7 +67,7 @@ impl Rest {
 }
 
 impl Query<'_> {
-    /// Every way to complete the environment such that the conjunction and the variables `wanted` are matched.
+    /// Emits every completion of the environment that matches the conjunction and binds the variables `wanted`.
     pub(crate) fn solve(
         &self,
         part: &Conjunction,
@@ -79,7 +79,7 @@ impl Query<'_> {
             environment.types[variable.index()] = vec![id];
             environment.nodes[variable.index()] = None;
         }
-        // What was bound from outside must be of its type.
+        // A variable that the caller bound must have a node of its type.
         for &variable in wanted {
             if environment.node(variable).is_some_and(|node| !self.admits(environment, variable, node)) {
                 return ControlFlow::Continue(());
@@ -88,7 +88,7 @@ impl Query<'_> {
         self.step(part, wanted, Rest::of(part), environment, emit)
     }
 
-    /// Whether the conjunction can be matched.
+    /// Whether the conjunction has a match.
     pub(crate) fn matches(&self, part: &Conjunction, environment: &Environment) -> bool {
         let mut environment = environment.clone();
         self.solve(part, &[], &mut environment, &mut |_| ControlFlow::Break(())).is_break()
@@ -139,7 +139,7 @@ impl Query<'_> {
         ControlFlow::Continue(())
     }
 
-    /// Binds the open variables of a literal in every way that makes it hold.
+    /// Binds the free variables of a literal in every way that makes it hold.
     fn walk(
         &self,
         part: &Conjunction,
@@ -172,7 +172,7 @@ impl Query<'_> {
         ControlFlow::Continue(())
     }
 
-    /// The nodes of the terms of a literal, for each instance that holds.
+    /// The nodes of a literal's terms, for each instance that holds.
     fn instances(&self, literal: &Literal, environment: &Environment) -> Vec<Vec<NodeId>> {
         let node = |term: &Term| self.node(term, environment);
         match literal {
@@ -220,7 +220,7 @@ impl Query<'_> {
         }
     }
 
-    /// Whether a literal holds whose variables are all bound.
+    /// Whether a literal holds. All its variables must be bound.
     pub(crate) fn holds(&self, literal: &Literal, environment: &Environment) -> bool {
         let node = |term: &Term| self.node(term, environment);
         match literal {
@@ -289,7 +289,7 @@ impl Query<'_> {
     }
 }
 
-/// How dear it is to bind the open variables of a literal; `None` if it cannot.
+/// The cost of binding the free variables of a literal; `None` if the literal cannot bind them.
 fn cost(literal: &Literal, environment: &Environment) -> Option<u8> {
     let bound = |term: &Term| match term {
         Term::Named(_) => true,
@@ -312,7 +312,7 @@ fn is_variable(term: &Term) -> bool {
     matches!(term, Term::Variable(_))
 }
 
-/// As the graph compares.
+/// Compares two values as the graph does.
 fn compare(comparison: Comparison, left: &Value, right: &Value) -> bool {
     match comparison {
         Comparison::Equal => left == right,

@@ -1,6 +1,6 @@
-//! What is derived: per axiom the heads that it gives, per predicate how many axioms give each.
+//! The derived facts: the heads that each axiom gives, and how many axioms give each fact of a predicate.
 //!
-//! Sorted sets, so that whoever looks for a witness finds the same one every time.
+//! The sets are sorted, so that an explanation finds the same witness every time.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,10 +10,10 @@ use pddl::model::{Idx, PredicateId};
 /// The arguments of a fact.
 pub(crate) type Tuple = Vec<NodeId>;
 
-/// The heads that some parameters fix; an empty slot fits any node.
+/// A head of which some parameters are fixed; an empty slot fits any node.
 pub(crate) type Partial = Vec<Option<NodeId>>;
 
-/// Whether a tuple agrees with what is fixed.
+/// Whether a tuple has the fixed nodes.
 pub(crate) fn agrees(tuple: &[NodeId], partial: &[Option<NodeId>]) -> bool {
     tuple.iter().zip(partial).all(|(node, fixed)| fixed.is_none_or(|fixed| fixed == *node))
 }
@@ -22,7 +22,7 @@ pub(crate) fn agrees(tuple: &[NodeId], partial: &[Option<NodeId>]) -> bool {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Relations {
     by_axiom: Vec<BTreeSet<Tuple>>,
-    /// By predicate; how many axioms give the tuple, never 0.
+    /// By predicate: the number of axioms that give the tuple, never 0.
     support: Vec<BTreeMap<Tuple, u32>>,
 }
 
@@ -35,13 +35,13 @@ impl Relations {
         self.support[predicate.index()].contains_key(tuple)
     }
 
-    /// The tuples of a predicate that agree with what is fixed, in order.
+    /// The tuples of a predicate that have the fixed nodes, in order.
     pub(crate) fn matching<'a>(
         &'a self,
         predicate: PredicateId,
         fixed: &'a [Option<NodeId>],
     ) -> impl Iterator<Item = &'a Tuple> {
-        // Sorted by the first argument, so a fixed one is a range.
+        // The tuples are sorted by the first argument, so a fixed one is a range.
         let first = fixed.first().copied().flatten();
         let start: Tuple = first.into_iter().collect();
         self.support[predicate.index()]
@@ -51,7 +51,7 @@ impl Relations {
             .filter(|tuple| agrees(tuple, fixed))
     }
 
-    /// The heads that an axiom gives and that agree with what is fixed.
+    /// The heads of an axiom that have the fixed nodes.
     pub(crate) fn heads(&self, axiom: usize, fixed: &[Option<NodeId>]) -> Vec<Tuple> {
         self.by_axiom[axiom].iter().filter(|tuple| agrees(tuple, fixed)).cloned().collect()
     }
@@ -61,7 +61,7 @@ impl Relations {
         self.by_axiom[axiom].contains(tuple)
     }
 
-    /// Lets an axiom give a tuple; whether it did not before.
+    /// Adds a tuple to an axiom. Returns whether it is new there.
     pub(crate) fn insert(&mut self, axiom: usize, predicate: PredicateId, tuple: &Tuple) -> bool {
         let new = self.by_axiom[axiom].insert(tuple.clone());
         if new {
@@ -70,7 +70,7 @@ impl Relations {
         new
     }
 
-    /// Takes a tuple back from an axiom.
+    /// Removes a tuple from an axiom.
     pub(crate) fn remove(&mut self, axiom: usize, predicate: PredicateId, tuple: &Tuple) {
         if !self.by_axiom[axiom].remove(tuple) {
             return;

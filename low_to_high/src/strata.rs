@@ -1,11 +1,10 @@
 //! The order of derivation: strongly connected components of "is derived from".
 //!
-//! Idea: Tarjan's components come out with every dependency before what depends on it. Inside a component,
-//! predicates are derived from each other and need a fixpoint, which exists and is least only without negation
-//! there. Invariant: no component depends negatively on itself (the program is stratified).
+//! Idea: Tarjan's algorithm yields a component after all components on which it depends. The predicates of one component
+//! are derived from each other and need a fixpoint; a least one exists only without negation inside the component.
+//! Invariant: no component depends negatively on itself (the program is stratified).
 //!
-//! Source: Apt, Blair & Walker, "Towards a theory of declarative knowledge", 1988; Tarjan, "Depth-first search and
-//! linear graph algorithms", SIAM J. Comput. 1972.
+//! Source: Apt, Blair & Walker, "Towards a theory of declarative knowledge", 1988. The components are petgraph's.
 
 use pddl::model::PredicateId;
 use petgraph::algo::tarjan_scc;
@@ -20,7 +19,7 @@ pub(crate) struct Component {
     pub(crate) predicates: Vec<PredicateId>,
     /// Positions of their axioms.
     pub(crate) axioms: Vec<usize>,
-    /// Whether one of them depends on one of them.
+    /// Whether a predicate of the component depends on one of the component.
     pub(crate) recursive: bool,
 }
 
@@ -31,8 +30,10 @@ enum Sign {
     Negative,
 }
 
-/// The components in an order in which they can be derived; or an axiom and the predicate of its own component that it
-/// denies.
+/// The components in an order in which they can be derived.
+///
+/// # Errors
+/// An axiom, and a predicate of its own component that it denies.
 pub(crate) fn components(axioms: &[Axiom]) -> Result<Vec<Component>, (usize, PredicateId)> {
     let uses: Vec<Vec<(PredicateId, Sign)>> = axioms.iter().map(derived_literals).collect();
     let mut derived: Vec<PredicateId> = axioms.iter().map(|axiom| axiom.predicate).collect();
@@ -78,8 +79,8 @@ fn derived_literals(axiom: &Axiom) -> Vec<(PredicateId, Sign)> {
                 found.push((*predicate, sign));
             }
         }
-        // Below a negation a second one is positive again for the least model only if it is free of the component;
-        // calling it negative refuses some programs that have one meaning, and none that have not.
+        // A literal below two negations could count as positive if it is outside the component. Counting it as negative
+        // rejects some programs that have a meaning, and accepts none that have no meaning.
         part.without.iter().for_each(|part| collect(part, Sign::Negative, found));
     }
     let mut found = Vec::new();

@@ -1,6 +1,6 @@
-//! What a delta can change: from changed tokens to heads that have to be derived again.
+//! From the changed tokens of a delta to the heads that must be derived again.
 //!
-//! Invariant: a head that agrees with none of an axiom's [`Affected`] partial heads is derived, or not, as before.
+//! Invariant: a head that agrees with none of an axiom's [`Affected`] partial heads keeps its truth value.
 
 use dsr::{Delta, Holder, NodeId, TypeId};
 use pddl::model::{Name, PredicateId};
@@ -9,19 +9,19 @@ use rustc_hash::FxHashMap;
 use crate::axiom::{Axiom, Dependency, Place, Token};
 use crate::relations::{Partial, Tuple};
 
-/// Beyond so many partial heads one derivation of everything is cheaper.
+/// With more partial heads than this, deriving all heads once is cheaper.
 const MANY: usize = 64;
 
-/// The heads of an axiom that a change can concern.
+/// The heads of an axiom that a change can affect.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum Affected {
     Nothing,
-    /// Those that agree with one of these.
+    /// The heads that agree with one of these.
     Some(Vec<Partial>),
     All,
 }
 
-/// The changes so far: tokens of the graph, and predicates derived from them.
+/// The changes so far: tokens of the graph, and derived facts.
 #[derive(Debug, Default)]
 pub(crate) struct Touched {
     tokens: FxHashMap<Token, Vec<Tuple>>,
@@ -56,7 +56,7 @@ impl Touched {
         touched
     }
 
-    /// A derived fact came or went.
+    /// Records that a derived fact appeared or disappeared.
     pub(crate) fn derived(&mut self, predicate: PredicateId, tuple: Tuple) {
         self.push(Token::Predicate(predicate), tuple);
     }
@@ -65,14 +65,14 @@ impl Touched {
         self.tokens.entry(token).or_default().push(tuple);
     }
 
-    /// The heads of an axiom that all this can concern. `name_of` also knows the nodes that just went.
+    /// The heads of an axiom that the changes can affect. `name_of` also knows the nodes that were just removed.
     pub(crate) fn affected(
         &self,
         axiom: &Axiom,
         name_of: &dyn Fn(NodeId) -> Option<Name>,
         is_a: &dyn Fn(TypeId, TypeId) -> bool,
     ) -> Affected {
-        // Nodes come and go rarely, and change what every quantifier ranges over.
+        // A new or removed node changes the range of every quantifier; that is rare, so derive everything again.
         let ranges = |&(node, of): &(NodeId, TypeId)| {
             axiom.types.iter().any(|&id| is_a(of, id))
                 || name_of(node).is_some_and(|name| axiom.constants.contains(&name))
@@ -99,7 +99,7 @@ impl Touched {
     }
 }
 
-/// The heads for which the tuple is an instance of the watched literal; `None` if it is for none.
+/// The heads for which the tuple is an instance of the literal; `None` if there are no such heads.
 fn instance(
     dependency: &Dependency,
     tuple: &[NodeId],

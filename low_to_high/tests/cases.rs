@@ -1,4 +1,4 @@
-//! Case files: a vocabulary, a planner's domain, problems and perception, and what is then perceived and why.
+//! Case files: a vocabulary, a planner's domain, problems and perception, and the facts perceived, with reasons.
 
 #[path = "../../vocabulary/tests/support/case_file.rs"]
 mod case_file;
@@ -23,7 +23,7 @@ fn domain(source: &Source, imports: &[&Domain]) -> Result<Domain, String> {
     parsed.model.ok_or_else(|| diagnostics(source, &parsed.diagnostics))
 }
 
-/// What comes of a case; `Err` at the first step that goes wrong. A line `;;; ask (fact)` asks why.
+/// The result of a case; `Err` at the first step that fails. A line `;;; ask (fact)` asks why.
 fn case(text: &str) -> Result<String, String> {
     let sources = sources(text);
     let find = |wanted: &'static str| {

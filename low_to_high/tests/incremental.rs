@@ -1,4 +1,4 @@
-//! Incremental equals from scratch: random edits of the world of `cases/perceived.pddl`, one delta at a time.
+//! Incremental updates equal a derivation from scratch: random edits of `cases/perceived.pddl`, one delta at a time.
 
 #[path = "../../vocabulary/tests/support/case_file.rs"]
 #[expect(dead_code, reason = "only the sources are needed here")]
@@ -31,7 +31,7 @@ fn world() -> World {
     World { tokens, perception, graph }
 }
 
-/// An edit by small numbers, read against whatever the world has.
+/// An edit by small numbers; they select among the nodes that exist.
 #[derive(Debug, Clone)]
 enum Random {
     Toggle { label: usize, from: usize, to: usize },
