@@ -1,8 +1,8 @@
-//! One intention on its way: waiting, written, seen or failed.
+//! One intention under way: waiting, written, seen or failed.
 //!
-//! Invariant: it is done when its expectation holds in a version *later* than the one it was written on, or
-//! at once if nothing had to be written. Together with an `at end` that includes a token which the `at start`
-//! edits falsify, a fact that is left over from an earlier time never counts.
+//! Invariant: an intention is done when its expectation holds in a version *later* than the one on which it was written,
+//! or at once if no edit was necessary. If its `at end` effects include a token that its `at start` edits make false, a
+//! fact that is left over from an earlier intention never counts.
 
 use crate::event::RefinementEvent;
 use crate::failure::Reason;
@@ -19,7 +19,7 @@ pub(crate) struct Activity {
     intention: usize,
     binding: Binding,
     ground: GroundTask,
-    /// When its deadline runs out.
+    /// When it fails.
     deadline: Option<Time>,
     state: State,
 }
@@ -56,7 +56,7 @@ impl Activity {
         Self { intention, binding, ground, deadline, state: State::Waiting }
     }
 
-    /// Carries it as far as the graph allows.
+    /// Advances it as far as the graph allows.
     pub(crate) fn step(&mut self, methods: &Methods, turn: &mut Turn<'_>) -> Standing {
         let compiled = &methods.intentions[self.intention];
         if matches!(self.state, State::Waiting) {
@@ -81,7 +81,7 @@ impl Activity {
         self.wait(turn, |unmet, intention| Reason::Missed { intention, seconds, unmet }, compiled)
     }
 
-    /// Writes its edits; what the graph says already need not be written.
+    /// Writes its edits, except those that would not change the graph.
     fn write(&mut self, compiled: &Intention, turn: &mut Turn<'_>) -> Result<(), Reason> {
         let edits = compiled
             .writes
@@ -110,7 +110,7 @@ impl Activity {
                 let awaited = if written { &compiled.expects } else { &compiled.before };
                 let unmet = awaited.why_not(turn.snapshot, &self.binding);
                 self.withdraw(turn.snapshot, turn.edits);
-                // Nobody is doubted for what was never asked for.
+                // An intention that was never written doubts no device.
                 if written && let Ok(edits) = compiled.on_timeout.edits(turn.snapshot, &self.binding) {
                     turn.edits.extend(edits);
                 }
@@ -129,12 +129,12 @@ impl Activity {
         Standing::Failed(reason)
     }
 
-    /// Takes back what it has added and what still stands as it was written. What it has removed is not put
-    /// back: that it was true once is not that it is true now.
+    /// Takes back the tokens that it has added, if they are still as it wrote them. It does not restore the tokens that
+    /// it has removed: they were true once, and need not be true now.
     pub(crate) fn withdraw(&self, snapshot: &Snapshot, edits: &mut Vec<Edit>) {
         let State::Written { on, edits: written } = &self.state else { return };
         if *on == Some(snapshot.version()) {
-            // Asked for in this very step: nobody has written it yet.
+            // Its edits were requested in this step, and are not in the graph yet.
             edits.retain(|edit| !written.contains(edit));
             return;
         }
@@ -168,7 +168,7 @@ impl Activity {
     }
 }
 
-/// What of the edits would change the graph. As in PDDL, what is both deleted and added is added.
+/// The edits that would change the graph. As in PDDL, a token that is both deleted and added is added.
 fn net(edits: Vec<Edit>, snapshot: &Snapshot) -> Vec<Edit> {
     let added: Vec<_> = edits.iter().filter_map(as_removal).collect();
     edits.into_iter().filter(|edit| !added.contains(edit) && !is_redundant(snapshot, edit)).collect()
@@ -191,7 +191,7 @@ fn take_back(from: &NodeRef, label: dsr::LabelId, to: &NodeRef, snapshot: &Snaps
     }
 }
 
-/// `seconds` after `now`; far beyond any mission, the end of time.
+/// `seconds` after `now`, or the last instant that a `Time` can name.
 fn after(now: Time, seconds: f64) -> Time {
     let nanos = std::time::Duration::try_from_secs_f64(seconds).map_or(u128::MAX, |d| d.as_nanos());
     Time(now.0.saturating_add(u64::try_from(nanos).unwrap_or(u64::MAX)))

@@ -1,7 +1,7 @@
-//! methods.hddl, compiled against the vocabulary.
+//! `methods.hddl`, compiled against the vocabulary.
 //!
-//! Invariant: every index is in range and every condition is patterns of the graph, so that refining at run
-//! time cannot meet an unknown name except a node that has left the graph.
+//! Invariant: every index is in range and every condition is patterns of the graph. At run time the only unknown name can
+//! be that of a node that has left the graph.
 
 use dsr::{NodeId, Snapshot};
 use pddl::Span;
@@ -22,12 +22,12 @@ pub struct Methods {
 /// Why a methods file cannot be compiled.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MethodsError {
-    /// A condition or effect is not about the graph.
+    /// A condition or an effect cannot be compiled.
     #[error(transparent)]
     Link(#[from] LinkError),
-    /// A method uses an instantaneous action; only intentions can be carried out.
+    /// A method uses an instantaneous action; only intentions can be executed.
     #[error(
-        "`{name}` is an action; a method's primitives are durative actions, which say what shall be seen"
+        "`{name}` is an action; a method's primitives are durative actions, whose `at end` effects must be seen"
     )]
     InstantaneousAction {
         /// The action.
@@ -35,8 +35,8 @@ pub enum MethodsError {
         /// The subtask.
         span: Span,
     },
-    /// A time specifier that means nothing for an intention.
-    #[error("an intention knows `at start`, `at end` and `at timeout`, not `at {name}`")]
+    /// A time specifier that an intention does not have.
+    #[error("an intention has effects `at start`, `at end` and `at timeout`, not `at {name}`")]
     UnknownOutcome {
         /// The specifier.
         name: Name,
@@ -44,7 +44,7 @@ pub enum MethodsError {
         span: Span,
     },
     /// A condition at the end would be a second expectation.
-    #[error("what shall hold at the end of an intention is its `at end` effect, not a condition")]
+    #[error("an intention has no condition `at end`; its `at end` effects are what must be seen")]
     ConditionAtEnd {
         /// The condition.
         span: Span,
@@ -55,7 +55,7 @@ pub enum MethodsError {
         /// The constraint.
         span: Span,
     },
-    /// A task that nothing carries out.
+    /// A task without a method.
     #[error("task `{name}` has no method")]
     NoMethod {
         /// The task.
@@ -66,7 +66,7 @@ pub enum MethodsError {
 }
 
 impl MethodsError {
-    /// Where, in the methods file.
+    /// The place in the methods file.
     pub fn span(&self) -> Span {
         match self {
             Self::Link(error) => error.span,
@@ -91,11 +91,11 @@ pub(crate) struct Task {
 pub(crate) struct Method {
     pub(crate) name: Name,
     pub(crate) variables: Variables,
-    /// What the task's arguments are in terms of the method.
+    /// The task's arguments, in terms of the method's variables.
     pub(crate) head: Vec<Argument>,
     pub(crate) precondition: Condition,
     pub(crate) subtasks: Vec<Subtask>,
-    /// For each subtask, those that must be done before it starts.
+    /// For each subtask, the subtasks that must be done before it starts.
     pub(crate) before: Vec<Vec<usize>>,
 }
 
@@ -118,27 +118,27 @@ pub(crate) enum Argument {
     Node(Name),
 }
 
-/// A primitive: what PELEA writes, what it then expects to see.
+/// A primitive: what PELEA writes, and what it then expects to see.
 #[derive(Clone, Debug)]
 pub(crate) struct Intention {
     pub(crate) name: Name,
     pub(crate) variables: Variables,
-    /// Must hold before it is written; it waits for that.
+    /// Must hold before it is written; the intention waits for it.
     pub(crate) before: Condition,
     /// Must keep holding from then on.
     pub(crate) keep: Condition,
-    /// What is written.
+    /// The edits of the intention.
     pub(crate) writes: Effect,
-    /// What shall be seen.
+    /// The expectation: what must be seen.
     pub(crate) expects: Condition,
-    /// What is written when it is not seen in time.
+    /// The edits for an expectation that is not seen before the deadline.
     pub(crate) on_timeout: Effect,
-    /// In seconds; `None` waits for ever.
+    /// In seconds; `None` waits without a limit.
     pub(crate) deadline: Option<f64>,
 }
 
 impl Argument {
-    /// The node that it stands for.
+    /// The node of the argument.
     pub(crate) fn node(&self, binding: &Binding, snapshot: &Snapshot) -> Option<NodeId> {
         match self {
             Self::Variable(variable) => binding.node(*variable),
@@ -151,7 +151,7 @@ impl Methods {
     /// Compiles a domain that imports the vocabulary.
     ///
     /// # Errors
-    /// Everything that is wrong with it, each with its place.
+    /// Every mistake, with its place.
     pub fn new(domain: &Domain, tokens: &Tokens) -> Result<Self, Vec<MethodsError>> {
         let mut compiler = Compiler { domain, tokens, errors: Vec::new() };
         let intentions = domain.durative_actions.iter().filter_map(|a| compiler.intention(a)).collect();

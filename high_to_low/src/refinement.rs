@@ -1,11 +1,10 @@
-//! A task on its way: the tree of tasks, methods and intentions, refined while it is carried out.
+//! A task under way: the tree of tasks, methods and intentions, refined while the task is executed.
 //!
-//! Problem: which method works is known only when it is used. Idea: choose the first method, and the first
-//! binding of its own variables, whose precondition holds now; carry its subtasks as far as their order
-//! allows, several at a time; when one fails, withdraw its siblings and choose the next. Candidates are
-//! looked for anew each time, in the graph as it is then; one that has failed is not tried again. Invariant: of the
-//! edits asked for, those of a failed method are taken back in the same step. Cost: per step, linear in the
-//! open part of the tree, which methods keep small.
+//! Problem: whether a method works is known only when it is used. Idea: choose the first method, and the first binding of
+//! its own variables, whose precondition holds now. Advance its subtasks as far as their order allows, several at a time.
+//! When a subtask fails, withdraw its siblings and choose again, in the graph as it is then; a candidate that has failed
+//! is not tried again. Invariant: the edits of a failed method are taken back in the step in which it fails. Cost: a step
+//! is linear in the open part of the tree, which methods keep small.
 
 use crate::event::RefinementEvent;
 use crate::failure::{Failure, Reason, StartError};
@@ -17,27 +16,27 @@ use dsr::{Edit, NodeId, Snapshot, Time};
 use pddl::model::Name;
 use vocabulary::Binding;
 
-/// How deep tasks may be nested; a test describes dozens of options by recursion, not hundreds.
+/// The deepest nesting of tasks. A test describes dozens of options by recursion, not hundreds.
 const DEEPEST: usize = 128;
 
-/// A task being carried out.
+/// A task that is being executed.
 #[derive(Clone, Debug)]
 pub struct Refinement {
     root: Goal,
 }
 
-/// What a step asks for and says.
+/// The result of a step.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// What PELEA shall write now, in one transaction.
+    /// The edits that PELEA must write now, in one transaction.
     pub edits: Vec<Edit>,
-    /// What was done and seen.
+    /// What the step did and saw.
     pub events: Vec<RefinementEvent>,
-    /// Where it stands.
+    /// The state of the refinement.
     pub status: Status,
 }
 
-/// Where a refinement stands.
+/// The state of a refinement.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Status {
     /// It waits for the graph, or for its next deadline.
@@ -45,14 +44,14 @@ pub enum Status {
         /// When to step it even if nothing changes.
         wake_at: Option<Time>,
     },
-    /// All that it intended has been seen.
+    /// Every intention has been seen.
     Done,
     /// No method is left.
     Failed(Failure),
 }
 
 impl Refinement {
-    /// A task with nodes as arguments; nothing is written yet.
+    /// A refinement of a task, whose arguments are nodes. It has no edits before its first step.
     ///
     /// # Errors
     /// No such task, the wrong number of arguments, or a node that is not in the graph.
@@ -74,8 +73,8 @@ impl Refinement {
         Ok(Self { root: Goal::new(index, nodes) })
     }
 
-    /// Advances everything that can advance. Call it when the graph has changed and at `wake_at`, with a
-    /// snapshot in which the edits of earlier steps stand.
+    /// Advances every part that can advance. Call it when the graph has changed, and at `wake_at`, with a snapshot that
+    /// contains the edits of earlier steps.
     pub fn step(&mut self, methods: &Methods, snapshot: &Snapshot, now: Time) -> Step {
         let (mut edits, mut events) = (Vec::new(), Vec::new());
         let mut turn = Turn { snapshot, now, edits: &mut edits, events: &mut events, wake_at: None };
@@ -89,7 +88,7 @@ impl Refinement {
         Step { edits, events, status }
     }
 
-    /// Gives up: the edits that take back what its running intentions have written.
+    /// Cancels the refinement. Returns the edits that take back what its running intentions have written.
     pub fn cancel(&mut self, snapshot: &Snapshot) -> Vec<Edit> {
         let mut edits = Vec::new();
         self.root.withdraw(snapshot, &mut edits);
@@ -102,13 +101,13 @@ impl Refinement {
 struct Goal {
     task: usize,
     arguments: Vec<NodeId>,
-    /// Methods with their bindings that were tried.
+    /// The methods that were tried, with their bindings.
     tried: Vec<(usize, Vec<Option<NodeId>>)>,
     failed: Vec<(Name, Reason)>,
     expansion: Option<Expansion>,
 }
 
-/// A method at work.
+/// A chosen method with its subtasks.
 #[derive(Clone, Debug)]
 struct Expansion {
     method: usize,
@@ -118,7 +117,7 @@ struct Expansion {
 
 #[derive(Clone, Debug)]
 enum Child {
-    /// Something before it is not done.
+    /// A subtask before it is not done.
     NotYet,
     Task(Box<Goal>),
     Intention(Activity),
@@ -164,8 +163,8 @@ impl Goal {
                 return Progress::Failed(self.failure(methods, turn, None));
             }
             if !turn.edits.is_empty() {
-                // What failed has something to say (a doubt, a withdrawal): the next method is chosen in a graph
-                // where that stands.
+                // The failed method has edits (a doubt, a withdrawal): choose the next method in a graph that contains
+                // them.
                 return Progress::Running;
             }
         }
@@ -175,7 +174,7 @@ impl Goal {
         ground(methods, Head::Task(self.task), &self.arguments, snapshot)
     }
 
-    /// The first method and binding that apply now and were not tried.
+    /// The first method and binding that apply now and have not been tried.
     fn choose(&mut self, methods: &Methods, turn: &mut Turn<'_>) -> Option<Expansion> {
         for &index in &methods.tasks[self.task].methods {
             let method = &methods.methods[index];
@@ -242,7 +241,7 @@ impl Goal {
 }
 
 impl Expansion {
-    /// Whether all is done, or why it cannot be.
+    /// Whether all subtasks are done, or why the method fails.
     fn step(&mut self, methods: &Methods, turn: &mut Turn<'_>, depth: usize) -> Result<bool, Reason> {
         let method = &methods.methods[self.method];
         loop {
@@ -274,7 +273,7 @@ impl Expansion {
                     advanced = true;
                 }
             }
-            // Only something that became done can let something else start.
+            // Another subtask can start only if one has become done.
             if !advanced {
                 return Ok(self.children.iter().all(|child| matches!(child, Child::Done)));
             }

@@ -1,4 +1,4 @@
-//! Refinements over a small house: what is written, seen, missed, broken off and tried next.
+//! Refinements over a small house: intentions that are written, seen, missed and broken off, and methods tried next.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -77,7 +77,7 @@ impl House {
         Self { graph, methods, refinement, now: Time(0) }
     }
 
-    /// Steps it and writes what it asks for.
+    /// Steps the refinement and writes its edits.
     fn step(&mut self) -> Step {
         let step = self.refinement.step(&self.methods, &self.graph.snapshot(), self.now);
         self.write(&step.edits);
@@ -92,7 +92,7 @@ impl House {
             .unwrap();
     }
 
-    /// What an agent does that has said or shown what was wanted.
+    /// The commit of an agent that has said or shown the wanted utterance.
     fn perform(&mut self, wanted: &str, done: &str, part: &str, utterance: &str) {
         let snapshot = self.graph.snapshot();
         let label = |name| snapshot.vocabulary().label(name).unwrap();
@@ -153,14 +153,14 @@ fn an_intention_that_only_writes_is_done_when_it_stands_in_the_graph() {
 }
 
 #[test]
-fn what_is_so_already_is_not_written_again() {
+fn a_token_that_holds_already_is_not_written_again() {
     let mut house = House::new("go", &["r", "hall"]);
     let step = house.step();
     assert_eq!(step.edits.len(), 2, "the label and its value: {:?}", step.edits);
 }
 
 #[test]
-fn a_missed_deadline_doubts_the_device_and_the_next_method_is_chosen_knowing_that() {
+fn a_missed_deadline_doubts_the_device_before_the_next_method_is_chosen() {
     let mut house = House::new("tell", &["r", "hall", "one"]);
     house.step();
     house.perform("view", "shown_in", "hall", "one");
@@ -181,7 +181,7 @@ fn a_missed_deadline_doubts_the_device_and_the_next_method_is_chosen_knowing_tha
 }
 
 #[test]
-fn what_must_not_happen_breaks_an_intention_off_at_once() {
+fn a_broken_over_all_condition_stops_an_intention_at_once() {
     let mut house = House::new("tell", &["r", "hall", "one"]);
     house.step();
     let is = house.graph.vocabulary().label("is").unwrap();
@@ -198,7 +198,7 @@ fn what_must_not_happen_breaks_an_intention_off_at_once() {
 }
 
 #[test]
-fn what_waits_for_its_precondition_doubts_nobody() {
+fn an_intention_that_waits_for_its_precondition_doubts_no_device() {
     let mut house = House::new("wait", &["r", "kitchen"]);
     house.step();
     house.pass(11);
@@ -227,7 +227,7 @@ fn a_recursion_without_an_end_is_an_error() {
 }
 
 #[test]
-fn cancelling_takes_back_what_still_stands() {
+fn cancelling_takes_back_tokens_that_are_unchanged() {
     let mut house = House::new("tell", &["r", "hall", "one"]);
     house.step();
     let edits = house.refinement.cancel(&house.graph.snapshot());
@@ -236,7 +236,7 @@ fn cancelling_takes_back_what_still_stands() {
 }
 
 #[test]
-fn cancelling_leaves_what_somebody_has_written_since() {
+fn cancelling_leaves_tokens_that_were_overwritten_since() {
     let mut house = House::new("tell", &["r", "hall", "one"]);
     house.step();
     let mut other = Refinement::new(
@@ -256,7 +256,7 @@ fn cancelling_leaves_what_somebody_has_written_since() {
 }
 
 #[test]
-fn what_cannot_start_says_why() {
+fn a_refinement_that_cannot_start_reports_why() {
     let house = House::new("round", &["r"]);
     let start = |task: &str, arguments: &[&str]| {
         let arguments: Vec<_> = arguments.iter().map(|a| Name::new(a)).collect();
@@ -268,7 +268,7 @@ fn what_cannot_start_says_why() {
 }
 
 #[test]
-fn what_is_wrong_with_a_methods_file_is_said_with_its_place() {
+fn mistakes_in_a_methods_file_are_reported_with_their_places() {
     let words = domain(WORDS, &[]);
     let tokens = Tokens::new(&words).unwrap();
     let text = "(define (domain m) (:requirements :typing :durative-actions :hierarchy :agent-rules)
@@ -291,10 +291,10 @@ fn what_is_wrong_with_a_methods_file_is_said_with_its_place() {
         .collect();
     expect![[r#"
         5:58: the deadline of an intention is `(<= ?duration SECONDS)` with a number of seconds
-        6:25: what shall hold at the end of an intention is its `at end` effect, not a condition
+        6:25: an intention has no condition `at end`; its `at end` effects are what must be seen
         6:69: `nearby` is not a token of vocabulary `house`
-        6:94: an intention knows `at start`, `at end` and `at timeout`, not `at failure`
-        8:57: `jump` is an action; a method's primitives are durative actions, which say what shall be seen
+        6:94: an intention has effects `at start`, `at end` and `at timeout`, not `at failure`
+        8:57: `jump` is an action; a method's primitives are durative actions, whose `at end` effects must be seen
         9:3: task `u` has no method"#]]
     .assert_eq(&lines.join("\n"));
 }
