@@ -118,7 +118,8 @@ fn written(snapshot: &Snapshot, edit: &Edit) -> Option<String> {
         NodeRef::Name(name) => name.to_string(),
     };
     let label = |id: &LabelId| vocabulary.label_name(*id).map_or("?", |name| name).replace('_', " ");
-    let carries = |id: &LabelId| vocabulary.label_name(*id).is_some_and(|name| vocabulary.attribute(name).is_some());
+    let carries =
+        |id: &LabelId| vocabulary.label_name(*id).is_some_and(|name| vocabulary.attribute(name).is_some());
     let attribute = |holder: &HolderRef, id: AttributeId| {
         let name = vocabulary.attribute_name(id).map_or("?", |name| name);
         match holder {
@@ -142,7 +143,9 @@ fn written(snapshot: &Snapshot, edit: &Edit) -> Option<String> {
             };
             format!("{} is {value}", attribute(holder, *id))
         }
-        Edit::ClearAttribute { holder, attribute: id } => format!("{} is not defined", attribute(holder, *id)),
+        Edit::ClearAttribute { holder, attribute: id } => {
+            format!("{} is not defined", attribute(holder, *id))
+        }
         other => format!("{other:?}"),
     })
 }

@@ -95,9 +95,8 @@ impl Words {
 
     /// Fills in all templates. What the checks of the mission have reported is left out here.
     pub(crate) fn new(file: &LanguageFile, said: &Said) -> Self {
-        let texts = |phrases: &Phrases| -> Vec<String> {
-            phrases.phrases.iter().map(|t| t.value.clone()).collect()
-        };
+        let texts =
+            |phrases: &Phrases| -> Vec<String> { phrases.phrases.iter().map(|t| t.value.clone()).collect() };
         let compiled = |texts: &[String]| texts.iter().map(|t| Phrase::new(t)).collect();
         let parts = said
             .parts
