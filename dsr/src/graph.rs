@@ -1,6 +1,6 @@
 //! The graph: one handle for everybody, one lock for writers, none for readers.
 //!
-//! Idea: `kernel` keeps two states that writers edit in turn; this module says how one follows the other (by the delta
+//! Idea: `left_right` keeps two states that writers edit in turn; this module says how one follows the other (by the delta
 //! that the commit publishes anyway) and when it is not worth it: after a transaction so long that it would cost more
 //! than a copy. Then the next writer copies what it touches. Either way a snapshot is one load, whatever writers do.
 //! Cost: what has been written since the last such transaction is there twice.
@@ -18,7 +18,7 @@ use crate::delta::Delta;
 use crate::export::{self, Export, RestoreError};
 use crate::id::{AgentId, ReflexId, Time, Version};
 use crate::journal::feed::{Feed, Rest};
-use crate::kernel::{Kernel, Twin};
+use crate::left_right::{LeftRight, Twin};
 use crate::past::Past;
 use crate::pattern::Pattern;
 use crate::reflex::Registry;
@@ -53,7 +53,7 @@ pub struct Graph {
 struct Shared {
     vocabulary: Arc<Vocabulary>,
     past: Past,
-    kernel: Kernel<State, Writers>,
+    states: LeftRight<State, Writers>,
 }
 
 /// What only writers have.
@@ -85,7 +85,7 @@ const LONG: usize = 64;
 
 impl Drop for Shared {
     fn drop(&mut self) {
-        let mut writing = self.kernel.write();
+        let mut writing = self.states.write();
         let present = writing.present();
         let writers = writing.own();
         writers.feeds.iter().for_each(|feed| feed.close(&present));
@@ -103,7 +103,7 @@ impl Observed {
     /// What waits in the feed and the state right after it, so that nothing falls between the two.
     pub(crate) fn restart(&self, feed: &Feed) -> Option<(Rest, Snapshot)> {
         let shared = self.0.upgrade()?;
-        let writing = shared.kernel.write();
+        let writing = shared.states.write();
         let found = (feed.restart(), Snapshot::new(writing.present()));
         drop(writing);
         Some(found)
@@ -142,7 +142,7 @@ impl Graph {
             shared: Arc::new(Shared {
                 vocabulary,
                 past: Past::default(),
-                kernel: Kernel::new(state, writers),
+                states: LeftRight::new(state, writers),
             }),
         }
     }
@@ -154,13 +154,13 @@ impl Graph {
 
     /// The present state. Never waits, whatever writers do.
     pub fn snapshot(&self) -> Snapshot {
-        Snapshot::new(self.shared.kernel.read())
+        Snapshot::new(self.shared.states.read())
     }
 
     /// Keeps the last `count` versions before the present one for [`Graph::at`], from now on; none at first. Each costs
     /// what was written after it, and commits then copy what they touch.
     pub fn remember(&self, count: usize) {
-        let writing = self.shared.kernel.write();
+        let writing = self.shared.states.write();
         let forgotten = self.shared.past.keep(count, &Snapshot::new(writing.present()));
         drop(writing);
         drop(forgotten);
@@ -179,7 +179,7 @@ impl Graph {
         // A subscriber that goes meanwhile leaves its queue to us, with a callback and states that are not ours to free
         // under the lock.
         let mut queues = SmallVec::<[Arc<Queue>; 8]>::new();
-        let mut writing = self.shared.kernel.write();
+        let mut writing = self.shared.states.write();
         transaction.stale_at(writing.own().version)?;
         if let Some(state) = writing.ahead() {
             warm(state, &transaction.edits);
@@ -286,7 +286,7 @@ impl Graph {
 
     /// Under the commit lock, so that no commit falls between the snapshot and the first event.
     fn register(&self, queue: &Arc<Queue>, pattern: Option<Arc<Pattern>>) {
-        let mut writing = self.shared.kernel.write();
+        let mut writing = self.shared.states.write();
         let present = writing.present();
         writing.own().queues.add(queue, pattern, &present);
         queue.begin(Snapshot::new(present));
@@ -294,7 +294,7 @@ impl Graph {
 
     /// Hands every commit from now on to a feed, which begins with the state of now.
     pub(crate) fn attach(&self, feed: &Arc<Feed>) -> Snapshot {
-        let mut writing = self.shared.kernel.write();
+        let mut writing = self.shared.states.write();
         writing.own().feeds.push(Arc::clone(feed));
         Snapshot::new(writing.present())
     }
@@ -333,7 +333,7 @@ mod tests {
         };
         for at in 0..5 {
             let version = add(&format!("n{at}"));
-            let mut writing = graph.shared.kernel.write();
+            let mut writing = graph.shared.states.write();
             let state = writing.next();
             state.insert_node(state.next, "half done".into(), place, version);
             let seen = graph.snapshot();

@@ -41,21 +41,20 @@
 //! ```
 //!
 //! Map, from the ground up: `id`, `unit`, `value` → `vocabulary` → `pages`, `block`, `names`, `members`, `state` (what a snapshot
-//! is), `pose`, `track`, `undo` → `transaction` (edits, leases, the tree of transforms), `delta`, `fits`, `replay`, `export` → `chain`, `pattern`,
+//! is), `pose`, `track`, `undo` → `transaction` (edits, leases, the tree of transforms), `delta`, `replay_check`, `replay`, `export` → `chain`, `pattern`,
 //! `reflex` → `snapshot`, `diff`, `past`, `sentence`, `quiver` → `subscription`,
-//! `routes`, `kernel` (how readers and writers keep out of each other's way), `graph`, `attendance` → `journal`.
+//! `routes`, `left_right` (how readers and writers keep out of each other's way), `graph`, `liveness` → `journal`.
 
-mod attendance;
 mod block;
 mod chain;
 mod delta;
 mod diff;
 mod export;
-mod fits;
 mod graph;
 mod id;
 mod journal;
-mod kernel;
+mod left_right;
+mod liveness;
 mod members;
 mod mentions;
 mod names;
@@ -66,6 +65,7 @@ mod pose;
 mod quiver;
 mod reflex;
 mod replay;
+mod replay_check;
 mod routes;
 mod sentence;
 mod snapshot;
@@ -79,7 +79,6 @@ mod unit;
 mod value;
 mod vocabulary;
 
-pub use attendance::Attendance;
 pub use chain::ChainError;
 pub use delta::{Change, Delta};
 pub use export::{
@@ -94,6 +93,7 @@ pub use journal::{
     Damage, Durability, Folder, Journal, JournalError, Memory, Played, Progress, Recording, RecordingError,
     Replay, Settings, Store,
 };
+pub use liveness::Liveness;
 pub use mentions::Mentions;
 pub use nalgebra::{Isometry3, Matrix6};
 pub use pattern::{

@@ -1,4 +1,4 @@
-//! What the kernel takes from the machine: a lock, a reference count, and a slot that is read without waiting.
+//! What `left_right` takes from the machine: a lock, a reference count, and a slot that is read without waiting.
 //!
 //! Kept apart so that the model test (`tests/loom.rs`) can put loom's in their place.
 

@@ -1,13 +1,13 @@
-//! Every interleaving of a few threads on the kernel (`src/kernel.rs`): `cargo xtask loom`.
+//! Every interleaving of a few threads on `LeftRight` (`src/left_right.rs`): `cargo xtask loom`.
 //!
 //! The slot is modelled as a register that is read and exchanged in one step, which is what arc-swap promises; lock,
-//! reference counts and threads are loom's. Two kernels that are wrong on purpose show that the model would find it.
+//! reference counts and threads are loom's. Two twins that are wrong on purpose show that the model would find it.
 #![cfg(loom)]
 #![allow(clippy::unwrap_used, reason = "a test that fails says where")]
 
-#[path = "../src/kernel.rs"]
+#[path = "../src/left_right.rs"]
 #[allow(dead_code, reason = "the cache is not modelled")]
-mod kernel;
+mod left_right;
 
 mod sync {
     pub(crate) use std::sync::PoisonError;
@@ -31,7 +31,7 @@ mod sync {
     }
 }
 
-use kernel::{Kernel, Twin};
+use left_right::{LeftRight, Twin};
 use sync::Arc;
 
 /// A number written twice: both or neither.
@@ -59,12 +59,12 @@ impl Twin for Pair {
     }
 }
 
-fn add(kernel: &Kernel<Pair, u64>) -> u64 {
-    add_with(kernel, Some(Added::Told))
+fn add(pair: &LeftRight<Pair, u64>) -> u64 {
+    add_with(pair, Some(Added::Told))
 }
 
-fn add_with(kernel: &Kernel<Pair, u64>, added: Option<Added>) -> u64 {
-    let mut writing = kernel.write();
+fn add_with(pair: &LeftRight<Pair, u64>, added: Option<Added>) -> u64 {
+    let mut writing = pair.write();
     let pair = writing.next();
     pair.0 += 1;
     pair.1 += 1;
@@ -83,50 +83,50 @@ fn explore(run: impl Fn() + Send + Sync + 'static) {
 #[test]
 fn no_update_is_lost_and_readers_see_whole_values_in_order() {
     explore(|| {
-        let kernel = Arc::new(Kernel::new(Pair(0, 0), 0));
+        let pair = Arc::new(LeftRight::new(Pair(0, 0), 0));
         let writers: Vec<_> = (0..2)
             .map(|_| {
-                let kernel = Arc::clone(&kernel);
+                let pair = Arc::clone(&pair);
                 loom::thread::spawn(move || {
-                    let first = add(&kernel);
-                    assert!(add(&kernel) > first, "a later update makes a later value");
+                    let first = add(&pair);
+                    assert!(add(&pair) > first, "a later update makes a later value");
                 })
             })
             .collect();
-        let first = kernel.read();
+        let first = pair.read();
         let then = (*first).clone();
-        let second = kernel.read();
+        let second = pair.read();
         assert!(second.0 == second.1 && second.0 >= first.0, "whole, and not back in time");
         writers.into_iter().for_each(|writer| writer.join().unwrap());
         assert_eq!(*first, then, "what was read stays");
-        assert_eq!((*kernel.read()).clone(), Pair(4, 4));
-        assert_eq!(*kernel.write().own(), 4);
+        assert_eq!((*pair.read()).clone(), Pair(4, 4));
+        assert_eq!(*pair.write().own(), 4);
     });
 }
 
 #[test]
 fn a_twin_that_cannot_follow_is_given_up() {
     explore(|| {
-        let kernel = Arc::new(Kernel::new(Pair(0, 0), 0));
-        let other = Arc::clone(&kernel);
+        let pair = Arc::new(LeftRight::new(Pair(0, 0), 0));
+        let other = Arc::clone(&pair);
         let writer = loom::thread::spawn(move || {
             add_with(&other, None);
             add_with(&other, Some(Added::Garbled));
         });
-        add(&kernel);
-        let seen = kernel.read();
-        add(&kernel);
+        add(&pair);
+        let seen = pair.read();
+        add(&pair);
         assert!(seen.0 == seen.1 && (1..=3).contains(&seen.0), "whole");
         writer.join().unwrap();
-        assert_eq!(*kernel.read(), Pair(4, 4), "no update is lost");
+        assert_eq!(*pair.read(), Pair(4, 4), "no update is lost");
     });
 }
 
 #[test]
 fn what_is_given_up_or_taken_back_is_never_seen() {
     explore(|| {
-        let kernel = Arc::new(Kernel::new(Pair(0, 0), 0));
-        let other = Arc::clone(&kernel);
+        let pair = Arc::new(LeftRight::new(Pair(0, 0), 0));
+        let other = Arc::clone(&pair);
         let writer = loom::thread::spawn(move || {
             // Begun and abandoned, as by a panic.
             other.write().next().0 += 7;
@@ -138,11 +138,11 @@ fn what_is_given_up_or_taken_back_is_never_seen() {
             drop(writing);
             add(&other);
         });
-        add(&kernel);
-        let seen = kernel.read();
+        add(&pair);
+        let seen = pair.read();
         assert!(seen.0 == seen.1 && (1..=2).contains(&seen.0));
         writer.join().unwrap();
-        assert_eq!(*kernel.read(), Pair(2, 2));
+        assert_eq!(*pair.read(), Pair(2, 2));
     });
 }
 
@@ -162,13 +162,13 @@ fn a_twin_that_does_not_follow_is_found() {
     }
 
     explore(|| {
-        let kernel = Arc::new(Kernel::new(Lazy(0), ()));
+        let pair = Arc::new(LeftRight::new(Lazy(0), ()));
         for _ in 0..2 {
-            let mut writing = kernel.write();
+            let mut writing = pair.write();
             writing.next().0 += 1;
             writing.publish(Some(()));
         }
-        assert_eq!(kernel.read().0, 2, "no update is lost");
+        assert_eq!(pair.read().0, 2, "no update is lost");
     });
 }
 

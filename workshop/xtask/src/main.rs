@@ -30,7 +30,7 @@ const HELP: &str = "cargo xtask COMMAND
   ci     test, lint, tidy
   fuzz [TARGET] [SECONDS]
          fuzzes what is read from files: PDDL, plans, journals, worlds; 600 s a target; needs `cargo install cargo-fuzz`
-  loom   the graph's kernel in every interleaving of a few threads
+  loom   how the graph's readers and writers meet, in every interleaving of a few threads
   soak [SECONDS]
          8 writers, 8 readers and what stalls on one graph, 10 s; ends with an error if an update was lost
   record draws docs/figure-8.svg, the README's picture, from a run

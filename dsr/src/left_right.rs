@@ -27,7 +27,7 @@ pub(crate) trait Twin: Clone {
 }
 
 /// A value for readers and writers, and what only writers have.
-pub(crate) struct Kernel<T: Twin, W> {
+pub(crate) struct LeftRight<T: Twin, W> {
     present: Slot<T>,
     writers: Mutex<Side<T, W>>,
 }
@@ -42,7 +42,7 @@ struct Side<T: Twin, W> {
     own: W,
 }
 
-impl<T: Twin, W> Kernel<T, W> {
+impl<T: Twin, W> LeftRight<T, W> {
     pub(crate) fn new(value: T, own: W) -> Self {
         let side = Side { twin: None, behind: None, editing: false, own };
         Self { present: Slot::new(Arc::new(value)), writers: Mutex::new(side) }
@@ -60,13 +60,13 @@ impl<T: Twin, W> Kernel<T, W> {
         if std::mem::take(&mut side.editing) {
             (side.twin, side.behind) = (None, None);
         }
-        Writing { kernel: self, side }
+        Writing { states: self, side }
     }
 }
 
 /// The right to make the next value.
 pub(crate) struct Writing<'k, T: Twin, W> {
-    kernel: &'k Kernel<T, W>,
+    states: &'k LeftRight<T, W>,
     side: MutexGuard<'k, Side<T, W>>,
 }
 
@@ -78,7 +78,7 @@ impl<T: Twin, W> Writing<'_, T, W> {
 
     /// The present value, which stays that until `publish`.
     pub(crate) fn present(&self) -> Arc<T> {
-        self.kernel.present.load()
+        self.states.present.load()
     }
 
     /// What will most likely be given by `next`, as it is now: for having it in the cache.
@@ -95,7 +95,7 @@ impl<T: Twin, W> Writing<'_, T, W> {
         if !twin.as_mut().and_then(Arc::get_mut).is_some_and(follows) {
             *twin = None;
         }
-        let twin = twin.get_or_insert_with(|| Arc::new(T::clone(&self.kernel.present.load())));
+        let twin = twin.get_or_insert_with(|| Arc::new(T::clone(&self.states.present.load())));
         Arc::get_mut(twin).expect("just made, or just found to have no other holder")
     }
 
@@ -107,8 +107,8 @@ impl<T: Twin, W> Writing<'_, T, W> {
     /// Makes the value of `next` the present one, and gives it, with what it replaces if nobody is to follow: that is
     /// let go of after the lock. Without a change the next writer clones.
     pub(crate) fn publish(&mut self, change: Option<T::Change>) -> (Arc<T>, Option<Arc<T>>) {
-        let next = self.side.twin.take().unwrap_or_else(|| self.kernel.present.load());
-        let before = self.kernel.present.swap(Arc::clone(&next));
+        let next = self.side.twin.take().unwrap_or_else(|| self.states.present.load());
+        let before = self.states.present.swap(Arc::clone(&next));
         self.side.editing = false;
         self.side.behind = change;
         if self.side.behind.is_none() {
