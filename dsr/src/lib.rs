@@ -42,7 +42,7 @@
 //!
 //! Map, from the ground up: `id`, `unit`, `value` → `vocabulary` → `pages`, `block`, `names`, `members`, `state` (what a snapshot
 //! is), `pose`, `track`, `undo` → `transaction` (edits, leases, the tree of transforms), `delta`, `replay_check`, `replay`, `export` → `chain`, `pattern`,
-//! `reflex` → `snapshot`, `diff`, `past`, `sentence`, `quiver` → `subscription`,
+//! `reflex` → `snapshot`, `diff`, `past`, `sentence` → `subscription`,
 //! `routes`, `left_right` (how readers and writers keep out of each other's way), `graph`, `liveness` → `journal`.
 
 mod block;
@@ -62,7 +62,6 @@ mod pages;
 mod past;
 mod pattern;
 mod pose;
-mod quiver;
 mod reflex;
 mod replay;
 mod replay_check;
@@ -101,7 +100,6 @@ pub use pattern::{
     PatternTextError, Term, Threshold, Variable,
 };
 pub use pose::{Covariance, CovarianceError, Pose};
-pub use quiver::{Arrows, Geometric, Quiver, Symbolic, TransformView};
 pub use reflex::{Bound, Keep, Reflex};
 pub use replay::ReplayError;
 pub use snapshot::{AttributeView, EdgeView, NodeView, Snapshot};
