@@ -101,179 +101,182 @@ struct Between<'a> {
     down: Path<'a>,
 }
 
-impl State {
-    /// The newest poses.
-    pub(crate) fn transform(&self, from: NodeId, to: NodeId) -> Result<Isometry3<f64>, ChainError> {
-        self.chain(from, to, |_, joint| Ok(joint.pose.transform))
-    }
+/// The newest poses.
+pub(crate) fn transform(state: &State, from: NodeId, to: NodeId) -> Result<Isometry3<f64>, ChainError> {
+    chain(state, from, to, |_, joint| Ok(joint.pose.transform))
+}
 
-    /// The poses at a time.
-    pub(crate) fn transform_at(
-        &self,
-        from: NodeId,
-        to: NodeId,
-        time: Time,
-    ) -> Result<Isometry3<f64>, ChainError> {
-        self.chain(from, to, |child, joint| match &joint.track {
-            None => Ok(joint.pose.transform),
-            Some(track) => track.at(time).map_err(|known| self.outside(child, joint, time, known)),
-        })
-    }
+/// The poses at a time.
+pub(crate) fn transform_at(
+    state: &State,
+    from: NodeId,
+    to: NodeId,
+    time: Time,
+) -> Result<Isometry3<f64>, ChainError> {
+    chain(state, from, to, |child, joint| match &joint.track {
+        None => Ok(joint.pose.transform),
+        Some(track) => track.at(time).map_err(|known| outside(state, child, joint, time, known)),
+    })
+}
 
-    fn outside(&self, child: NodeId, joint: &Joint, asked: Time, (first, last): (Time, Time)) -> ChainError {
-        let (parent, child) = (self.name(joint.parent), self.name(child));
-        ChainError::Extrapolation { parent, child, asked, first, last }
-    }
+fn outside(
+    state: &State,
+    child: NodeId,
+    joint: &Joint,
+    asked: Time,
+    (first, last): (Time, Time),
+) -> ChainError {
+    let (parent, child) = (state.name(joint.parent), state.name(child));
+    ChainError::Extrapolation { parent, child, asked, first, last }
+}
 
-    /// The newest pose, with what is known of its error.
-    pub(crate) fn pose(&self, from: NodeId, to: NodeId) -> Result<Pose, ChainError> {
-        self.uncertain(from, to, |_, joint| Ok(Uncertain::of(&joint.pose, joint.track.is_some())))
-    }
+/// The newest pose, with what is known of its error.
+pub(crate) fn pose(state: &State, from: NodeId, to: NodeId) -> Result<Pose, ChainError> {
+    uncertain(state, from, to, |_, joint| Ok(Uncertain::of(&joint.pose, joint.track.is_some())))
+}
 
-    /// The pose at a time, with what is known of its error.
-    pub(crate) fn pose_at(&self, from: NodeId, to: NodeId, time: Time) -> Result<Pose, ChainError> {
-        self.uncertain(from, to, |child, joint| match &joint.track {
-            None => Ok(Uncertain::of(&joint.pose, false)),
-            Some(track) => {
-                let pose = track.pose_at(time).map_err(|known| self.outside(child, joint, time, known))?;
-                Ok(Uncertain::of(&pose, true))
-            }
-        })
-    }
-
-    fn uncertain(
-        &self,
-        from: NodeId,
-        to: NodeId,
-        pose: impl Fn(NodeId, &Joint) -> Result<Uncertain, ChainError>,
-    ) -> Result<Pose, ChainError> {
-        let Between { up, down } = self.between(from, to)?;
-        let along = |path: Path<'_>| {
-            path.into_iter()
-                .try_fold(Uncertain::identity(), |below, (child, joint)| Ok(pose(child, joint)? * below))
-        };
-        Ok((along(up)?.inverse() * along(down)?).pose())
-    }
-
-    /// The poses at the newest common time. Mostly that is the newest time of all: then they are the newest poses.
-    pub(crate) fn transform_together(&self, from: NodeId, to: NodeId) -> Result<Isometry3<f64>, ChainError> {
-        let (oldest, newest) = (Cell::new(Time(u64::MAX)), Cell::new(Time(0)));
-        let pose = self.chain(from, to, |_, joint| {
-            if joint.track.is_some() {
-                oldest.set(oldest.get().min(joint.newest));
-                newest.set(newest.get().max(joint.newest));
-            }
-            Ok(joint.pose.transform)
-        })?;
-        // Edges above the common ancestor may have been looked at too: then this is decided the long way.
-        if oldest.get() >= newest.get() {
-            return Ok(pose);
+/// The pose at a time, with what is known of its error.
+pub(crate) fn pose_at(state: &State, from: NodeId, to: NodeId, time: Time) -> Result<Pose, ChainError> {
+    uncertain(state, from, to, |child, joint| match &joint.track {
+        None => Ok(Uncertain::of(&joint.pose, false)),
+        Some(track) => {
+            let pose = track.pose_at(time).map_err(|known| outside(state, child, joint, time, known))?;
+            Ok(Uncertain::of(&pose, true))
         }
-        match self.common_time(from, to)? {
-            Some(time) => self.transform_at(from, to, time),
-            None => Ok(pose),
+    })
+}
+
+fn uncertain(
+    state: &State,
+    from: NodeId,
+    to: NodeId,
+    pose: impl Fn(NodeId, &Joint) -> Result<Uncertain, ChainError>,
+) -> Result<Pose, ChainError> {
+    let Between { up, down } = between(state, from, to)?;
+    let along = |path: Path<'_>| {
+        path.into_iter()
+            .try_fold(Uncertain::identity(), |below, (child, joint)| Ok(pose(child, joint)? * below))
+    };
+    Ok((along(up)?.inverse() * along(down)?).pose())
+}
+
+/// The poses at the newest common time. Mostly that is the newest time of all: then they are the newest poses.
+pub(crate) fn transform_together(
+    state: &State,
+    from: NodeId,
+    to: NodeId,
+) -> Result<Isometry3<f64>, ChainError> {
+    let (oldest, newest) = (Cell::new(Time(u64::MAX)), Cell::new(Time(0)));
+    let pose = chain(state, from, to, |_, joint| {
+        if joint.track.is_some() {
+            oldest.set(oldest.get().min(joint.newest));
+            newest.set(newest.get().max(joint.newest));
         }
+        Ok(joint.pose.transform)
+    })?;
+    // Edges above the common ancestor may have been looked at too: then this is decided the long way.
+    if oldest.get() >= newest.get() {
+        return Ok(pose);
     }
-
-    /// The oldest of the newest times between two frames.
-    pub(crate) fn common_time(&self, from: NodeId, to: NodeId) -> Result<Option<Time>, ChainError> {
-        let Between { up, down } = self.between(from, to)?;
-        Ok(up
-            .iter()
-            .chain(&down)
-            .filter(|(_, joint)| joint.track.is_some())
-            .map(|(_, joint)| joint.newest)
-            .min())
+    match common_time(state, from, to)? {
+        Some(time) => transform_at(state, from, to, time),
+        None => Ok(pose),
     }
+}
 
-    pub(crate) fn distance(&self, from: NodeId, to: NodeId) -> Result<f64, ChainError> {
-        Ok(self.transform(from, to)?.translation.vector.norm())
+/// The oldest of the newest times between two frames.
+pub(crate) fn common_time(state: &State, from: NodeId, to: NodeId) -> Result<Option<Time>, ChainError> {
+    let Between { up, down } = between(state, from, to)?;
+    Ok(up.iter().chain(&down).filter(|(_, joint)| joint.track.is_some()).map(|(_, joint)| joint.newest).min())
+}
+
+pub(crate) fn distance(state: &State, from: NodeId, to: NodeId) -> Result<f64, ChainError> {
+    Ok(transform(state, from, to)?.translation.vector.norm())
+}
+
+pub(crate) fn bearing(state: &State, from: NodeId, to: NodeId) -> Result<f64, ChainError> {
+    let at = transform(state, from, to)?.translation.vector;
+    Ok(at.y.atan2(at.x))
+}
+
+fn known_frame(state: &State, id: NodeId) -> Result<(), ChainError> {
+    let node = state.node(id).ok_or(ChainError::UnknownNode { node: id })?;
+    if state.vocabulary.nature(node.node_type()) == Some(Nature::Geometric) {
+        return Ok(());
     }
+    Err(ChainError::NotGeometric { node: state.name(id) })
+}
 
-    pub(crate) fn bearing(&self, from: NodeId, to: NodeId) -> Result<f64, ChainError> {
-        let at = self.transform(from, to)?.translation.vector;
-        Ok(at.y.atan2(at.x))
-    }
-
-    fn known_frame(&self, id: NodeId) -> Result<(), ChainError> {
-        let node = self.node(id).ok_or(ChainError::UnknownNode { node: id })?;
-        if self.vocabulary.nature(node.node_type()) == Some(Nature::Geometric) {
-            return Ok(());
-        }
-        Err(ChainError::NotGeometric { node: self.name(id) })
-    }
-
-    /// The pose of a frame in one above it; `None` if it is not above it, or if an edge on the way has no pose.
-    fn below(
-        &self,
-        above: NodeId,
-        frame: NodeId,
-        pose: impl Fn(NodeId, &Joint) -> Result<Isometry3<f64>, ChainError>,
-    ) -> Option<Isometry3<f64>> {
-        let mut climb = Climb::new(self, frame);
+/// The pose of a frame in one above it; `None` if it is not above it, or if an edge on the way has no pose.
+fn below(
+    state: &State,
+    above: NodeId,
+    frame: NodeId,
+    pose: impl Fn(NodeId, &Joint) -> Result<Isometry3<f64>, ChainError>,
+) -> Option<Isometry3<f64>> {
+    let mut climb = Climb::new(state, frame);
+    let (child, joint) = climb.step()?;
+    let mut found = pose(child, joint).ok()?;
+    while climb.at != above {
         let (child, joint) = climb.step()?;
-        let mut found = pose(child, joint).ok()?;
-        while climb.at != above {
-            let (child, joint) = climb.step()?;
-            found = pose(child, joint).ok()? * found;
-        }
-        Some(found)
+        found = pose(child, joint).ok()? * found;
     }
+    Some(found)
+}
 
-    fn chain(
-        &self,
-        from: NodeId,
-        to: NodeId,
-        pose: impl Fn(NodeId, &Joint) -> Result<Isometry3<f64>, ChainError>,
-    ) -> Result<Isometry3<f64>, ChainError> {
-        // Mostly one frame is above the other, and one walk finds that out. Where it fails, the other way says why.
-        if from != to {
-            if let Some(found) = self.below(from, to, &pose) {
-                return Ok(found);
-            }
-            if let Some(found) = self.below(to, from, &pose) {
-                return Ok(found.inverse());
-            }
+fn chain(
+    state: &State,
+    from: NodeId,
+    to: NodeId,
+    pose: impl Fn(NodeId, &Joint) -> Result<Isometry3<f64>, ChainError>,
+) -> Result<Isometry3<f64>, ChainError> {
+    // Mostly one frame is above the other, and one walk finds that out. Where it fails, the other way says why.
+    if from != to {
+        if let Some(found) = below(state, from, to, &pose) {
+            return Ok(found);
         }
-        let Between { up, down } = self.between(from, to)?;
-        let along = |path: Path<'_>| {
-            path.into_iter()
-                .try_fold(Isometry3::identity(), |below, (child, joint)| Ok(pose(child, joint)? * below))
-        };
-        Ok(along(up)?.inv_mul(&along(down)?))
+        if let Some(found) = below(state, to, from, &pose) {
+            return Ok(found.inverse());
+        }
     }
+    let Between { up, down } = between(state, from, to)?;
+    let along = |path: Path<'_>| {
+        path.into_iter()
+            .try_fold(Isometry3::identity(), |below, (child, joint)| Ok(pose(child, joint)? * below))
+    };
+    Ok(along(up)?.inv_mul(&along(down)?))
+}
 
-    fn between(&self, from: NodeId, to: NodeId) -> Result<Between<'_>, ChainError> {
-        self.known_frame(from)?;
-        self.known_frame(to)?;
-        let path = |start, end| {
-            let mut climb = Climb::new(self, start);
-            let mut path = Path::new();
-            while climb.at != end
-                && let Some(step) = climb.step()
-            {
-                path.push(step);
-            }
-            (path, climb.at)
-        };
-        let (mut down, top) = path(to, from);
-        if top == from {
-            return Ok(Between { up: Path::new(), down });
-        }
-        let (mut up, other) = path(from, to);
-        if other == to {
-            return Ok(Between { up, down: Path::new() });
-        }
-        if top != other {
-            return Err(ChainError::NotConnected { from: self.name(from), to: self.name(to) });
-        }
-        // Both lead to the root: what they share at the end lies above where they meet.
-        while let (Some((a, _)), Some((b, _))) = (up.last(), down.last())
-            && a == b
+fn between(state: &State, from: NodeId, to: NodeId) -> Result<Between<'_>, ChainError> {
+    known_frame(state, from)?;
+    known_frame(state, to)?;
+    let path = |start, end| {
+        let mut climb = Climb::new(state, start);
+        let mut path = Path::new();
+        while climb.at != end
+            && let Some(step) = climb.step()
         {
-            up.pop();
-            down.pop();
+            path.push(step);
         }
-        Ok(Between { up, down })
+        (path, climb.at)
+    };
+    let (mut down, top) = path(to, from);
+    if top == from {
+        return Ok(Between { up: Path::new(), down });
     }
+    let (mut up, other) = path(from, to);
+    if other == to {
+        return Ok(Between { up, down: Path::new() });
+    }
+    if top != other {
+        return Err(ChainError::NotConnected { from: state.name(from), to: state.name(to) });
+    }
+    // Both lead to the root: what they share at the end lies above where they meet.
+    while let (Some((a, _)), Some((b, _))) = (up.last(), down.last())
+        && a == b
+    {
+        up.pop();
+        down.pop();
+    }
+    Ok(Between { up, down })
 }

@@ -13,10 +13,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::block::Joint;
 use crate::id::{AgentId, AttributeId, EdgeKey, Holder, LabelId, NodeId, ReflexId, Time, TypeId, Version};
+use crate::mentions::Mentions;
 use crate::pose::Pose;
+use crate::state::log::Undo;
 use crate::state::{Kept, State};
 use crate::track::Sample;
-use crate::undo::Undo;
 use crate::value::Value;
 
 /// One difference between two states.
@@ -94,6 +95,29 @@ pub struct Delta {
     pub changes: Vec<Change>,
     /// The reflexes that fired, in the order in which they did.
     pub reflexes: Vec<ReflexId>,
+}
+
+impl Mentions {
+    /// The tokens that a delta changes.
+    pub fn of(delta: &Delta) -> Self {
+        let mut mentions = Self::default();
+        for change in &delta.changes {
+            match change {
+                Change::NodeAdded { node_type, .. } | Change::NodeRemoved { node_type, .. } => {
+                    mentions.add_type(*node_type);
+                }
+                Change::EdgeAdded { edge } | Change::EdgeRemoved { edge } => mentions.add_label(edge.label),
+                Change::AttributeAdded { attribute, .. }
+                | Change::AttributeChanged { attribute, .. }
+                | Change::AttributeRemoved { attribute, .. } => mentions.add_attribute(*attribute),
+                Change::TransformAdded { .. }
+                | Change::TransformChanged { .. }
+                | Change::TransformSampled { .. }
+                | Change::TransformRemoved { .. } => mentions.add_transforms(),
+            }
+        }
+        mentions
+    }
 }
 
 /// What an entry of the log is about.

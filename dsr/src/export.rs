@@ -9,10 +9,12 @@ use nalgebra::{Isometry3, Quaternion, Translation3, Unit};
 use serde::{Deserialize, Serialize};
 
 use crate::id::{AttributeId, EdgeKey, Holder, NodeId, Time, Version};
+use crate::lease;
 use crate::pose::{Covariance, Pose};
+use crate::replay_check::{edge_fits, pose_fits, value_fits};
 use crate::snapshot::{AttributeView, Snapshot};
 use crate::state::State;
-use crate::transaction::TransactionError;
+use crate::transaction::{TransactionError, invariants};
 use crate::value::Value;
 use crate::vocabulary::Vocabulary;
 
@@ -278,8 +280,8 @@ pub(crate) fn restore(vocabulary: Arc<Vocabulary>, export: &Export) -> Result<St
     for transform in &export.transforms {
         restore_transform(&mut state, transform)?;
     }
-    crate::transaction::apply::judge(&mut state, mark)?;
-    if !state.leases_are_sound() {
+    invariants::check(&mut state, mark)?;
+    if !lease::are_sound(&state) {
         return Err(RestoreError::WrongLeases);
     }
     (state.version, state.time, state.next) = (export.version, export.time, export.next);
@@ -311,7 +313,7 @@ fn edge_key(state: &State, edge: &ExportedEdge) -> Result<EdgeKey, RestoreError>
         .label(&edge.label)
         .ok_or_else(|| RestoreError::UnknownToken { name: edge.label.clone() })?;
     let key = EdgeKey { from: find(state, &edge.from)?, label, to: find(state, &edge.to)? };
-    if !state.edge_fits(key) {
+    if !edge_fits(state, key) {
         let (from, label, to) = (edge.from.clone(), edge.label.clone(), edge.to.clone());
         return Err(RestoreError::WrongEdge { from, label, to });
     }
@@ -333,7 +335,7 @@ fn restore_attribute(
         ExportedValue::Bool(truth) => Value::Bool(*truth),
         ExportedValue::Node(name) => Value::Node(find(state, name)?),
     };
-    if !state.value_fits(holder, attribute, &value) || state.cell(holder, attribute).is_some() {
+    if !value_fits(state, holder, attribute, &value) || state.cell(holder, attribute).is_some() {
         return Err(RestoreError::WrongAttribute { attribute: exported.name.clone() });
     }
     state.insert_attribute(holder, attribute, value, exported.since);
@@ -346,7 +348,7 @@ fn restore_transform(state: &mut State, exported: &ExportedTransform) -> Result<
         || RestoreError::WrongTransform { parent: exported.parent.clone(), child: exported.child.clone() };
     let pose = |translation, rotation, covariance: &Option<_>| {
         let pose = pose_of(translation, rotation, covariance.clone());
-        if state.pose_fits(parent, child, &pose) { Ok(pose) } else { Err(wrong()) }
+        if pose_fits(state, parent, child, &pose) { Ok(pose) } else { Err(wrong()) }
     };
     if state.joint(child).is_some() {
         return Err(wrong());

@@ -21,13 +21,13 @@ use crate::journal::feed::{Feed, Rest};
 use crate::left_right::{LeftRight, Twin};
 use crate::past::Past;
 use crate::pattern::Pattern;
-use crate::reflex::Registry;
 use crate::replay::{self, ReplayError};
 use crate::routes::Routes;
 use crate::snapshot::Snapshot;
 use crate::state::State;
 use crate::subscription::{Committed, Deltas, Mailbox, Matches, Queue, Wake};
-use crate::transaction::apply::{transact, warm};
+use crate::transaction::commit::{transact, warm};
+use crate::transaction::reflexes::Registry;
 use crate::transaction::{Edit, Transaction, TransactionError};
 use crate::vocabulary::Vocabulary;
 
@@ -59,24 +59,18 @@ struct Shared {
 /// What only writers have.
 struct Writers {
     version: Version,
+    reflexes: Registry,
     queues: Routes,
     /// The journals that take each delta.
     feeds: Vec<Arc<Feed>>,
 }
 
-/// What one commit made of a state.
-pub(crate) struct Step {
-    delta: Arc<Delta>,
-    reflexes: Registry,
-}
-
 impl Twin for State {
-    type Change = Step;
+    type Change = Arc<Delta>;
 
-    fn follow(&mut self, step: &Step) -> bool {
-        self.reflexes.clone_from(&step.reflexes);
-        // A commit that only registered a reflex made no version.
-        step.delta.version == self.version || replay::follow(self, &step.delta)
+    fn follow(&mut self, delta: &Arc<Delta>) -> bool {
+        // A commit that only registers a reflex makes no version.
+        delta.version == self.version || replay::follow(self, delta)
     }
 }
 
@@ -136,8 +130,9 @@ impl Graph {
 
     fn with(state: State) -> Self {
         let vocabulary = Arc::clone(&state.vocabulary);
-        let (version, queues, feeds) = (state.version, Routes::default(), Vec::new());
-        let writers = Writers { version, queues, feeds };
+        let version = state.version;
+        let writers =
+            Writers { version, reflexes: Registry::default(), queues: Routes::default(), feeds: Vec::new() };
         Self {
             shared: Arc::new(Shared {
                 vocabulary,
@@ -184,8 +179,8 @@ impl Graph {
         if let Some(state) = writing.ahead() {
             warm(state, &transaction.edits);
         }
-        let state = writing.next();
-        let outcome = match transact(state, transaction, time) {
+        let reflexes = writing.own().reflexes.clone();
+        let outcome = match transact(writing.next(), reflexes, transaction, time) {
             Ok(outcome) => outcome,
             Err(error) => {
                 writing.leave();
@@ -195,8 +190,8 @@ impl Graph {
         let delta = Arc::new(outcome.delta);
         let changed = !(delta.changes.is_empty() && delta.reflexes.is_empty());
         let short = delta.changes.len() <= LONG;
-        let step = short.then(|| Step { delta: Arc::clone(&delta), reflexes: state.reflexes.clone() });
-        let (state, before) = writing.publish(step);
+        let (state, before) = writing.publish(short.then(|| Arc::clone(&delta)));
+        writing.own().reflexes = outcome.reflexes;
         let snapshot = Snapshot::new(state);
         if changed {
             let writers = writing.own();
@@ -305,9 +300,7 @@ impl Graph {
 
     /// A graph of its own that goes on from a snapshot. Reflexes stay where they were registered.
     pub fn from_snapshot(snapshot: &Snapshot) -> Self {
-        let mut state = snapshot.state().clone();
-        state.reflexes = Registry::default();
-        Self::with(state)
+        Self::with(snapshot.state().clone())
     }
 }
 

@@ -53,6 +53,7 @@ mod export;
 mod graph;
 mod id;
 mod journal;
+mod lease;
 mod left_right;
 mod liveness;
 mod members;
@@ -73,7 +74,6 @@ mod subscription;
 mod sync;
 mod track;
 mod transaction;
-mod undo;
 mod unit;
 mod value;
 mod vocabulary;
@@ -92,6 +92,7 @@ pub use journal::{
     Damage, Durability, Folder, Journal, JournalError, Memory, Played, Progress, Recording, RecordingError,
     Replay, Settings, Store,
 };
+pub use lease::{Lease, Preemption, Priority, Waiting};
 pub use liveness::Liveness;
 pub use mentions::Mentions;
 pub use nalgebra::{Isometry3, Matrix6};
@@ -105,7 +106,7 @@ pub use replay::ReplayError;
 pub use snapshot::{AttributeView, EdgeView, NodeView, Snapshot};
 pub use subscription::{Committed, Delivery, Deltas, Event, Mailbox, MatchChange, Matches};
 pub use track::HORIZON;
-pub use transaction::{Edit, HolderRef, Lease, Preemption, Priority, Transaction, TransactionError, Waiting};
+pub use transaction::{Edit, HolderRef, Transaction, TransactionError};
 pub use unit::Unit;
 pub use value::{Kind, NewValue, NodeRef, Value};
 pub use vocabulary::{

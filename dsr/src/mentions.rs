@@ -5,7 +5,6 @@
 
 use smallvec::SmallVec;
 
-use crate::delta::{Change, Delta};
 use crate::id::{AttributeId, LabelId, TypeId};
 
 /// A set of small numbers.
@@ -43,27 +42,6 @@ pub struct Mentions {
 }
 
 impl Mentions {
-    /// What a delta touches.
-    pub fn of(delta: &Delta) -> Self {
-        let mut mentions = Self::default();
-        for change in &delta.changes {
-            match change {
-                Change::NodeAdded { node_type, .. } | Change::NodeRemoved { node_type, .. } => {
-                    mentions.add_type(*node_type);
-                }
-                Change::EdgeAdded { edge } | Change::EdgeRemoved { edge } => mentions.add_label(edge.label),
-                Change::AttributeAdded { attribute, .. }
-                | Change::AttributeChanged { attribute, .. }
-                | Change::AttributeRemoved { attribute, .. } => mentions.add_attribute(*attribute),
-                Change::TransformAdded { .. }
-                | Change::TransformChanged { .. }
-                | Change::TransformSampled { .. }
-                | Change::TransformRemoved { .. } => mentions.add_transforms(),
-            }
-        }
-        mentions
-    }
-
     /// Whether the two have a token in common.
     pub fn intersects(&self, other: &Self) -> bool {
         self.labels.intersects(&other.labels)

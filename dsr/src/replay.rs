@@ -6,9 +6,11 @@
 use crate::block::Cell;
 use crate::delta::{Change, Delta};
 use crate::id::{AttributeId, Holder, NodeId, TypeId, Version};
+use crate::lease;
+use crate::replay_check::{edge_fits, pose_fits, value_fits};
 use crate::state::State;
-use crate::transaction::apply::judge;
-use crate::undo::Mark;
+use crate::state::log::Mark;
+use crate::transaction::invariants;
 use crate::value::Value;
 
 /// Why deltas do not continue a state.
@@ -63,8 +65,8 @@ fn redo_all(state: &mut State, delta: &Delta, mark: Mark) -> Result<(), ReplayEr
         redo(state, what, version).ok_or(ReplayError::Misfit { version, change })?;
     }
     let as_a_whole = ReplayError::Misfit { version, change: delta.changes.len() };
-    judge(state, mark).map_err(|_| as_a_whole.clone())?;
-    if state.log.mentions.leases() && !state.leases_are_sound() { Err(as_a_whole) } else { Ok(()) }
+    invariants::check(state, mark).map_err(|_| as_a_whole.clone())?;
+    if state.log.mentions.leases() && !lease::are_sound(state) { Err(as_a_whole) } else { Ok(()) }
 }
 
 /// Applies a delta that another copy of the same state made, so that it is known to fit; false if it does not continue
@@ -134,13 +136,13 @@ fn redo(state: &mut State, change: &Change, since: Version) -> Option<()> {
             state.insert_node(*node, name.clone(), *node_type, since);
         }
         Change::TransformSampled { parent, child, time, new, .. } => {
-            fits(state.pose_fits(*parent, *child, new))?;
+            fits(pose_fits(state, *parent, *child, new))?;
             let joint = state.joint(*child)?;
             fits(joint.parent == *parent && joint.track.is_some())?;
             state.insert_sample(*parent, *child, *time, new.clone(), since);
         }
         Change::TransformAdded { parent, child, new, time } => {
-            fits(state.pose_fits(*parent, *child, new) && state.joint(*child).is_none())?;
+            fits(pose_fits(state, *parent, *child, new) && state.joint(*child).is_none())?;
             match time {
                 Some(time) => state.insert_sample(*parent, *child, *time, new.clone(), since),
                 None => state.insert_transform(*parent, *child, new.clone(), since),
@@ -149,11 +151,11 @@ fn redo(state: &mut State, change: &Change, since: Version) -> Option<()> {
         Change::TransformChanged { parent, child, old, new } => {
             let joint = state.joint(*child)?;
             fits(joint.parent == *parent && joint.track.is_none() && joint.pose.same(old))?;
-            fits(state.pose_fits(*parent, *child, new))?;
+            fits(pose_fits(state, *parent, *child, new))?;
             state.insert_transform(*parent, *child, new.clone(), since);
         }
         Change::EdgeAdded { edge } => {
-            fits(state.edge_fits(*edge))?;
+            fits(edge_fits(state, *edge))?;
             state.insert_edge(*edge, since);
         }
         Change::AttributeAdded { holder, attribute, new } => {
@@ -175,7 +177,7 @@ fn write(
     value: &Value,
     since: Version,
 ) -> Option<()> {
-    state.value_fits(holder, attribute, value).then_some(())?;
+    value_fits(state, holder, attribute, value).then_some(())?;
     state.insert_attribute(holder, attribute, value.clone(), since);
     Some(())
 }

@@ -7,11 +7,11 @@ use std::sync::Arc;
 use nalgebra::Isometry3;
 
 use crate::block::{Cell, EdgeCell, Node};
-use crate::chain::ChainError;
+use crate::chain::{self, ChainError};
 use crate::id::{AgentId, AttributeId, EdgeKey, Holder, LabelId, NodeId, ResourceId, Time, TypeId, Version};
+use crate::lease::{self, Lease, Waiting};
 use crate::pose::Pose;
 use crate::state::State;
-use crate::transaction::{Lease, Waiting};
 use crate::value::Value;
 use crate::vocabulary::Vocabulary;
 
@@ -211,45 +211,45 @@ impl Snapshot {
     /// The pose of frame `to` in frame `from`, each pose between them the newest there is: maps coordinates of `to`
     /// into `from`. See the README.
     pub fn transform(&self, from: NodeId, to: NodeId) -> Result<Isometry3<f64>, ChainError> {
-        self.state.transform(from, to)
+        chain::transform(&self.state, from, to)
     }
 
     /// The pose of frame `to` in frame `from` at a time. Poses that move are interpolated; times outside what one of
     /// them remembers are refused with the name of the edge.
     pub fn transform_at(&self, from: NodeId, to: NodeId, time: Time) -> Result<Isometry3<f64>, ChainError> {
-        self.state.transform_at(from, to, time)
+        chain::transform_at(&self.state, from, to, time)
     }
 
     /// The newest time at which all poses between the two frames are known; `None` if all of them stand.
     pub fn common_time(&self, from: NodeId, to: NodeId) -> Result<Option<Time>, ChainError> {
-        self.state.common_time(from, to)
+        chain::common_time(&self.state, from, to)
     }
 
     /// The pose of frame `to` in frame `from` at their newest common time.
     pub fn transform_together(&self, from: NodeId, to: NodeId) -> Result<Isometry3<f64>, ChainError> {
-        self.state.transform_together(from, to)
+        chain::transform_together(&self.state, from, to)
     }
 
     /// The newest pose of frame `to` in frame `from` with its covariance, to first order; none if no edge between them has
     /// one, or if one that moves has none. See [`Covariance`](crate::Covariance).
     pub fn pose(&self, from: NodeId, to: NodeId) -> Result<Pose, ChainError> {
-        self.state.pose(from, to)
+        chain::pose(&self.state, from, to)
     }
 
     /// The same at a time.
     pub fn pose_at(&self, from: NodeId, to: NodeId, time: Time) -> Result<Pose, ChainError> {
-        self.state.pose_at(from, to, time)
+        chain::pose_at(&self.state, from, to, time)
     }
 
     /// The distance between the origins of two frames.
     pub fn distance(&self, from: NodeId, to: NodeId) -> Result<f64, ChainError> {
-        self.state.distance(from, to)
+        chain::distance(&self.state, from, to)
     }
 
     /// In which direction the origin of frame `to` lies in the plane of frame `from`: radians from its x axis, positive
     /// towards y, in (-π, π].
     pub fn bearing(&self, from: NodeId, to: NodeId) -> Result<f64, ChainError> {
-        self.state.bearing(from, to)
+        chain::bearing(&self.state, from, to)
     }
 
     /// Whether the origin of frame `to` lies no further from that of `from` than the attribute `reach` of `from` says, in
@@ -266,16 +266,16 @@ impl Snapshot {
 
     /// Who holds a resource.
     pub fn lease(&self, resource: ResourceId) -> Option<Lease> {
-        self.state.lease(resource)
+        lease::lease(&self.state, resource)
     }
 
     /// Who waits for a resource, the next first.
     pub fn waiting(&self, resource: ResourceId) -> Vec<Waiting> {
-        self.state.waiting(resource)
+        lease::waiting(&self.state, resource)
     }
 
     /// What an agent waits for.
     pub fn awaited(&self, agent: AgentId) -> Option<ResourceId> {
-        self.state.wait_of(agent)
+        lease::awaited(&self.state, agent)
     }
 }

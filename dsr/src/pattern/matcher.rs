@@ -11,6 +11,7 @@ use super::{
     Atom, Binding, Carrier, Comparison, Fixed, Known, Limit, Metric, Pattern, Plans, Right, SLOTS, Slot,
     Strictness, Variable,
 };
+use crate::chain;
 use crate::id::{AttributeId, EdgeKey, Holder, NodeId, TypeId};
 use crate::snapshot::Snapshot;
 use crate::state::State;
@@ -341,8 +342,8 @@ impl Run<'_> {
                 };
                 let Some(number) = number else { return false };
                 let found = match metric {
-                    Metric::Distance => self.state.distance(from, to),
-                    Metric::Bearing => self.state.bearing(from, to).map(f64::abs),
+                    Metric::Distance => chain::distance(self.state, from, to),
+                    Metric::Bearing => chain::bearing(self.state, from, to).map(f64::abs),
                 };
                 found.is_ok_and(|found| compare(*comparison, &Value::Number(found), &Value::Number(number)))
             }

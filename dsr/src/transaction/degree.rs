@@ -7,7 +7,7 @@ use super::error::TransactionError;
 use crate::block::Node;
 use crate::id::{LabelId, NodeId};
 use crate::state::State;
-use crate::undo::{Mark, Undo};
+use crate::state::log::{Mark, Undo};
 
 /// Whether the edges that came since the mark are too many somewhere.
 pub(super) fn check(state: &State, mark: Mark) -> Result<(), TransactionError> {

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::lease::{Preemption, Priority};
 use crate::id::{AgentId, AttributeId, LabelId, ReflexId, ResourceId, TypeId, Version};
+use crate::lease::{Preemption, Priority};
 use crate::unit::Unit;
 use crate::value::{Kind, NodeRef};
 

@@ -12,7 +12,7 @@ use rustc_hash::FxHashSet;
 use super::error::TransactionError;
 use crate::id::NodeId;
 use crate::state::State;
-use crate::undo::{Mark, Undo};
+use crate::state::log::{Mark, Undo};
 
 /// The root after what was edited since the mark, or what is broken.
 pub(super) fn check(state: &State, mark: Mark) -> Result<Option<NodeId>, TransactionError> {
