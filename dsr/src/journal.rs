@@ -12,65 +12,31 @@
 //! This module is the only one of the crate that knows threads, times and files, and it opens none but those of a
 //! [`Folder`] or those that [`Recording::open`] is asked for.
 
+mod error;
 pub(crate) mod feed;
 mod frame;
 mod playback;
+mod reader;
 mod record;
 mod recording;
 mod segment;
+mod settings;
 mod store;
 mod writer;
 
 use std::io;
-use std::num::NonZeroU64;
 use std::sync::Arc;
 use std::thread::JoinHandle;
-use std::time::Duration;
 
+pub use self::error::{Damage, RecordingError};
 use self::feed::Feed;
 pub use self::playback::{Played, Replay};
-pub use self::recording::{Damage, Recording, RecordingError};
+pub use self::recording::Recording;
+pub use self::settings::{Durability, Settings};
 pub use self::store::{Folder, Memory, Store};
 use self::writer::Writer;
 use crate::graph::Graph;
 use crate::id::Version;
-
-/// When what was committed is synced, so that it outlives a loss of power. What was written outlives the process in any
-/// case.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Durability {
-    /// At once: each group of commits, which is one commit if the disk is faster than they come.
-    Each,
-    /// At most this long after the commit.
-    Every(Duration),
-}
-
-/// How a journal is kept.
-#[derive(Debug, Clone)]
-pub struct Settings {
-    /// When commits are synced.
-    pub durability: Durability,
-    /// Bytes of deltas after which a segment is closed and one begun with the state of then.
-    pub segment_bytes: u64,
-    /// How many segments are kept, the newest ones, however many journals wrote them to the same place; all, if `None`. A
-    /// robot that is restarted every day needs no more room than one that is not.
-    pub segments: Option<NonZeroU64>,
-    /// How many bytes of deltas may wait for the disk, those being written included (texts, which the graph shares, not
-    /// counted). When it stalls for longer, commits are left out, and the journal goes on with a whole state in a new segment.
-    pub waiting_bytes: usize,
-}
-
-impl Default for Settings {
-    /// Synced every 20 ms, segments of 64 MiB, all kept, 64 MiB may wait.
-    fn default() -> Self {
-        Self {
-            durability: Durability::Every(Duration::from_millis(20)),
-            segment_bytes: 64 << 20,
-            segments: None,
-            waiting_bytes: 64 << 20,
-        }
-    }
-}
 
 /// How far a journal is.
 #[derive(Debug, Clone)]

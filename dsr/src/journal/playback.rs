@@ -7,9 +7,9 @@ use std::borrow::Cow;
 use std::slice;
 use std::sync::Arc;
 
+use super::error::RecordingError;
 use super::frame::Kind;
 use super::record::{self, Gathered};
-use super::recording::RecordingError;
 use super::segment::Segment;
 use crate::delta::Delta;
 use crate::export;

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use super::{
-    Atom, Carrier, Comparison, Conjunction, HolderTerm, Limit, Metric, Operand, Pattern, PatternError,
-    PatternSource, Right, Scope, Term, Threshold, Variable,
-};
+use super::check::PatternError;
+use super::compiled::Pattern;
+use super::source::{Atom, Carrier, Conjunction, Limit, PatternSource, Right};
+use super::term::{Comparison, HolderTerm, Metric, Operand, Scope, Term, Threshold, Variable};
 use crate::id::{AttributeId, LabelId, TypeId};
 use crate::vocabulary::Vocabulary;
 

@@ -3,12 +3,13 @@
 
 use std::sync::Arc;
 
-use super::plan::{Mask, plan};
-use super::{
-    Atom, Carrier, Comparison, Conjunction, Constant, Limit, Pattern, PatternSource, Right, SLOTS, Scope,
-    Slot, Term, Threshold, Variable, negated, rigid, seed,
-};
-use crate::id::{AttributeId, LabelId, NodeId, TypeId};
+use super::compiled::{Constant, Pattern};
+use super::plan::plan;
+use super::slot::{Mask, SLOTS, Slot};
+use super::source::{Atom, Carrier, Conjunction, Limit, PatternSource, Right};
+use super::term::{Comparison, Scope, Term, Threshold, Variable};
+use super::{measure, part, seed};
+use crate::id::{AttributeId, LabelId, TypeId};
 use crate::mentions::Mentions;
 use crate::value::{Kind, Value};
 use crate::vocabulary::{HolderType, Nature, Vocabulary};
@@ -85,7 +86,14 @@ fn bounded(body: &Conjunction<Term>) -> Result<(), PatternError> {
     Ok(())
 }
 
-pub(super) fn compile(vocabulary: &Vocabulary, source: PatternSource) -> Result<Pattern, PatternError> {
+impl PatternSource {
+    /// Checks the pattern against a vocabulary and compiles it.
+    pub fn build(self, vocabulary: &Vocabulary) -> Result<Pattern, PatternError> {
+        compile(vocabulary, self)
+    }
+}
+
+fn compile(vocabulary: &Vocabulary, source: PatternSource) -> Result<Pattern, PatternError> {
     bounded(&source.body)?;
     let (variables, locals) = (source.variables.clone(), source.locals.clone());
     let count = variables.len() + locals.len();
@@ -124,11 +132,11 @@ pub(super) fn compile(vocabulary: &Vocabulary, source: PatternSource) -> Result<
     (types.len()..count).for_each(|slot| bound.insert(slot_at(slot)));
     let order = plan(&body, bound);
     let type_of = |slot: Slot| types.get(usize::from(slot.0)).copied();
-    let parts = negated::parts(&body, bound, &type_of, vocabulary);
+    let parts = part::parts(&body, bound, &type_of, vocabulary);
     (0..variables.len()).for_each(|slot| bound.insert(slot_at(slot)));
     let judgement = plan(&body, bound);
     let (seeds, mut measured) = (seed::seedlings(&body), Vec::new());
-    rigid::measured(&body, &type_of, vocabulary, &mut measured);
+    measure::measured(&body, &type_of, vocabulary, &mut measured);
     Ok(Pattern {
         source: Arc::new(source),
         variables,
@@ -420,15 +428,5 @@ impl Checker<'_> {
 
     fn type_name(&self, id: TypeId) -> Name {
         self.vocabulary.type_name(id).cloned().unwrap_or_else(|| id.to_string().into())
-    }
-}
-
-impl Pattern {
-    /// What stands for constants in a state; [`NodeId::NOWHERE`] for a name that no node has.
-    pub(super) fn constants_in(&self, state: &crate::state::State) -> impl Iterator<Item = NodeId> {
-        self.constants.iter().map(move |constant| match constant {
-            Constant::Node(id) => *id,
-            Constant::Named(name) => state.names.get(name).unwrap_or(NodeId::NOWHERE),
-        })
     }
 }

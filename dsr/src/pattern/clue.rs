@@ -13,7 +13,9 @@ use std::hash::{Hash, Hasher};
 
 use rustc_hash::FxHasher;
 
-use super::{Atom, Carrier, Comparison, Conjunction, Right, Slot};
+use super::slot::Slot;
+use super::source::{Atom, Carrier, Conjunction, Right};
+use super::term::Comparison;
 use crate::id::{AttributeId, LabelId};
 use crate::value::Value;
 

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use rustc_hash::FxHashMap;
 
-use super::{Binding, Pattern};
+use super::compiled::{Binding, Pattern};
 use crate::id::NodeId;
 
 pub(crate) struct Held {

@@ -5,17 +5,36 @@
 use std::cell::Cell;
 use std::ops::ControlFlow;
 
-use super::negated::{Case, Judge, Part, Witness};
-use super::plan::{Mask, Step, plan};
-use super::{
-    Atom, Binding, Carrier, Comparison, Fixed, Known, Limit, Metric, Pattern, Plans, Right, SLOTS, Slot,
-    Strictness, Variable,
-};
+use super::compiled::{Binding, Pattern, slot};
+use super::fixed::Fixed;
+use super::negated::{Case, Judge, Known, Witness};
+use super::part::Part;
+use super::plan::{Plans, Step, plan};
+use super::slot::{Mask, SLOTS, Slot};
+use super::source::{Atom, Carrier, Limit, Right};
+use super::term::{Comparison, Metric, Variable};
 use crate::chain;
-use crate::id::{AttributeId, EdgeKey, Holder, NodeId, TypeId};
+use crate::id::{AttributeId, EdgeKey, Holder, NodeId};
 use crate::snapshot::Snapshot;
 use crate::state::State;
 use crate::value::Value;
+
+/// Which of the two numbers of a threshold counts: what it takes for a match to appear, or to stay. Under a negation it
+/// is the other way round, since what is hard to find there is easy to be without.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Strictness {
+    Appears,
+    Stays,
+}
+
+impl Strictness {
+    fn negated(self) -> Self {
+        match self {
+            Self::Appears => Self::Stays,
+            Self::Stays => Self::Appears,
+        }
+    }
+}
 
 impl Pattern {
     /// All matches, in order.
@@ -156,23 +175,6 @@ impl Pattern {
             run.steps(&self.plan, &mut slots, emit)
         }
     }
-
-    /// The slot of a variable of the pattern itself.
-    pub(super) fn variable_slot(&self, at: usize) -> Slot {
-        slot(at)
-    }
-
-    pub(super) fn type_of(&self, slot: Slot) -> Option<TypeId> {
-        let at = usize::from(slot.0);
-        match self.variables.get(at) {
-            Some((_, id)) => Some(*id),
-            None => self.locals.get(at - self.variables.len()).copied(),
-        }
-    }
-}
-
-fn slot(index: usize) -> Slot {
-    Slot(u8::try_from(index).expect("a compiled pattern has at most 64 slots"))
 }
 
 type Slots = [NodeId; SLOTS];

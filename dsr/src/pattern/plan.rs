@@ -4,34 +4,10 @@
 //! one bound end walks along an edge or a reference; else the variable that most parts wait for is drawn from the
 //! nodes of its type. Invariant: when a step runs, every slot it reads is bound.
 
-use super::{Atom, Carrier, Comparison, Conjunction, Right, Slot};
+use super::slot::{Mask, Slot};
+use super::source::{Atom, Carrier, Conjunction, Right};
+use super::term::Comparison;
 use crate::id::{AttributeId, LabelId};
-
-/// A set of slots.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(super) struct Mask(u64);
-
-impl Mask {
-    pub(super) fn insert(&mut self, slot: Slot) {
-        self.0 |= 1 << (slot.0 % 64);
-    }
-
-    pub(super) fn contains(self, slot: Slot) -> bool {
-        slot.0 < 64 && self.0 >> slot.0 & 1 == 1
-    }
-
-    fn includes(self, other: Self) -> bool {
-        other.0 & !self.0 == 0
-    }
-
-    pub(super) fn union(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
-
-    fn minus(self, other: Self) -> Self {
-        Self(self.0 & !other.0)
-    }
-}
 
 /// One step of a join.
 #[derive(Debug, Clone)]
@@ -142,3 +118,7 @@ fn carried(holder: &Carrier<Slot>) -> Mask {
     }
     mask
 }
+
+/// Join orders that a subscriber has needed, by what was fixed.
+#[derive(Debug, Default)]
+pub(crate) struct Plans(pub(super) Vec<(Mask, Vec<Step>)>);

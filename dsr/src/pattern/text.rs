@@ -10,10 +10,11 @@
 
 use std::collections::BTreeMap;
 
-use super::{
-    Comparison, HolderTerm, Metric, Operand, Pattern, PatternBuilder, PatternError, SLOTS, Term, Threshold,
-    Variable,
-};
+use super::builder::PatternBuilder;
+use super::check::PatternError;
+use super::compiled::Pattern;
+use super::slot::SLOTS;
+use super::term::{Comparison, HolderTerm, Metric, Operand, Term, Threshold, Variable};
 use crate::id::{AttributeId, TypeId};
 use crate::value::{Kind, Value};
 use crate::vocabulary::{HolderType, Vocabulary};
