@@ -36,6 +36,7 @@ mod ids;
 #[allow(clippy::unwrap_used, reason = "a test")]
 mod lifted_tests;
 mod number;
+mod query;
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test")]
 mod random_numbers;

@@ -10,13 +10,13 @@
 //!
 //! Source: Helmert, "Concise finite-domain representations for PDDL planning tasks", AIJ 2009, §5.
 
-use super::atoms::{AtomTable, Packing};
 use super::cost::resolve;
 use super::instantiate::Lit;
 use super::join::{Bindings, Reached};
-use super::values::ValuePredicates;
 use crate::ids::id32;
 use crate::task::Rows;
+use crate::task::ValuePredicates;
+use crate::task::{AtomTable, RowKeys};
 use analysis::invariants::{Happening, Invariant, Member, Proviso, conditional_invariants};
 use budget::{Interrupted, Meter};
 use pddl::model::{Domain, PredicateId, Problem, Term};
@@ -160,7 +160,7 @@ fn instances(
     objects: usize,
     meter: &Meter<'_>,
 ) -> Result<Vec<Vec<u32>>, Interrupted> {
-    let mut packing = Packing::new(objects);
+    let mut packing = RowKeys::new(objects);
     let mut numbers: FxHashMap<u64, usize> = FxHashMap::default();
     let mut found: Vec<(u32, Vec<u32>)> = Vec::new();
     for member in &invariant.members {

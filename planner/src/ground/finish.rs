@@ -1,6 +1,5 @@
 //! Numbers the facts that remain and assembles the task.
 
-use super::atoms::AtomTable;
 use super::cost::{CostModel, Measure, scale};
 use super::error::{Feature, GroundError, Origin};
 use super::exclusion::Exclusions;
@@ -12,6 +11,7 @@ use super::numbers::Comparison;
 use super::prune::{Pruned, prune};
 use super::raw::{Failure, RawOperator, RawOperators, RawTask, marked};
 use crate::ids::{FactId, id32};
+use crate::task::AtomTable;
 use crate::task::{
     AtomStatus, AxiomProgram, AxiomRule, Fact, Goal, GroundAtom, Impossible, Literals, Mutexes, Names,
     NewOperator, NoProgram, Numeric, ObjectValue, Operators, Packing, Relaxation, State, SuccessorTree, Task,

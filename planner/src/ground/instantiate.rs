@@ -5,7 +5,6 @@
 //! that survive become alternatives (a copy of the operator each) while these are few, and an
 //! auxiliary derived atom otherwise; equal disjunctions share their atom.
 
-use super::atoms::AtomTable;
 use super::cost::resolve;
 use super::exclusion::{Exclusions, Marks};
 use super::fluents::{Fluents, Key};
@@ -14,6 +13,7 @@ use super::memory::Guard;
 use super::numbers::{Comparison, Numbers};
 use super::universe::Range;
 use crate::ids::id32;
+use crate::task::AtomTable;
 use budget::Meter;
 use pddl::model::VariableId;
 use rustc_hash::FxHashMap;

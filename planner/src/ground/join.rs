@@ -11,7 +11,6 @@
 //! Source: Helmert, "Concise finite-domain representations", AIJ 2009, §6 (grounding as Datalog);
 //! Ullman, "Principles of database and knowledge-base systems", 1989, ch. 3 (semi-naive evaluation).
 
-use super::atoms::{AtomTable, Packing};
 use super::cost::resolve;
 use super::error::GroundError;
 use super::fluents::Fluents;
@@ -23,6 +22,7 @@ use super::plan::{Filter, JoinPlan, Step, plan};
 use super::raw::Failure;
 use super::rule::Rule;
 use super::schema::Schema;
+use crate::task::{AtomTable, RowKeys};
 use budget::{Interrupted, Meter};
 use pddl::model::{PredicateId, Term};
 use rustc_hash::FxHashMap;
@@ -45,14 +45,14 @@ struct Index {
 /// All indices that some plan uses.
 #[derive(Default)]
 pub(crate) struct Indices {
-    packing: Packing,
+    packing: RowKeys,
     all: Vec<Index>,
     of_predicate: Vec<Vec<usize>>,
 }
 
 impl Indices {
     fn new(predicates: usize, objects: usize) -> Self {
-        Self { packing: Packing::new(objects), all: Vec::new(), of_predicate: vec![Vec::new(); predicates] }
+        Self { packing: RowKeys::new(objects), all: Vec::new(), of_predicate: vec![Vec::new(); predicates] }
     }
 
     /// The index of `predicate` on these positions.

@@ -9,7 +9,6 @@
 //!
 //! Source: Helmert, "Concise finite-domain representations for PDDL planning tasks", AIJ 2009.
 
-mod atoms;
 mod cost;
 mod error;
 mod exclusion;
@@ -29,10 +28,9 @@ mod schema;
 mod universe;
 mod values;
 
-pub(crate) use atoms::AtomTable;
 pub use error::{Feature, GroundError, GroundOptions, Origin};
 
-use crate::task::{Names, Task};
+use crate::task::{AtomTable, Names, Task, ValuePredicates};
 use budget::{Interrupted, Meter};
 use cost::{CostModel, Measure, metric_span};
 use exclusion::Exclusions;
@@ -44,7 +42,6 @@ use pddl::model::{Domain, EffectKind, Idx, PredicateId, Problem};
 use raw::Failure;
 use std::cmp::Reverse;
 use universe::Universe;
-pub(crate) use values::ValuePredicates;
 
 /// Grounds `problem` of `domain`.
 ///

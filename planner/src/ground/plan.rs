@@ -4,11 +4,11 @@
 //! predicates the measured mean bucket of the index, for changing ones the product of what its free
 //! variables can be. Filters run as soon as they are bound; fully bound atoms are mere probes.
 
-use super::atoms::AtomTable;
 use super::join::Indices;
 use super::rule::{BodyAtom, Rule};
 use super::universe::Range;
 use crate::number::Relation;
+use crate::task::AtomTable;
 use budget::Meter;
 use pddl::model::{Expression, ExpressionKind, PredicateId, Term};
 use rustc_hash::{FxHashMap, FxHashSet};

@@ -4,7 +4,6 @@
 //! table; conditional and universal effects are expanded, and literals that the precondition already
 //! decides are dropped from effects' conditions.
 
-use super::atoms::AtomTable;
 use super::cost::{CostModel, Measure, NoCost, resolve};
 use super::error::GroundError;
 use super::exclusion::Exclusions;
@@ -15,10 +14,11 @@ use super::join::{Bindings, Reached};
 use super::memory;
 use super::numbers::{Numbers, RawChange, changes};
 use super::schema::{Product, Schema, SchemaEffect};
-use super::values::ValuePredicates;
 use crate::ids::id32;
 use crate::number::Expression;
+use crate::task::AtomTable;
 use crate::task::Rows;
+use crate::task::ValuePredicates;
 use budget::{Interrupted, Meter};
 use pddl::model::{ActionId, Name, Objective, VariableId};
 use rustc_hash::{FxHashMap, FxHashSet};

@@ -11,47 +11,14 @@
 //!
 //! Source: Helmert, "Changes in PDDL 3.1", 2008; Geffner, "Functional STRIPS", 2000.
 
+use crate::task::ValuePredicates;
 use pddl::Span;
 use pddl::model::{
     Action, Application, AssignedValue, Atom, Condition, ConditionKind, Domain, Effect, EffectKind, Fact,
-    FluentValue, FunctionId, FunctionValue, GroundApplication, Idx, ObjectId, Predicate, PredicateId,
-    Problem, Term, TypeSet, Variable, VariableId, Variables,
+    FluentValue, FunctionId, FunctionValue, Idx, Predicate, PredicateId, Problem, Term, TypeSet, Variable,
+    VariableId, Variables,
 };
 use rustc_hash::FxHashMap;
-
-/// Which predicates stand for functions.
-#[derive(Clone, Debug)]
-pub(crate) struct ValuePredicates {
-    first: u32,
-    functions: Vec<FunctionId>,
-}
-
-impl ValuePredicates {
-    /// None in a domain without object fluents.
-    pub(crate) fn none(domain: &Domain) -> Self {
-        Self { first: crate::ids::id32(domain.predicates.len()), functions: Vec::new() }
-    }
-
-    pub(crate) fn function(&self, predicate: PredicateId) -> Option<FunctionId> {
-        self.functions.get(predicate.0.checked_sub(self.first)? as usize).copied()
-    }
-
-    pub(crate) fn predicate(&self, function: FunctionId) -> Option<PredicateId> {
-        let position = self.functions.iter().position(|&f| f == function)?;
-        Some(PredicateId(self.first + crate::ids::id32(position)))
-    }
-
-    /// The fluent and the value that an atom stands for.
-    pub(crate) fn value(
-        &self,
-        predicate: PredicateId,
-        arguments: &[ObjectId],
-    ) -> Option<(GroundApplication, ObjectId)> {
-        let function = self.function(predicate)?;
-        let (&value, arguments) = arguments.split_last()?;
-        Some((GroundApplication { function, arguments: arguments.to_vec() }, value))
-    }
-}
 
 /// The model without object fluents; `None` if it has none.
 pub(crate) fn compile(domain: &Domain, problem: &Problem) -> Option<(Domain, Problem, ValuePredicates)> {
@@ -66,8 +33,7 @@ pub(crate) fn compile(domain: &Domain, problem: &Problem) -> Option<(Domain, Pro
     }
     let (mut domain, mut problem) = (domain.clone(), problem.clone());
     let mut of: FxHashMap<FunctionId, (PredicateId, TypeSet)> = FxHashMap::default();
-    let values =
-        ValuePredicates { first: crate::ids::id32(domain.predicates.len()), functions: functions.clone() };
+    let values = ValuePredicates::new(&domain, functions.clone());
     for id in functions {
         let function = &domain.functions[id];
         let FunctionValue::Object(types) = function.value.clone() else { continue };

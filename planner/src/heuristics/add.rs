@@ -4,8 +4,8 @@
 //! Source: Bonet & Geffner, "Planning as heuristic search", AIJ 2001, §3.
 
 use super::{Combine, Costs, Estimate, Explorer, Heuristic, View};
+use crate::heuristics::Job;
 use crate::ids::OperatorId;
-use crate::search::Job;
 
 pub(crate) struct Add<'a> {
     explorer: Explorer<'a>,

@@ -12,9 +12,10 @@
 //! up the calculation of heuristics for heuristic search-based planning", AAAI 2002.
 
 use crate::heuristics::Costs;
+use crate::heuristics::Job;
 use crate::heuristics::repetitions::Repetitions;
 use crate::ids::id32;
-use crate::search::{Job, SearchMeter};
+use crate::query::SearchMeter;
 use crate::task::{ALONE, AXIOM, Relaxation, Way};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

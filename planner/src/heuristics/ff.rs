@@ -11,8 +11,8 @@
 use super::counted_plan::{CountedPlan, Walk};
 use super::explorer::UNREACHED;
 use super::{Combine, Costs, Estimate, Explorer, Heuristic, View};
+use crate::heuristics::Job;
 use crate::ids::OperatorId;
-use crate::search::Job;
 use crate::task::{AXIOM, Task};
 
 pub(crate) struct Ff<'a> {

@@ -10,8 +10,9 @@
 
 use super::explorer::UNREACHED;
 use super::{Combine, Costs, Counting, Estimate, Explorer, Heuristic, View};
+use crate::heuristics::Job;
 use crate::ids::{OperatorId, id32};
-use crate::search::{Job, SearchMeter};
+use crate::query::SearchMeter;
 use crate::task::{AXIOM, Relaxation, Rows};
 
 pub(crate) struct LmCut<'a> {

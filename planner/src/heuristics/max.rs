@@ -4,8 +4,8 @@
 //! Source: Bonet & Geffner, "Planning as heuristic search", AIJ 2001, §4.
 
 use super::{Combine, Costs, Estimate, Explorer, Heuristic, View};
+use crate::heuristics::Job;
 use crate::ids::OperatorId;
-use crate::search::Job;
 
 pub(crate) struct Max<'a> {
     explorer: Explorer<'a>,

@@ -9,16 +9,15 @@
 //! Source: Richter & Westphal, "The LAMA planner", JAIR 2010, §6; restarts: Richter, Thayer & Ruml, "The
 //! joy of forgetting: faster anytime search via restarting", ICAPS 2010.
 
-use super::configuration::LAMA;
+use super::configuration::{LAMA, SearchConfiguration};
 use super::elimination::without_needless;
-use super::lazy::{Lazy, LazySettings, Pruning};
+use super::engine::Engine;
+use super::outcome::{Outcome, Plan, Report};
 use super::portfolio::{self, Alarm, Sink, Threads};
+use super::solve::solve;
 use super::windows::Windows;
-use super::{
-    Bound, Engine, Job, Limit, Order, Outcome, Plan, Query, Report, SearchConfiguration, SearchMeter,
-    Searcher, Statistics, Turn, solve,
-};
-use crate::heuristics::{Costs, HeuristicKind};
+use crate::heuristics::Bound;
+use crate::query::{Limit, Query, SearchMeter};
 use crate::task::Task;
 use budget::Budget;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
@@ -163,77 +162,4 @@ const POLISH: u64 = 1 << 27;
 struct Best<'p> {
     plan: Plan,
     on_plan: &'p mut (dyn FnMut(&Plan) + Send),
-}
-
-/// What estimates count where costs are to fall: where all operators cost the same nothing is added, so
-/// that estimates and costs have one scale.
-pub(crate) fn counted(task: &Task) -> Costs {
-    let mut costs = task.operators().iter().map(|o| o.cost);
-    let first = costs.next().unwrap_or(1);
-    if first > 0 && costs.all(|cost| cost == first) { Costs::Real } else { Costs::PlusOne }
-}
-
-/// The weights of the estimates, one search each; the first search is greedy.
-const ORDERS: [Order; 5] =
-    [Order::Greedy, Order::Weighted(5), Order::Weighted(3), Order::Weighted(2), Order::Weighted(1)];
-
-/// Searches below the bound, one after the other.
-pub(crate) struct Improving<'a> {
-    job: Job<'a>,
-    costs: Costs,
-    stage: usize,
-    search: Lazy<'a>,
-    before: Statistics,
-}
-
-impl<'a> Improving<'a> {
-    pub(crate) fn new(job: Job<'a>) -> Self {
-        let costs = counted(job.task);
-        Self { job, costs, stage: 0, search: Self::stage(job, costs, 0), before: Statistics::default() }
-    }
-
-    fn stage(job: Job<'a>, costs: Costs, stage: usize) -> Lazy<'a> {
-        const BOTH: &[HeuristicKind] = &[HeuristicKind::Ff, HeuristicKind::Landmarks];
-        let (order, pruning) = (ORDERS[stage], Pruning::Spent);
-        Lazy::new(
-            job,
-            &LazySettings { heuristics: BOTH, preferred: BOTH, costs, order, explorations: &[], pruning },
-        )
-    }
-
-    /// Whether there is another search to go to.
-    fn next(&mut self) -> bool {
-        if self.stage + 1 == ORDERS.len() {
-            return false;
-        }
-        self.before += self.search.statistics();
-        self.stage += 1;
-        self.search = Self::stage(self.job, self.costs, self.stage);
-        true
-    }
-}
-
-impl Searcher for Improving<'_> {
-    fn advance(&mut self, turn: &Turn) -> Option<Outcome> {
-        loop {
-            let expansions = turn.expansions.saturating_sub(self.before.expanded);
-            match self.search.advance(&Turn { expansions, ..*turn })? {
-                Outcome::Solved(plan) => {
-                    self.next();
-                    return Some(Outcome::Solved(plan));
-                }
-                // The next one starts with empty hands, and goes other ways.
-                Outcome::LimitReached(limit @ (Limit::Incomplete | Limit::Memory)) => {
-                    if !self.next() {
-                        return Some(Outcome::LimitReached(limit));
-                    }
-                }
-                other => return Some(other),
-            }
-        }
-    }
-
-    fn statistics(&self) -> Statistics {
-        self.before + self.search.statistics()
-    }
 }

@@ -3,80 +3,14 @@
 //! A test walks [`SearchConfiguration::ALL`] and compares answers and optimal costs, so a new row is
 //! tested the day it is added.
 
-use super::anytime::Improving;
-use super::bfws::{Bfws, BfwsSettings, Count, Width};
-use super::dual_bfws::{BackEnd, DualBfws};
-use super::eager::{Eager, EagerSettings};
-use super::hill_climbing::HillClimbing;
-use super::lazy::{Exploration, Lazy, LazySettings, Pruning};
-use super::measured::Measured;
+use super::bfws::{BfwsSettings, Count, Width};
+use super::eager::EagerSettings;
+use super::engine::Engine;
+use super::lazy::{Exploration, LazySettings, Pruning};
+use super::order::Order;
 use super::portfolio::Threads;
-use super::{Job, Searcher};
-use crate::heuristics::{Costs, Estimate, HeuristicKind};
+use crate::heuristics::{Costs, HeuristicKind};
 use HeuristicKind::{Add, Blind, Ff, GoalCount, Landmarks, LmCut, Max};
-
-/// What a best-first search sorts states by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Order {
-    /// The estimate alone. States keep the first way that was found.
-    Greedy,
-    /// The cost so far plus so many times the estimate.
-    Weighted(u32),
-}
-
-impl Order {
-    pub(crate) fn key(self, cost: u64, estimate: Estimate) -> u64 {
-        match self {
-            Self::Greedy => u64::from(estimate.0),
-            Self::Weighted(weight) => cost.saturating_add(u64::from(weight) * u64::from(estimate.0)),
-        }
-    }
-}
-
-/// A search algorithm with its parameters.
-#[derive(Clone, Copy, Debug)]
-pub enum Engine {
-    /// Best-first with deferred evaluation and preferred operators.
-    Lazy(LazySettings),
-    /// Best-first that estimates what it generates: A* and its kin.
-    Eager(EagerSettings),
-    /// Enforced hill-climbing on relaxed plans.
-    HillClimbing,
-    /// Best-first width search.
-    Bfws(BfwsSettings),
-    /// Width search without what is not novel, then one that keeps everything and knows more.
-    DualBfws,
-    /// The second of these alone.
-    BackEnd,
-    /// Searches for better and better plans below a bound.
-    Improving,
-    /// Searches for ways that measure better, where the metric is no sum of costs.
-    Measured,
-}
-
-impl Engine {
-    /// The work that others of a portfolio do before this one joins them: what estimates everything
-    /// is for tasks on which others have failed, and small tasks should not wait for it.
-    pub(crate) fn joins_after(self) -> u64 {
-        match self {
-            Self::BackEnd => 1 << 32,
-            _ => 0,
-        }
-    }
-
-    pub(crate) fn start<'a>(self, job: Job<'a>) -> Box<dyn Searcher + Send + 'a> {
-        match self {
-            Self::Lazy(settings) => Box::new(Lazy::new(job, &settings)),
-            Self::Eager(settings) => Box::new(Eager::new(job, &settings)),
-            Self::HillClimbing => Box::new(HillClimbing::new(job)),
-            Self::Bfws(settings) => Box::new(Bfws::new(job, settings)),
-            Self::DualBfws => Box::new(DualBfws::new(job)),
-            Self::BackEnd => Box::new(BackEnd::new(job)),
-            Self::Improving => Box::new(Improving::new(job)),
-            Self::Measured => Box::new(Measured::new(job)),
-        }
-    }
-}
 
 /// A named configuration.
 #[derive(Clone, Copy, Debug)]

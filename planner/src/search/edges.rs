@@ -5,9 +5,9 @@
 //! hold where they stand and how far they have come. Invariant: a list of runs gives the same edges in
 //! the same order as a list of single edges. Cost: four bytes an edge, and a few for each list.
 
-use super::meter::UNLIMITED;
 use super::open_list::OpenList;
 use crate::ids::{OperatorId, StateId, id32};
+use crate::query::UNLIMITED;
 
 /// Operators of a piece of the arena; pieces never move.
 const PIECE: usize = 1 << 18;

@@ -12,7 +12,6 @@
 //! planning as heuristic search", ICAPS 2017 (they sort by it, here it has a list of its own).
 
 use super::edges::{Arena, Edge, Run};
-use super::meter;
 use super::novelty::{Novelty, NoveltyTable};
 use super::open_list::OpenList;
 use super::registry::StateRegistry;
@@ -21,6 +20,7 @@ use super::type_list::TypeList;
 use super::{Job, Limit, Order, Outcome, Plan, Statistics, UnsolvableReason};
 use crate::heuristics::{Costs, Estimate, Heuristic, HeuristicKind, View};
 use crate::ids::{OperatorId, StateId};
+use crate::query;
 
 /// How much a new best estimate moves the preferred lists ahead.
 const BOOST: i64 = 1000;
@@ -212,7 +212,7 @@ impl<'a> Lazy<'a> {
             return None;
         }
         self.statistics.generated += 1;
-        self.job.meter.spend(meter::price_of_state(self.next.len()));
+        self.job.meter.spend(query::price_of_state(self.next.len()));
         let (id, new) = self.registry.insert(&self.next, Some((from, operator)));
         for list in &mut self.lists {
             list.heuristic.step(from, operator, id, &self.next);

@@ -7,13 +7,13 @@
 //! nodes, since a metric may get better for ever. Nothing is proven: a way that measures worse now may
 //! measure better in the end.
 
-use super::meter::price_of_state;
 use super::registry::StateRegistry;
 use super::searcher::Stepwise;
 use super::{Job, Limit, Outcome, Plan, Statistics};
 use crate::heuristics::{Costs, Estimate, Ff};
 use crate::ids::{OperatorId, StateId, id32};
 use crate::number::Number;
+use crate::query::price_of_state;
 use crate::task::{State, Tally};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

@@ -2,6 +2,7 @@
 
 use crate::ground::Feature;
 use crate::ids::OperatorId;
+use crate::query::Limit;
 use crate::task::{Impossible, Task};
 
 /// A sequence of operators that reaches the goal.
@@ -27,19 +28,6 @@ pub enum UnsolvableReason {
     Impossible(Impossible),
     /// Every reachable state was visited.
     SpaceExhausted,
-}
-
-/// Which limit ended a search.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Limit {
-    /// The caller cancelled it.
-    Interrupted,
-    /// It expanded as many states as allowed.
-    Expansions,
-    /// States and open lists hold as many bytes as allowed.
-    Memory,
-    /// An incomplete search gave up without an answer.
-    Incomplete,
 }
 
 /// The answer.

@@ -11,9 +11,9 @@
 //! Source: turns as in Luby, Sinclair & Zuckerman, "Optimal speedup of Las Vegas algorithms", 1993, in
 //! spirit; portfolios: Helmert, Röger & Karpas, "Fast Downward Stone Soup", 2011.
 
-use super::meter::UNLIMITED;
 use super::{Barred, Bound, Engine, Job, Limit, Outcome, Plan, Query, Report, SearchMeter, Searcher};
 use super::{Shared, Statistics, Turn};
+use crate::query::UNLIMITED;
 use crate::task::Task;
 use budget::Budget;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};

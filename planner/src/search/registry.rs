@@ -7,8 +7,8 @@
 //! to be moved. Invariant: an id is the position of insertion and never changes. Cost: the state's bits
 //! plus about 16 bytes.
 
-use super::meter::UNLIMITED;
 use crate::ids::{OperatorId, StateId, id32};
+use crate::query::UNLIMITED;
 use crate::task::{Packing, Task};
 
 /// Ids stay well below 2^32.

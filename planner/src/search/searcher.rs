@@ -1,8 +1,8 @@
 //! A search that can be interrupted and resumed.
 
-use super::job::Job;
-use super::meter::Signal;
 use super::{Outcome, Statistics, Turn};
+use crate::heuristics::Job;
+use crate::query::Signal;
 
 /// A running search. It owns its states and open lists.
 pub(crate) trait Searcher {

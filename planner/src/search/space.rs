@@ -5,10 +5,10 @@
 //! each child in turn. Invariant: while a child is being looked at, `here` holds its parent and `next`
 //! holds itself.
 
-use super::meter::price_of_state;
 use super::registry::StateRegistry;
 use super::{Job, Limit, Outcome, Plan, Statistics, UnsolvableReason};
 use crate::ids::{OperatorId, StateId};
+use crate::query::price_of_state;
 
 /// A state that an operator led to.
 #[derive(Clone, Copy)]

@@ -10,7 +10,7 @@
 //!
 //! Source: Siddiqui & Haslum, "Continuing plan quality optimisation", JAIR 2015, §4.
 
-use super::anytime::counted;
+use super::improving::counted;
 use super::lazy::{Lazy, LazySettings, Pruning};
 use super::regression::Kernel;
 use super::reordering::{Arrangement, arranged};

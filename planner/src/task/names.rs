@@ -1,21 +1,16 @@
-//! Names of a task's parts, for plans and reports.
+//! The names that a grounded task keeps of its domain and problem.
 
-use super::{GroundAtom, ObjectValue, Operator, Task};
-use crate::ground::ValuePredicates;
-use crate::ids::{FactId, OperatorId};
-use crate::unsolvability::Pattern;
-use pddl::model::{
-    ActionId, Domain, FunctionId, GroundApplication, IndexVec, Name, ObjectId, PredicateId, Problem,
-};
+use super::values::ValuePredicates;
+use pddl::model::{Domain, FunctionId, GroundApplication, IndexVec, Name, ObjectId, PredicateId, Problem};
 use std::fmt::Write;
 
 /// The names that a grounded task needs of its domain and problem.
 #[derive(Clone, Debug)]
 pub(crate) struct Names {
-    actions: Vec<Name>,
-    predicates: IndexVec<PredicateId, Name>,
-    functions: IndexVec<FunctionId, Name>,
-    objects: IndexVec<ObjectId, Name>,
+    pub(super) actions: Vec<Name>,
+    pub(super) predicates: IndexVec<PredicateId, Name>,
+    pub(super) functions: IndexVec<FunctionId, Name>,
+    pub(super) objects: IndexVec<ObjectId, Name>,
     values: ValuePredicates,
 }
 
@@ -35,12 +30,8 @@ impl Names {
         &self.values
     }
 
-    pub(crate) fn pattern(&self, pattern: &Pattern) -> String {
-        self.open(&self.predicates[pattern.predicate], &pattern.arguments)
-    }
-
     /// `(go ?from b)`.
-    fn open(&self, head: &Name, arguments: &[Result<ObjectId, Name>]) -> String {
+    pub(super) fn open(&self, head: &Name, arguments: &[Result<ObjectId, Name>]) -> String {
         let mut text = format!("({head}");
         for argument in arguments {
             match argument {
@@ -58,55 +49,12 @@ impl Names {
         self.list(&self.functions[fluent.function], &fluent.arguments)
     }
 
-    fn list(&self, head: &Name, arguments: &[ObjectId]) -> String {
+    pub(super) fn list(&self, head: &Name, arguments: &[ObjectId]) -> String {
         let mut text = format!("({head}");
         for &o in arguments {
             write!(text, " {}", self.objects[o]).expect("writing to a string does not fail");
         }
         text.push(')');
         text
-    }
-}
-
-impl Task {
-    /// The operator as a line of a plan file, `(move a b)`.
-    pub fn operator_name(&self, operator: OperatorId) -> String {
-        let Operator { action, arguments, .. } = self.operator(operator);
-        self.names.list(&self.names.actions[action.0 as usize], arguments)
-    }
-
-    /// A fluent as PDDL writes it, `(fuel a)`.
-    pub fn fluent_name(&self, fluent: &GroundApplication) -> String {
-        self.names.fluent(fluent)
-    }
-
-    /// A pattern as PDDL writes it, `(road ?from b)`.
-    pub fn pattern_name(&self, pattern: &Pattern) -> String {
-        self.names.pattern(pattern)
-    }
-
-    /// An action with open arguments, `(go ?from b)`.
-    pub fn schema_name(&self, action: ActionId, arguments: &[Result<ObjectId, Name>]) -> String {
-        self.names.open(&self.names.actions[action.0 as usize], arguments)
-    }
-
-    /// A ground atom as PDDL writes it.
-    pub fn atom_name(&self, atom: &GroundAtom) -> String {
-        self.names.list(&self.names.predicates[atom.predicate], &atom.arguments)
-    }
-
-    /// A fact as PDDL writes it; facts that grounding made up are `(auxiliary-N)`.
-    pub fn fact_name(&self, fact: FactId) -> String {
-        match (&self.facts[fact].atom, &self.facts[fact].value) {
-            (Some(atom), _) => self.atom_name(atom),
-            (None, Some(ObjectValue { fluent, object })) => {
-                format!("(= {} {})", self.names.fluent(fluent), self.names.objects[*object])
-            }
-            (None, None) if self.facts[fact].compares => {
-                let own = self.numeric.comparisons.iter().find(|c| c.fact == fact);
-                own.map_or_else(String::new, |c| self.comparison_name(c.relation, &c.expression))
-            }
-            (None, None) => format!("(auxiliary-{})", fact.0),
-        }
     }
 }

@@ -1,75 +1,11 @@
-//! Ground operators, conjunctions of literals, goals.
+//! Ground operators.
 
-use super::{ConditionalEffects, GroundAtom, NumericEffects, contains, set, unset};
+use super::blocks::ConditionalEffects;
+use super::literals::LiteralsRef;
+use super::numeric::NumericEffects;
+use super::state::{set, unset};
 use crate::ids::FactId;
 use pddl::model::{ActionId, ObjectId};
-
-/// A conjunction of ground literals.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Literals {
-    /// Facts that must hold, sorted.
-    pub positive: Box<[FactId]>,
-    /// Facts that must not hold, sorted.
-    pub negative: Box<[FactId]>,
-}
-
-impl Literals {
-    pub(crate) fn hold_in(&self, words: &[u64]) -> bool {
-        self.as_ref().hold_in(words)
-    }
-
-    /// How many literals.
-    pub fn len(&self) -> usize {
-        self.as_ref().len()
-    }
-
-    /// Whether it holds everywhere.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// The same, borrowed as operators give theirs.
-    pub fn as_ref(&self) -> LiteralsRef<'_> {
-        LiteralsRef { positive: &self.positive, negative: &self.negative }
-    }
-}
-
-/// A conjunction that someone else holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LiteralsRef<'a> {
-    /// Facts that must hold, sorted.
-    pub positive: &'a [FactId],
-    /// Facts that must not hold, sorted.
-    pub negative: &'a [FactId],
-}
-
-impl LiteralsRef<'_> {
-    pub(crate) fn hold_in(self, words: &[u64]) -> bool {
-        self.positive.iter().all(|&f| contains(words, f))
-            && self.negative.iter().all(|&f| !contains(words, f))
-    }
-
-    /// How many literals.
-    pub fn len(self) -> usize {
-        self.positive.len() + self.negative.len()
-    }
-
-    /// Whether it holds everywhere.
-    pub fn is_empty(self) -> bool {
-        self.len() == 0
-    }
-}
-
-/// Effects under a condition on the state before.
-#[derive(Clone, Copy, Debug)]
-pub struct ConditionalEffect<'a> {
-    /// When.
-    pub condition: LiteralsRef<'a>,
-    /// Facts that become true.
-    pub adds: &'a [FactId],
-    /// Facts that become false unless something adds them.
-    pub deletes: &'a [FactId],
-}
 
 /// A ground operator. Several may stand for one ground action: copies of a disjunctive or
 /// existential precondition.
@@ -121,38 +57,5 @@ impl Operator<'_> {
                 set(next, f);
             }
         }
-    }
-}
-
-/// What a search looks for.
-#[derive(Clone, Debug, Default)]
-pub struct Goal {
-    /// The literals that must hold.
-    pub literals: Literals,
-    /// Set where grounding has shown that no reachable state satisfies the goal.
-    pub impossible: Option<Impossible>,
-}
-
-/// Why a goal is impossible.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Impossible {
-    /// These conjuncts are true in no reachable state.
-    Atoms(Vec<GroundAtom>),
-    /// These conjuncts forbid what holds in every reachable state.
-    NegatedAtoms(Vec<GroundAtom>),
-    /// These conjuncts exclude each other.
-    Exclusive(Vec<GroundAtom>),
-    /// A disjunction or quantified part cannot be satisfied.
-    Formula,
-}
-
-impl Goal {
-    /// A goal of literals.
-    pub fn new(literals: Literals) -> Self {
-        Self { literals, impossible: None }
-    }
-
-    pub(crate) fn holds_in(&self, words: &[u64]) -> bool {
-        self.impossible.is_none() && self.literals.hold_in(words)
     }
 }

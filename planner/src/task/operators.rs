@@ -6,76 +6,11 @@
 //! parts end; [`Operators::get`] gives them as slices. Invariant: operators are only added, and parts lie
 //! in the order of operators. Cost: 28 bytes an operator beside its facts and arguments.
 
-use super::{ConditionalEffect, LiteralsRef, NumericEffects, Operator};
+use super::blocks::{Block, Blocks, ConditionalEffects, Ends};
+use super::numeric::NumericEffects;
+use super::operator::Operator;
 use crate::ids::{FactId, OperatorId, id32};
 use pddl::model::{ActionId, Idx, ObjectId};
-
-/// Where the parts of a block end: what must hold, what must not, what is added, what is deleted.
-type Ends = [u32; 4];
-
-/// Blocks of four lists of facts.
-#[derive(Clone, Debug, Default)]
-struct Blocks {
-    ends: Vec<Ends>,
-    facts: Vec<FactId>,
-}
-
-/// A block's lists.
-#[derive(Clone, Copy)]
-struct Block<'a> {
-    condition: LiteralsRef<'a>,
-    adds: &'a [FactId],
-    deletes: &'a [FactId],
-}
-
-impl Blocks {
-    fn push(&mut self, lists: [&[FactId]; 4]) {
-        let ends = lists.map(|list| {
-            self.facts.extend_from_slice(list);
-            id32(self.facts.len())
-        });
-        self.ends.push(ends);
-    }
-
-    fn get(&self, i: usize) -> Block<'_> {
-        let start = if i == 0 { 0 } else { self.ends[i - 1][3] };
-        let [positive, negative, adds, deletes] = self.ends[i];
-        let part = |from: u32, to: u32| &self.facts[from as usize..to as usize];
-        Block {
-            condition: LiteralsRef { positive: part(start, positive), negative: part(positive, negative) },
-            adds: part(negative, adds),
-            deletes: part(adds, deletes),
-        }
-    }
-}
-
-/// An operator's effects under conditions.
-#[derive(Clone, Copy, Debug)]
-pub struct ConditionalEffects<'a> {
-    blocks: &'a Blocks,
-    first: usize,
-    end: usize,
-}
-
-impl<'a> ConditionalEffects<'a> {
-    /// Whether there are none.
-    pub fn is_empty(self) -> bool {
-        self.first == self.end
-    }
-
-    /// How many.
-    pub fn len(self) -> usize {
-        self.end - self.first
-    }
-
-    /// One after the other.
-    pub fn iter(self) -> impl ExactSizeIterator<Item = ConditionalEffect<'a>> + Clone {
-        (self.first..self.end).map(move |i| {
-            let Block { condition, adds, deletes } = self.blocks.get(i);
-            ConditionalEffect { condition, adds, deletes }
-        })
-    }
-}
 
 /// The parts of an operator that is added.
 pub(crate) struct NewOperator<'a> {

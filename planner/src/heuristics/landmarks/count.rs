@@ -8,9 +8,10 @@
 //! Source: Richter & Westphal, "The LAMA planner", JAIR 2010, §4.
 
 use super::graph::LandmarkGraph;
+use crate::heuristics::Job;
 use crate::heuristics::{Costs, Estimate, Heuristic, View};
 use crate::ids::{OperatorId, StateId, id32};
-use crate::search::{Job, SearchMeter};
+use crate::query::SearchMeter;
 use crate::task::{Relaxation, Task, contains};
 
 pub(crate) struct LandmarkCount<'a> {

@@ -10,8 +10,8 @@
 
 use super::labels::Labels;
 use crate::ids::{FactId, id32};
-use crate::search::{Job, SearchMeter};
-use crate::task::{Relaxation, Rows, Task};
+use crate::query::{Barred, SearchMeter};
+use crate::task::{Goal, Relaxation, Rows, State, Task};
 use pddl::model::PredicateId;
 use rustc_hash::FxHashMap;
 use std::collections::hash_map::Entry;
@@ -53,12 +53,17 @@ struct Builder<'a> {
 
 impl LandmarkGraph {
     /// The graph for a question.
-    pub(crate) fn of(job: &Job<'_>) -> Self {
-        let (task, graph) = (job.task, job.relaxation());
+    pub(crate) fn of(
+        task: &Task,
+        graph: &Relaxation,
+        (state, goal): (&State, &Goal),
+        barred: &Barred,
+        meter: &SearchMeter<'_>,
+    ) -> Self {
         let mut initial = vec![false; graph.propositions()];
-        graph.for_each_true(job.state.words(), |p| initial[p as usize] = true);
-        let labels = Labels::new(graph, initial, job.barred, job.meter);
-        Self::new(task, graph, labels.as_ref(), &graph.literals(&job.goal.literals), job.meter)
+        graph.for_each_true(state.words(), |p| initial[p as usize] = true);
+        let labels = Labels::new(graph, initial, barred, meter);
+        Self::new(task, graph, labels.as_ref(), &graph.literals(&goal.literals), meter)
     }
 
     /// The graph for a goal; goals alone where labels are missing. Incomplete where the meter is

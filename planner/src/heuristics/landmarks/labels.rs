@@ -9,7 +9,7 @@
 //! Source: Zhu & Givan, "Landmark extraction via planning graph propagation", ICAPS 2003 doctoral
 //! consortium; Keyder, Richter & Helmert, "Sound and complete landmarks for and/or graphs", ECAI 2010.
 
-use crate::search::{Barred, SearchMeter};
+use crate::query::{Barred, SearchMeter};
 use crate::task::{AXIOM, Relaxation};
 use std::collections::VecDeque;
 

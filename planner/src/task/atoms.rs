@@ -10,12 +10,12 @@ use rustc_hash::FxHashMap;
 
 /// Packs rows of object numbers into 64-bit keys.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Packing {
+pub(crate) struct RowKeys {
     bits: u32,
     prefixes: FxHashMap<(u64, u32), u32>,
 }
 
-impl Packing {
+impl RowKeys {
     pub(crate) fn new(objects: usize) -> Self {
         Self { bits: (usize::BITS - objects.leading_zeros()).max(1), prefixes: FxHashMap::default() }
     }
@@ -53,7 +53,7 @@ impl Packing {
 /// All known atoms.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct AtomTable {
-    packing: Packing,
+    keys: RowKeys,
     by_key: Vec<FxHashMap<u64, u32>>,
     predicates: Vec<PredicateId>,
     starts: Vec<u32>,
@@ -63,7 +63,7 @@ pub(crate) struct AtomTable {
 impl AtomTable {
     pub(crate) fn new(predicates: usize, objects: usize) -> Self {
         Self {
-            packing: Packing::new(objects),
+            keys: RowKeys::new(objects),
             by_key: vec![FxHashMap::default(); predicates],
             starts: vec![0],
             ..Self::default()
@@ -75,12 +75,12 @@ impl AtomTable {
     }
 
     pub(crate) fn find(&self, predicate: PredicateId, row: impl Iterator<Item = u32>) -> Option<u32> {
-        self.by_key[predicate.0 as usize].get(&self.packing.find(row)?).copied()
+        self.by_key[predicate.0 as usize].get(&self.keys.find(row)?).copied()
     }
 
     /// The atom's number, a new one if it was unknown.
     pub(crate) fn insert(&mut self, predicate: PredicateId, row: impl Iterator<Item = u32> + Clone) -> u32 {
-        let key = self.packing.key(row.clone());
+        let key = self.keys.key(row.clone());
         let next = id32(self.predicates.len());
         let id = *self.by_key[predicate.0 as usize].entry(key).or_insert(next);
         if id == next {

@@ -7,9 +7,21 @@
 //! the turn between two steps of the search. Invariant: once stopped, a meter stays stopped, and the search
 //! discards every estimate that it computed after that.
 
-use super::Limit;
 use budget::{Budget, Meter};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+
+/// Which limit ended a search.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Limit {
+    /// The caller cancelled it.
+    Interrupted,
+    /// It expanded as many states as allowed.
+    Expansions,
+    /// States and open lists hold as many bytes as allowed.
+    Memory,
+    /// An incomplete search gave up without an answer.
+    Incomplete,
+}
 
 /// Bytes for a search without a limit.
 pub(crate) const UNLIMITED: usize = usize::MAX / 8;

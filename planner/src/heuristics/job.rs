@@ -1,7 +1,7 @@
 //! One search's share of a question: what it needs to know, and the bound that searches share.
 
-use super::{Barred, SearchMeter};
-use crate::heuristics::LandmarkGraph;
+use super::landmarks::LandmarkGraph;
+use crate::query::{Barred, SearchMeter};
 use crate::task::{Goal, Relaxation, State, Task};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
@@ -27,7 +27,9 @@ pub(crate) struct Shared {
 impl<'a> Job<'a> {
     /// The landmarks of the question. Incomplete where the meter is stopped, and then nobody goes on.
     pub(crate) fn landmarks(&self) -> &'a LandmarkGraph {
-        self.shared.landmarks.get_or_init(|| LandmarkGraph::of(self))
+        let graph = self.relaxation();
+        let of = || LandmarkGraph::of(self.task, graph, (self.state, self.goal), self.barred, self.meter);
+        self.shared.landmarks.get_or_init(of)
     }
 
     /// The relaxation for estimates that never count an operator twice for two ends.

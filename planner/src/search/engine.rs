@@ -1,0 +1,56 @@
+//! The search algorithms with their parameters.
+
+use super::bfws::{Bfws, BfwsSettings};
+use super::dual_bfws::{BackEnd, DualBfws};
+use super::eager::{Eager, EagerSettings};
+use super::hill_climbing::HillClimbing;
+use super::improving::Improving;
+use super::lazy::{Lazy, LazySettings};
+use super::measured::Measured;
+use super::searcher::Searcher;
+use crate::heuristics::Job;
+
+/// A search algorithm with its parameters.
+#[derive(Clone, Copy, Debug)]
+pub enum Engine {
+    /// Best-first with deferred evaluation and preferred operators.
+    Lazy(LazySettings),
+    /// Best-first that estimates what it generates: A* and its kin.
+    Eager(EagerSettings),
+    /// Enforced hill-climbing on relaxed plans.
+    HillClimbing,
+    /// Best-first width search.
+    Bfws(BfwsSettings),
+    /// Width search without what is not novel, then one that keeps everything and knows more.
+    DualBfws,
+    /// The second of these alone.
+    BackEnd,
+    /// Searches for better and better plans below a bound.
+    Improving,
+    /// Searches for ways that measure better, where the metric is no sum of costs.
+    Measured,
+}
+
+impl Engine {
+    /// The work that others of a portfolio do before this one joins them: what estimates everything
+    /// is for tasks on which others have failed, and small tasks should not wait for it.
+    pub(crate) fn joins_after(self) -> u64 {
+        match self {
+            Self::BackEnd => 1 << 32,
+            _ => 0,
+        }
+    }
+
+    pub(crate) fn start<'a>(self, job: Job<'a>) -> Box<dyn Searcher + Send + 'a> {
+        match self {
+            Self::Lazy(settings) => Box::new(Lazy::new(job, &settings)),
+            Self::Eager(settings) => Box::new(Eager::new(job, &settings)),
+            Self::HillClimbing => Box::new(HillClimbing::new(job)),
+            Self::Bfws(settings) => Box::new(Bfws::new(job, settings)),
+            Self::DualBfws => Box::new(DualBfws::new(job)),
+            Self::BackEnd => Box::new(BackEnd::new(job)),
+            Self::Improving => Box::new(Improving::new(job)),
+            Self::Measured => Box::new(Measured::new(job)),
+        }
+    }
+}

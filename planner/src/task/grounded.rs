@@ -1,0 +1,190 @@
+//! A grounded task: its parts, its states, and one step.
+//!
+//! Invariant: a [`State`] made by a task is closed under its axioms.
+
+use super::atoms::AtomTable;
+use super::axioms::{AxiomProgram, AxiomRule};
+use super::fact::{AtomStatus, Fact};
+use super::goal::Goal;
+use super::metric::Metric;
+use super::mutexes::{Mutexes, Variable};
+use super::names::Names;
+use super::numeric::Numeric;
+use super::operator::Operator;
+use super::operators::Operators;
+use super::packing::Packing;
+use super::relaxation::Relaxation;
+use super::state::State;
+use super::successors::SuccessorTree;
+use crate::ids::{FactId, OperatorId};
+use pddl::model::{GroundApplication, IndexVec, ObjectId, PredicateId};
+
+/// A grounded task.
+#[derive(Clone, Debug)]
+pub struct Task {
+    pub(crate) facts: IndexVec<FactId, Fact>,
+    pub(crate) operators: Operators,
+    pub(crate) axioms: AxiomProgram,
+    pub(crate) initial: State,
+    pub(crate) goal: Goal,
+    pub(crate) atoms: AtomTable,
+    pub(crate) status: Vec<AtomStatus>,
+    pub(crate) names: Names,
+    pub(crate) cost_scale: u32,
+    pub(crate) mutexes: Mutexes,
+    pub(crate) variables: Vec<Variable>,
+    pub(crate) numeric: Numeric,
+    /// `None` where costs add up to it.
+    pub(crate) metric: Option<Metric>,
+    pub(crate) packing: Option<Packing>,
+    pub(crate) successors: SuccessorTree,
+    pub(crate) relaxation: Relaxation,
+    /// The relaxation without what other operators do as well.
+    pub(crate) undominated: Relaxation,
+}
+
+impl Task {
+    /// All facts; derived ones included.
+    pub fn facts(&self) -> &IndexVec<FactId, Fact> {
+        &self.facts
+    }
+
+    /// All operators.
+    pub fn operators(&self) -> &Operators {
+        &self.operators
+    }
+
+    /// One operator.
+    pub fn operator(&self, operator: OperatorId) -> Operator<'_> {
+        self.operators.get(operator)
+    }
+
+    /// All rules of axioms.
+    pub fn axioms(&self) -> &[AxiomRule] {
+        self.axioms.rules()
+    }
+
+    /// Groups of facts of which at most one holds.
+    pub fn mutexes(&self) -> &Mutexes {
+        &self.mutexes
+    }
+
+    /// Finite-domain variables: each fact that is not derived is a value of one of them.
+    pub fn variables(&self) -> &[Variable] {
+        &self.variables
+    }
+
+    /// The initial state.
+    pub fn initial_state(&self) -> &State {
+        &self.initial
+    }
+
+    /// The problem's goal.
+    pub fn goal(&self) -> &Goal {
+        &self.goal
+    }
+
+    /// Operators' costs are in units of `1 / cost_scale`.
+    pub fn cost_scale(&self) -> u32 {
+        self.cost_scale
+    }
+
+    /// What became of a ground atom.
+    pub fn status(&self, predicate: PredicateId, arguments: &[ObjectId]) -> AtomStatus {
+        self.atoms
+            .find(predicate, arguments.iter().map(|o| o.0))
+            .map_or(AtomStatus::NeverTrue, |atom| self.status[atom as usize])
+    }
+
+    /// The fact of a ground atom, if it is one.
+    pub fn fact(&self, predicate: PredicateId, arguments: &[ObjectId]) -> Option<FactId> {
+        match self.status(predicate, arguments) {
+            AtomStatus::Fact(fact) => Some(fact),
+            _ => None,
+        }
+    }
+
+    /// The fact that an object fluent has this value, if it is one that changes.
+    pub fn value_fact(&self, fluent: &GroundApplication, value: ObjectId) -> Option<FactId> {
+        let predicate = self.names.values().predicate(fluent.function)?;
+        let mut arguments = fluent.arguments.clone();
+        arguments.push(value);
+        self.fact(predicate, &arguments)
+    }
+
+    /// The state in which of the basic facts exactly these hold; derived ones follow by the axioms
+    /// (those listed are ignored). Numbers are what they are initially.
+    pub fn state(&self, facts: impl IntoIterator<Item = FactId>) -> State {
+        let mut state = State::empty(self.facts.len(), self.numeric.words());
+        let fit = self.numeric.initialise(state.words_mut());
+        state.note_fit(fit);
+        for fact in facts {
+            if !self.facts[fact].derived {
+                state.insert(fact);
+            }
+        }
+        self.axioms.close(state.words_mut());
+        state
+    }
+
+    /// Whether the operator's precondition holds.
+    pub fn is_applicable(&self, state: &State, operator: OperatorId) -> bool {
+        self.operator(operator).precondition.hold_in(state.words())
+    }
+
+    /// The state after an operator; `None` where it may not be applied, or a number grows too long.
+    pub fn successor(&self, state: &State, operator: OperatorId) -> Option<State> {
+        if !self.is_applicable(state, operator) {
+            return None;
+        }
+        let mut next = state.clone();
+        self.apply(operator, state.words(), next.words_mut()).then_some(next)
+    }
+
+    /// The state after operators, one after the other; `None` where [`Task::successor`] of one of them is.
+    pub fn after(&self, state: &State, operators: &[OperatorId]) -> Option<State> {
+        operators.iter().try_fold(state.clone(), |state, &operator| self.successor(&state, operator))
+    }
+
+    /// All operators that are applicable, in a fixed order.
+    pub fn applicable(&self, state: &State) -> Vec<OperatorId> {
+        let mut found = Vec::new();
+        self.successors.applicable(state.words(), &mut found);
+        found
+    }
+
+    /// Whether the goal holds.
+    pub fn satisfies(&self, state: &State, goal: &Goal) -> bool {
+        goal.holds_in(state.words())
+    }
+
+    /// Turns `next`, a copy of `state`, into the successor. `false`: a number grows too long, and `next`
+    /// is no state.
+    #[must_use]
+    pub(crate) fn apply(&self, operator: OperatorId, state: &[u64], next: &mut [u64]) -> bool {
+        let own = self.operator(operator);
+        own.apply(state, next);
+        if let Some(effects) = own.numeric
+            && !self.numeric.apply(effects, state, next)
+        {
+            return false;
+        }
+        self.axioms.update(state, next);
+        true
+    }
+
+    /// Bytes that the task holds, about.
+    pub fn memory_bytes(&self) -> usize {
+        self.operators.memory_bytes()
+            + self.successors.memory_bytes()
+            + self.relaxation.memory_bytes()
+            + self.undominated.memory_bytes()
+            + self.facts.len() * (size_of::<Fact>() + 32)
+            + self.status.len() * 100
+    }
+
+    /// Bytes that the task holds for each copy of a state.
+    pub(crate) fn words_per_state(&self) -> usize {
+        self.initial.words().len()
+    }
+}

@@ -1,0 +1,51 @@
+//! A task's parts as PDDL writes them, for plans and reports.
+
+use super::fact::{GroundAtom, ObjectValue};
+use super::grounded::Task;
+use super::operator::Operator;
+use crate::ids::{FactId, OperatorId};
+use crate::unsolvability::Pattern;
+use pddl::model::{ActionId, GroundApplication, Name, ObjectId};
+
+impl Task {
+    /// The operator as a line of a plan file, `(move a b)`.
+    pub fn operator_name(&self, operator: OperatorId) -> String {
+        let Operator { action, arguments, .. } = self.operator(operator);
+        self.names.list(&self.names.actions[action.0 as usize], arguments)
+    }
+
+    /// A fluent as PDDL writes it, `(fuel a)`.
+    pub fn fluent_name(&self, fluent: &GroundApplication) -> String {
+        self.names.fluent(fluent)
+    }
+
+    /// A pattern as PDDL writes it, `(road ?from b)`.
+    pub fn pattern_name(&self, pattern: &Pattern) -> String {
+        self.names.open(&self.names.predicates[pattern.predicate], &pattern.arguments)
+    }
+
+    /// An action with open arguments, `(go ?from b)`.
+    pub fn schema_name(&self, action: ActionId, arguments: &[Result<ObjectId, Name>]) -> String {
+        self.names.open(&self.names.actions[action.0 as usize], arguments)
+    }
+
+    /// A ground atom as PDDL writes it.
+    pub fn atom_name(&self, atom: &GroundAtom) -> String {
+        self.names.list(&self.names.predicates[atom.predicate], &atom.arguments)
+    }
+
+    /// A fact as PDDL writes it; facts that grounding made up are `(auxiliary-N)`.
+    pub fn fact_name(&self, fact: FactId) -> String {
+        match (&self.facts[fact].atom, &self.facts[fact].value) {
+            (Some(atom), _) => self.atom_name(atom),
+            (None, Some(ObjectValue { fluent, object })) => {
+                format!("(= {} {})", self.names.fluent(fluent), self.names.objects[*object])
+            }
+            (None, None) if self.facts[fact].compares => {
+                let own = self.numeric.comparisons.iter().find(|c| c.fact == fact);
+                own.map_or_else(String::new, |c| self.comparison_name(c.relation, &c.expression))
+            }
+            (None, None) => format!("(auxiliary-{})", fact.0),
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! Which predicates of the compiled model stand for object fluents.
+//!
+//! Grounding turns a function `(f ?x) - t` into a predicate `(f ?x ?value)`. Names, facts and explanations need
+//! the way back.
+
+use crate::ids::id32;
+use pddl::model::{Domain, FunctionId, GroundApplication, ObjectId, PredicateId};
+
+/// Which predicates stand for functions.
+#[derive(Clone, Debug)]
+pub(crate) struct ValuePredicates {
+    first: u32,
+    functions: Vec<FunctionId>,
+}
+
+impl ValuePredicates {
+    /// For these functions, in this order.
+    pub(crate) fn new(domain: &Domain, functions: Vec<FunctionId>) -> Self {
+        Self { first: id32(domain.predicates.len()), functions }
+    }
+
+    /// None in a domain without object fluents.
+    pub(crate) fn none(domain: &Domain) -> Self {
+        Self::new(domain, Vec::new())
+    }
+
+    pub(crate) fn function(&self, predicate: PredicateId) -> Option<FunctionId> {
+        self.functions.get(predicate.0.checked_sub(self.first)? as usize).copied()
+    }
+
+    pub(crate) fn predicate(&self, function: FunctionId) -> Option<PredicateId> {
+        let position = self.functions.iter().position(|&f| f == function)?;
+        Some(PredicateId(self.first + id32(position)))
+    }
+
+    /// The fluent and the value that an atom stands for.
+    pub(crate) fn value(
+        &self,
+        predicate: PredicateId,
+        arguments: &[ObjectId],
+    ) -> Option<(GroundApplication, ObjectId)> {
+        let function = self.function(predicate)?;
+        let (&value, arguments) = arguments.split_last()?;
+        Some((GroundApplication { function, arguments: arguments.to_vec() }, value))
+    }
+}
