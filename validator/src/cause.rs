@@ -3,8 +3,8 @@
 //! The state notes of each atom the moment of its last change: a small number that is counted up. Which
 //! step, start, end or event a moment belongs to is kept here.
 
-use crate::state::Moment;
-use crate::verdict::StepIndex;
+use crate::plan::StepIndex;
+use crate::relation::Moment;
 use pddl::model::EventId;
 
 /// Something that happens at one time.

@@ -10,10 +10,11 @@
 //! propositions are also undefined and not satisfied in any state"; disjunctions and quantifiers are
 //! split before, hence one true disjunct suffices. Kovacs, "BNF definition of PDDL 3.1", 2011.
 
+use crate::evolution;
 use crate::number::Number;
 use crate::scene::{Binding, Scene};
-use crate::state::Value;
-use pddl::model::{Comparison, Condition, ConditionKind, Expression, ExpressionKind, FunctionId};
+use crate::value::Value;
+use pddl::model::{Comparison, Condition, ConditionKind, Expression};
 use std::cmp::Ordering;
 
 /// What to make of an undefined comparison.
@@ -56,7 +57,7 @@ impl Scene<'_> {
     fn order(&self, left: &Expression, right: &Expression, binding: &Binding) -> Option<Ordering> {
         let (one, two) = (self.number(left, binding).ok()?, self.number(right, binding).ok()?);
         let order = match &self.state.passage {
-            Some(passage) => passage.order(*self, left, right, binding).unwrap_or_else(|_| {
+            Some(passage) => evolution::order(passage, *self, left, right, binding).unwrap_or_else(|_| {
                 self.state.effort.give_up();
                 Ordering::Equal
             }),
@@ -124,21 +125,4 @@ impl Scene<'_> {
             }
         }
     }
-}
-
-/// Visits every function that a condition reads.
-pub(crate) fn each_function(condition: &Condition, visit: &mut impl FnMut(FunctionId)) {
-    condition.each(&mut |part| match &part.kind {
-        ConditionKind::Compare(_, left, right) => {
-            for side in [left, right] {
-                side.each(&mut |part| {
-                    if let ExpressionKind::Fluent(application) = &part.kind {
-                        visit(application.function);
-                    }
-                });
-            }
-        }
-        ConditionKind::FluentIs(application, _) => visit(application.function),
-        _ => {}
-    });
 }

@@ -5,14 +5,13 @@
 
 use crate::axiom::{Needs, Strata};
 use crate::number::Number;
-use crate::preference::Violations;
-use crate::scene::{Binding, Clock, Scene};
+use crate::preference::violated;
+use crate::scene::{Binding, Clock, Scene, each_instance};
 use crate::state::State;
 use crate::trace::{Demand, Watched};
-use crate::trajectory::{Asked, Breach, Broken, Formula, Position, Since, Trajectory, each_instance};
+use crate::trajectory::{Asked, Broken, Formula, Since, Trajectory};
 use crate::universe::Universe;
-use crate::verdict::{Failure, Unsatisfied};
-use crate::words::File;
+use crate::verdict::{Breach, Failure, File, Position, Unsatisfied, Violations};
 use pddl::model::{Condition, Constraint, Domain, Preference, Problem, Variables};
 
 /// A soft constraint for one binding of the `forall`s around it.
@@ -168,7 +167,7 @@ impl<'a> Demands<'a> {
     pub(crate) fn count_soft(&mut self) {
         for soft in &self.soft {
             if !self.trajectory.satisfies(&soft.formula) {
-                self.violations.add(soft.preference, soft.variables, &soft.binding);
+                self.violations.add(violated(soft.preference, soft.variables, &soft.binding));
             }
         }
     }

@@ -10,12 +10,13 @@
 //! value twice (two instances of a `forall`) is no conflict.
 
 use crate::condition::Strictness;
-use crate::expression::NumericFault;
 use crate::number::{NoResult, Number};
+use crate::relation::Moment;
 use crate::scene::{Binding, Scene};
-use crate::state::{GroundAtom, Moment, State, Value};
+use crate::state::State;
 use crate::trace::{Diff, FluentChange};
-use crate::verdict::EffectFault;
+use crate::value::{GroundAtom, Value};
+use crate::verdict::{EffectFault, NumericFault};
 use indexmap::IndexMap;
 use indexmap::map::Entry;
 use pddl::Span;

@@ -69,3 +69,25 @@ impl Clone for Effort {
         }
     }
 }
+
+/// How a search that is one of many is kept short: what it may cost is divided by this.
+const BRIEF: u64 = 30;
+
+/// How much a plan is worth that does not say how it comes out of its task network.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Patience {
+    /// It is the plan that was asked about.
+    #[default]
+    Full,
+    /// It is one of many that are tried.
+    Brief,
+}
+
+impl Patience {
+    pub(crate) const fn of(self, price: u64) -> u64 {
+        match self {
+            Self::Full => price,
+            Self::Brief => price / BRIEF,
+        }
+    }
+}

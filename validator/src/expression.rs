@@ -5,57 +5,14 @@
 //!
 //! Source: Fox & Long, "PDDL2.1", JAIR 2003, §6 (undefined values).
 
-use crate::number::{NoResult, Number};
+use crate::number::Number;
 use crate::scene::{Binding, Scene};
-use crate::state::Value;
+use crate::value::Value;
+use crate::verdict::NumericFault;
 use pddl::Span;
-use pddl::model::{Application, ArithmeticOperator, Expression, ExpressionKind, GroundApplication};
-
-/// Why an expression has no value.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum NumericFault {
-    /// A fluent has no value.
-    Undefined {
-        /// Which one.
-        fluent: GroundApplication,
-        /// Where it is read.
-        span: Span,
-    },
-    /// A divisor is zero.
-    DivisionByZero {
-        /// The division.
-        span: Span,
-    },
-    /// The result is too large for a double.
-    Overflow {
-        /// The operation.
-        span: Span,
-    },
-    /// `?duration`, which no instantaneous action has.
-    Duration {
-        /// Where it stands.
-        span: Span,
-    },
-}
-
-impl NumericFault {
-    pub(crate) fn of(result: NoResult, span: Span) -> Self {
-        match result {
-            NoResult::DivisionByZero => Self::DivisionByZero { span },
-            NoResult::Overflow => Self::Overflow { span },
-        }
-    }
-
-    /// Where it is.
-    pub fn span(&self) -> Span {
-        match self {
-            Self::Undefined { span, .. }
-            | Self::DivisionByZero { span }
-            | Self::Overflow { span }
-            | Self::Duration { span } => *span,
-        }
-    }
-}
+use pddl::model::{
+    Application, ArithmeticOperator, Expression, ExpressionKind, FunctionTerm, GroundApplication,
+};
 
 impl Scene<'_> {
     pub(crate) fn ground(&self, application: &Application, binding: &Binding) -> GroundApplication {
@@ -116,4 +73,20 @@ impl Scene<'_> {
         }
         Ok(result)
     }
+}
+
+/// Gives the slots of functions that stand as arguments their values.
+pub(crate) fn bind_functions(
+    scene: Scene<'_>,
+    functions: &[FunctionTerm],
+    binding: &mut Binding,
+) -> Result<(), NumericFault> {
+    for term in functions {
+        let Some(Value::Object(object)) = scene.fluent(&term.application, binding) else {
+            let fluent = scene.ground(&term.application, binding);
+            return Err(NumericFault::Undefined { fluent, span: term.application.span });
+        };
+        binding.set(term.slot, Some(object));
+    }
+    Ok(())
 }

@@ -34,15 +34,20 @@ mod curve;
 mod demands;
 mod effect;
 mod effort;
+mod evolution;
 mod expression;
+mod fraction;
 mod htn;
 mod number;
+mod plan;
 mod preference;
 mod prepare;
+mod prepared;
+mod reads;
+mod recorder;
 mod relation;
-mod role;
+mod report;
 mod root;
-mod run;
 mod scene;
 mod sequential;
 mod solve;
@@ -51,26 +56,26 @@ mod temporal;
 mod trace;
 mod trajectory;
 mod universe;
+mod validator;
+mod value;
 mod verdict;
 mod why;
-mod words;
 
-pub use advice::{Budget, Repair, show_repair};
+pub use advice::{Budget, Repair};
 pub use cause::Cause;
-pub use expression::NumericFault;
-pub use htn::{NetworkFault, Parent, Shortfall};
 pub use number::Number;
-pub use preference::{ViolatedPreference, Violations};
-pub use role::{Deed, Role, role_of};
-pub use run::{PlanRef, Precision, Validator, validate};
-pub use state::{GroundAtom, Value};
-pub use trace::{Demand, Diff, FluentChange, Happening, Stretch, Trace, Watched};
-pub use trajectory::Breach;
-pub use verdict::{
-    ChangeFault, EffectFault, Failure, Feature, IllFormed, MetricValue, Near, Operand, Shared, StepFault,
-    StepIndex, Unsatisfied, Unsupported, Valid, Verdict,
+pub use plan::{PlanRef, StepIndex};
+pub use prepared::Precision;
+pub use report::{
+    Access, Finding, Interference, Place, cause_place, cause_time, explain, interference_of,
+    show_application, show_atom, show_cause, show_diff, show_object, show_preference, show_repair, show_step,
+    show_timed_step,
 };
-pub use words::{
-    File, Finding, Place, cause_place, cause_time, explain, show_application, show_atom, show_cause,
-    show_diff, show_object, show_preference, show_step, show_timed_step,
+pub use trace::{Demand, Diff, FluentChange, Happening, Stretch, Trace, Watched};
+pub use validator::{Validator, validate};
+pub use value::{GroundAtom, Value};
+pub use verdict::{
+    Breach, ChangeFault, EffectFault, Failure, Feature, File, IllFormed, MetricValue, Near, NetworkFault,
+    NumericFault, Operand, Parent, Shared, Shortfall, StepFault, Unsatisfied, Unsupported, Valid, Verdict,
+    ViolatedPreference, Violations,
 };

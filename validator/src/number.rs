@@ -7,8 +7,10 @@
 //! in lowest terms with a positive denominator; doubles are finite. Cost: integers never take a greatest
 //! common divisor.
 
+use crate::fraction::simplest;
 use num_rational::BigRational;
 use num_traits::Zero;
+use pddl::Decimal;
 use std::cmp::Ordering;
 use std::fmt;
 
@@ -37,6 +39,11 @@ fn greatest_common_divisor(mut a: u128, mut b: u128) -> u128 {
 }
 
 impl Number {
+    /// The number as files write it, if they can.
+    pub(crate) fn decimal(self) -> Option<Decimal> {
+        self.to_string().parse().ok()
+    }
+
     /// Nothing.
     pub const ZERO: Self = Self::integer(0);
 
@@ -77,7 +84,7 @@ impl Number {
     }
 
     /// A decimal as it was written.
-    pub fn from_decimal(value: pddl::Decimal) -> Self {
+    pub fn from_decimal(value: Decimal) -> Self {
         let (numerator, denominator) = value.fraction();
         Self::ratio(numerator, denominator).unwrap_or(Self(Form::Double(value.to_f64())))
     }
@@ -116,9 +123,9 @@ impl Number {
             return Some(Self::ZERO);
         }
         if low < zero {
-            return Self::of_rational(&-crate::root::simplest(&-high, &-low));
+            return Self::of_rational(&-simplest(&-high, &-low));
         }
-        Self::of_rational(&crate::root::simplest(&low, &high))
+        Self::of_rational(&simplest(&low, &high))
     }
 
     /// Whether nothing was rounded.

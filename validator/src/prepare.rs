@@ -1,9 +1,11 @@
 //! What is prepared once for a task: its initial state, which relations are looked up by pattern, and
 //! whether its effects leave derived predicates alone.
 
-use crate::axiom::{Strata, each_predicate};
+use crate::axiom::Strata;
 use crate::number::Number;
-use crate::state::{State, Value};
+use crate::reads::{each_guard, each_predicate};
+use crate::state::State;
+use crate::value::Value;
 use crate::verdict::IllFormed;
 use pddl::model::{
     Condition, ConditionKind, Constraint, ConstraintKind, Domain, Effect, EffectKind, GroundApplication, Idx,
@@ -118,26 +120,6 @@ fn each_quantified(condition: &Condition, visit: &mut dyn FnMut(&Condition)) {
         ConditionKind::Exists(_, body) | ConditionKind::Forall(_, body) => visit(body),
         _ => condition.parts().for_each(|part| each_quantified(part, visit)),
     }
-}
-
-/// The conditions of conditional effects, and whether a universal effect is around them.
-pub(crate) fn each_guard<'e>(effect: &'e Effect, visit: &mut dyn FnMut(&'e Condition, bool)) {
-    fn walk<'e>(effect: &'e Effect, universal: bool, visit: &mut dyn FnMut(&'e Condition, bool)) {
-        match &effect.kind {
-            EffectKind::And(parts) => {
-                for part in parts {
-                    walk(part, universal, visit);
-                }
-            }
-            EffectKind::Forall(_, body) => walk(body, true, visit),
-            EffectKind::When(guard, body) => {
-                visit(guard, universal);
-                walk(body, universal, visit);
-            }
-            EffectKind::Add(_) | EffectKind::Delete(_) | EffectKind::Assign(..) => {}
-        }
-    }
-    walk(effect, false, visit);
 }
 
 pub(crate) fn derived_in_effect(effect: &Effect, strata: &Strata) -> Result<(), IllFormed> {

@@ -4,9 +4,9 @@
 //! nothing is ever substituted. Quantified variables are unbound outside of their quantifier.
 
 use crate::number::Number;
-use crate::preference::Violations;
 use crate::state::State;
 use crate::universe::{Extent, Universe};
+use crate::verdict::Violations;
 use pddl::model::{Idx, ObjectId, Term, VariableId, Variables};
 
 /// The values of a schema's variables.
@@ -97,4 +97,25 @@ impl<'a> Scene<'a> {
     pub(crate) fn extent(&self, variable: VariableId) -> &'a Extent {
         self.universe.extent(&self.variables[variable].types)
     }
+}
+
+/// What an instance costs at least, beside a step of a search: it is noted, and kept.
+const INSTANCE: u64 = 10;
+
+/// Visits each binding of `variables`, as long as the effort allows; they are unbound again on return.
+pub(crate) fn each_instance(
+    scene: Scene<'_>,
+    variables: &[VariableId],
+    binding: &mut Binding,
+    visit: &mut dyn FnMut(&mut Binding),
+) {
+    let Some((&first, rest)) = variables.split_first() else { return visit(binding) };
+    for &object in &scene.extent(first).objects {
+        if !scene.state.effort.spend(INSTANCE) {
+            break;
+        }
+        binding.set(first, Some(object));
+        each_instance(scene, rest, binding, visit);
+    }
+    binding.set(first, None);
 }

@@ -4,34 +4,38 @@ use crate::axiom::Needs;
 use crate::cause::{Cause, Causes};
 use crate::demands::Demands;
 use crate::effect::Changes;
+use crate::effort::Effort;
 use crate::number::Number;
-use crate::prepare::each_guard;
-use crate::run::{End, Validator, precondition};
+use crate::plan::StepIndex;
+use crate::preference::judge;
+use crate::prepared::{End, Prepared};
+use crate::reads::each_guard;
+use crate::recorder::Recorder;
 use crate::scene::{Binding, Clock};
 use crate::state::State;
-use crate::trace::{Diff, Happening, Recorder, Trace};
+use crate::trace::{Diff, Happening, Trace};
 use crate::trajectory::{Asked, Since};
-use crate::verdict::{Failure, StepFault, StepIndex, Unsatisfied, Valid};
+use crate::verdict::{Failure, StepFault, Unsatisfied, Valid};
 use pddl::PlanStep;
 use pddl::model::{Action, ActionId, IndexVec};
 
 /// Carries out the steps; `visit` is shown each state that they go through, with the number of steps before it.
 pub(crate) fn run<'p>(
-    validator: &Validator<'_>,
+    prepared: &Prepared<'_>,
     plan: impl Iterator<Item = &'p PlanStep> + Clone,
     state: &mut State,
     mut trace: Option<&mut Trace>,
     visit: &mut dyn FnMut(u32, &mut State),
 ) -> Result<Valid, Box<Failure>> {
     let mut run = Run {
-        validator,
-        needs: needs(validator),
-        demands: validator.demands(state),
+        prepared,
+        needs: needs(prepared),
+        demands: prepared.demands(state),
         state,
         changes: Changes::default(),
         binding: Binding::default(),
     };
-    let mut recorder = trace.as_mut().map(|trace| Recorder::new(validator, run.state, &mut trace.initial));
+    let mut recorder = trace.as_mut().map(|trace| Recorder::new(prepared, run.state, &mut trace.initial));
     run.observe(0);
     visit(0, run.state);
     let mut steps = 0;
@@ -39,7 +43,7 @@ pub(crate) fn run<'p>(
         let mut diff = trace.is_some().then(Diff::default);
         run.step(StepIndex(steps), step, diff.as_mut())?;
         if let (Some(trace), Some(recorder), Some(mut diff)) = (&mut trace, &mut recorder, diff) {
-            recorder.after(validator, run.state, steps + 1, &mut diff);
+            recorder.after(prepared, run.state, steps + 1, &mut diff);
             let time = Number::integer(i64::from(steps) + 1);
             trace.happenings.push(Happening { time, causes: vec![Cause::Step(StepIndex(steps))], diff });
         }
@@ -62,22 +66,36 @@ pub(crate) fn run<'p>(
     if let Some(trace) = trace {
         trace.watched = run.demands.watched();
     }
-    validator.finish(end, run.demands)
+    prepared.finish(end, run.demands)
+}
+
+/// Shows `visit` the states that the steps go through, as [`run`] does, whatever comes of them; `steps` bound the effort.
+/// Answers whether the effort was enough.
+pub(crate) fn replay<'p>(
+    prepared: &Prepared<'_>,
+    plan: impl Iterator<Item = &'p PlanStep> + Clone,
+    steps: usize,
+    visit: &mut dyn FnMut(u32, &mut State),
+) -> bool {
+    let mut state = prepared.initial.clone();
+    state.effort = Effort::for_steps(steps);
+    let _ = run(prepared, plan, &mut state, None, visit);
+    !state.effort.is_spent()
 }
 
 /// Per action, the derived predicates that its conditions read.
-fn needs(validator: &Validator<'_>) -> IndexVec<ActionId, Needs> {
+fn needs(prepared: &Prepared<'_>) -> IndexVec<ActionId, Needs> {
     let needs = |action: &Action| {
         let mut conditions = vec![&action.precondition];
         conditions.extend(action.preferences.iter().map(|preference| &preference.body));
         each_guard(&action.effect, &mut |guard, _| conditions.push(guard));
-        validator.strata.needs(conditions)
+        prepared.strata.needs(conditions)
     };
-    validator.domain.actions.iter().map(needs).collect()
+    prepared.domain.actions.iter().map(needs).collect()
 }
 
 struct Run<'s, 'v, 'a> {
-    validator: &'v Validator<'a>,
+    prepared: &'v Prepared<'a>,
     needs: IndexVec<ActionId, Needs>,
     state: &'s mut State,
     demands: Demands<'v>,
@@ -88,11 +106,11 @@ struct Run<'s, 'v, 'a> {
 impl Run<'_, '_, '_> {
     /// What was lacking in a state that lies behind: the plan is carried out again that far.
     fn lacked<'p>(&self, asked: Asked, plan: impl Iterator<Item = &'p PlanStep>) -> Vec<Unsatisfied> {
-        let mut state = self.validator.initial.clone();
+        let mut state = self.prepared.initial.clone();
         state.effort = self.state.effort.clone();
         let mut again = Run {
-            validator: self.validator,
-            needs: needs(self.validator),
+            prepared: self.prepared,
+            needs: needs(self.prepared),
             demands: Demands::none(),
             state: &mut state,
             changes: Changes::default(),
@@ -104,13 +122,13 @@ impl Run<'_, '_, '_> {
             }
         }
         let now = Number::integer(i64::try_from(asked.position).unwrap_or(i64::MAX));
-        self.validator.lacks_of_constraint(again.state, (Causes::Steps, now), &self.demands, asked)
+        self.prepared.lacks_of_constraint(again.state, (Causes::Steps, now), &self.demands, asked)
     }
 
     fn observe(&mut self, steps: u32) {
-        self.validator.derive_needed(self.demands.needs(), self.state, steps);
+        self.prepared.derive_needed(self.demands.needs(), self.state, steps);
         let since = Since::at(Number::integer(i64::from(steps)));
-        self.demands.observe(since, &self.validator.universe, self.state);
+        self.demands.observe(since, &self.prepared.universe, self.state);
     }
 
     fn step(
@@ -119,21 +137,21 @@ impl Run<'_, '_, '_> {
         step: &PlanStep,
         diff: Option<&mut Diff>,
     ) -> Result<(), Box<Failure>> {
-        let (validator, at) = (self.validator, Cause::Step(index));
+        let (prepared, at) = (self.prepared, Cause::Step(index));
         let fault = |fault| Box::new(Failure::Step { step: index, fault });
         let action =
-            validator.domain.actions.get(step.action).ok_or_else(|| fault(StepFault::UnknownAction))?;
-        validator.fits(&action.variables, &step.arguments).map_err(fault)?;
-        validator.derive_needed(&self.needs[step.action], self.state, index.0);
+            prepared.domain.actions.get(step.action).ok_or_else(|| fault(StepFault::UnknownAction))?;
+        prepared.fits(&action.variables, &step.arguments).map_err(fault)?;
+        prepared.derive_needed(&self.needs[step.action], self.state, index.0);
         self.binding.reset(&action.variables, &step.arguments);
-        let scene = validator.scene(self.state, &action.variables, Clock::steps(index.0));
+        let scene = prepared.scene(self.state, &action.variables, Clock::steps(index.0));
         if !scene.holds(&action.precondition, &mut self.binding) {
-            let parts = validator.lacks(scene, Causes::Steps, &action.precondition, &mut self.binding);
-            return Err(precondition(at, parts));
+            let parts = prepared.lacks(scene, Causes::Steps, &action.precondition, &mut self.binding);
+            return Err(Box::new(Failure::Precondition { at, parts }));
         }
         for preference in &action.preferences {
             let holds = |body: &_, binding: &mut Binding| scene.holds(body, binding);
-            self.demands.violations.judge(scene, preference, &mut self.binding, holds);
+            judge(&mut self.demands.violations, scene, preference, &mut self.binding, holds);
         }
         self.changes.clear();
         self.changes

@@ -11,7 +11,7 @@
 
 use crate::condition::Strictness;
 use crate::scene::{Binding, Scene};
-use crate::state::Value;
+use crate::value::Value;
 use pddl::model::{Atom, Condition, ConditionKind, Expression, ExpressionKind, ObjectId, Term, VariableId};
 use std::ops::ControlFlow;
 

@@ -18,15 +18,13 @@
 //! AIJ 2009, §3.2.
 
 use crate::number::Number;
-use crate::scene::{Binding, Clock, Scene};
+use crate::scene::{Binding, Clock, Scene, each_instance};
 use crate::state::State;
 use crate::trace::Stretch;
 use crate::universe::Universe;
+use crate::verdict::{Breach, Position};
 use pddl::Span;
 use pddl::model::{Condition, Constraint, ConstraintKind, Name, ObjectId, Variable, VariableId, Variables};
-
-/// The position of a state on the trajectory: 0 is the initial one.
-pub(crate) type Position = usize;
 
 /// A condition of a ground constraint.
 #[derive(Clone, Debug)]
@@ -258,52 +256,6 @@ impl<'a> Trajectory<'a> {
     /// The time of a state.
     pub(crate) fn time(&self, position: Position) -> Option<Number> {
         self.times.get(position).map(|since| since.time)
-    }
-}
-
-/// What an instance costs at least, beside a step of a search: it is noted, and kept.
-const INSTANCE: u64 = 10;
-
-/// Visits each binding of `variables`, as long as the effort allows; they are unbound again on return.
-pub(crate) fn each_instance(
-    scene: Scene<'_>,
-    variables: &[VariableId],
-    binding: &mut Binding,
-    visit: &mut dyn FnMut(&mut Binding),
-) {
-    let Some((&first, rest)) = variables.split_first() else { return visit(binding) };
-    for &object in &scene.extent(first).objects {
-        if !scene.state.effort.spend(INSTANCE) {
-            break;
-        }
-        binding.set(first, Some(object));
-        each_instance(scene, rest, binding, visit);
-    }
-    binding.set(first, None);
-}
-
-/// Where and how a constraint is broken.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Breach {
-    /// In a state in which its condition had to hold.
-    Here(Position),
-    /// Nothing came after this state that had to come.
-    NeverAfter(Position),
-    /// Nothing came before this state that had to come.
-    NeverBefore(Position),
-    /// It became true again in this state.
-    Again(Position),
-    /// No state satisfies it.
-    Nowhere,
-}
-
-impl Breach {
-    /// The state that it is about.
-    pub(crate) fn position(self) -> Option<Position> {
-        match self {
-            Self::Here(at) | Self::NeverAfter(at) | Self::NeverBefore(at) | Self::Again(at) => Some(at),
-            Self::Nowhere => None,
-        }
     }
 }
 

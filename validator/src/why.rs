@@ -9,7 +9,7 @@ use crate::axiom::Strata;
 use crate::cause::Causes;
 use crate::condition::Strictness;
 use crate::scene::{Binding, Scene};
-use crate::state::{GroundAtom, Value};
+use crate::value::{GroundAtom, Value};
 use crate::verdict::{Near, Operand, Unsatisfied};
 use pddl::Span;
 use pddl::model::{

@@ -11,9 +11,9 @@ use pddl::model::{GroundApplication, Name, ObjectId, TypeId};
 use pddl::{Plan, Source, Span};
 use serde::Serialize;
 use validator::{
-    Breach, Cause, ChangeFault, Deed, EffectFault, Failure, File, GroundAtom, NetworkFault, NumericFault,
-    Operand, Parent, Place, Role, Shared, StepFault, StepIndex, Unsatisfied, cause_place, cause_time,
-    role_of, show_application, show_atom, show_cause, show_object,
+    Breach, Cause, ChangeFault, Access, EffectFault, Failure, File, GroundAtom, NetworkFault, NumericFault,
+    Operand, Parent, Place, Interference, Shared, StepFault, StepIndex, Unsatisfied, cause_place, cause_time,
+    interference_of, show_application, show_atom, show_cause, show_object,
 };
 
 /// Where names and spans of a verdict are looked up.
@@ -221,7 +221,7 @@ impl Places<'_> {
                     Shared::Atom(atom) | Shared::Derived { atom, .. } => self.atom(atom),
                     Shared::Fluent(fluent) => self.fluent(fluent),
                 });
-                let roles = [first, second].map(|&cause| role_of(&self.task.domain, self.plan, cause, over));
+                let roles = [first, second].map(|&cause| interference_of(&self.task.domain, self.plan, cause, over));
                 record.roles = roles.into_iter().flatten().filter_map(|role| self.role(role)).collect();
             }
             Failure::Effect { at, fault } => {
@@ -231,7 +231,7 @@ impl Places<'_> {
                     EffectFault::Conflict { fluent, first, second } => {
                         record.fault = Some("conflict");
                         record.about = Some(self.fluent(fluent));
-                        let changes = [first, second].map(|&span| Role { deed: Deed::Changes, span });
+                        let changes = [first, second].map(|&span| Interference { access: Access::Changes, span });
                         record.roles = changes.into_iter().filter_map(|role| self.role(role)).collect();
                     }
                     EffectFault::Numeric(fault) => self.numeric(fault, &mut record),
@@ -296,12 +296,12 @@ impl Places<'_> {
         record
     }
 
-    fn role(&self, role: Role) -> Option<RoleRecord> {
-        let does = match role.deed {
-            Deed::Adds => "adds",
-            Deed::Deletes => "deletes",
-            Deed::Changes => "changes",
-            Deed::Needs => "needs",
+    fn role(&self, role: Interference) -> Option<RoleRecord> {
+        let does = match role.access {
+            Access::Adds => "adds",
+            Access::Deletes => "deletes",
+            Access::Changes => "changes",
+            Access::Needs => "needs",
         };
         Some(RoleRecord { does, place: self.at(File::Domain, role.span)? })
     }

@@ -3,10 +3,9 @@
 //! What is tried and what is written are the same: trials with times, the text of a repaired plan, and the tests that
 //! hold both against each other all come here.
 
-use super::{Repair, decimal};
+use super::change::Repair;
 use crate::number::Number;
-use crate::temporal::start;
-use crate::verdict::StepIndex;
+use crate::plan::{StepIndex, start};
 use pddl::model::{
     Condition, ConditionKind, Domain, Fact, FluentFact, FluentValue, GroundApplication, Problem,
 };
@@ -126,7 +125,7 @@ pub(super) fn temporal(repair: &Repair, plan: &TemporalPlan) -> Option<TemporalP
 fn delay_from(plan: &mut TemporalPlan, from: Number, by: Decimal) -> Option<()> {
     let by = Number::from_decimal(by);
     for step in plan.steps.iter_mut().filter(|step| start(step) >= from) {
-        step.start = decimal(start(step).plus(by).ok()?)?;
+        step.start = start(step).plus(by).ok()?.decimal()?;
     }
     Some(())
 }

@@ -6,10 +6,10 @@
 
 use super::edit::Edit;
 use super::instances::Look;
-use super::sequential::Case;
+use super::sequential_case::Case;
 use super::track::Track;
-use crate::state::{GroundAtom, Value};
 use crate::trace::Diff;
+use crate::value::{GroundAtom, Value};
 use pddl::PlanStep;
 use pddl::model::GroundApplication;
 use std::collections::{BTreeMap, BTreeSet, HashSet, VecDeque};
@@ -41,7 +41,7 @@ pub(super) fn bridge(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
             continue;
         }
         let mut next = Vec::new();
-        Look { validator: track.validator, state: track.state() }.all(&mut |step| next.push(step));
+        Look { prepared: track.prepared, state: track.state() }.all(&mut |step| next.push(step));
         for step in next {
             if track.left == 0 || seen.len() >= STATES || edits.len() >= BRIDGES {
                 return edits;

@@ -3,7 +3,8 @@
 //! Plans may have ten thousand steps, and hundreds of changes are tried: so a change is not made to be tried, but read:
 //! [`Edit::step`] is the step that the changed plan has at a position, in constant time.
 
-use super::{Repair, step_index};
+use super::change::Repair;
+use crate::plan::StepIndex;
 use pddl::PlanStep;
 
 /// A change.
@@ -71,16 +72,17 @@ impl Edit {
 
     pub(super) fn repair(self) -> Repair {
         match self {
-            Self::Drop(index) => Repair::Drop(step_index(index)),
-            Self::Insert { before, steps } => Repair::Insert { before: step_index(before), steps },
+            Self::Drop(index) => Repair::Drop(StepIndex::at(index)),
+            Self::Insert { before, steps } => Repair::Insert { before: StepIndex::at(before), steps },
             Self::Move { step, before } => {
-                Repair::Move { step: step_index(step), before: step_index(before) }
+                Repair::Move { step: StepIndex::at(step), before: StepIndex::at(before) }
             }
-            Self::Swap { first, second } => {
-                Repair::Swap { first: step_index(first.min(second)), second: step_index(first.max(second)) }
-            }
+            Self::Swap { first, second } => Repair::Swap {
+                first: StepIndex::at(first.min(second)),
+                second: StepIndex::at(first.max(second)),
+            },
             Self::Replace { index, step } => {
-                Repair::Replace { step: step_index(index), arguments: step.arguments }
+                Repair::Replace { step: StepIndex::at(index), arguments: step.arguments }
             }
         }
     }

@@ -5,7 +5,7 @@
 
 use super::wants::{Want, Wants};
 use crate::condition::Strictness;
-use crate::run::Validator;
+use crate::prepared::Prepared;
 use crate::scene::{Binding, Clock};
 use crate::state::State;
 use pddl::model::{ActionId, Condition, Effect, EffectKind, ObjectId, Term, TimeSpecifier, Variables};
@@ -20,21 +20,21 @@ pub(super) type Fixed = Vec<Option<ObjectId>>;
 
 /// The parameters under which an effect brings about what is wanted.
 pub(super) fn each_match(
-    validator: &Validator<'_>,
+    prepared: &Prepared<'_>,
     variables: &Variables,
     effect: &Effect,
     want: &Want,
     visit: &mut dyn FnMut(Fixed),
 ) {
     let mut unify = |terms: &[Term], objects: &[ObjectId]| {
-        visit_unified(validator, variables, terms, objects, visit);
+        visit_unified(prepared, variables, terms, objects, visit);
     };
     match (&effect.kind, want) {
         (EffectKind::And(parts), _) => {
-            parts.iter().for_each(|part| each_match(validator, variables, part, want, visit));
+            parts.iter().for_each(|part| each_match(prepared, variables, part, want, visit));
         }
         (EffectKind::Forall(_, body) | EffectKind::When(_, body), _) => {
-            each_match(validator, variables, body, want, visit);
+            each_match(prepared, variables, body, want, visit);
         }
         (EffectKind::Add(atom), Want::Holds(wanted)) | (EffectKind::Delete(atom), Want::HoldsNot(wanted))
             if atom.predicate == wanted.predicate =>
@@ -52,7 +52,7 @@ pub(super) fn each_match(
 
 /// Quantified variables may be anything.
 fn visit_unified(
-    validator: &Validator<'_>,
+    prepared: &Prepared<'_>,
     variables: &Variables,
     terms: &[Term],
     objects: &[ObjectId],
@@ -68,7 +68,7 @@ fn visit_unified(
                 else {
                     continue;
                 };
-                let fits = validator.universe.extent(&variables[variable].types);
+                let fits = prepared.universe.extent(&variables[variable].types);
                 if !fits.contains(object) || fixed[place].is_some_and(|other| other != object) {
                     return;
                 }
@@ -87,11 +87,11 @@ pub(super) struct Template {
 }
 
 /// The actions that could bring about something that is wanted.
-pub(super) fn templates(validator: &Validator<'_>, wants: &Wants) -> Vec<Template> {
+pub(super) fn templates(prepared: &Prepared<'_>, wants: &Wants) -> Vec<Template> {
     let mut templates = Vec::new();
-    for (action, schema) in validator.domain.actions.enumerate() {
+    for (action, schema) in prepared.domain.actions.enumerate() {
         for want in &wants.list {
-            each_match(validator, &schema.variables, &schema.effect, want, &mut |fixed| {
+            each_match(prepared, &schema.variables, &schema.effect, want, &mut |fixed| {
                 let template = Template { action, fixed };
                 if !templates.contains(&template) {
                     templates.push(template);
@@ -103,11 +103,11 @@ pub(super) fn templates(validator: &Validator<'_>, wants: &Wants) -> Vec<Templat
 }
 
 /// Whether a step may bring about something that is wanted.
-pub(super) fn may_help(validator: &Validator<'_>, wants: &[Want], step: &PlanStep) -> bool {
-    let Some(schema) = validator.domain.actions.get(step.action) else { return false };
+pub(super) fn may_help(prepared: &Prepared<'_>, wants: &[Want], step: &PlanStep) -> bool {
+    let Some(schema) = prepared.domain.actions.get(step.action) else { return false };
     let mut helps = false;
     for want in wants {
-        each_match(validator, &schema.variables, &schema.effect, want, &mut |fixed| {
+        each_match(prepared, &schema.variables, &schema.effect, want, &mut |fixed| {
             helps |= fixed.iter().zip(&step.arguments).all(|(f, a)| f.is_none_or(|object| object == *a));
         });
     }
@@ -115,11 +115,11 @@ pub(super) fn may_help(validator: &Validator<'_>, wants: &[Want], step: &PlanSte
 }
 
 /// The steps that differ from a step in one argument and may bring about something that is wanted.
-pub(super) fn nearly(validator: &Validator<'_>, wants: &[Want], step: &PlanStep) -> Vec<PlanStep> {
-    let Some(schema) = validator.domain.actions.get(step.action) else { return Vec::new() };
+pub(super) fn nearly(prepared: &Prepared<'_>, wants: &[Want], step: &PlanStep) -> Vec<PlanStep> {
+    let Some(schema) = prepared.domain.actions.get(step.action) else { return Vec::new() };
     let mut found: Vec<PlanStep> = Vec::new();
     for want in wants {
-        each_match(validator, &schema.variables, &schema.effect, want, &mut |fixed| {
+        each_match(prepared, &schema.variables, &schema.effect, want, &mut |fixed| {
             let changed = fixed.iter().zip(&step.arguments).filter(|(f, a)| f.is_some_and(|o| o != **a));
             if changed.count() == 1 {
                 let arguments: Vec<ObjectId> =
@@ -135,7 +135,7 @@ pub(super) fn nearly(validator: &Validator<'_>, wants: &[Want], step: &PlanStep)
 
 /// A state in which steps could be taken.
 pub(super) struct Look<'l, 'a> {
-    pub(super) validator: &'l Validator<'a>,
+    pub(super) prepared: &'l Prepared<'a>,
     pub(super) state: &'l State,
 }
 
@@ -156,7 +156,7 @@ impl Look<'_, '_> {
                 None => open.push(parameter),
             }
         }
-        let scene = self.validator.scene(self.state, variables, Clock::steps(0));
+        let scene = self.prepared.scene(self.state, variables, Clock::steps(0));
         if open.is_empty() {
             if conditions.iter().all(|condition| scene.holds(condition, &mut binding)) {
                 visit(fixed.iter().copied().flatten().collect());
@@ -175,7 +175,7 @@ impl Look<'_, '_> {
 
     /// The instances of an action that can be taken here.
     pub(super) fn steps(&self, template: &Template, visit: &mut dyn FnMut(PlanStep)) {
-        let Some(schema) = self.validator.domain.actions.get(template.action) else { return };
+        let Some(schema) = self.prepared.domain.actions.get(template.action) else { return };
         self.applicable(&schema.variables, &[&schema.precondition], &template.fixed, &mut |arguments| {
             visit(PlanStep { action: template.action, arguments, span: Span::default() });
         });
@@ -197,7 +197,7 @@ impl Look<'_, '_> {
 
     /// All steps that can be taken here.
     pub(super) fn all(&self, visit: &mut dyn FnMut(PlanStep)) {
-        for (action, schema) in self.validator.domain.actions.enumerate() {
+        for (action, schema) in self.prepared.domain.actions.enumerate() {
             let fixed = vec![None; schema.variables.parameters];
             self.steps(&Template { action, fixed }, visit);
         }

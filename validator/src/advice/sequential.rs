@@ -5,16 +5,14 @@
 //! failure first; what a trial costs is in [`Track`]. Several ways of looking (`WAYS`), each with its own share of the
 //! budget, each offering the first change that works: the reader may choose.
 
-use super::bridge::bridge;
+use super::bridge::{LONGEST, bridge};
+use super::change::Repair;
 use super::edit::Edit;
 use super::instances::{Look, may_help, nearly, templates};
+use super::sequential_case::{Case, takes};
 use super::track::Track;
-use super::wants::{Want, Wants};
-use super::{Repair, Trials};
-use crate::cause::Cause;
-use crate::run::PlanRef;
-use crate::trace::Diff;
-use crate::trajectory::Breach;
+use super::trials::Trials;
+use crate::plan::PlanRef;
 use crate::verdict::Failure;
 use pddl::model::{ActionId, ObjectId};
 use pddl::{PlanStep, SequentialPlan};
@@ -26,15 +24,6 @@ const NEAR: usize = 8;
 /// How many candidates one way of looking may have.
 const CANDIDATES: usize = 512;
 
-/// A failing plan, and what is known of its failure.
-pub(super) struct Case {
-    /// The step that fails; the plan's length if none does.
-    pub(super) fails: usize,
-    pub(super) wants: Wants,
-    /// For each want the last step that took it away, or changed it, with its position.
-    pub(super) taken_by: Vec<(usize, Want)>,
-}
-
 /// A way of looking for changes.
 type Way = fn(&mut Track<'_, '_>, &Case) -> Vec<Edit>;
 
@@ -44,22 +33,8 @@ const WAYS: [Way; 8] =
 
 pub(super) fn repairs(trials: &mut Trials<'_, '_>, plan: &SequentialPlan, failure: &Failure) -> Vec<Repair> {
     let validator = trials.validator;
-    let mut track = Track::new(validator, &plan.steps, plan.steps.len());
-    let fails = match failure {
-        Failure::Precondition { at: Cause::Step(step), .. }
-        | Failure::Effect { at: Cause::Step(step), .. }
-        | Failure::Step { step, .. } => step.0 as usize,
-        // The step into the state that should be another one.
-        Failure::Constraint { breach: Breach::Here(state) | Breach::Again(state), .. } => {
-            state.saturating_sub(1).min(plan.steps.len())
-        }
-        _ => plan.steps.len(),
-    };
-    track.go_to(fails);
-    let wants = Wants::of(validator, track.state(), failure);
-    let taken_by =
-        wants.list.iter().filter_map(|want| Some((last_taken(track.taken(), want)?, want.clone())));
-    let case = Case { fails, taken_by: taken_by.collect(), wants };
+    let mut track = Track::new(&validator.prepared, &plan.steps, plan.steps.len());
+    let case = Case::new(&mut track, failure);
     let mut found: Vec<Edit> = Vec::new();
     let share = trials.budget.steps / WAYS.len();
     let mut saved = 0;
@@ -90,7 +65,7 @@ pub(super) fn repairs(trials: &mut Trials<'_, '_>, plan: &SequentialPlan, failur
 
 /// Whether another change makes the same plan.
 fn is_known(found: &[Edit], edit: &Edit, steps: &[PlanStep]) -> bool {
-    let end = steps.len() + super::bridge::LONGEST + 1;
+    let end = steps.len() + LONGEST + 1;
     found.iter().any(|other| {
         let from = other.first().min(edit.first());
         (from..end).all(|position| same(other.step(steps, position), edit.step(steps, position)))
@@ -105,42 +80,6 @@ fn same(one: Option<&PlanStep>, other: Option<&PlanStep>) -> bool {
     }
 }
 
-/// Whether a step took away what is wanted.
-fn takes(diff: &Diff, want: &Want) -> bool {
-    match want {
-        Want::Holds(atom) => diff.deleted.contains(atom),
-        Want::HoldsNot(atom) => diff.added.contains(atom),
-        Want::Another(fluent) => diff.fluents.iter().any(|change| change.fluent == *fluent),
-    }
-}
-
-fn last_taken(taken: &[Diff], want: &Want) -> Option<usize> {
-    taken.iter().rposition(|diff| takes(diff, want))
-}
-
-impl Case {
-    /// From where on a step that brings about what is wanted is not undone before the failure. Fluents change in
-    /// steps, each of which counts.
-    fn window(&self, want: &Want) -> usize {
-        if matches!(want, Want::Another(_)) {
-            return 0;
-        }
-        self.taken_by.iter().find(|(_, other)| other == want).map_or(0, |(position, _)| position + 1)
-    }
-
-    fn earliest(&self) -> usize {
-        self.wants.list.iter().map(|want| self.window(want)).min().unwrap_or(self.fails)
-    }
-
-    /// The steps that took something away, the last ones first.
-    fn culprits(&self) -> Vec<usize> {
-        let mut culprits: Vec<usize> = self.taken_by.iter().map(|(position, _)| *position).collect();
-        culprits.sort_unstable_by(|a, b| b.cmp(a));
-        culprits.dedup();
-        culprits
-    }
-}
-
 /// The failing step has a wrong argument.
 fn other_argument(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
     let index = case.fails;
@@ -151,7 +90,7 @@ fn other_argument(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
 fn others(track: &mut Track<'_, '_>, index: usize, step: &PlanStep) -> Vec<Edit> {
     track.go_to(index);
     let mut edits = Vec::new();
-    let look = Look { validator: track.validator, state: track.state() };
+    let look = Look { prepared: track.prepared, state: track.state() };
     look.others(step, &mut |step| edits.push(Edit::Replace { index, step }));
     edits
 }
@@ -175,7 +114,7 @@ fn drops(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
 
 /// A step is missing. It is tried as late as it can be taken, and again wherever that was interrupted.
 fn inserts(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
-    let templates = templates(track.validator, &case.wants);
+    let templates = templates(track.prepared, &case.wants);
     if templates.is_empty() {
         return Vec::new();
     }
@@ -186,7 +125,7 @@ fn inserts(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
         let Some(left) = track.left.checked_sub(templates.len()) else { break };
         track.left = left;
         track.go_to(before);
-        let look = Look { validator: track.validator, state: track.state() };
+        let look = Look { prepared: track.prepared, state: track.state() };
         for template in &templates {
             look.steps(template, &mut |step| {
                 let key = (step.action, step.arguments.clone());
@@ -206,8 +145,8 @@ fn inserts(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
 fn moves(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
     let (fails, count) = (case.fails, track.steps.len());
     let mut edits = Vec::new();
-    let validator = track.validator;
-    let helps = |k: &usize| may_help(validator, &case.wants.list, &track.steps[*k]);
+    let prepared = track.prepared;
+    let helps = |k: &usize| may_help(prepared, &case.wants.list, &track.steps[*k]);
     // Who could help comes too late.
     let late: Vec<usize> = (fails + 1..count).filter(helps).take(NEAR).collect();
     for &step in &late {
@@ -291,7 +230,7 @@ fn earlier_argument(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
     let mut edits = Vec::new();
     let earliest = case.earliest();
     for index in (earliest.saturating_sub(1)..case.fails.min(track.steps.len())).rev() {
-        for step in nearly(track.validator, &case.wants.list, &track.steps[index]) {
+        for step in nearly(track.prepared, &case.wants.list, &track.steps[index]) {
             edits.push(Edit::Replace { index, step });
         }
         if edits.len() >= CANDIDATES {

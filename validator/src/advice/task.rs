@@ -2,11 +2,13 @@
 //! precondition.
 
 use super::apply::take_away;
-use super::{Repair, Trials, each_part, parts};
+use super::change::Repair;
+use super::trials::Trials;
 use crate::cause::Cause;
 use crate::number::Number;
-use crate::run::{PlanRef, Validator};
-use crate::state::Value;
+use crate::plan::PlanRef;
+use crate::validator::Validator;
+use crate::value::Value;
 use crate::verdict::{Failure, Operand, Unsatisfied};
 use pddl::model::{Comparison, GroundApplication};
 use pddl::{Span, StepHead};
@@ -17,7 +19,7 @@ pub(super) fn repairs(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, failure: &
         return Vec::new();
     }
     let mut candidates = Vec::new();
-    each_part(parts(failure), &mut |part| match part {
+    Unsatisfied::each(failure.parts(), &mut |part| match part {
         Unsatisfied::Missing { atom, derived: false, deleted_by: None, .. } => {
             candidates.push(Repair::Initially(atom.clone()));
         }
@@ -46,14 +48,15 @@ pub(super) fn repairs(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, failure: &
 pub(super) fn weaker(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, failure: &Failure) -> Option<Repair> {
     let Failure::Precondition { at, .. } = failure else { return None };
     // What stands deeper is not a part of the condition that could be taken away alone.
-    let span = parts(failure).iter().map(Unsatisfied::span).find(|&span| without(trials, plan, *at, span))?;
+    let span =
+        failure.parts().iter().map(Unsatisfied::span).find(|&span| without(trials, plan, *at, span))?;
     Some(Repair::Without { span })
 }
 
 /// Whether the plan passes from another initial state.
 fn begins_well(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, repair: &Repair) -> bool {
     let mut changed: Validator<'_> = trials.validator.clone();
-    let initial = &mut changed.initial;
+    let initial = &mut changed.prepared.initial;
     match repair {
         Repair::Initially(atom) => {
             initial.facts[atom.predicate].add(&atom.arguments, 0);
@@ -95,7 +98,7 @@ fn values(
         let [(fluent, value)] = side.fluents.as_slice() else { continue };
         let Ok(other) = &other.value else { continue };
         let wanted = other.plus(more).ok();
-        match (value, &side.value, validator.initial.fluent(fluent)) {
+        match (value, &side.value, validator.prepared.initial.fluent(fluent)) {
             (None, _, _) => offer(fluent, wanted),
             (Some(_), Ok(now), Some(Value::Number(first))) => {
                 let lacking = wanted.and_then(|wanted| wanted.minus(*now).ok());
@@ -109,7 +112,7 @@ fn values(
 /// Whether the plan passes when the failing action does not ask for what stands at `span`.
 fn without(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, at: Cause, span: Span) -> bool {
     let Some(index) = at.step().map(|step| step.0 as usize) else { return false };
-    let mut domain = trials.validator.domain.clone();
+    let mut domain = trials.validator.prepared.domain.clone();
     let head = match plan {
         PlanRef::Sequential(plan) => plan.steps.get(index).map(|step| StepHead::Action(step.action)),
         PlanRef::Temporal(plan) => plan.steps.get(index).map(|step| step.head),
@@ -127,5 +130,5 @@ fn without(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, at: Cause, span: Span
         }
         _ => false,
     };
-    taken && trials.passes_under(Validator::new(&domain, trials.validator.problem), plan)
+    taken && trials.passes_under(Validator::new(&domain, trials.validator.prepared.problem), plan)
 }

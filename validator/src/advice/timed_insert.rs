@@ -3,47 +3,48 @@
 //! It starts just after something has happened, where its condition at the start holds, and brings about what is
 //! wanted: in the gap that is there, or in one that is made by starting everything after it later.
 
+use super::change::Repair;
 use super::instances::{Look, conditions_at, each_match};
-use super::timed::{Case, advance};
-use super::{Repair, decimal};
+use super::timed_case::{Case, advance};
+use crate::expression::bind_functions;
 use crate::number::Number;
-use crate::run::Validator;
+use crate::plan::start;
+use crate::prepared::Prepared;
 use crate::scene::{Binding, Clock};
 use crate::state::State;
-use crate::temporal::{bind_functions, start};
 use pddl::model::{Comparison, DurativeActionId, ObjectId, TimeSpecifier};
 use pddl::{Decimal, Span, StepHead, TemporalStep};
 
 /// After how many happenings before the failure it is tried.
 const PLACES: usize = 24;
 
-pub(super) fn insertions(validator: &Validator<'_>, case: &Case<'_>) -> Vec<Repair> {
+pub(super) fn insertions(prepared: &Prepared<'_>, case: &Case<'_>) -> Vec<Repair> {
     let happenings = &case.trace.happenings;
     let mut repairs = Vec::new();
     let mut delayed = Vec::new();
-    let gap = validator.precision.separation;
+    let gap = prepared.precision.separation;
     let first = (happenings.len() + 1).saturating_sub(PLACES);
-    let Some(mut state) = case.state_after(validator, first) else { return Vec::new() };
+    let Some(mut state) = case.state_after(prepared, first) else { return Vec::new() };
     let mut places = Vec::new();
     for count in first..=happenings.len() {
         if count > first {
             advance(&mut state, &case.trace, count - 1..count);
-            validator.derive(&mut state, u32::MAX);
+            prepared.derive(&mut state, u32::MAX);
         }
-        places.push((count, candidates(validator, case, &state)));
+        places.push((count, candidates(prepared, case, &state)));
     }
     for (count, candidates) in places.into_iter().rev() {
         let after = match count.checked_sub(1).and_then(|last| happenings.get(last)) {
             Some(last) => last.time.plus(gap).ok(),
             None => Some(Number::ZERO),
         };
-        let Some(after) = after.and_then(decimal) else { continue };
+        let Some(after) = after.and_then(Number::decimal) else { continue };
         for (head, arguments, duration) in candidates {
             let step = |start: Decimal| TemporalStep {
                 start,
                 head,
                 arguments: arguments.clone(),
-                duration: duration.and_then(decimal),
+                duration: duration.and_then(Number::decimal),
                 span: Span::default(),
                 start_span: Span::default(),
                 duration_span: None,
@@ -51,11 +52,12 @@ pub(super) fn insertions(validator: &Validator<'_>, case: &Case<'_>) -> Vec<Repa
             let length = duration.unwrap_or(Number::ZERO);
             repairs.push(Repair::InsertAt { step: step(after), delay: Decimal::ZERO });
             // Rather at the last moment, if there is time for it.
-            let latest = case.time.minus(length).and_then(|time| time.minus(gap)).ok().and_then(decimal);
+            let latest =
+                case.time.minus(length).and_then(|time| time.minus(gap)).ok().and_then(Number::decimal);
             if let Some(latest) = latest.filter(|time| !time.is_negative() && *time != after) {
                 repairs.push(Repair::InsertAt { step: step(latest), delay: Decimal::ZERO });
             }
-            let room = length.plus(gap).and_then(|room| room.plus(gap)).ok().and_then(decimal);
+            let room = length.plus(gap).and_then(|room| room.plus(gap)).ok().and_then(Number::decimal);
             if let Some(delay) = room
                 .filter(|_| case.plan.steps.iter().any(|other| start(other) >= Number::from_decimal(after)))
             {
@@ -70,8 +72,8 @@ pub(super) fn insertions(validator: &Validator<'_>, case: &Case<'_>) -> Vec<Repa
 type Candidate = (StepHead, Vec<ObjectId>, Option<Number>);
 
 /// The steps that could start in a state and bring about something that is wanted.
-fn candidates(validator: &Validator<'_>, case: &Case<'_>, state: &State) -> Vec<Candidate> {
-    let look = Look { validator, state };
+fn candidates(prepared: &Prepared<'_>, case: &Case<'_>, state: &State) -> Vec<Candidate> {
+    let look = Look { prepared, state };
     let mut found: Vec<Candidate> = Vec::new();
     let mut offer = |head, arguments: Vec<ObjectId>| {
         if !found.iter().any(|(other, with, _)| *other == head && *with == arguments) {
@@ -79,17 +81,17 @@ fn candidates(validator: &Validator<'_>, case: &Case<'_>, state: &State) -> Vec<
         }
     };
     for want in &case.wants.list {
-        for (id, action) in validator.domain.actions.enumerate() {
-            each_match(validator, &action.variables, &action.effect, want, &mut |fixed| {
+        for (id, action) in prepared.domain.actions.enumerate() {
+            each_match(prepared, &action.variables, &action.effect, want, &mut |fixed| {
                 look.applicable(&action.variables, &[&action.precondition], &fixed, &mut |arguments| {
                     offer(StepHead::Action(id), arguments);
                 });
             });
         }
-        for (id, action) in validator.domain.durative_actions.enumerate() {
+        for (id, action) in prepared.domain.durative_actions.enumerate() {
             let conditions = conditions_at(action, &TimeSpecifier::Start);
             for timed in &action.effects {
-                each_match(validator, &action.variables, &timed.effect, want, &mut |fixed| {
+                each_match(prepared, &action.variables, &timed.effect, want, &mut |fixed| {
                     look.applicable(&action.variables, &conditions, &fixed, &mut |arguments| {
                         offer(StepHead::DurativeAction(id), arguments);
                     });
@@ -100,7 +102,7 @@ fn candidates(validator: &Validator<'_>, case: &Case<'_>, state: &State) -> Vec<
     let with_durations = found.into_iter().flat_map(|(head, arguments, _)| match head {
         StepHead::Action(_) => vec![(head, arguments, None)],
         StepHead::DurativeAction(id) => {
-            let lengths = durations(validator, state, id, &arguments);
+            let lengths = durations(prepared, state, id, &arguments);
             lengths.into_iter().map(|length| (head, arguments.clone(), Some(length))).collect()
         }
     });
@@ -109,13 +111,13 @@ fn candidates(validator: &Validator<'_>, case: &Case<'_>, state: &State) -> Vec<
 
 /// How long it may take: as little and as much as its bounds allow in this state.
 fn durations(
-    validator: &Validator<'_>,
+    prepared: &Prepared<'_>,
     state: &State,
     action: DurativeActionId,
     arguments: &[ObjectId],
 ) -> Vec<Number> {
-    let action = &validator.domain.durative_actions[action];
-    let scene = validator.scene(state, &action.variables, Clock::steps(0));
+    let action = &prepared.domain.durative_actions[action];
+    let scene = prepared.scene(state, &action.variables, Clock::steps(0));
     let mut binding = Binding::new(&action.variables, arguments);
     let mut least = Number::ZERO;
     let mut most = None;

@@ -14,16 +14,17 @@
 use super::edit::Edit;
 use crate::effect::Changes;
 use crate::effort::Effort;
-use crate::prepare::each_guard;
-use crate::run::Validator;
+use crate::prepared::Prepared;
+use crate::reads::each_guard;
+use crate::relation::Moment;
 use crate::scene::{Binding, Clock};
-use crate::state::{Moment, State};
+use crate::state::State;
 use crate::trace::Diff;
 use pddl::PlanStep;
 
 /// A plan's states, one at a time.
 pub(super) struct Track<'t, 'a> {
-    pub(super) validator: &'t Validator<'a>,
+    pub(super) prepared: &'t Prepared<'a>,
     pub(super) steps: &'t [PlanStep],
     state: State,
     /// What each step so far has changed.
@@ -38,20 +39,20 @@ pub(super) struct Track<'t, 'a> {
 }
 
 impl<'t, 'a> Track<'t, 'a> {
-    pub(super) fn new(validator: &'t Validator<'a>, steps: &'t [PlanStep], left: usize) -> Self {
-        let mut state = State::empty(validator.domain, &vec![true; validator.domain.predicates.len()]);
+    pub(super) fn new(prepared: &'t Prepared<'a>, steps: &'t [PlanStep], left: usize) -> Self {
+        let mut state = State::empty(prepared.domain, &vec![true; prepared.domain.predicates.len()]);
         // One purse for all trials.
         state.effort = Effort::for_steps(steps.len());
-        for (predicate, relation) in validator.initial.facts.enumerate() {
+        for (predicate, relation) in prepared.initial.facts.enumerate() {
             for arguments in relation.holding() {
                 state.facts[predicate].add(arguments, 0);
             }
         }
-        for (fluent, value) in validator.initial.fluents() {
+        for (fluent, value) in prepared.initial.fluents() {
             state.set_fluent(fluent.clone(), Some(value));
         }
         Self {
-            validator,
+            prepared,
             steps,
             state,
             taken: Vec::new(),
@@ -66,7 +67,7 @@ impl<'t, 'a> Track<'t, 'a> {
     /// The state, with what follows by the axioms.
     pub(super) fn state(&mut self) -> &State {
         self.moment += 1;
-        self.validator.derive(&mut self.state, self.moment);
+        self.prepared.derive(&mut self.state, self.moment);
         &self.state
     }
 
@@ -109,18 +110,18 @@ impl<'t, 'a> Track<'t, 'a> {
     pub(super) fn take(&mut self, step: &PlanStep) -> bool {
         let Some(left) = self.left.checked_sub(1) else { return false };
         self.left = left;
-        let validator = self.validator;
-        let Some(action) = validator.domain.actions.get(step.action) else { return false };
-        if validator.fits(&action.variables, &step.arguments).is_err() {
+        let prepared = self.prepared;
+        let Some(action) = prepared.domain.actions.get(step.action) else { return false };
+        if prepared.fits(&action.variables, &step.arguments).is_err() {
             return false;
         }
         self.moment += 1;
         let moment = self.moment;
-        validator.derive_for(&action.precondition, &mut self.state, moment);
-        each_guard(&action.effect, &mut |guard, _| validator.derive_for(guard, &mut self.state, moment));
+        prepared.derive_for(&action.precondition, &mut self.state, moment);
+        each_guard(&action.effect, &mut |guard, _| prepared.derive_for(guard, &mut self.state, moment));
         self.binding.reset(&action.variables, &step.arguments);
         let now = u32::try_from(self.taken.len()).unwrap_or(u32::MAX);
-        let scene = validator.scene(&self.state, &action.variables, Clock::steps(now));
+        let scene = prepared.scene(&self.state, &action.variables, Clock::steps(now));
         if !scene.holds(&action.precondition, &mut self.binding) {
             return false;
         }
@@ -138,12 +139,12 @@ impl<'t, 'a> Track<'t, 'a> {
 
     /// Whether the goal holds here.
     pub(super) fn at_goal(&mut self) -> bool {
-        let problem = self.validator.problem;
+        let problem = self.prepared.problem;
         self.moment += 1;
-        self.validator.derive_for(&problem.goal, &mut self.state, self.moment);
+        self.prepared.derive_for(&problem.goal, &mut self.state, self.moment);
         let variables = &problem.goal_variables;
         let now = u32::try_from(self.taken.len()).unwrap_or(u32::MAX);
-        let scene = self.validator.scene(&self.state, variables, Clock::steps(now));
+        let scene = self.prepared.scene(&self.state, variables, Clock::steps(now));
         scene.holds(&problem.goal, &mut Binding::new(variables, &[]))
     }
 

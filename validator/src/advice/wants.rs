@@ -2,11 +2,11 @@
 //!
 //! Derived atoms are no step's doing: what the bodies of their axioms lack is wanted in their place.
 
-use super::{each_part, parts};
 use crate::cause::{Cause, Causes};
-use crate::run::Validator;
+use crate::prepared::Prepared;
 use crate::scene::{Binding, Clock};
-use crate::state::{GroundAtom, State};
+use crate::state::State;
+use crate::value::GroundAtom;
 use crate::verdict::{Failure, Operand, Unsatisfied};
 use crate::why::Why;
 use pddl::model::GroundApplication;
@@ -37,11 +37,11 @@ pub(super) struct Wants {
 
 impl Wants {
     /// What a failure asks for; `state` is the one in which it failed, with what follows by axioms.
-    pub(super) fn of(validator: &Validator<'_>, state: &State, failure: &Failure) -> Self {
+    pub(super) fn of(prepared: &Prepared<'_>, state: &State, failure: &Failure) -> Self {
         let mut wants = Self::default();
         match failure {
             Failure::Duration { bound, .. } => wants.operand(bound),
-            _ => wants.parts(validator, state, parts(failure), DEPTH),
+            _ => wants.parts(prepared, state, failure.parts(), DEPTH),
         }
         wants
     }
@@ -58,13 +58,13 @@ impl Wants {
         }
     }
 
-    fn parts(&mut self, validator: &Validator<'_>, state: &State, parts: &[Unsatisfied], depth: usize) {
-        each_part(parts, &mut |part| match part {
+    fn parts(&mut self, prepared: &Prepared<'_>, state: &State, parts: &[Unsatisfied], depth: usize) {
+        Unsatisfied::each(parts, &mut |part| match part {
             Unsatisfied::Missing { atom, derived: true, .. } => {
-                self.derived(validator, state, atom, true, depth);
+                self.derived(prepared, state, atom, true, depth);
             }
             Unsatisfied::Present { atom, derived: true, .. } => {
-                self.derived(validator, state, atom, false, depth);
+                self.derived(prepared, state, atom, false, depth);
             }
             Unsatisfied::Missing { atom, deleted_by, .. } => {
                 self.push(Want::Holds(atom.clone()));
@@ -85,22 +85,22 @@ impl Wants {
 
     fn derived(
         &mut self,
-        validator: &Validator<'_>,
+        prepared: &Prepared<'_>,
         state: &State,
         atom: &GroundAtom,
         wanted: bool,
         depth: usize,
     ) {
         let Some(depth) = depth.checked_sub(1) else { return };
-        for axiom in validator.domain.axioms.iter().filter(|axiom| axiom.predicate == atom.predicate) {
-            if validator.fits(&axiom.variables, &atom.arguments).is_err() {
+        for axiom in prepared.domain.axioms.iter().filter(|axiom| axiom.predicate == atom.predicate) {
+            if prepared.fits(&axiom.variables, &atom.arguments).is_err() {
                 continue;
             }
-            let scene = validator.scene(state, &axiom.variables, Clock::steps(0));
-            let why = Why { depth: 0, ..validator.why(scene, Causes::Listed(&[])) };
+            let scene = prepared.scene(state, &axiom.variables, Clock::steps(0));
+            let why = Why { depth: 0, ..prepared.why(scene, Causes::Listed(&[])) };
             let mut binding = Binding::new(&axiom.variables, &atom.arguments);
             let parts = why.unsatisfied(&axiom.body, wanted, &mut binding);
-            self.parts(validator, state, &parts, depth);
+            self.parts(prepared, state, &parts, depth);
         }
     }
 }

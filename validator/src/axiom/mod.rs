@@ -20,53 +20,15 @@ mod rule;
 mod tests;
 mod update;
 
-use crate::relation::Mark;
-use crate::state::{Moment, State};
+use crate::reads::each_predicate;
+use crate::relation::Moment;
+use crate::state::State;
 use crate::universe::Universe;
 use crate::verdict::IllFormed;
-use pddl::model::{Condition, ConditionKind, Domain, Idx, IndexVec, PredicateId};
+use pddl::model::{Condition, Domain, Idx, IndexVec, PredicateId};
 use petgraph::graph::{DiGraph, NodeIndex};
 use rule::{Rule, World};
 use update::Component;
-
-/// The atoms of a condition: their predicate, and whether it is read positively.
-pub(crate) fn each_predicate(
-    condition: &Condition,
-    positive: bool,
-    visit: &mut dyn FnMut(PredicateId, bool),
-) {
-    match &condition.kind {
-        ConditionKind::And(parts) | ConditionKind::Or(parts) => {
-            for part in parts {
-                each_predicate(part, positive, visit);
-            }
-        }
-        ConditionKind::Not(part) => each_predicate(part, !positive, visit),
-        ConditionKind::Imply(if_, then) => {
-            each_predicate(if_, !positive, visit);
-            each_predicate(then, positive, visit);
-        }
-        ConditionKind::Exists(_, part) | ConditionKind::Forall(_, part) => {
-            each_predicate(part, positive, visit);
-        }
-        ConditionKind::Atom(atom) => visit(atom.predicate, positive),
-        ConditionKind::HasType(..)
-        | ConditionKind::Same(..)
-        | ConditionKind::Compare(..)
-        | ConditionKind::FluentIs(..) => {}
-    }
-}
-
-/// How far the components' readings of their inputs have come.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Lag(Vec<Option<Seen>>);
-
-/// What a component saw when it was last derived.
-#[derive(Clone, Debug)]
-struct Seen {
-    inputs: Vec<Mark>,
-    functions: Vec<u64>,
-}
 
 /// The components that something reads, each after those below it.
 #[derive(Clone, Debug, Default)]

@@ -8,8 +8,8 @@
 //!
 //! Source: Ullman, "Principles of Database and Knowledge-Base Systems", 1988, ch. 3 (semi-naive evaluation).
 
-use super::each_predicate;
-use crate::condition::{Strictness, each_function};
+use crate::condition::Strictness;
+use crate::reads::{each_function, each_predicate};
 use crate::scene::{Binding, Clock, Scene};
 use crate::solve::Query;
 use crate::state::State;

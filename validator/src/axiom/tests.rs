@@ -2,13 +2,15 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use super::{Strata, each_predicate};
+use super::Strata;
 use crate::effort::Effort;
 use crate::number::Number;
 use crate::prepare::initial_state;
+use crate::reads::each_predicate;
 use crate::scene::{Binding, Clock, Scene};
-use crate::state::{State, Value};
+use crate::state::State;
 use crate::universe::Universe;
+use crate::value::Value;
 use pddl::model::{Domain, GroundApplication, Idx, ObjectId, PredicateId, Problem};
 use pddl::{Source, parse_domain, parse_problem};
 use proptest::prelude::*;

@@ -16,10 +16,9 @@
 //!
 //! Source: Gupta, Mumick & Subrahmanian, "Maintaining views incrementally", SIGMOD 1993, §7 (DRed).
 
-use super::Seen;
 use super::rule::{Heads, Rule, World};
-use crate::relation::{Relation, Slot};
-use crate::state::{Moment, State};
+use crate::relation::{Moment, Relation, Slot};
+use crate::state::{Seen, State};
 use pddl::model::{FunctionId, PredicateId};
 use rustc_hash::FxHashSet;
 

@@ -5,12 +5,12 @@
 //! goes; interchangeable subtasks are taken in one order only. Invariant: an [`Assignment`] binds each variable
 //! that a task determines. Cost: linear where names and arguments tell the subtasks apart; bounded by a budget.
 
-use super::fault::{NetworkFault, Parent};
 use super::schema::{Schema, unify};
 use super::tree::Range;
 use crate::scene::{Binding, Clock, Scene};
 use crate::state::State;
 use crate::universe::Universe;
+use crate::verdict::{NetworkFault, Parent};
 use pddl::PlanReference;
 use pddl::model::{ObjectId, SubtaskHead, VariableId};
 use rustc_hash::FxHashMap;

@@ -8,9 +8,9 @@
 //! Source: Höller et al., "HDDL: an extension to PDDL for expressing hierarchical planning problems", AAAI 2020, §3:
 //! preconditions of methods are compiled to actions.
 
-use super::fault::Parent;
 use super::schema::Schema;
 use super::tree::references;
+use crate::verdict::Parent;
 use pddl::{DecompositionId, HierarchicalPlan, PlanNode};
 
 /// Moments are numbers of steps before them.

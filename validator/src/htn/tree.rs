@@ -3,7 +3,7 @@
 //! Invariant of a [`Tree`]: each action and task is used exactly once, and everything is below the root.
 //! Nothing recurses: a plan may be as deep as it is long.
 
-use super::fault::{NetworkFault, Parent};
+use crate::verdict::{NetworkFault, Parent};
 use pddl::model::{Idx, IndexVec};
 use pddl::{DecompositionId, HierarchicalPlan, PlanNode, PlanReference, Span};
 

@@ -5,19 +5,13 @@
 //! continuously are listed apart. Invariant: tickets are given in the order in which actions start, so that a set of
 //! them is in that order, which is the order in which what fails is told.
 
-use super::Run;
-use super::over_all;
-use super::watch::Reads;
+use super::watch::{Reads, Ticket};
 use crate::number::Number;
+use crate::plan::StepIndex;
 use crate::scene::Binding;
-use crate::verdict::StepIndex;
-use pddl::model::{DurativeAction, TimeSpecifier};
+use pddl::model::{Condition, DurativeAction, Given, TimeSpecifier};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
-
-/// The number of a durative action that has started.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(super) struct Ticket(u32);
 
 /// A durative action that runs.
 #[derive(Clone, Debug)]
@@ -54,54 +48,46 @@ impl<'v> Actives<'v> {
         self.by_ticket.get_mut(ticket.0 as usize)?.as_deref_mut().map(|(active, _)| active)
     }
 
+    /// An action runs from now on.
+    pub(super) fn insert(&mut self, active: Active<'v>, reads: Reads) -> Ticket {
+        let number = u32::try_from(self.by_ticket.len()).expect("a plan has fewer than 2^32 steps");
+        let ticket = Ticket(number);
+        self.by_step.insert(active.step, ticket);
+        if !active.action.continuous.is_empty() {
+            self.continuous.insert(ticket);
+        }
+        self.by_ticket.push(Some(Box::new((active, reads))));
+        ticket
+    }
+
+    /// The action of a step runs no longer.
+    pub(super) fn remove(&mut self, step: StepIndex) -> Option<(Ticket, Active<'v>, Reads)> {
+        let ticket = self.by_step.remove(&step)?;
+        let (active, reads) = *self.by_ticket.get_mut(ticket.0 as usize)?.take()?;
+        self.continuous.remove(&ticket);
+        Some((ticket, active, reads))
+    }
+
     /// Those with continuous effects, in the order in which they started.
     pub(super) fn continuous(&self) -> impl Iterator<Item = &Active<'v>> {
         self.continuous.iter().filter_map(|&ticket| self.get(ticket))
     }
 }
 
-impl<'v> Run<'_, 'v, '_> {
-    /// An action runs from now on.
-    pub(super) fn join(&mut self, active: Active<'v>) {
-        let number = u32::try_from(self.active.by_ticket.len()).expect("a plan has fewer than 2^32 steps");
-        let ticket = Ticket(number);
-        let reads = self.reads(&active);
-        self.watch.join(ticket, &reads);
-        self.active.by_step.insert(active.step, ticket);
-        let continuous = !active.action.continuous.is_empty();
-        self.active.by_ticket.push(Some(Box::new((active, reads))));
-        if continuous {
-            self.active.continuous.insert(ticket);
-            self.enter_lane(ticket);
-        }
-    }
+/// The conditions at a time that stand around an effect of another time.
+pub(super) fn given<'v>(given: &'v [Given], when: &TimeSpecifier) -> impl Iterator<Item = &'v Condition> {
+    let timed = given.iter().flat_map(|given| match given {
+        Given::When(conditions) => conditions.as_slice(),
+        Given::Forall(_) => &[],
+    });
+    timed.filter(move |timed| timed.when == *when).map(|timed| &timed.condition)
+}
 
-    /// The action of a step, which runs no longer.
-    pub(super) fn leave(&mut self, step: StepIndex) -> Option<Active<'v>> {
-        let ticket = self.active.by_step.remove(&step)?;
-        let (active, reads) = *self.active.by_ticket.get_mut(ticket.0 as usize)?.take()?;
-        self.active.continuous.remove(&ticket);
-        self.watch.leave(ticket, &reads);
-        self.leave_lane(ticket);
-        Some(active)
-    }
-
-    /// What must be looked at again when it changes, as long as the action runs.
-    fn reads(&self, active: &Active<'v>) -> Reads {
-        let action = active.action;
-        let mut reads = Reads::default();
-        for condition in over_all(action) {
-            self.basis.condition(condition, &active.binding, &mut reads);
-        }
-        for (effect, binding) in &active.armed {
-            for condition in super::given(&action.effects[*effect].given, &TimeSpecifier::OverAll) {
-                self.basis.condition(condition, binding, &mut reads);
-            }
-        }
-        for (preference, binding) in &active.kept {
-            self.basis.condition(&action.preferences[*preference].body.condition, binding, &mut reads);
-        }
-        reads.settle();
-        reads
-    }
+/// What must hold from just after the start until just before the end.
+pub(super) fn over_all(action: &DurativeAction) -> impl Iterator<Item = &Condition> {
+    action
+        .conditions
+        .iter()
+        .filter(|timed| timed.when == TimeSpecifier::OverAll)
+        .map(|timed| &timed.condition)
 }

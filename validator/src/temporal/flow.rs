@@ -8,21 +8,20 @@
 //! Source: Fox & Long, "PDDL2.1", JAIR 2003, §9; Howey, Long & Fox, "VAL", ICTAI 2004, §5.
 
 use crate::curve::Curve;
-use crate::expression::NumericFault;
+use crate::evolution::{curve_of, difference, numeric};
+use crate::expression::bind_functions;
 use crate::number::{NoResult, Number};
-use crate::root::{Instant, Polynomial, Root, Undecided};
-use crate::scene::{Binding, Clock, Scene};
-use crate::state::{State, Value};
-use crate::trajectory::each_instance;
+use crate::root::{Instant, Root, Undecided};
+use crate::scene::{Binding, Clock, Scene, each_instance};
+use crate::state::{Curves, Passage, State};
 use crate::universe::Universe;
-use crate::verdict::ChangeFault;
+use crate::value::Value;
+use crate::verdict::{ChangeFault, NumericFault};
 use pddl::Span;
 use pddl::model::{
-    ArithmeticOperator, Condition, ConditionKind, Direction, Expression, ExpressionKind, GroundApplication,
-    Variables,
+    Condition, ConditionKind, ContinuousEffect, Direction, Expression, GroundApplication, Variables,
 };
 use rustc_hash::FxHashMap;
-use std::cmp::Ordering;
 use std::sync::Arc;
 
 /// A continuous effect that runs.
@@ -41,70 +40,6 @@ pub(super) struct Running<'a> {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Flow {
     curves: Arc<Curves>,
-}
-
-type Curves = FxHashMap<GroundApplication, Curve>;
-
-/// An instant in the middle of continuous change at which no number says exactly what a fluent is.
-#[derive(Clone, Debug)]
-pub(crate) struct Passage {
-    curves: Arc<Curves>,
-    at: Instant,
-}
-
-impl Passage {
-    /// From now on a fluent is what the state says.
-    pub(crate) fn forget(&mut self, fluent: &GroundApplication) {
-        if self.curves.contains_key(fluent) {
-            Arc::make_mut(&mut self.curves).remove(fluent);
-        }
-    }
-
-    /// Which of two sides is greater.
-    pub(crate) fn order(
-        &self,
-        scene: Scene<'_>,
-        left: &Expression,
-        right: &Expression,
-        binding: &Binding,
-    ) -> Result<Ordering, Undecided> {
-        let difference = difference(&self.curves, left, right, scene, binding)?;
-        let polynomial = difference.map_or_else(|| Polynomial::new([]), |curve| curve.polynomial());
-        match &self.at {
-            Instant::At(number) => Ok(polynomial.sign(&number.to_rational())),
-            Instant::Root(root) => root.sign_of(&polynomial),
-        }
-    }
-}
-
-/// One side less the other; nothing if one has no value, at whatever time.
-fn difference(
-    curves: &Curves,
-    left: &Expression,
-    right: &Expression,
-    scene: Scene<'_>,
-    binding: &Binding,
-) -> Result<Option<Curve>, Undecided> {
-    let side =
-        |expression| curve_of(expression, scene, binding, &mut |fluent| Ok(curves.get(fluent).cloned()));
-    match (side(left), side(right)) {
-        (Ok(left), Ok(right)) => left.minus(&right).map(Some).map_err(|_| Undecided),
-        (
-            Err(
-                ChangeFault::Numeric(NumericFault::Overflow { .. })
-                | ChangeFault::NotPolynomialExpression { .. },
-            ),
-            _,
-        )
-        | (
-            _,
-            Err(
-                ChangeFault::Numeric(NumericFault::Overflow { .. })
-                | ChangeFault::NotPolynomialExpression { .. },
-            ),
-        ) => Err(Undecided),
-        _ => Ok(None),
-    }
 }
 
 /// What rates are read from.
@@ -268,55 +203,28 @@ impl Making<'_, '_> {
     }
 }
 
-/// The curve of a fluent, if it changes.
-type Lookup<'f> = dyn FnMut(&GroundApplication) -> Result<Option<Curve>, ChangeFault> + 'f;
-
-/// The curve of an expression.
-fn curve_of(
-    expression: &Expression,
-    scene: Scene<'_>,
-    binding: &Binding,
-    running: &mut Lookup<'_>,
-) -> Result<Curve, ChangeFault> {
-    let span = expression.span;
-    match &expression.kind {
-        ExpressionKind::Fluent(application) => {
-            let fluent = scene.ground(application, binding);
-            if let Some(curve) = running(&fluent)? {
-                return Ok(curve);
-            }
+pub(super) fn each_running<'v>(
+    scene: Scene<'v>,
+    effect: &'v ContinuousEffect,
+    mut binding: Binding,
+    running: &mut Vec<Running<'v>>,
+) -> Result<(), ChangeFault> {
+    let mut result = Ok(());
+    each_instance(scene, &effect.forall, &mut binding, &mut |binding| {
+        let mut binding = binding.clone();
+        if let Err(fault) = bind_functions(scene, &effect.functions, &mut binding) {
+            result = Err(ChangeFault::Numeric(fault));
+            return;
         }
-        ExpressionKind::Arithmetic(operator, operands) => {
-            let Some((first, rest)) = operands.split_first() else {
-                return Ok(Curve::constant(Number::ZERO));
-            };
-            let mut result = curve_of(first, scene, binding, running)?;
-            if rest.is_empty() && *operator == ArithmeticOperator::Subtract {
-                return Ok(result.negated());
-            }
-            for operand in rest {
-                let operand = curve_of(operand, scene, binding, running)?;
-                result = match operator {
-                    ArithmeticOperator::Add => result.plus(&operand),
-                    ArithmeticOperator::Subtract => result.minus(&operand),
-                    ArithmeticOperator::Multiply => result.times(&operand),
-                    ArithmeticOperator::Divide => match operand.as_constant() {
-                        Some(divisor) => result.over(divisor),
-                        None => return Err(ChangeFault::NotPolynomialExpression { span }),
-                    },
-                }
-                .map_err(|fault| numeric(fault, span))?;
-            }
-            return Ok(result);
-        }
-        ExpressionKind::Number(_)
-        | ExpressionKind::Duration
-        | ExpressionKind::TotalTime
-        | ExpressionKind::IsViolated(_) => {}
-    }
-    scene.number(expression, binding).map(Curve::constant).map_err(ChangeFault::Numeric)
-}
-
-fn numeric(fault: NoResult, span: Span) -> ChangeFault {
-    ChangeFault::Numeric(NumericFault::of(fault, span))
+        running.push(Running {
+            fluent: scene.ground(&effect.fluent, &binding),
+            direction: effect.direction,
+            rate: &effect.rate,
+            variables: scene.variables,
+            binding,
+            duration: scene.clock.duration,
+            span: effect.span,
+        });
+    });
+    result
 }

@@ -11,12 +11,12 @@
 //! targets). Deviation: conditions of conditional effects and preferences count as
 //! needed; a duration's bound does too.
 
-use super::crowd::Touch;
-use crate::axiom::{Strata, each_predicate};
+use crate::axiom::Strata;
 use crate::effect::{Changes, Write};
-use crate::scene::{Binding, Scene};
-use crate::state::{GroundAtom, State};
-use crate::trajectory::each_instance;
+use crate::reads::each_predicate;
+use crate::scene::{Binding, Scene, each_instance};
+use crate::state::State;
+use crate::value::GroundAtom;
 use crate::verdict::Shared;
 use pddl::model::{
     Application, AssignedValue, Condition, ConditionKind, Domain, Effect, EffectKind, Expression,
@@ -198,5 +198,61 @@ impl Footprint {
         });
         let first = fluents.map(|(fluent, _)| fluent).min_by_key(|f| (f.function, &f.arguments));
         first.map(|fluent| Shared::Fluent(fluent.clone()))
+    }
+}
+
+/// What two happenings may have in common, and what one of them does with it.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Touch {
+    /// It is needed.
+    Needs(GroundAtom),
+    /// It is added.
+    Adds(GroundAtom),
+    /// It is deleted.
+    Deletes(GroundAtom),
+    /// A derived predicate that is needed depends on it.
+    Below(PredicateId),
+    /// An atom of it is added or deleted.
+    Changes(PredicateId),
+    /// Its value is read.
+    Reads(GroundApplication),
+    /// It is increased or decreased.
+    Shifts(GroundApplication),
+    /// It is changed in another way.
+    Sets(GroundApplication),
+}
+
+impl Touch {
+    /// What must not happen at the same time.
+    pub(super) fn each_rival(&self, visit: &mut dyn FnMut(Self)) {
+        match self {
+            Self::Needs(atom) => {
+                visit(Self::Adds(atom.clone()));
+                visit(Self::Deletes(atom.clone()));
+            }
+            Self::Adds(atom) => {
+                visit(Self::Needs(atom.clone()));
+                visit(Self::Deletes(atom.clone()));
+            }
+            Self::Deletes(atom) => {
+                visit(Self::Needs(atom.clone()));
+                visit(Self::Adds(atom.clone()));
+            }
+            Self::Below(predicate) => visit(Self::Changes(*predicate)),
+            Self::Changes(predicate) => visit(Self::Below(*predicate)),
+            Self::Reads(fluent) => {
+                visit(Self::Shifts(fluent.clone()));
+                visit(Self::Sets(fluent.clone()));
+            }
+            Self::Shifts(fluent) => {
+                visit(Self::Reads(fluent.clone()));
+                visit(Self::Sets(fluent.clone()));
+            }
+            Self::Sets(fluent) => {
+                visit(Self::Reads(fluent.clone()));
+                visit(Self::Shifts(fluent.clone()));
+                visit(Self::Sets(fluent.clone()));
+            }
+        }
     }
 }

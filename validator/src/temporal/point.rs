@@ -4,29 +4,29 @@
 //! then the points are held against each other and against those a moment ago, and only then the state
 //! changes. So nothing sees half of a happening.
 
-use super::active::Active;
+use super::active::{Active, given};
 use super::footprint::{Footprint, Reader};
-use super::nature::bind_functions;
-use super::timeline::{Point, end, start};
-use super::{Checked, Run, given};
+use super::run::{Checked, Run};
+use super::timeline::Point;
 use crate::cause::{Cause, Causes};
 use crate::condition::compares;
 use crate::effect::Changes;
+use crate::expression::bind_functions;
 use crate::number::Number;
-use crate::prepare::each_guard;
-use crate::run::precondition;
-use crate::scene::{Binding, Clock, Scene};
-use crate::state::Value;
+use crate::plan::{StepIndex, end, start};
+use crate::preference;
+use crate::reads::each_guard;
+use crate::scene::{Binding, Clock, Scene, each_instance};
 use crate::trace::Diff;
-use crate::trajectory::each_instance;
-use crate::verdict::{Failure, StepFault, StepIndex};
+use crate::value::Value;
+use crate::verdict::{Failure, StepFault};
 use pddl::model::{
     Comparison, Condition, DurativeAction, Effect, Given, TimeSpecifier, TimedChange, VariableId, Variables,
 };
 use pddl::{StepHead, TemporalStep};
 
 /// What one point does.
-struct Deed {
+struct Outcome {
     what: Cause,
     changes: Changes,
     footprint: Footprint,
@@ -41,63 +41,64 @@ struct Part<'v> {
 }
 
 impl<'v> Run<'_, 'v, '_> {
-    /// Everything that happens at `self.now`. If it is `crowded`, order may matter.
+    /// Everything that happens at `self.now`. If it is `concurrent`, order may matter.
     pub(super) fn happening(
         &mut self,
         points: &[Point],
-        crowded: bool,
+        concurrent: bool,
         mut diff: Option<&mut Diff>,
     ) -> Checked {
-        let mut deeds = Vec::with_capacity(points.len());
+        let mut outcomes = Vec::with_capacity(points.len());
         let mut started = Vec::new();
         for point in points {
-            deeds.push(match point.what {
-                Cause::Step(index) => self.step(index, crowded)?,
+            outcomes.push(match point.what {
+                Cause::Step(index) => self.step(index, concurrent)?,
                 // Events are no points: they happen when they are due.
                 Cause::Event(_) => continue,
                 Cause::Start(index) => {
-                    let (deed, active) = self.start(index, crowded)?;
+                    let (outcome, active) = self.start(index, concurrent)?;
                     started.push(active);
-                    deed
+                    outcome
                 }
-                Cause::End(index) => self.end(index, &mut started, crowded)?,
+                Cause::End(index) => self.end(index, &mut started, concurrent)?,
                 Cause::Timed(index) => self.timed(index),
             });
         }
         for (event, footprint) in std::mem::take(&mut self.beside_timed) {
-            for deed in deeds.iter().filter(|deed| matches!(deed.what, Cause::Timed(_))) {
-                if let Some(over) = footprint.interference(&deed.footprint) {
-                    return Err(Box::new(Failure::Interference { first: event, second: deed.what, over }));
+            for outcome in outcomes.iter().filter(|outcome| matches!(outcome.what, Cause::Timed(_))) {
+                if let Some(over) = footprint.interference(&outcome.footprint) {
+                    return Err(Box::new(Failure::Interference { first: event, second: outcome.what, over }));
                 }
             }
         }
-        if crowded {
-            self.interference(&mut deeds)?;
+        if concurrent {
+            self.interference(&mut outcomes)?;
         }
-        for deed in &deeds {
-            self.causes.push(deed.what);
+        for outcome in &outcomes {
+            self.causes.push(outcome.what);
             let moment = self.moment();
-            self.watch.changed(&deed.changes);
-            if let Some(lane) = &mut self.lane {
-                deed.changes.each_write(|fluent, _| lane.wrote(fluent));
+            self.watch.changed(&outcome.changes);
+            if let Some(linear) = &mut self.linear {
+                outcome.changes.each_write(|fluent, _| linear.wrote(fluent));
             }
-            deed.changes
+            outcome
+                .changes
                 .apply(self.state, moment, diff.as_deref_mut())
-                .map_err(|fault| Box::new(Failure::Effect { at: deed.what, fault }))?;
+                .map_err(|fault| Box::new(Failure::Effect { at: outcome.what, fault }))?;
         }
         started.into_iter().for_each(|active| self.join(active));
         Ok(())
     }
 
     /// Two points that are at one time, or too near to each other, must not disturb each other.
-    fn interference(&mut self, deeds: &mut [Deed]) -> Checked {
-        self.crowd.forget(self.now, self.validator.precision.separation);
-        for deed in deeds {
-            let footprint = std::mem::take(&mut deed.footprint);
-            if let Some((first, over)) = self.crowd.in_the_way(&footprint) {
-                return Err(Box::new(Failure::Interference { first, second: deed.what, over }));
+    fn interference(&mut self, outcomes: &mut [Outcome]) -> Checked {
+        self.concurrent.forget(self.now, self.prepared.precision.separation);
+        for outcome in outcomes {
+            let footprint = std::mem::take(&mut outcome.footprint);
+            if let Some((first, over)) = self.concurrent.in_the_way(&footprint) {
+                return Err(Box::new(Failure::Interference { first, second: outcome.what, over }));
             }
-            self.crowd.push(self.now, deed.what, footprint);
+            self.concurrent.push(self.now, outcome.what, footprint);
         }
         Ok(())
     }
@@ -106,12 +107,12 @@ impl<'v> Run<'_, 'v, '_> {
         &self.plan.steps[index.0 as usize]
     }
 
-    fn step(&mut self, index: StepIndex, crowded: bool) -> Checked<Deed> {
+    fn step(&mut self, index: StepIndex, concurrent: bool) -> Checked<Outcome> {
         let step = self.plan_step(index);
         let fault = |fault| Box::new(Failure::Step { step: index, fault });
         let StepHead::Action(id) = step.head else { return Err(fault(StepFault::UnknownAction)) };
-        let action = self.validator.domain.actions.get(id).ok_or_else(|| fault(StepFault::UnknownAction))?;
-        self.validator.fits(&action.variables, &step.arguments).map_err(fault)?;
+        let action = self.prepared.domain.actions.get(id).ok_or_else(|| fault(StepFault::UnknownAction))?;
+        self.prepared.fits(&action.variables, &step.arguments).map_err(fault)?;
         let part = Part {
             variables: &action.variables,
             clock: Clock::at(self.now),
@@ -119,27 +120,27 @@ impl<'v> Run<'_, 'v, '_> {
             effects: vec![&action.effect],
         };
         let mut binding = Binding::new(&action.variables, &step.arguments);
-        let mut deed = self.deed(Cause::Step(index), &part, &mut binding, crowded)?;
+        let mut outcome = self.outcome(Cause::Step(index), &part, &mut binding, concurrent)?;
         for preference in &action.preferences {
-            if crowded {
+            if concurrent {
                 let over = &preference.forall;
-                self.read_soft(&part, over, &preference.body, &mut binding, &mut deed.footprint);
+                self.read_soft(&part, over, &preference.body, &mut binding, &mut outcome.footprint);
             }
             self.derive_for(&preference.body);
-            let scene = self.validator.scene(self.state, part.variables, part.clock);
+            let scene = self.prepared.scene(self.state, part.variables, part.clock);
             let holds = |body: &_, binding: &mut Binding| scene.holds(body, binding);
-            self.demands.violations.judge(scene, preference, &mut binding, holds);
+            preference::judge(&mut self.demands.violations, scene, preference, &mut binding, holds);
         }
-        Ok(deed)
+        Ok(outcome)
     }
 
-    fn start(&mut self, index: StepIndex, crowded: bool) -> Checked<(Deed, Active<'v>)> {
+    fn start(&mut self, index: StepIndex, concurrent: bool) -> Checked<(Outcome, Active<'v>)> {
         let step = self.plan_step(index);
         let fault = |fault| Box::new(Failure::Step { step: index, fault });
         let StepHead::DurativeAction(id) = step.head else { return Err(fault(StepFault::UnknownAction)) };
         let action =
-            self.validator.domain.durative_actions.get(id).ok_or_else(|| fault(StepFault::UnknownAction))?;
-        self.validator.fits(&action.variables, &step.arguments).map_err(fault)?;
+            self.prepared.domain.durative_actions.get(id).ok_or_else(|| fault(StepFault::UnknownAction))?;
+        self.prepared.fits(&action.variables, &step.arguments).map_err(fault)?;
         if step.duration.is_none() {
             return Err(fault(StepFault::NoDuration));
         }
@@ -152,11 +153,11 @@ impl<'v> Run<'_, 'v, '_> {
             armed: Vec::new(),
             kept: Vec::new(),
         };
-        let deed = self.half(&mut active, &TimeSpecifier::Start, crowded)?;
-        Ok((deed, active))
+        let outcome = self.half(&mut active, &TimeSpecifier::Start, concurrent)?;
+        Ok((outcome, active))
     }
 
-    fn end(&mut self, index: StepIndex, started: &mut Vec<Active<'v>>, crowded: bool) -> Checked<Deed> {
+    fn end(&mut self, index: StepIndex, started: &mut Vec<Active<'v>>, concurrent: bool) -> Checked<Outcome> {
         let mut active = match self.leave(index) {
             Some(active) => active,
             None => {
@@ -164,11 +165,11 @@ impl<'v> Run<'_, 'v, '_> {
                 started.remove(now.expect("an end comes after its start"))
             }
         };
-        self.half(&mut active, &TimeSpecifier::End, crowded)
+        self.half(&mut active, &TimeSpecifier::End, concurrent)
     }
 
     /// The start or the end of a durative action.
-    fn half(&mut self, active: &mut Active<'v>, when: &TimeSpecifier, crowded: bool) -> Checked<Deed> {
+    fn half(&mut self, active: &mut Active<'v>, when: &TimeSpecifier, concurrent: bool) -> Checked<Outcome> {
         let action = active.action;
         let clock = Clock { duration: Some(active.duration), ..Clock::at(self.now) };
         self.duration(active, when, clock)?;
@@ -187,29 +188,33 @@ impl<'v> Run<'_, 'v, '_> {
             TimeSpecifier::Start => Cause::Start(active.step),
             _ => Cause::End(active.step),
         };
-        let mut deed = self.deed(what, &part, &mut active.binding, crowded)?;
-        if crowded {
-            self.read_bounds(active, when, clock, &mut deed.footprint);
+        let mut outcome = self.outcome(what, &part, &mut active.binding, concurrent)?;
+        if concurrent {
+            self.read_bounds(active, when, clock, &mut outcome.footprint);
         }
         match when {
             TimeSpecifier::Start => {
-                self.arm(active, &mut deed.footprint);
+                self.arm(active, &mut outcome.footprint);
                 self.keep(active, clock);
             }
-            _ => self.discharge(active, &mut deed)?,
+            _ => self.discharge(active, &mut outcome)?,
         }
         for preference in action.preferences.iter().filter(|p| p.body.when == *when) {
-            if crowded {
+            if concurrent {
                 let (over, body) = (&preference.forall, &preference.body.condition);
-                self.read_soft(&part, over, body, &mut active.binding, &mut deed.footprint);
+                self.read_soft(&part, over, body, &mut active.binding, &mut outcome.footprint);
             }
             self.derive_for(&preference.body.condition);
-            let scene = self.validator.scene(self.state, part.variables, part.clock);
-            self.demands.violations.judge(scene, preference, &mut active.binding, |body, binding| {
-                scene.holds(&body.condition, binding)
-            });
+            let scene = self.prepared.scene(self.state, part.variables, part.clock);
+            preference::judge(
+                &mut self.demands.violations,
+                scene,
+                preference,
+                &mut active.binding,
+                |body, binding| scene.holds(&body.condition, binding),
+            );
         }
-        Ok(deed)
+        Ok(outcome)
     }
 
     /// What a preference reads: like the condition of an effect that counts its violation.
@@ -221,15 +226,15 @@ impl<'v> Run<'_, 'v, '_> {
         binding: &mut Binding,
         into: &mut Footprint,
     ) {
-        let scene = self.validator.scene(self.state, part.variables, part.clock);
-        let reader = Reader { scene, strata: &self.validator.strata, dependencies: &self.dependencies };
+        let scene = self.prepared.scene(self.state, part.variables, part.clock);
+        let reader = Reader { scene, strata: &self.prepared.strata, dependencies: &self.dependencies };
         each_instance(scene, over, binding, &mut |binding| reader.condition(body, binding, into));
     }
 
     /// What the bounds of the duration read.
     fn read_bounds(&self, active: &Active<'v>, when: &TimeSpecifier, clock: Clock<'_>, into: &mut Footprint) {
-        let scene = self.validator.scene(self.state, &active.action.variables, clock);
-        let reader = Reader { scene, strata: &self.validator.strata, dependencies: &self.dependencies };
+        let scene = self.prepared.scene(self.state, &active.action.variables, clock);
+        let reader = Reader { scene, strata: &self.prepared.strata, dependencies: &self.dependencies };
         for constraint in active.action.duration.iter().filter(|constraint| constraint.when == *when) {
             reader.expression(&constraint.bound, &active.binding, into);
             for term in &constraint.functions {
@@ -241,7 +246,7 @@ impl<'v> Run<'_, 'v, '_> {
     /// Notes the preferences over the whole time.
     fn keep(&self, active: &mut Active<'v>, clock: Clock<'_>) {
         let action = active.action;
-        let scene = self.validator.scene(self.state, &action.variables, clock);
+        let scene = self.prepared.scene(self.state, &action.variables, clock);
         for (index, preference) in action.preferences.iter().enumerate() {
             if preference.body.when == TimeSpecifier::OverAll {
                 each_instance(scene, &preference.forall, &mut active.binding, &mut |binding| {
@@ -257,8 +262,8 @@ impl<'v> Run<'_, 'v, '_> {
         let clock = Clock { duration: Some(active.duration), ..Clock::at(self.now) };
         for (index, timed) in action.effects.iter().enumerate().filter(|(_, timed)| !timed.given.is_empty()) {
             given(&timed.given, &TimeSpecifier::Start).for_each(|condition| self.derive_for(condition));
-            let scene = self.validator.scene(self.state, &action.variables, clock);
-            let reader = Reader { scene, strata: &self.validator.strata, dependencies: &self.dependencies };
+            let scene = self.prepared.scene(self.state, &action.variables, clock);
+            let reader = Reader { scene, strata: &self.prepared.strata, dependencies: &self.dependencies };
             let slots: Vec<VariableId> = timed
                 .given
                 .iter()
@@ -282,28 +287,29 @@ impl<'v> Run<'_, 'v, '_> {
     }
 
     /// Collects the effects that were armed at the start.
-    fn discharge(&mut self, active: &mut Active<'v>, deed: &mut Deed) -> Checked {
+    fn discharge(&mut self, active: &mut Active<'v>, outcome: &mut Outcome) -> Checked {
         let action = active.action;
         let clock = Clock { duration: Some(active.duration), ..Clock::at(self.now) };
         for (index, mut binding) in std::mem::take(&mut active.armed) {
             let timed = &action.effects[index];
             given(&timed.given, &TimeSpecifier::End).for_each(|condition| self.derive_for(condition));
             each_guard(&timed.effect, &mut |guard, _| self.derive_for(guard));
-            let scene = self.validator.scene(self.state, &action.variables, clock);
-            let reader = Reader { scene, strata: &self.validator.strata, dependencies: &self.dependencies };
+            let scene = self.prepared.scene(self.state, &action.variables, clock);
+            let reader = Reader { scene, strata: &self.prepared.strata, dependencies: &self.dependencies };
             let mut holds = true;
             for condition in given(&timed.given, &TimeSpecifier::End) {
-                reader.condition(condition, &mut binding, &mut deed.footprint);
+                reader.condition(condition, &mut binding, &mut outcome.footprint);
                 holds &= scene.holds(condition, &mut binding);
             }
             if holds {
-                reader.effect(&timed.effect, &mut binding, &mut deed.footprint);
-                deed.changes
+                reader.effect(&timed.effect, &mut binding, &mut outcome.footprint);
+                outcome
+                    .changes
                     .collect(scene, &timed.effect, &mut binding)
-                    .map_err(|fault| Box::new(Failure::Effect { at: deed.what, fault }))?;
+                    .map_err(|fault| Box::new(Failure::Effect { at: outcome.what, fault }))?;
             }
         }
-        deed.footprint.changes(&deed.changes);
+        outcome.footprint.changes(&outcome.changes);
         Ok(())
     }
 
@@ -311,14 +317,14 @@ impl<'v> Run<'_, 'v, '_> {
     fn duration(&mut self, active: &mut Active<'v>, when: &TimeSpecifier, clock: Clock<'_>) -> Checked {
         let action = active.action;
         for constraint in action.duration.iter().filter(|constraint| constraint.when == *when) {
-            let scene = self.validator.scene(self.state, &action.variables, clock);
+            let scene = self.prepared.scene(self.state, &action.variables, clock);
             let bound = bind_functions(scene, &constraint.functions, &mut active.binding)
                 .and_then(|()| scene.number(&constraint.bound, &active.binding));
             let fits = bound.as_ref().is_ok_and(|&bound| {
-                within(constraint.comparison, active.duration, bound, self.validator.precision.tolerance)
+                within(constraint.comparison, active.duration, bound, self.prepared.precision.tolerance)
             });
             if !fits {
-                let why = self.validator.why(scene, Causes::Listed(&self.causes));
+                let why = self.prepared.why(scene, Causes::Listed(&self.causes));
                 return Err(Box::new(Failure::Duration {
                     step: active.step,
                     actual: active.duration,
@@ -331,9 +337,9 @@ impl<'v> Run<'_, 'v, '_> {
         Ok(())
     }
 
-    fn timed(&self, index: u32) -> Deed {
+    fn timed(&self, index: u32) -> Outcome {
         let mut changes = Changes::default();
-        let timed = &self.validator.problem.timed[index as usize];
+        let timed = &self.prepared.problem.timed[index as usize];
         match &timed.change {
             TimedChange::Add(fact) => changes.add(fact.predicate, &fact.arguments),
             TimedChange::Delete(fact) => changes.delete(fact.predicate, &fact.arguments),
@@ -344,22 +350,29 @@ impl<'v> Run<'_, 'v, '_> {
         }
         let mut footprint = Footprint::default();
         footprint.changes(&changes);
-        Deed { what: Cause::Timed(index), changes, footprint }
+        Outcome { what: Cause::Timed(index), changes, footprint }
     }
 
     /// Judges the conditions and collects the changes.
-    fn deed(&mut self, what: Cause, part: &Part<'v>, binding: &mut Binding, crowded: bool) -> Checked<Deed> {
+    fn outcome(
+        &mut self,
+        what: Cause,
+        part: &Part<'v>,
+        binding: &mut Binding,
+        concurrent: bool,
+    ) -> Checked<Outcome> {
         for condition in &part.conditions {
             self.derive_for(condition);
         }
         for effect in &part.effects {
             each_guard(effect, &mut |guard, _| self.derive_for(guard));
         }
-        let scene = self.validator.scene(self.state, part.variables, part.clock);
+        let scene = self.prepared.scene(self.state, part.variables, part.clock);
         for condition in &part.conditions {
             if !scene.holds(condition, binding) {
                 let causes = Causes::Listed(&self.causes);
-                return Err(precondition(what, self.validator.lacks(scene, causes, condition, binding)));
+                let parts = self.prepared.lacks(scene, causes, condition, binding);
+                return Err(Box::new(Failure::Precondition { at: what, parts }));
             }
         }
         let mut changes = Changes::default();
@@ -369,15 +382,15 @@ impl<'v> Run<'_, 'v, '_> {
                 .map_err(|fault| Box::new(Failure::Effect { at: what, fault }))?;
         }
         let mut footprint = Footprint::default();
-        if crowded {
+        if concurrent {
             self.read(scene, part, binding, &mut footprint);
             footprint.changes(&changes);
         }
-        Ok(Deed { what, changes, footprint })
+        Ok(Outcome { what, changes, footprint })
     }
 
     fn read(&self, scene: Scene<'_>, part: &Part<'v>, binding: &mut Binding, into: &mut Footprint) {
-        let reader = Reader { scene, strata: &self.validator.strata, dependencies: &self.dependencies };
+        let reader = Reader { scene, strata: &self.prepared.strata, dependencies: &self.dependencies };
         for condition in &part.conditions {
             reader.condition(condition, binding, into);
         }

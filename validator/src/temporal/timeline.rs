@@ -8,35 +8,15 @@
 
 use crate::cause::Cause;
 use crate::number::Number;
-use crate::verdict::StepIndex;
+use crate::plan::{StepIndex, end, start};
 use pddl::model::Problem;
-use pddl::{StepHead, TemporalPlan, TemporalStep};
+use pddl::{StepHead, TemporalPlan};
 
 /// Something that happens at a time.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Point {
     pub(super) time: Number,
     pub(super) what: Cause,
-}
-
-/// The start of a step.
-pub(crate) fn start(step: &TemporalStep) -> Number {
-    Number::from_decimal(step.start)
-}
-
-/// The end of a step; its start if it takes no time or does not say how long it takes.
-pub(crate) fn end(step: &TemporalStep) -> Number {
-    let duration = match (step.head, step.duration) {
-        (StepHead::DurativeAction(_), Some(duration)) => Number::from_decimal(duration),
-        _ => Number::ZERO,
-    };
-    // Two decimals of a file have a sum, if need be a rounded one.
-    start(step).plus(duration).unwrap_or(Number::MAX).max(start(step))
-}
-
-/// When the last step ends.
-pub(crate) fn makespan(plan: &TemporalPlan) -> Number {
-    plan.steps.iter().map(end).max().unwrap_or(Number::ZERO)
 }
 
 /// Everything that happens, by time; what happens at one time in the order of the file, a step's start before its end.

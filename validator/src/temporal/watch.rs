@@ -12,13 +12,12 @@
 //!
 //! Cost: of a change, one look-up, three with open variables, and those listed; of an action, what its conditions read.
 
-use super::active::Ticket;
 use super::footprint::Dependencies;
 use crate::axiom::Strata;
-use crate::condition::each_function;
 use crate::effect::Changes;
+use crate::reads::each_function;
 use crate::scene::Binding;
-use crate::state::GroundAtom;
+use crate::value::GroundAtom;
 use pddl::model::{
     Condition, ConditionKind, Domain, Expression, ExpressionKind, FunctionId, GroundApplication, ObjectId,
     PredicateId, Term,
@@ -26,6 +25,10 @@ use pddl::model::{
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeSet;
 use std::hash::Hash;
+
+/// The number of a durative action that has started.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) struct Ticket(pub(super) u32);
 
 /// What a condition reads.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

@@ -16,8 +16,9 @@ use super::grammar::{Grammar, Purse, Rule, RuleId, Spent, Symbol, SymbolId};
 use crate::condition::Strictness;
 use crate::effort::Effort;
 use crate::htn::schema::{Schema, unify};
+use crate::prepared::Prepared;
+use crate::reads::each_predicate;
 use crate::relation::Relation;
-use crate::run::Validator;
 use crate::scene::{Binding, Clock};
 use crate::sequential;
 use crate::state::State;
@@ -47,7 +48,7 @@ struct Form<'a> {
 type Objects = Box<[ObjectId]>;
 
 struct Grounding<'g, 'a> {
-    validator: &'g Validator<'a>,
+    prepared: &'g Prepared<'a>,
     forms: Vec<Form<'a>>,
     /// Which forms have such a subtask, and where.
     occurrences: FxHashMap<SubtaskHead, Vec<(usize, usize)>>,
@@ -70,11 +71,11 @@ struct Instance {
 
 /// Makes the grammar; the plan's steps must be such that they can be taken.
 pub(super) fn ground(
-    validator: &Validator<'_>,
+    prepared: &Prepared<'_>,
     plan: &SequentialPlan,
     purse: &mut Purse,
 ) -> Result<Ground, Spent> {
-    let mut grounding = Grounding::new(validator, plan, purse)?;
+    let mut grounding = Grounding::new(prepared, plan, purse)?;
     grounding.close(plan, purse)?;
     if grounding.roots.is_empty() {
         return Ok(Ground::Impossible(grounding.impossible()));
@@ -83,8 +84,8 @@ pub(super) fn ground(
 }
 
 impl<'g, 'a> Grounding<'g, 'a> {
-    fn new(validator: &'g Validator<'a>, plan: &SequentialPlan, purse: &mut Purse) -> Result<Self, Spent> {
-        let domain = validator.domain;
+    fn new(prepared: &'g Prepared<'a>, plan: &SequentialPlan, purse: &mut Purse) -> Result<Self, Spent> {
+        let domain = prepared.domain;
         let mut table = State::empty(domain, &vec![true; domain.predicates.len()]);
         table.effort = Effort::for_steps(plan.steps.len());
         let heads = domain.tasks.ids().map(SubtaskHead::Task);
@@ -100,7 +101,7 @@ impl<'g, 'a> Grounding<'g, 'a> {
             table.derived.push(Relation::plain());
         }
         let methods = domain.methods.enumerate().map(|(id, method)| (Some(id), Schema::of_method(method)));
-        let root = validator.problem.htn.as_ref();
+        let root = prepared.problem.htn.as_ref();
         let root = root.map(|(variables, network)| (None, Schema::of_problem(variables, network)));
         let mut forms = Vec::new();
         let mut occurrences = FxHashMap::<SubtaskHead, Vec<(usize, usize)>>::default();
@@ -116,7 +117,7 @@ impl<'g, 'a> Grounding<'g, 'a> {
             forms.push(Form { method, schema, query });
         }
         let mut grounding = Self {
-            validator,
+            prepared,
             forms,
             occurrences,
             table,
@@ -134,21 +135,21 @@ impl<'g, 'a> Grounding<'g, 'a> {
 
     /// Enters what holds at some moment.
     fn fill(&mut self, plan: &SequentialPlan, purse: &mut Purse) -> Result<(), Spent> {
-        let validator = self.validator;
+        let prepared = self.prepared;
         let mut read = Vec::new();
         for form in &self.forms {
-            crate::axiom::each_predicate(&form.query, true, &mut |predicate, _| {
-                if predicate.index() < validator.domain.predicates.len() && !read.contains(&predicate) {
+            each_predicate(&form.query, true, &mut |predicate, _| {
+                if predicate.index() < prepared.domain.predicates.len() && !read.contains(&predicate) {
                     read.push(predicate);
                 }
             });
         }
-        let derived = read.iter().any(|&predicate| validator.strata.derives(predicate));
+        let derived = read.iter().any(|&predicate| prepared.strata.derives(predicate));
         let table = &mut self.table;
         let mut outcome = Ok(());
-        walk(validator, plan, &mut |slot, state| {
+        sequential::replay(prepared, plan.steps.iter(), plan.steps.len(), &mut |slot, state| {
             if derived {
-                validator.derive(state, slot);
+                prepared.derive(state, slot);
             }
             for &predicate in &read {
                 for arguments in state.facts[predicate].holding().chain(state.derived[predicate].holding()) {
@@ -197,21 +198,21 @@ impl<'g, 'a> Grounding<'g, 'a> {
         given: Option<(usize, &[ObjectId])>,
         purse: &mut Purse,
     ) -> Result<(), Spent> {
-        let validator = self.validator;
+        let prepared = self.prepared;
         let form = &self.forms[index];
         let schema = &form.schema;
         let mut binding = Binding::new(schema.variables, &[]);
         binding.reset(schema.variables, &[]);
         if let Some((place, objects)) = given {
             let terms = &schema.network.subtasks[place].arguments;
-            let (universe, variables) = (&validator.universe, schema.variables);
+            let (universe, variables) = (&prepared.universe, schema.variables);
             if unify(universe, variables, terms, objects, &mut binding, &mut Vec::new()).is_err() {
                 return Ok(());
             }
         }
         let open: Vec<VariableId> =
             schema.determined.iter().copied().filter(|&v| binding.get(v).is_none()).collect();
-        let scene = validator.scene(&self.table, schema.variables, Clock::steps(0));
+        let scene = prepared.scene(&self.table, schema.variables, Clock::steps(0));
         let mut found = Vec::new();
         let mut outcome = Ok(());
         let guards = [(&form.query, true)];
@@ -244,9 +245,9 @@ impl<'g, 'a> Grounding<'g, 'a> {
         match self.forms[form].method {
             None => self.roots.push(index),
             Some(method) => {
-                let task = self.validator.domain.methods[method].task;
+                let task = self.prepared.domain.methods[method].task;
                 let objects = self.objects(&instance, self.forms[form].schema.task_arguments);
-                if self.validator.fits(&self.validator.domain.tasks[task].variables, &objects).is_err() {
+                if self.prepared.fits(&self.prepared.domain.tasks[task].variables, &objects).is_err() {
                     return;
                 }
                 let head = SubtaskHead::Task(task);
@@ -274,14 +275,14 @@ impl<'g, 'a> Grounding<'g, 'a> {
 
     /// The subtasks of the problem's network that nothing is there for; all, if that does not tell.
     fn impossible(&self) -> Vec<Span> {
-        let Some((variables, network)) = &self.validator.problem.htn else { return Vec::new() };
+        let Some((variables, network)) = &self.prepared.problem.htn else { return Vec::new() };
         let nothing_for = |subtask: &&pddl::model::Subtask| {
             let Some(&table) = self.tables.get(&subtask.head) else { return true };
             let mut tuples = self.table.facts[table].holding();
             !tuples.any(|objects| {
                 let mut binding = Binding::default();
                 binding.reset(variables, &[]);
-                let universe = &self.validator.universe;
+                let universe = &self.prepared.universe;
                 unify(universe, variables, &subtask.arguments, objects, &mut binding, &mut Vec::new()).is_ok()
             })
         };
@@ -371,12 +372,12 @@ impl<'g, 'a> Grounding<'g, 'a> {
         symbols: &mut IndexVec<SymbolId, Symbol>,
         purse: &mut Purse,
     ) -> Result<(), Spent> {
-        let validator = self.validator;
+        let prepared = self.prepared;
         let mut holds = vec![Vec::with_capacity(plan.steps.len() + 1); guards.len()];
         let mut bindings: Vec<Binding> =
             guards.iter().map(|&(_, instance)| self.binding(&self.instances[instance])).collect();
         let mut outcome = Ok(());
-        let spent = walk(validator, plan, &mut |slot, state| {
+        let enough = sequential::replay(prepared, plan.steps.iter(), plan.steps.len(), &mut |slot, state| {
             for ((&(_, instance), holds), binding) in guards.iter().zip(&mut holds).zip(&mut bindings) {
                 let schema = &self.forms[self.instances[instance].form].schema;
                 let Some(precondition) = &schema.precondition else { continue };
@@ -384,13 +385,13 @@ impl<'g, 'a> Grounding<'g, 'a> {
                     return;
                 }
                 outcome = purse.spend(2);
-                validator.derive_for(precondition, state, slot);
-                let scene = validator.scene(state, schema.variables, Clock::steps(slot));
+                prepared.derive_for(precondition, state, slot);
+                let scene = prepared.scene(state, schema.variables, Clock::steps(slot));
                 holds.push(scene.holds(precondition, binding));
             }
         });
         outcome?;
-        if spent {
+        if !enough {
             return Err(Spent);
         }
         for (&(symbol, _), holds) in guards.iter().zip(holds) {
@@ -398,15 +399,6 @@ impl<'g, 'a> Grounding<'g, 'a> {
         }
         Ok(())
     }
-}
-
-/// Shows the state at each moment; answers whether the effort was spent on the way.
-fn walk(validator: &Validator<'_>, plan: &SequentialPlan, visit: &mut dyn FnMut(u32, &mut State)) -> bool {
-    let mut state = validator.initial.clone();
-    state.effort = Effort::for_steps(plan.steps.len());
-    // Whether the goal holds was judged before.
-    let _ = sequential::run(validator, plan.steps.iter(), &mut state, None, visit);
-    state.effort.is_spent()
 }
 
 /// That all subtasks are there, and what of the precondition can be asked of all moments together.

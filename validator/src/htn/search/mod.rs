@@ -14,9 +14,10 @@ mod progress;
 mod rebuild;
 mod situation;
 
-use super::fault::Shortfall;
-use crate::run::Validator;
-use crate::verdict::StepIndex;
+use crate::effort::Patience;
+use crate::plan::StepIndex;
+use crate::prepared::Prepared;
+use crate::verdict::Shortfall;
 use grammar::{Grammar, Purse, Spent, Symbol, SymbolId};
 use ground::{Ground, ground};
 use outlook::Outlook;
@@ -31,28 +32,6 @@ const REBUILD: u64 = 300_000;
 /// What each round of the search may cost from each end.
 const ROUNDS: [u64; 3] = [60_000, 600_000, 6_000_000];
 
-/// How a search that is one of many is kept short: what it may cost is divided by this.
-const BRIEF: u64 = 30;
-
-/// How much a plan is worth that does not say how it comes out of its task network.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Patience {
-    /// It is the plan that was asked about.
-    #[default]
-    Full,
-    /// It is one of many that are tried.
-    Brief,
-}
-
-impl Patience {
-    const fn of(self, price: u64) -> u64 {
-        match self {
-            Self::Full => price,
-            Self::Brief => price / BRIEF,
-        }
-    }
-}
-
 /// What a search for a decomposition comes to.
 pub(super) enum Outcome {
     /// One decomposition.
@@ -63,14 +42,14 @@ pub(super) enum Outcome {
     Limit,
 }
 
-pub(super) fn search(validator: &Validator<'_>, plan: &SequentialPlan) -> Outcome {
-    decide(validator, plan).unwrap_or(Outcome::Limit)
+pub(super) fn search(prepared: &Prepared<'_>, plan: &SequentialPlan) -> Outcome {
+    decide(prepared, plan).unwrap_or(Outcome::Limit)
 }
 
-fn decide(validator: &Validator<'_>, plan: &SequentialPlan) -> Result<Outcome, Spent> {
-    let patience = validator.patience;
+fn decide(prepared: &Prepared<'_>, plan: &SequentialPlan) -> Result<Outcome, Spent> {
+    let patience = prepared.patience;
     let mut purse = Purse(patience.of(GROUND));
-    let grammar = match ground(validator, plan, &mut purse)? {
+    let grammar = match ground(prepared, plan, &mut purse)? {
         Ground::Grammar(grammar) => grammar,
         Ground::Impossible(spans) => return Ok(Outcome::None(Shortfall::Subtasks(spans))),
     };

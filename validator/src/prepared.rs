@@ -1,74 +1,21 @@
-//! One task, any number of plans of any kind.
-//!
-//! [`Validator`] prepares a task once (extents, strata, the initial state) and then judges plans. Cost of
-//! a plan: the initial state is copied once, then each step pays for its own conditions and effects only.
+//! A task, prepared once for any number of plans: extents, strata, the initial state.
 
 use crate::axiom::{Needs, Strata};
-use crate::cause::{Cause, Causes};
+use crate::cause::Causes;
 use crate::demands::Demands;
-use crate::effort::Effort;
-use crate::htn::{Patience, Stop};
+use crate::effort::Patience;
 use crate::number::Number;
+use crate::preference::judge;
 use crate::prepare::{derived_in_effect, initial_state};
+use crate::relation::Moment;
 use crate::scene::{Binding, Clock, Scene};
-use crate::state::{Moment, State};
-use crate::trace::Trace;
+use crate::state::State;
 use crate::trajectory::Asked;
 use crate::universe::Universe;
 use crate::verdict::{Failure, Feature, MetricValue, StepFault, Unsatisfied, Unsupported, Valid, Verdict};
 use crate::why::{DEPTH, Why};
+use pddl::Span;
 use pddl::model::{Condition, Domain, Given, ObjectId, Problem, TimeSpecifier, TimedEffect, Variables};
-use pddl::{HierarchicalPlan, Plan, SequentialPlan, Span, TemporalPlan};
-
-/// A plan of any kind.
-#[derive(Clone, Copy, Debug)]
-pub enum PlanRef<'p> {
-    /// One action after the other.
-    Sequential(&'p SequentialPlan),
-    /// Actions with times.
-    Temporal(&'p TemporalPlan),
-    /// Actions, and the tasks that they carry out.
-    Hierarchical(&'p HierarchicalPlan),
-}
-
-impl PlanRef<'_> {
-    /// How many steps it has.
-    pub(crate) fn steps(self) -> usize {
-        match self {
-            Self::Sequential(plan) => plan.steps.len(),
-            Self::Temporal(plan) => plan.steps.len(),
-            Self::Hierarchical(plan) => plan.steps.len(),
-        }
-    }
-}
-
-impl<'p> From<&'p Plan> for PlanRef<'p> {
-    fn from(plan: &'p Plan) -> Self {
-        match plan {
-            Plan::Sequential(plan) => Self::Sequential(plan),
-            Plan::Temporal(plan) => Self::Temporal(plan),
-            Plan::Hierarchical(plan) => Self::Hierarchical(plan),
-        }
-    }
-}
-
-impl<'p> From<&'p SequentialPlan> for PlanRef<'p> {
-    fn from(plan: &'p SequentialPlan) -> Self {
-        Self::Sequential(plan)
-    }
-}
-
-impl<'p> From<&'p TemporalPlan> for PlanRef<'p> {
-    fn from(plan: &'p TemporalPlan) -> Self {
-        Self::Temporal(plan)
-    }
-}
-
-impl<'p> From<&'p HierarchicalPlan> for PlanRef<'p> {
-    fn from(plan: &'p HierarchicalPlan) -> Self {
-        Self::Hierarchical(plan)
-    }
-}
 
 /// How exactly the times of a plan must be kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,17 +33,9 @@ impl Default for Precision {
     }
 }
 
-/// Judges one plan.
-pub fn validate<'p>(domain: &Domain, problem: &Problem, plan: impl Into<PlanRef<'p>>) -> Verdict {
-    match Validator::new(domain, problem) {
-        Ok(validator) => validator.validate(plan),
-        Err(refusal) => *refusal,
-    }
-}
-
 /// A task, ready to judge plans.
 #[derive(Clone, Debug)]
-pub struct Validator<'a> {
+pub(crate) struct Prepared<'a> {
     pub(crate) domain: &'a Domain,
     pub(crate) problem: &'a Problem,
     pub(crate) precision: Precision,
@@ -106,12 +45,12 @@ pub struct Validator<'a> {
     pub(crate) initial: State,
 }
 
-impl<'a> Validator<'a> {
+impl<'a> Prepared<'a> {
     /// Prepares a task.
     ///
     /// # Errors
     /// With [`Verdict::Unsupported`] or [`Verdict::IllFormed`] for a task under which no plan can be judged.
-    pub fn new(domain: &'a Domain, problem: &'a Problem) -> Result<Self, Box<Verdict>> {
+    pub(crate) fn new(domain: &'a Domain, problem: &'a Problem) -> Result<Self, Box<Verdict>> {
         if let Some(unsupported) = unsupported(domain, problem) {
             return Err(Box::new(Verdict::Unsupported(unsupported)));
         }
@@ -142,85 +81,6 @@ impl<'a> Validator<'a> {
             strata,
             initial,
         })
-    }
-
-    /// The same with another precision.
-    #[must_use]
-    pub fn with_precision(mut self, precision: Precision) -> Self {
-        self.precision = precision;
-        self
-    }
-
-    /// The same for plans that are many.
-    #[must_use]
-    pub(crate) fn with_patience(mut self, patience: Patience) -> Self {
-        self.patience = patience;
-        self
-    }
-
-    /// Judges a plan.
-    pub fn validate<'p>(&self, plan: impl Into<PlanRef<'p>>) -> Verdict {
-        self.run(plan.into(), None)
-    }
-
-    /// Judges a plan, and answers what each step changed.
-    pub fn trace<'p>(&self, plan: impl Into<PlanRef<'p>>) -> (Verdict, Trace) {
-        let mut trace = Trace::default();
-        let verdict = self.run(plan.into(), Some(&mut trace));
-        (verdict, trace)
-    }
-
-    fn run(&self, plan: PlanRef<'_>, trace: Option<&mut Trace>) -> Verdict {
-        let network = self.problem.htn.as_ref();
-        let unsupported = |feature, span| Verdict::Unsupported(Unsupported { feature, span });
-        let mut state = self.initial.clone();
-        state.effort = Effort::for_steps(plan.steps());
-        let result = match (plan, self.needs_times()) {
-            (PlanRef::Temporal(plan), _) => match network {
-                Some(_) => return unsupported(Feature::TimedTaskNetwork, self.problem.goal_span),
-                None => crate::temporal::run(self, plan, &mut state, trace),
-            },
-            // A plan without steps is one of any kind.
-            (PlanRef::Sequential(plan), Some(_)) if plan.steps.is_empty() && network.is_none() => {
-                crate::temporal::run(self, &TemporalPlan::default(), &mut state, trace)
-            }
-            (_, Some(unsupported)) => return Verdict::Unsupported(unsupported),
-            (PlanRef::Sequential(plan), None) if network.is_some() => {
-                match crate::htn::run_undecomposed(self, plan, &mut state, trace) {
-                    Ok(valid) => Ok(valid),
-                    Err(Stop::Failure(failure)) => Err(failure),
-                    Err(Stop::Unsupported(unsupported)) => return Verdict::Unsupported(unsupported),
-                }
-            }
-            (PlanRef::Sequential(plan), None) => {
-                crate::sequential::run(self, plan.steps.iter(), &mut state, trace, &mut |_, _| ())
-            }
-            (PlanRef::Hierarchical(plan), None) => match crate::htn::run(self, plan, &mut state, trace) {
-                Ok(valid) => Ok(valid),
-                Err(Stop::Failure(failure)) => Err(failure),
-                Err(Stop::Unsupported(unsupported)) => return Verdict::Unsupported(unsupported),
-            },
-        };
-        if state.effort.is_spent() {
-            return unsupported(Feature::TooMuch, self.problem.goal_span);
-        }
-        if state.effort.is_undecided() {
-            return unsupported(Feature::Undecided, self.problem.goal_span);
-        }
-        match result {
-            Ok(valid) => Verdict::Valid(valid),
-            Err(failure) => Verdict::Invalid(*failure),
-        }
-    }
-
-    /// What in the task only a plan with times can be judged under.
-    fn needs_times(&self) -> Option<Unsupported> {
-        let features = [
-            (self.problem.timed.first().map(|timed| timed.span), Feature::TimesMissingForProblem),
-            (self.domain.processes.iter().next().map(|process| process.span), Feature::TimesMissingForDomain),
-            (self.domain.events.iter().next().map(|event| event.span), Feature::TimesMissingForDomain),
-        ];
-        features.into_iter().find_map(|(span, feature)| Some(Unsupported { feature, span: span? }))
     }
 
     /// The demands on a plan that has yet to begin.
@@ -316,7 +176,9 @@ impl<'a> Validator<'a> {
         demands.count_soft();
         let mut violations = demands.violations;
         for preference in &self.problem.preferences {
-            violations.judge(scene, preference, &mut binding, |body, binding| scene.holds(body, binding));
+            judge(&mut violations, scene, preference, &mut binding, |body, binding| {
+                scene.holds(body, binding)
+            });
         }
         let clock = Clock { violations: Some(&violations), ..Clock::at(total_time) };
         let scene = self.scene(state, variables, clock);
@@ -335,11 +197,6 @@ pub(crate) struct End<'s> {
     pub(crate) total_time: Number,
     pub(crate) makespan: Option<Number>,
     pub(crate) steps: u32,
-}
-
-/// Something that can be blamed for the failure of a condition at a moment.
-pub(crate) fn precondition(at: Cause, parts: Vec<Unsatisfied>) -> Box<Failure> {
-    Box::new(Failure::Precondition { at, parts })
 }
 
 fn unsupported(domain: &Domain, problem: &Problem) -> Option<Unsupported> {

@@ -14,21 +14,19 @@
 //! Source: Fox & Long, "Modelling mixed discrete-continuous domains for planning", JAIR 2006, §4.
 
 use super::active::Active;
-use super::flow::{Flow, Running};
+use super::flow::{Flow, Running, each_running};
 use super::footprint::{Footprint, Reader};
-use super::{Checked, Run};
+use super::run::{Checked, Run};
 use crate::cause::Cause;
 use crate::condition::Strictness;
 use crate::effect::Changes;
-use crate::expression::NumericFault;
 use crate::number::Number;
+use crate::reads::each_guard;
 use crate::root::Instant;
-use crate::scene::{Binding, Clock, Scene};
-use crate::state::Value;
+use crate::scene::{Binding, Clock};
 use crate::trace::Diff;
-use crate::trajectory::each_instance;
-use crate::verdict::{ChangeFault, Failure};
-use pddl::model::{Condition, ContinuousEffect, EventId, FunctionTerm, ObjectId, ProcessId, Variables};
+use crate::verdict::Failure;
+use pddl::model::{Condition, EventId, ObjectId, ProcessId, Variables};
 use rustc_hash::FxHashMap;
 use std::ops::ControlFlow;
 
@@ -44,26 +42,26 @@ pub(super) struct Instance<I> {
 
 /// What happens by itself at an instant.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Nature {
+pub(super) struct Autonomous {
     pub(super) processes: Vec<Instance<ProcessId>>,
     pub(super) events: Vec<Instance<EventId>>,
 }
 
 impl Run<'_, '_, '_> {
     /// Whether anything can happen by itself.
-    pub(super) fn has_nature(&self) -> bool {
-        !self.validator.domain.processes.is_empty() || !self.validator.domain.events.is_empty()
+    pub(super) fn has_processes_or_events(&self) -> bool {
+        !self.prepared.domain.processes.is_empty() || !self.prepared.domain.events.is_empty()
     }
 
     /// What runs and what is due in the present state.
-    pub(super) fn nature(&mut self, at: Number) -> Nature {
-        Nature { processes: self.processes(at), events: self.due(at) }
+    pub(super) fn autonomous(&mut self, at: Number) -> Autonomous {
+        Autonomous { processes: self.processes(at), events: self.due(at) }
     }
 
     /// The processes that run in the present state.
     pub(super) fn processes(&mut self, at: Number) -> Vec<Instance<ProcessId>> {
         let mut found = Vec::new();
-        for (id, process) in self.validator.domain.processes.enumerate() {
+        for (id, process) in self.prepared.domain.processes.enumerate() {
             let mut visit = |arguments| found.push(Instance { id, arguments });
             self.instances(&process.variables, &process.precondition, Strictness::Certain, at, &mut visit);
         }
@@ -74,7 +72,7 @@ impl Run<'_, '_, '_> {
     /// The events that are due in the present state.
     pub(super) fn due(&mut self, at: Number) -> Vec<Instance<EventId>> {
         let mut found = Vec::new();
-        for (id, event) in self.validator.domain.events.enumerate() {
+        for (id, event) in self.prepared.domain.events.enumerate() {
             let mut visit = |arguments| found.push(Instance { id, arguments });
             self.instances(&event.variables, &event.precondition, Strictness::Certain, at, &mut visit);
         }
@@ -91,7 +89,7 @@ impl Run<'_, '_, '_> {
         visit: &mut dyn FnMut(Vec<ObjectId>),
     ) {
         self.derive_for(condition);
-        let scene = self.validator.scene(self.state, variables, Clock::at(at));
+        let scene = self.prepared.scene(self.state, variables, Clock::at(at));
         let mut binding = Binding::new(variables, &[]);
         let parameters: Vec<_> = variables.parameter_ids().collect();
         if parameters.is_empty() {
@@ -109,14 +107,14 @@ impl Run<'_, '_, '_> {
     }
 
     /// Adds the instants inside `from..length` at which processes and events may begin or end.
-    pub(super) fn critical_of_nature(
+    pub(super) fn critical_of_processes(
         &mut self,
         flow: &Flow,
         from: &Instant,
         length: Number,
         into: &mut Vec<Instant>,
     ) -> Checked {
-        let domain = self.validator.domain;
+        let domain = self.prepared.domain;
         let processes = domain.processes.iter().map(|p| (&p.variables, &p.precondition));
         let events = domain.events.iter().map(|e| (&e.variables, &e.precondition));
         // Without the values of what flows, a comparison that reads it is possible: so all that may ever begin is found.
@@ -129,7 +127,7 @@ impl Run<'_, '_, '_> {
         }
         self.set(flow, from)?;
         for (variables, condition, arguments) in candidates {
-            let scene = self.validator.scene(self.state, variables, Clock::at(self.now));
+            let scene = self.prepared.scene(self.state, variables, Clock::at(self.now));
             flow.critical(condition, scene, &mut Binding::new(variables, &arguments), length, into);
         }
         Ok(())
@@ -142,15 +140,15 @@ impl Run<'_, '_, '_> {
             let mut changes = Vec::with_capacity(due.len());
             let mut together: Vec<(Cause, Footprint)> = Vec::new();
             for instance in &due {
-                let event = &self.validator.domain.events[instance.id];
+                let event = &self.prepared.domain.events[instance.id];
                 let at = Cause::Event(instance.id);
                 let often = happened.entry(instance.clone()).or_insert(0);
                 *often += 1;
                 if *often > MOST_OFTEN {
                     return Err(self.endless(instance));
                 }
-                crate::prepare::each_guard(&event.effect, &mut |guard, _| self.derive_for(guard));
-                let scene = self.validator.scene(self.state, &event.variables, Clock::at(self.now));
+                each_guard(&event.effect, &mut |guard, _| self.derive_for(guard));
+                let scene = self.prepared.scene(self.state, &event.variables, Clock::at(self.now));
                 let mut own = Changes::default();
                 let mut binding = Binding::new(&event.variables, &instance.arguments);
                 own.collect(scene, &event.effect, &mut binding)
@@ -158,7 +156,7 @@ impl Run<'_, '_, '_> {
                 if due.len() > 1 || self.timed_is_next {
                     let mut footprint = Footprint::default();
                     let reader =
-                        Reader { scene, strata: &self.validator.strata, dependencies: &self.dependencies };
+                        Reader { scene, strata: &self.prepared.strata, dependencies: &self.dependencies };
                     reader.condition(&event.precondition, &mut binding, &mut footprint);
                     reader.effect(&event.effect, &mut binding, &mut footprint);
                     footprint.changes(&own);
@@ -202,14 +200,14 @@ impl Run<'_, '_, '_> {
         let mut running = Vec::new();
         for Active { action, binding, duration, .. } in self.active.continuous() {
             let clock = Clock { duration: Some(*duration), ..Clock::at(self.now) };
-            let scene = self.validator.scene(self.state, &action.variables, clock);
+            let scene = self.prepared.scene(self.state, &action.variables, clock);
             for effect in &action.continuous {
                 each_running(scene, effect, binding.clone(), &mut running).map_err(|f| self.change(f))?;
             }
         }
         for Instance { id, arguments } in processes {
-            let process = &self.validator.domain.processes[*id];
-            let scene = self.validator.scene(self.state, &process.variables, Clock::at(self.now));
+            let process = &self.prepared.domain.processes[*id];
+            let scene = self.prepared.scene(self.state, &process.variables, Clock::at(self.now));
             let binding = Binding::new(&process.variables, arguments);
             for effect in &process.effects {
                 each_running(scene, effect, binding.clone(), &mut running).map_err(|f| self.change(f))?;
@@ -217,50 +215,4 @@ impl Run<'_, '_, '_> {
         }
         Ok(running)
     }
-
-    pub(super) fn change(&self, fault: ChangeFault) -> Box<Failure> {
-        Box::new(Failure::Change { time: self.now, fault })
-    }
-}
-
-pub(super) fn each_running<'v>(
-    scene: Scene<'v>,
-    effect: &'v ContinuousEffect,
-    mut binding: Binding,
-    running: &mut Vec<Running<'v>>,
-) -> Result<(), ChangeFault> {
-    let mut result = Ok(());
-    each_instance(scene, &effect.forall, &mut binding, &mut |binding| {
-        let mut binding = binding.clone();
-        if let Err(fault) = bind_functions(scene, &effect.functions, &mut binding) {
-            result = Err(ChangeFault::Numeric(fault));
-            return;
-        }
-        running.push(Running {
-            fluent: scene.ground(&effect.fluent, &binding),
-            direction: effect.direction,
-            rate: &effect.rate,
-            variables: scene.variables,
-            binding,
-            duration: scene.clock.duration,
-            span: effect.span,
-        });
-    });
-    result
-}
-
-/// Gives the slots of functions that stand as arguments their values.
-pub(crate) fn bind_functions(
-    scene: Scene<'_>,
-    functions: &[FunctionTerm],
-    binding: &mut Binding,
-) -> Result<(), NumericFault> {
-    for term in functions {
-        let Some(Value::Object(object)) = scene.fluent(&term.application, binding) else {
-            let fluent = scene.ground(&term.application, binding);
-            return Err(NumericFault::Undefined { fluent, span: term.application.span });
-        };
-        binding.set(term.slot, Some(object));
-    }
-    Ok(())
 }

@@ -4,44 +4,20 @@
 //! Each predicate has a [`Relation`], which remembers who deleted what; what axioms derive is kept apart from the
 //! facts and brought up to date only when it is asked for (`axiom`).
 
-use crate::axiom::Lag;
+mod lag;
+mod passage;
+
+pub(crate) use lag::{Lag, Seen};
+pub(crate) use passage::{Curves, Passage};
+
 use crate::effort::Effort;
 use crate::number::Number;
-pub(crate) use crate::relation::Moment;
 use crate::relation::Relation;
-use crate::temporal::Passage;
+use crate::value::Value;
 use indexmap::{Equivalent, IndexMap};
-use pddl::model::{Domain, FluentValue, FunctionId, GroundApplication, Idx, IndexVec, ObjectId, PredicateId};
+use pddl::model::{Domain, FunctionId, GroundApplication, Idx, IndexVec, ObjectId, PredicateId};
 use rustc_hash::{FxBuildHasher, FxHashMap};
 use std::sync::Arc;
-
-/// A predicate of objects.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct GroundAtom {
-    /// Which predicate.
-    pub predicate: PredicateId,
-    /// Its arguments.
-    pub arguments: Box<[ObjectId]>,
-}
-
-/// What a fluent is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Value {
-    /// A number.
-    Number(Number),
-    /// An object.
-    Object(ObjectId),
-}
-
-impl Value {
-    /// What a file gives a fluent; `None` if it is no finite number.
-    pub(crate) fn of(value: FluentValue) -> Option<Self> {
-        match value {
-            FluentValue::Number(number) => Number::from_f64(number).map(Self::Number),
-            FluentValue::Object(object) => Some(Self::Object(object)),
-        }
-    }
-}
 
 /// A [`GroundApplication`] on loan: it has the same hash.
 #[derive(Hash)]

@@ -1,6 +1,8 @@
 //! What can be wrong with a decomposition, as data.
 
-use crate::verdict::{StepFault, StepIndex, Unsatisfied};
+use super::fault::StepFault;
+use super::unsatisfied::Unsatisfied;
+use crate::plan::StepIndex;
 use pddl::model::ObjectId;
 use pddl::{DecompositionId, PlanNode, PlanReference, Span};
 

@@ -6,70 +6,12 @@
 //!
 //! Cost: the size of a footprint, whatever else happens.
 
-use super::footprint::Footprint;
+use super::footprint::{Footprint, Touch};
 use crate::cause::Cause;
 use crate::number::Number;
-use crate::state::GroundAtom;
 use crate::verdict::Shared;
-use pddl::model::{GroundApplication, PredicateId};
 use rustc_hash::FxHashMap;
 use std::collections::VecDeque;
-
-/// What two happenings may have in common, and what one of them does with it.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Touch {
-    /// It is needed.
-    Needs(GroundAtom),
-    /// It is added.
-    Adds(GroundAtom),
-    /// It is deleted.
-    Deletes(GroundAtom),
-    /// A derived predicate that is needed depends on it.
-    Below(PredicateId),
-    /// An atom of it is added or deleted.
-    Changes(PredicateId),
-    /// Its value is read.
-    Reads(GroundApplication),
-    /// It is increased or decreased.
-    Shifts(GroundApplication),
-    /// It is changed in another way.
-    Sets(GroundApplication),
-}
-
-impl Touch {
-    /// What must not happen at the same time.
-    pub(super) fn each_rival(&self, visit: &mut dyn FnMut(Self)) {
-        match self {
-            Self::Needs(atom) => {
-                visit(Self::Adds(atom.clone()));
-                visit(Self::Deletes(atom.clone()));
-            }
-            Self::Adds(atom) => {
-                visit(Self::Needs(atom.clone()));
-                visit(Self::Deletes(atom.clone()));
-            }
-            Self::Deletes(atom) => {
-                visit(Self::Needs(atom.clone()));
-                visit(Self::Adds(atom.clone()));
-            }
-            Self::Below(predicate) => visit(Self::Changes(*predicate)),
-            Self::Changes(predicate) => visit(Self::Below(*predicate)),
-            Self::Reads(fluent) => {
-                visit(Self::Shifts(fluent.clone()));
-                visit(Self::Sets(fluent.clone()));
-            }
-            Self::Shifts(fluent) => {
-                visit(Self::Reads(fluent.clone()));
-                visit(Self::Sets(fluent.clone()));
-            }
-            Self::Sets(fluent) => {
-                visit(Self::Reads(fluent.clone()));
-                visit(Self::Shifts(fluent.clone()));
-                visit(Self::Sets(fluent.clone()));
-            }
-        }
-    }
-}
 
 #[derive(Debug)]
 struct Recent {
@@ -80,7 +22,7 @@ struct Recent {
 
 /// What happened a moment ago, oldest first.
 #[derive(Debug, Default)]
-pub(super) struct Crowd {
+pub(super) struct Concurrent {
     recent: VecDeque<Recent>,
     /// How many were forgotten.
     forgotten: usize,
@@ -88,7 +30,7 @@ pub(super) struct Crowd {
     by_touch: FxHashMap<Touch, VecDeque<usize>>,
 }
 
-impl Crowd {
+impl Concurrent {
     /// Forgets what happened so long before `now`.
     pub(super) fn forget(&mut self, now: Number, separation: Number) {
         while let Some(oldest) = self.recent.front() {

@@ -1,71 +1,70 @@
 //! What is wrong with a decomposition, in words.
 
-use super::fault::{NetworkFault, Parent, Shortfall};
-use super::node_span;
-use crate::run::PlanRef;
-use crate::verdict::StepIndex;
-use crate::words::{File, Finding, Place, Words, show_list, show_step};
+use super::finding::{Finding, Place};
+use super::names::{show_list, show_step};
+use super::words::Words;
+use crate::plan::{PlanRef, StepIndex};
+use crate::verdict::{File, NetworkFault, Parent, Shortfall};
 use pddl::model::Name;
 use pddl::{DecompositionId, HierarchicalPlan, PlanNode, Span};
 
-impl Words<'_> {
-    pub(crate) fn network_fault(&self, fault: &NetworkFault) -> Finding {
-        match self.plan {
-            PlanRef::Hierarchical(plan) => Decomposed { words: self, plan }.fault(fault),
-            PlanRef::Sequential(_) | PlanRef::Temporal(_) => self.no_decomposition(fault),
+/// What is wrong with a decomposition, or why there is none.
+pub(super) fn network_fault(words: &Words<'_>, fault: &NetworkFault) -> Finding {
+    match words.plan {
+        PlanRef::Hierarchical(plan) => Decomposed { words, plan }.fault(fault),
+        PlanRef::Sequential(_) | PlanRef::Temporal(_) => no_decomposition(words, fault),
+    }
+}
+
+fn no_decomposition(words: &Words<'_>, fault: &NetworkFault) -> Finding {
+    let network = Place { file: File::Problem, span: network_span(words) };
+    let NetworkFault::NoDecomposition { shortfall } = fault else {
+        let sentence = "the task network cannot become these steps".to_owned();
+        return Finding { sentence, place: network, notes: Vec::new() };
+    };
+    let steps = words.plan.steps();
+    match shortfall {
+        Shortfall::Subtasks(spans) => {
+            let sentence = match steps {
+                0 => "no decomposition of the task network is empty, and the plan is",
+                _ => "no decomposition of the task network yields these steps, in whatever order",
+            };
+            let note = |&span: &Span| {
+                let what = "no way to carry this out with these steps alone".to_owned();
+                (Place { file: File::Problem, span }, what)
+            };
+            // That all do so together says nothing of one.
+            let notes = if spans.len() == 1 { spans.iter().map(note).collect() } else { Vec::new() };
+            let place = spans.first().map_or(network, |&span| Place { file: File::Problem, span });
+            Finding { sentence: sentence.to_owned(), place, notes }
+        }
+        Shortfall::Step(step) => {
+            let sentence = format!(
+                "nothing that the task network can become has step {}, beside the others",
+                step.number()
+            );
+            Finding { sentence, place: words.step_place(*step), notes: Vec::new() }
+        }
+        Shortfall::Explained(explained) => {
+            let sentence = "no decomposition of the task network yields these steps".to_owned();
+            if *explained as usize >= steps {
+                let notes = vec![(network, "it needs more steps than these".to_owned())];
+                return Finding { sentence, place: network, notes };
+            }
+            let place = words.step_place(StepIndex(*explained));
+            let what = match explained {
+                0 => "no way was found to begin with this and come to the rest".to_owned(),
+                _ => "it can begin with the steps before this one, but no way was found from this one to the rest"
+                    .to_owned(),
+            };
+            Finding { sentence, place, notes: vec![(place, what)] }
         }
     }
+}
 
-    fn no_decomposition(&self, fault: &NetworkFault) -> Finding {
-        let network = Place { file: File::Problem, span: self.network_span() };
-        let NetworkFault::NoDecomposition { shortfall } = fault else {
-            let sentence = "the task network cannot become these steps".to_owned();
-            return Finding { sentence, place: network, notes: Vec::new() };
-        };
-        let steps = self.plan.steps();
-        match shortfall {
-            Shortfall::Subtasks(spans) => {
-                let sentence = match steps {
-                    0 => "no decomposition of the task network is empty, and the plan is",
-                    _ => "no decomposition of the task network yields these steps, in whatever order",
-                };
-                let note = |&span: &Span| {
-                    let what = "no way to carry this out with these steps alone".to_owned();
-                    (Place { file: File::Problem, span }, what)
-                };
-                // That all do so together says nothing of one.
-                let notes = if spans.len() == 1 { spans.iter().map(note).collect() } else { Vec::new() };
-                let place = spans.first().map_or(network, |&span| Place { file: File::Problem, span });
-                Finding { sentence: sentence.to_owned(), place, notes }
-            }
-            Shortfall::Step(step) => {
-                let sentence = format!(
-                    "nothing that the task network can become has step {}, beside the others",
-                    step.number()
-                );
-                Finding { sentence, place: self.step_place(*step), notes: Vec::new() }
-            }
-            Shortfall::Explained(explained) => {
-                let sentence = "no decomposition of the task network yields these steps".to_owned();
-                if *explained as usize >= steps {
-                    let notes = vec![(network, "it needs more steps than these".to_owned())];
-                    return Finding { sentence, place: network, notes };
-                }
-                let place = self.step_place(StepIndex(*explained));
-                let what = match explained {
-                    0 => "no way was found to begin with this and come to the rest".to_owned(),
-                    _ => "it can begin with the steps before this one, but no way was found from this one to the rest"
-                        .to_owned(),
-                };
-                Finding { sentence, place, notes: vec![(place, what)] }
-            }
-        }
-    }
-
-    fn network_span(&self) -> Span {
-        let subtask = self.problem.htn.as_ref().and_then(|(_, network)| network.subtasks.first());
-        subtask.map_or(self.problem.goal_span, |subtask| subtask.span)
-    }
+fn network_span(words: &Words<'_>) -> Span {
+    let subtask = words.problem.htn.as_ref().and_then(|(_, network)| network.subtasks.first());
+    subtask.map_or(words.problem.goal_span, |subtask| subtask.span)
 }
 
 struct Decomposed<'w, 'a> {
@@ -242,6 +241,16 @@ impl Decomposed<'_, '_> {
                 "the task network cannot become these steps".to_owned(),
                 in_plan(self.plan.root_span),
             ),
+        }
+    }
+}
+
+/// Where a task of the plan stands.
+fn node_span(plan: &HierarchicalPlan, node: PlanNode) -> Span {
+    match node {
+        PlanNode::Step(step) => plan.steps.get(step).map_or_else(Span::default, |step| step.step.span),
+        PlanNode::Decomposition(task) => {
+            plan.decompositions.get(task).map_or_else(Span::default, |task| task.span)
         }
     }
 }

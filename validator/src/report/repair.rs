@@ -1,9 +1,8 @@
 //! A repair in words.
 
-use super::Repair;
-use crate::run::PlanRef;
-use crate::verdict::StepIndex;
-use crate::words::{show_application, show_atom, show_step, show_timed_step};
+use super::names::{show_application, show_atom, show_step, show_timed_step};
+use crate::advice::Repair;
+use crate::plan::{PlanRef, StepIndex};
 use pddl::model::{Domain, Problem};
 use pddl::{Plan, PlanStep};
 

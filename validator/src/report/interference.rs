@@ -5,8 +5,8 @@
 //! condition held or not.
 
 use crate::cause::Cause;
-use crate::run::PlanRef;
-use crate::state::GroundAtom;
+use crate::plan::PlanRef;
+use crate::value::GroundAtom;
 use crate::verdict::Shared;
 use pddl::model::{
     Application, Condition, ConditionKind, Domain, Effect, EffectKind, Expression, ExpressionKind,
@@ -16,7 +16,7 @@ use pddl::{Span, StepHead};
 
 /// What a happening does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Deed {
+pub enum Access {
     /// It adds the atom.
     Adds,
     /// It deletes the atom.
@@ -29,20 +29,20 @@ pub enum Deed {
 
 /// What a happening does, and where that stands in the domain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Role {
+pub struct Interference {
     /// What it does.
-    pub deed: Deed,
+    pub access: Access,
     /// The effect or condition.
     pub span: Span,
 }
 
 /// What a happening does to what it shares; `None` for timed changes, events, and what is not in a condition or effect.
-pub fn role_of<'p>(
+pub fn interference_of<'p>(
     domain: &Domain,
     plan: impl Into<PlanRef<'p>>,
     cause: Cause,
     over: &Shared,
-) -> Option<Role> {
+) -> Option<Interference> {
     let index = cause.step()?.0 as usize;
     let (head, arguments) = match plan.into() {
         PlanRef::Sequential(plan) => {
@@ -107,21 +107,23 @@ impl Search<'_> {
         application.function == *function && self.fits(&application.arguments, arguments)
     }
 
-    fn effect(&self, effect: &Effect) -> Option<Role> {
-        let found = |deed| Some(Role { deed, span: effect.span });
+    fn effect(&self, effect: &Effect) -> Option<Interference> {
+        let found = |access| Some(Interference { access, span: effect.span });
         match &effect.kind {
             EffectKind::And(parts) => parts.iter().find_map(|part| self.effect(part)),
             EffectKind::Forall(_, body) => self.effect(body),
             EffectKind::When(condition, body) => self.effect(body).or_else(|| self.condition(condition)),
-            EffectKind::Add(atom) if self.is_atom(atom.predicate, &atom.arguments) => found(Deed::Adds),
-            EffectKind::Delete(atom) if self.is_atom(atom.predicate, &atom.arguments) => found(Deed::Deletes),
-            EffectKind::Assign(_, application, _) if self.is_fluent(application) => found(Deed::Changes),
+            EffectKind::Add(atom) if self.is_atom(atom.predicate, &atom.arguments) => found(Access::Adds),
+            EffectKind::Delete(atom) if self.is_atom(atom.predicate, &atom.arguments) => {
+                found(Access::Deletes)
+            }
+            EffectKind::Assign(_, application, _) if self.is_fluent(application) => found(Access::Changes),
             EffectKind::Add(_) | EffectKind::Delete(_) | EffectKind::Assign(..) => None,
         }
     }
 
-    fn condition(&self, condition: &Condition) -> Option<Role> {
-        let found = |so: bool| so.then_some(Role { deed: Deed::Needs, span: condition.span });
+    fn condition(&self, condition: &Condition) -> Option<Interference> {
+        let found = |so: bool| so.then_some(Interference { access: Access::Needs, span: condition.span });
         match &condition.kind {
             ConditionKind::Atom(atom) => {
                 let derived =
@@ -136,11 +138,11 @@ impl Search<'_> {
         }
     }
 
-    fn expression(&self, expression: &Expression) -> Option<Role> {
+    fn expression(&self, expression: &Expression) -> Option<Interference> {
         match &expression.kind {
-            ExpressionKind::Fluent(application) => {
-                self.is_fluent(application).then_some(Role { deed: Deed::Needs, span: expression.span })
-            }
+            ExpressionKind::Fluent(application) => self
+                .is_fluent(application)
+                .then_some(Interference { access: Access::Needs, span: expression.span }),
             ExpressionKind::Arithmetic(_, operands) => operands.iter().find_map(|part| self.expression(part)),
             ExpressionKind::Number(_)
             | ExpressionKind::Duration

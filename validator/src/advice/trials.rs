@@ -1,0 +1,72 @@
+//! What looking for changes may cost, and the changed plans that are judged for it.
+
+use crate::plan::PlanRef;
+use crate::validator::Validator;
+use crate::verdict::Verdict;
+
+/// What a step with times costs, in steps without: it starts and ends, and things must hold in between.
+const TIMED: usize = 8;
+
+/// How hard to look.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Budget {
+    /// How many changes are tried.
+    pub plans: usize,
+    /// How many steps are taken for that.
+    pub steps: usize,
+    /// How many changes of the plan, and how many of the task, are enough.
+    pub offers: usize,
+}
+
+impl Default for Budget {
+    /// Well under a second for ordinary plans.
+    fn default() -> Self {
+        Self { plans: 6_000, steps: 400_000, offers: 3 }
+    }
+}
+
+/// Judges changed plans while the budget lasts.
+pub(super) struct Trials<'v, 'a> {
+    pub(super) validator: &'v Validator<'a>,
+    pub(super) budget: Budget,
+}
+
+impl Trials<'_, '_> {
+    /// Whether the plan is valid; no, if the budget is spent.
+    pub(super) fn passes(&mut self, plan: PlanRef<'_>) -> bool {
+        self.pays_for(plan) && self.validator.validate(plan).is_valid()
+    }
+
+    /// The same under a changed task.
+    pub(super) fn passes_under(
+        &mut self,
+        validator: Result<Validator<'_>, Box<Verdict>>,
+        plan: PlanRef<'_>,
+    ) -> bool {
+        self.pays_for(plan)
+            && validator.is_ok_and(|v| {
+                let v = v
+                    .with_precision(self.validator.prepared.precision)
+                    .with_patience(self.validator.prepared.patience);
+                v.validate(plan).is_valid()
+            })
+    }
+
+    pub(super) fn is_spent(&self) -> bool {
+        self.budget.plans == 0
+    }
+
+    fn pays_for(&mut self, plan: PlanRef<'_>) -> bool {
+        let steps = match plan {
+            PlanRef::Temporal(_) => TIMED * (plan.steps() + 1),
+            _ => plan.steps() + 1,
+        };
+        if self.budget.plans == 0 || self.budget.steps < steps {
+            self.budget.plans = 0;
+            return false;
+        }
+        self.budget.plans -= 1;
+        self.budget.steps -= steps;
+        true
+    }
+}

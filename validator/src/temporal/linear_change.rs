@@ -1,0 +1,111 @@
+//! Continuous change in straight lines, of which only what matters is looked at.
+//!
+//! Problem: with thousands of continuous effects at once, giving each fluent its value at each happening is quadratic.
+//! Idea: where rates are numbers that nothing changes, a fluent runs in a straight line until an effect on it begins or
+//! ends or something else sets it. So the state is told the line ([`Line`]) and works out the value when it is asked;
+//! and when a condition can change is computed once for each line that it reads, and kept in a queue until then.
+//!
+//! Invariant: what is asked when is what `flow_to` asks without, but for conditions that cannot have changed. Where
+//! that does not work (processes, events, axioms, constraints and traces look at everything; rates may change; an instant
+//! may be no fraction) the linear is closed for good, and all values are what the state says.
+//!
+//! Cost: of a happening, the lines that it changes and the conditions that read them.
+
+use super::watch::Ticket;
+use crate::number::Number;
+use pddl::model::{
+    Domain, Effect, EffectKind, ExpressionKind, FunctionId, GroundApplication, Problem, TimedChange,
+};
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// What runs in straight lines.
+#[derive(Debug, Default)]
+pub(super) struct LinearChange {
+    /// Per fluent its rate and how many effects make it up.
+    pub(super) rates: FxHashMap<GroundApplication, (Number, usize)>,
+    /// What each action adds to rates.
+    pub(super) shares: FxHashMap<Ticket, Vec<(GroundApplication, Number)>>,
+    /// Fluents whose lines are to be drawn anew.
+    pub(super) bent: FxHashSet<GroundApplication>,
+    /// When conditions may change, as long as their round is the last one of their action.
+    pub(super) calls: BinaryHeap<Reverse<(Number, Ticket, u64)>>,
+    pub(super) rounds: FxHashMap<Ticket, u64>,
+    /// How many calls there were when those of earlier rounds were last thrown away.
+    pub(super) kept: usize,
+}
+
+/// The functions that something changes.
+fn changing(domain: &Domain, problem: &Problem) -> FxHashSet<FunctionId> {
+    let mut found = FxHashSet::default();
+    let mut changed_by = |effect: &Effect| {
+        effect.each(&mut |part| {
+            if let EffectKind::Assign(_, application, _) = &part.kind {
+                found.insert(application.function);
+            }
+        });
+    };
+    domain.actions.iter().for_each(|action| changed_by(&action.effect));
+    let timed = domain.durative_actions.iter().flat_map(|action| &action.effects);
+    timed.for_each(|timed| changed_by(&timed.effect));
+    for action in &domain.durative_actions {
+        found.extend(action.continuous.iter().map(|effect| effect.fluent.function));
+    }
+    for timed in &problem.timed {
+        match &timed.change {
+            TimedChange::Assign(fact) => found.insert(fact.application.function),
+            TimedChange::Undefine(fluent) => found.insert(fluent.function),
+            TimedChange::Add(_) | TimedChange::Delete(_) => false,
+        };
+    }
+    found
+}
+
+impl LinearChange {
+    /// A linear, if all continuous effects of the domain have rates that nothing changes, and nothing looks at everything.
+    pub(super) fn open(domain: &Domain, problem: &Problem) -> Option<Self> {
+        let continuous = || domain.durative_actions.iter().flat_map(|action| &action.continuous);
+        if !domain.processes.is_empty()
+            || !domain.events.is_empty()
+            || !domain.axioms.is_empty()
+            || continuous().next().is_none()
+        {
+            return None;
+        }
+        let changing = changing(domain, problem);
+        let mut steady = true;
+        for effect in continuous() {
+            steady &= effect.functions.is_empty();
+            effect.rate.each(&mut |part| {
+                steady &= match &part.kind {
+                    ExpressionKind::Fluent(application) => !changing.contains(&application.function),
+                    ExpressionKind::TotalTime | ExpressionKind::IsViolated(_) => false,
+                    ExpressionKind::Number(_) | ExpressionKind::Duration | ExpressionKind::Arithmetic(..) => {
+                        true
+                    }
+                };
+            });
+        }
+        steady.then(Self::default)
+    }
+
+    /// Something else may have set the fluent.
+    pub(super) fn wrote(&mut self, fluent: &GroundApplication) {
+        if self.rates.contains_key(fluent) {
+            self.bent.insert(fluent.clone());
+        }
+    }
+
+    /// An action no longer changes anything; `None` if the rate that is left is no fraction.
+    pub(super) fn leave(&mut self, ticket: Ticket) -> Option<()> {
+        self.rounds.remove(&ticket);
+        for (fluent, share) in self.shares.remove(&ticket).into_iter().flatten() {
+            let (rate, effects) = self.rates.get_mut(&fluent)?;
+            *rate = rate.minus(share).ok().filter(|rate| rate.is_exact())?;
+            *effects -= 1;
+            self.bent.insert(fluent);
+        }
+        Some(())
+    }
+}
