@@ -29,7 +29,7 @@ use crate::files;
 use crate::memory;
 use crate::render::{self, show};
 use crate::task::TaskFiles;
-use crate::validate::{self, Figure};
+use crate::validate;
 use clap::Args;
 use diagnostics::{Finding, Place};
 use pddl::{PlanStep, Severity, Source, Span};
@@ -308,7 +308,7 @@ struct Answer {
     kind: &'static str,
     outcome: &'static str,
     steps: Vec<String>,
-    cost: Option<Figure>,
+    cost: Option<Number>,
     cost_kind: Option<&'static str>,
     search: &'static str,
     /// Whether no plan is better; where that was asked for.
@@ -349,7 +349,7 @@ impl Answer {
     fn solved(&mut self, valid: &Valid, kind: &'static str, console: &mut Console<'_>) {
         let cost: Number = valid.cost();
         self.outcome = "solved";
-        self.cost = Some(Figure(cost));
+        self.cost = Some(cost);
         self.cost_kind = Some(kind);
         console.record(self);
     }

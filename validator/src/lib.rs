@@ -66,10 +66,10 @@ pub use cause::Cause;
 pub use number::Number;
 pub use plan::{PlanRef, StepIndex};
 pub use prepared::Precision;
+pub use report::html;
 pub use report::{
-    Access, Finding, Interference, Place, cause_place, cause_time, explain, interference_of,
-    show_application, show_atom, show_cause, show_diff, show_object, show_preference, show_repair, show_step,
-    show_timed_step,
+    Finding, Place, Subject, VerdictRecord, Word, explain, show_application, show_atom, show_cause,
+    show_diff, show_repair,
 };
 pub use trace::{Demand, Diff, FluentChange, Happening, Stretch, Trace, Watched};
 pub use validator::{Validator, validate};

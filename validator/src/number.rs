@@ -11,6 +11,7 @@ use crate::fraction::simplest;
 use num_rational::BigRational;
 use num_traits::Zero;
 use pddl::Decimal;
+use serde::{Serialize, Serializer};
 use std::cmp::Ordering;
 use std::fmt;
 
@@ -333,6 +334,16 @@ impl fmt::Display for Number {
                 None => write!(f, "{numerator}/{denominator}"),
             },
             Form::Double(value) => write!(f, "{value}"),
+        }
+    }
+}
+
+/// As JSON: whole where it is whole.
+impl Serialize for Number {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        match self.to_string().parse::<i64>() {
+            Ok(whole) => to.serialize_i64(whole),
+            Err(_) => to.serialize_f64(self.to_f64()),
         }
     }
 }

@@ -16,14 +16,13 @@ use crate::exit::Exit;
 use crate::files;
 use crate::render;
 use crate::task::TaskFiles;
-use crate::validate::Figure;
 use pddl::model::Objective;
 use planner::{Budget, Improved, Query, SearchConfiguration, Task, improve};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc;
-use validator::{Valid, Verdict};
+use validator::{Number, Valid, Verdict};
 
 /// A plan on its way.
 #[derive(Serialize)]
@@ -31,7 +30,7 @@ struct Better {
     kind: &'static str,
     number: usize,
     steps: u32,
-    cost: Figure,
+    cost: Number,
     cost_kind: &'static str,
     after_ms: f64,
     file: Option<String>,
@@ -119,7 +118,7 @@ impl Writer<'_> {
             kind: "better-plan",
             number: self.count,
             steps: valid.steps,
-            cost: Figure(valid.cost()),
+            cost: valid.cost(),
             cost_kind: kind,
             after_ms,
             file: file.map(|file| file.display().to_string()),

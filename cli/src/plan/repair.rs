@@ -19,7 +19,6 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::render::{show, show_all};
 use crate::task::{TaskFiles, read_source};
-use crate::validate::Figure;
 use clap::ValueEnum;
 use diagnostics::{Finding, Place, SourceId, Sources};
 use pddl::model::{ActionId, ObjectId};
@@ -32,7 +31,7 @@ use serde::Serialize;
 use std::collections::HashMap;
 use std::path::Path;
 use std::time::Duration;
-use validator::Verdict;
+use validator::{Number, Verdict};
 
 /// What decides between the repaired plan and the new one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, Serialize)]
@@ -137,7 +136,7 @@ pub(super) struct RepairRecord {
 #[derive(Serialize)]
 struct Figures {
     steps: usize,
-    cost: Figure,
+    cost: Number,
     distance: usize,
     removed: usize,
     added: usize,
@@ -151,7 +150,7 @@ impl Figures {
         let moved = if self.moved > 0 { format!(", {} moved", self.moved) } else { String::new() };
         format!(
             "{name}: {} steps, cost {}, distance {} (+{} -{}{moved}), {} ms, {} expanded",
-            self.steps, self.cost.0, self.distance, self.added, self.removed, self.search_ms, self.expanded
+            self.steps, self.cost, self.distance, self.added, self.removed, self.search_ms, self.expanded
         )
     }
 }
@@ -194,7 +193,7 @@ pub(super) fn run(
         let Some((plan, distance)) = attempt.plan() else { return Ok(None) };
         let (text, steps) = written(task, plan);
         let cost = match validator::validate(&files.domain, &files.problem, &steps) {
-            Verdict::Valid(valid) => Figure(valid.cost()),
+            Verdict::Valid(valid) => valid.cost(),
             verdict => return Err(bug(&verdict, &steps, &text, files, console)),
         };
         let removed = distance.removed + left_out.len();

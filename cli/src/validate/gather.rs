@@ -7,7 +7,6 @@
 //!
 //! Invariant: whatever was asked for and leads to no plan is a [`Fault`]; nothing is passed over in silence.
 
-use super::Arguments;
 use crate::files::{self, FileError};
 use diagnostics::SourceId;
 use pddl::Source;
@@ -68,14 +67,13 @@ pub(super) struct Gathered {
     pub(super) faults: Vec<Fault>,
 }
 
-pub(super) fn gather(arguments: &Arguments) -> Gathered {
+pub(super) fn gather(paths: &[PathBuf]) -> Gathered {
     let mut gathered = Gathered::default();
-    let paths = &arguments.paths;
     if paths.iter().filter(|path| *path == Path::new("-")).count() > 1 {
         gathered.faults.push(Fault::StandardInputAgain);
         return gathered;
     }
-    match paths.as_slice() {
+    match paths {
         [first, ..] if first.is_dir() => gathered.tasks(paths),
         [domain, problem, plans @ ..] if !plans.is_empty() => {
             let plans = gathered.plans(plans);

@@ -1,20 +1,25 @@
 //! One plan: read, judged, and what there is to say about it.
 
-use super::advice::AdviceRecord;
-use super::failure::Places;
-use super::network::DecompositionRecord;
-use super::record::{VerdictRecord, Word, happenings};
-use super::{Outcome, page};
 use crate::console::{Console, Form};
 use crate::render::{show, show_all};
 use crate::task::{TaskFiles, read_source};
 use diagnostics::SourceId;
-use pddl::{Plan, Severity, Source, parse_plan, print_plan};
+use pddl::{Diagnostic, Plan, Severity, Source, parse_plan, print_plan};
 use std::path::Path;
 use validator::{
-    Budget, Feature, File, Finding, Place, Repair, Trace, Unsupported, Validator, Verdict, explain,
-    show_cause, show_diff,
+    Budget, Feature, File, Finding, Place, Repair, Subject, Trace, Unsupported, Validator, Verdict,
+    VerdictRecord, Word, explain, html, show_cause, show_diff,
 };
+
+/// What came of a plan.
+#[derive(Debug)]
+pub(super) struct Outcome {
+    pub(super) word: Word,
+    /// Its part of the page.
+    pub(super) section: Option<String>,
+    /// The plan after a change that makes it valid.
+    pub(super) fixed: Option<String>,
+}
 
 /// A task that judges plans.
 #[derive(Clone, Copy)]
@@ -31,16 +36,15 @@ impl Judge<'_> {
     pub(super) fn plan(&self, path: &Path, console: &mut Console<'_>) -> Outcome {
         match read_source(path, console) {
             Ok(source) => self.source(source, console),
-            Err(_) => {
-                let record = VerdictRecord::of(&path.display().to_string(), Word::Unreadable);
-                record.say(console);
-                Outcome {
-                    word: Word::Unreadable,
-                    section: self.html.then(|| page::without_plan(&record)),
-                    fixed: None,
-                }
-            }
+            Err(_) => self.unread(&path.display().to_string(), Word::Unreadable, None, console),
         }
+    }
+
+    /// A plan that cannot be judged.
+    fn unread(&self, plan: &str, word: Word, message: Option<String>, console: &mut Console<'_>) -> Outcome {
+        let record = VerdictRecord::unread(plan, word, message);
+        show_verdict(&record, console);
+        Outcome { word, section: self.html.then(|| html::section_unread(&record)), fixed: None }
     }
 
     fn source(&self, source: Source, console: &mut Console<'_>) -> Outcome {
@@ -54,11 +58,8 @@ impl Judge<'_> {
         let Some(plan) = parsed.model else {
             let unsupported = worst == Some(Severity::Unsupported);
             let word = if unsupported { Word::Unsupported } else { Word::Unreadable };
-            let mut record = VerdictRecord::of(source.name(), word);
-            record.message =
-                parsed.diagnostics.iter().find(|d| Some(d.severity) == worst).map(pddl::Diagnostic::message);
-            record.say(console);
-            return Outcome { word, section: self.html.then(|| page::without_plan(&record)), fixed: None };
+            let message = parsed.diagnostics.iter().find(|d| Some(d.severity) == worst);
+            return self.unread(source.name(), word, message.map(Diagnostic::message), console);
         };
         let (verdict, trace) = match self.validator {
             Ok(validator) if self.trace || self.html => {
@@ -68,48 +69,44 @@ impl Judge<'_> {
             Ok(validator) => (validator.validate(&plan), None),
             Err(refusal) => ((**refusal).clone(), None),
         };
-        let word = Word::of(&verdict);
-        let mut record = VerdictRecord::of(source.name(), word);
-        if let Verdict::Valid(valid) = &verdict {
-            record.fill(valid, &task.problem);
-            let found = valid.decomposition.as_deref();
-            record.decomposition =
-                found.map(|found| DecompositionRecord::of(&task.domain, &task.problem, found));
-        }
-        let places = Places { task, plan: &plan, source };
+        let subject = Subject {
+            domain: &task.domain,
+            problem: &task.problem,
+            plan: &plan,
+            domain_text: task.domain_source(),
+            problem_text: task.problem_source(),
+            plan_text: source,
+        };
+        let mut record = VerdictRecord::new(&subject, &verdict);
         if let Some(trace) = trace.as_ref().filter(|_| self.trace) {
             self.show_trace(&plan, trace, console);
             self.show_decomposition(&verdict, console);
-            let diffs = trace.happenings.iter().map(|h| show_diff(&task.domain, &task.problem, &h.diff));
-            record.trace = Some(diffs.collect());
-            record.happenings = (console.form() == Form::Json).then(|| happenings(&places, trace));
+            record.add_trace(&subject, trace);
+            if console.form() == Form::Json {
+                record.add_happenings(&subject, trace);
+            }
         }
         let repairs = self.advise(&plan, &verdict);
-        let mut advice: Vec<AdviceRecord> =
-            repairs.iter().map(|repair| AdviceRecord::of(task, &plan, repair)).collect();
-        let help = help(&advice);
-        if !advice.is_empty() {
-            record.advice = Some(advice.remove(0));
-            record.other_advice = advice;
-        }
+        record.add_advice(&subject, &repairs);
         let finding = explain(&task.domain, &task.problem, &plan, &verdict);
-        if let Some(finding) = &finding {
-            if !reported_by_the_parser(&verdict) {
-                show(&sources, &answer(finding, &verdict, task, file).help_if(help), console);
-            }
-            record.message = Some(finding.sentence.clone());
+        if let Some(finding) = &finding
+            && !reported_by_the_parser(&verdict)
+        {
+            show(&sources, &answer(finding, &verdict, task, file).help_if(help(&record)), console);
         }
-        if let Verdict::Invalid(failure) = &verdict {
-            record.failure = (console.form() == Form::Json).then(|| places.failure(failure));
+        if let Verdict::Invalid(failure) = &verdict
+            && console.form() == Form::Json
+        {
+            record.add_failure(&subject, failure);
         }
-        record.say(console);
+        show_verdict(&record, console);
         let section = self.html.then(|| match &trace {
-            Some(trace) => page::section(&places, &record, &verdict, finding.as_ref(), trace),
-            None => page::without_plan(&record),
+            Some(trace) => html::section(&subject, &record, &verdict, finding.as_ref(), trace),
+            None => html::section_unread(&record),
         });
         let repaired = repairs.iter().find_map(|repair| repair.applied(&plan));
         let fixed = repaired.map(|plan| print_plan(&plan, &task.domain, &task.problem));
-        Outcome { word, section, fixed }
+        Outcome { word: record.word(), section, fixed }
     }
 
     /// Changes that were tried and help, if that is asked for.
@@ -149,9 +146,15 @@ impl Judge<'_> {
     }
 }
 
+/// Shows a verdict: a line for people, a record for programs.
+pub(super) fn show_verdict(record: &VerdictRecord, console: &mut Console<'_>) {
+    console.result(&format!("{}: {}", record.plan(), record.line()));
+    console.record(record);
+}
+
 /// The advice as the help of an error: one sentence, or a line for each.
-fn help(advice: &[AdviceRecord]) -> Option<String> {
-    let texts: Vec<&str> = advice.iter().map(|advice| advice.text.as_str()).collect();
+fn help(record: &VerdictRecord) -> Option<String> {
+    let texts: Vec<&str> = record.advice().collect();
     (!texts.is_empty()).then(|| texts.join("\nor "))
 }
 

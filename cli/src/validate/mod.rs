@@ -6,19 +6,13 @@
 //! several. Invariant: the exit code is 0 only if at least one plan was given and every one was read to its end
 //! and is valid.
 //!
-//! What is written as JSON is in `record`, `failure` and `network`, as HTML in `page` and `tree`.
+//! A verdict as text, JSON and HTML is made by the crate `validator`.
 
-mod advice;
-mod failure;
 mod gather;
 mod judge;
-mod network;
-mod page;
-mod record;
-mod tree;
+mod tally;
 
 pub(crate) use judge::answer;
-pub(crate) use record::Figure;
 
 use crate::console::{Console, Said};
 use crate::exit::Exit;
@@ -28,10 +22,10 @@ use crate::render;
 use crate::task::TaskFiles;
 use clap::Args;
 use gather::{Fault, Group, gather};
-use judge::Judge;
-use record::{Tally, VerdictRecord, Word};
+use judge::{Judge, Outcome, show_verdict};
 use std::path::{Path, PathBuf};
-use validator::{Number, Precision, Validator};
+use tally::Tally;
+use validator::{Number, Precision, Validator, VerdictRecord, Word, html};
 
 /// What to validate.
 #[derive(Debug, Args)]
@@ -70,7 +64,7 @@ fn seconds(text: &str) -> Result<Number, &'static str> {
 }
 
 pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
-    let gathered = gather(arguments);
+    let gathered = gather(&arguments.paths);
     let mut tally = Tally::default();
     let mut exit = Exit::Yes;
     let mut sections = Vec::new();
@@ -115,7 +109,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         console.record(&tally);
     }
     if let Some(path) = &arguments.html
-        && let Err(error) = files::write(path, &page::page(&sections))
+        && let Err(error) = files::write(path, &html::page(&sections))
     {
         render::error(error.to_string(), console);
         exit = exit.and(Exit::Unwritable);
@@ -140,19 +134,8 @@ fn refuse(fault: &Fault, tally: &mut Tally, console: &mut Console<'_>) -> Exit {
 }
 
 fn unreadable(plan: &Path, why: String, console: &mut Console<'_>) {
-    let mut record = VerdictRecord::of(&plan.display().to_string(), Word::Unreadable);
-    record.message = Some(why);
-    record.say(console);
-}
-
-/// What came of a plan.
-#[derive(Debug)]
-struct Outcome {
-    word: Word,
-    /// Its part of the page.
-    section: Option<String>,
-    /// The plan after a change that makes it valid.
-    fixed: Option<String>,
+    let record = VerdictRecord::unread(&plan.display().to_string(), Word::Unreadable, Some(why));
+    show_verdict(&record, console);
 }
 
 /// Who works on the plans of a task.

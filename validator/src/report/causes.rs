@@ -18,7 +18,7 @@ pub fn show_cause<'p>(
 }
 
 /// Where what happened stands.
-pub fn cause_place<'p>(
+pub(super) fn cause_place<'p>(
     domain: &Domain,
     problem: &Problem,
     plan: impl Into<PlanRef<'p>>,
@@ -28,7 +28,7 @@ pub fn cause_place<'p>(
 }
 
 /// When it happened, in seconds; `None` for events and in plans without times.
-pub fn cause_time<'p>(
+pub(super) fn cause_time<'p>(
     domain: &Domain,
     problem: &Problem,
     plan: impl Into<PlanRef<'p>>,

@@ -16,7 +16,7 @@ use pddl::{Span, StepHead};
 
 /// What a happening does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Access {
+pub(super) enum Access {
     /// It adds the atom.
     Adds,
     /// It deletes the atom.
@@ -29,15 +29,15 @@ pub enum Access {
 
 /// What a happening does, and where that stands in the domain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Interference {
+pub(super) struct Interference {
     /// What it does.
-    pub access: Access,
+    pub(super) access: Access,
     /// The effect or condition.
-    pub span: Span,
+    pub(super) span: Span,
 }
 
 /// What a happening does to what it shares; `None` for timed changes, events, and what is not in a condition or effect.
-pub fn interference_of<'p>(
+pub(super) fn interference_of<'p>(
     domain: &Domain,
     plan: impl Into<PlanRef<'p>>,
     cause: Cause,

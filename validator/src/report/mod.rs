@@ -5,17 +5,19 @@
 mod causes;
 mod explain;
 mod finding;
+pub mod html;
 mod interference;
+mod json;
 mod names;
 mod network;
 mod repair;
+mod subject;
 mod words;
 
-pub use causes::{cause_place, cause_time, show_cause};
+pub use causes::show_cause;
 pub use explain::explain;
 pub use finding::{Finding, Place};
-pub use interference::{Access, Interference, interference_of};
-pub use names::{
-    show_application, show_atom, show_diff, show_object, show_preference, show_step, show_timed_step,
-};
+pub use json::{VerdictRecord, Word};
+pub use names::{show_application, show_atom, show_diff};
 pub use repair::show_repair;
+pub use subject::Subject;

@@ -17,14 +17,14 @@ pub fn show_application(domain: &Domain, problem: &Problem, fluent: &GroundAppli
 }
 
 /// A step as PDDL.
-pub fn show_step(domain: &Domain, problem: &Problem, step: &PlanStep) -> String {
+pub(super) fn show_step(domain: &Domain, problem: &Problem, step: &PlanStep) -> String {
     let unknown = Name::new("?");
     let name = domain.actions.get(step.action).map_or(&unknown, |action| &action.name);
     show_list(name, &step.arguments, problem)
 }
 
 /// A step of a plan with times as PDDL, without its times.
-pub fn show_timed_step(domain: &Domain, problem: &Problem, step: &TemporalStep) -> String {
+pub(super) fn show_timed_step(domain: &Domain, problem: &Problem, step: &TemporalStep) -> String {
     let unknown = Name::new("?");
     let name = match step.head {
         StepHead::Action(id) => domain.actions.get(id).map(|action| &action.name),
@@ -34,7 +34,7 @@ pub fn show_timed_step(domain: &Domain, problem: &Problem, step: &TemporalStep) 
 }
 
 /// A violated preference: `p1 (?x = a)`.
-pub fn show_preference(problem: &Problem, violated: &ViolatedPreference) -> String {
+pub(super) fn show_preference(problem: &Problem, violated: &ViolatedPreference) -> String {
     let name = violated.name.as_ref().map_or("a preference without a name", Name::as_str);
     if violated.binding.is_empty() {
         return name.to_owned();
@@ -77,7 +77,7 @@ pub fn show_diff(domain: &Domain, problem: &Problem, diff: &Diff) -> Vec<String>
 }
 
 /// An object's name.
-pub fn show_object(problem: &Problem, object: ObjectId) -> String {
+pub(super) fn show_object(problem: &Problem, object: ObjectId) -> String {
     problem.objects.get(object).map_or_else(|| "?".to_owned(), |o| o.name.to_string())
 }
 

@@ -1,13 +1,13 @@
 //! A decomposition as nested lists that open and close, without a script.
 //!
-//! A plan that was read may be no tree: each task is opened where it is met first. Nothing recurses, and what is too
-//! deep or too much to be looked at is left out, and said to be.
+//! A plan that was read may be no tree: each task is opened where it is met first. What is too deep or too much to be
+//! looked at is left out, and an ellipsis stands for it.
 
-use super::network::show_node;
-use super::page::escaped;
-use pddl::model::{Domain, Idx, Problem};
+use crate::report::subject::Subject;
+use crate::verdict::{Failure, NetworkFault, Parent};
+use maud::{Markup, html};
+use pddl::model::Idx;
 use pddl::{HierarchicalPlan, PlanNode, PlanReference};
-use validator::{Failure, NetworkFault, Parent};
 
 /// How many lines are drawn.
 const LINES: usize = 5_000;
@@ -15,58 +15,66 @@ const LINES: usize = 5_000;
 const DEPTH: usize = 200;
 
 /// What a decomposition looks like; the nodes that a failure is about are marked.
-pub(super) fn tree(
-    domain: &Domain,
-    problem: &Problem,
-    plan: &HierarchicalPlan,
-    failure: Option<&Failure>,
-) -> String {
+pub(super) fn tree(subject: &Subject<'_>, plan: &HierarchicalPlan, failure: Option<&Failure>) -> Markup {
     let marked = failure.map(|failure| marked(failure, plan)).unwrap_or_default();
-    let mut html = "<h2>Decomposition</h2><div class=\"tree\"><ul>".to_owned();
-    let mut seen = vec![false; plan.decompositions.len()];
-    let mut way: Vec<std::slice::Iter<'_, PlanReference>> = vec![plan.roots.iter()];
-    let mut lines = 0;
-    while let Some(top) = way.last_mut() {
-        let Some(reference) = top.next() else {
-            way.pop();
-            html += if way.is_empty() { "</ul>" } else { "</ul></details></li>" };
-            continue;
-        };
-        lines += 1;
-        if lines > LINES {
-            html += "<li>…</li>";
-            way.iter_mut().for_each(|rest| *rest = [].iter());
-            continue;
+    let seen = vec![false; plan.decompositions.len()];
+    let list = Tree { subject, plan, marked, seen, lines: 0 }.list(&plan.roots, 1);
+    html! {
+        h2 { "Decomposition" }
+        div class="tree" { (list) }
+    }
+}
+
+struct Tree<'t> {
+    subject: &'t Subject<'t>,
+    plan: &'t HierarchicalPlan,
+    marked: Vec<PlanNode>,
+    /// Per task whether it was opened.
+    seen: Vec<bool>,
+    lines: usize,
+}
+
+impl Tree<'_> {
+    fn list(&mut self, references: &[PlanReference], depth: usize) -> Markup {
+        let mut items = Vec::new();
+        for reference in references {
+            if self.lines > LINES {
+                break;
+            }
+            self.lines += 1;
+            items.push(if self.lines > LINES {
+                html! { li { "…" } }
+            } else {
+                self.item(reference.node, depth)
+            });
         }
-        let class = if marked.contains(&reference.node) { " class=\"fails\"" } else { "" };
-        let text = escaped(&show_node(domain, problem, plan, reference.node));
-        match reference.node {
+        html! { ul { @for item in items { (item) } } }
+    }
+
+    fn item(&mut self, node: PlanNode, depth: usize) -> Markup {
+        let class = self.marked.contains(&node).then_some("fails");
+        let text = self.subject.node(self.plan, node);
+        let id = match node {
             PlanNode::Step(step) => {
-                let number = step.index() + 1;
-                html += &format!("<li><span{class}>{text}</span> <small>step {number}</small></li>");
+                return html! { li { span class=[class] { (text) } " " small { "step " (step.index() + 1) } } };
             }
-            PlanNode::Decomposition(id) => {
-                let task = plan.decompositions.get(id);
-                let method = task.and_then(|task| domain.methods.get(task.method));
-                let method = escaped(method.map_or("?", |method| method.name.as_str()));
-                let line = format!("<strong{class}>{text}</strong> <small>by {method}</small>");
-                let again = seen.get_mut(id.index()).is_none_or(|seen| std::mem::replace(seen, true));
-                match task.filter(|task| !again && !task.subtasks.is_empty() && way.len() < DEPTH) {
-                    Some(task) => {
-                        html += &format!("<li><details open><summary>{line}</summary><ul>");
-                        way.push(task.subtasks.iter());
-                    }
-                    None if again => html += &format!("<li>{line} … again</li>"),
-                    None if task.is_some_and(|task| !task.subtasks.is_empty()) => {
-                        html += &format!("<li>{line} …</li>");
-                    }
-                    None => html += &format!("<li>{line} <small>becomes nothing</small></li>"),
-                }
+            PlanNode::Decomposition(id) => id,
+        };
+        let task = self.plan.decompositions.get(id);
+        let method = task.and_then(|task| self.subject.domain.methods.get(task.method));
+        let method = method.map_or("?", |method| method.name.as_str());
+        let line = html! { strong class=[class] { (text) } " " small { "by " (method) } };
+        let again = self.seen.get_mut(id.index()).is_none_or(|seen| std::mem::replace(seen, true));
+        match task.filter(|task| !task.subtasks.is_empty()) {
+            _ if again => html! { li { (line) " … again" } },
+            Some(task) if depth < DEPTH => {
+                let below = self.list(&task.subtasks, depth + 1);
+                html! { li { details open { summary { (line) } (below) } } }
             }
+            Some(_) => html! { li { (line) " …" } },
+            None => html! { li { (line) " " small { "becomes nothing" } } },
         }
     }
-    html += "</div>";
-    html
 }
 
 /// What a failure is about.
@@ -104,25 +112,32 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
     use super::tree;
+    use crate::report::subject::Subject;
+    use crate::{Verdict, validate};
     use pddl::{Plan, Source, parse_domain, parse_plan, parse_problem};
-    use validator::{Verdict, validate};
 
     fn drawn(plan: &str) -> String {
         let domain = "(define (domain d) (:requirements :hierarchy) (:task t :parameters ())
             (:method go-on :parameters () :task (t) :ordered-subtasks (and (a) (t)))
             (:method end :parameters () :task (t) :ordered-subtasks ())
             (:action a :parameters () :precondition () :effect ()))";
-        let domain = parse_domain(&Source::new("d", domain), &[]).model.unwrap();
+        let domain_text = Source::new("d", domain);
+        let domain = parse_domain(&domain_text, &[]).model.unwrap();
         let problem = "(define (problem p) (:domain d) (:htn :ordered-subtasks (and (t))) (:init))";
-        let problem = parse_problem(&Source::new("p", problem), &domain).model.unwrap();
-        let plan = parse_plan(&Source::new("plan", plan), &domain, &problem).model.unwrap();
+        let problem_text = Source::new("p", problem);
+        let problem = parse_problem(&problem_text, &domain).model.unwrap();
+        let plan_text = Source::new("plan", plan);
+        let plan = parse_plan(&plan_text, &domain, &problem).model.unwrap();
         let verdict = validate(&domain, &problem, &plan);
         let failure = match &verdict {
             Verdict::Invalid(failure) => Some(failure),
             _ => None,
         };
-        let Plan::Hierarchical(plan) = &plan else { panic!("it has a decomposition") };
-        tree(&domain, &problem, plan, failure)
+        let Plan::Hierarchical(decomposed) = &plan else { panic!("it has a decomposition") };
+        let (domain_text, problem_text, plan_text) = (&domain_text, &problem_text, &plan_text);
+        let subject =
+            Subject { domain: &domain, problem: &problem, plan: &plan, domain_text, problem_text, plan_text };
+        tree(&subject, decomposed, failure).into_string()
     }
 
     #[test]

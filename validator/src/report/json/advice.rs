@@ -1,10 +1,15 @@
 //! Advice as JSON: a change that makes the plan valid, in words and as data.
 
-use crate::task::TaskFiles;
-use pddl::{Plan, print_plan};
+use crate::advice::Repair;
+use crate::plan::StepIndex;
+use crate::report::finding::Place;
+use crate::report::names::{show_application, show_atom};
+use crate::report::repair::show_repair;
+use crate::report::subject::Subject;
+use crate::verdict::File;
+use pddl::print_plan;
 use serde::Serialize;
 use std::collections::HashMap;
-use validator::{Repair, StepIndex, show_application, show_atom, show_repair};
 
 /// A change that makes the plan valid. Steps are counted from 1; what a kind of change does not need is left out.
 #[derive(Serialize)]
@@ -30,10 +35,9 @@ pub(super) struct AdviceRecord {
 
 impl AdviceRecord {
     /// What a repair says.
-    pub(super) fn of(task: &TaskFiles, plan: &Plan, repair: &Repair) -> Self {
-        let TaskFiles { domain, problem, .. } = task;
-        let part =
-            |span: pddl::Span| task.domain_source().text().get(span.range()).unwrap_or_default().to_owned();
+    pub(super) fn of(subject: &Subject<'_>, repair: &Repair) -> Self {
+        let Subject { domain, problem, plan, .. } = *subject;
+        let part = |span| subject.slice(Place { file: File::Domain, span }).to_owned();
         let text = match repair {
             Repair::Without { span } => format!("taking `{}` out of the condition", part(*span)),
             _ => show_repair(domain, problem, plan, repair),
@@ -55,7 +59,7 @@ impl AdviceRecord {
             step: step.map(StepIndex::number),
             with: with.map(StepIndex::number),
             before: before.map(StepIndex::number),
-            lines: lines(task, plan, repair),
+            lines: lines(subject, repair),
             pddl: match repair {
                 Repair::Initially(atom) | Repair::NotInitially(atom) => {
                     Some(show_atom(domain, problem, atom))
@@ -71,13 +75,14 @@ impl AdviceRecord {
 }
 
 /// The lines of the repaired plan that the plan does not have.
-fn lines(task: &TaskFiles, plan: &Plan, repair: &Repair) -> Vec<String> {
+fn lines(subject: &Subject<'_>, repair: &Repair) -> Vec<String> {
+    let Subject { domain, problem, plan, .. } = *subject;
     if matches!(repair, Repair::Drop(_) | Repair::Move { .. }) {
         return Vec::new();
     }
     let Some(repaired) = repair.applied(plan) else { return Vec::new() };
-    let old = print_plan(plan, &task.domain, &task.problem);
-    let new = print_plan(&repaired, &task.domain, &task.problem);
+    let old = print_plan(plan, domain, problem);
+    let new = print_plan(&repaired, domain, problem);
     let mut left: HashMap<&str, usize> = HashMap::new();
     for line in old.lines() {
         *left.entry(line).or_default() += 1;
@@ -105,7 +110,7 @@ const fn change(repair: &Repair) -> &'static str {
         Repair::Stretch { .. } => "stretch",
         Repair::Decompose(_) => "decompose",
         Repair::Initially(_) => "initially",
-        Repair::NotInitially(_) => "not initially",
+        Repair::NotInitially(_) => "not_initially",
         Repair::Value { .. } => "value",
         Repair::Without { .. } => "without",
     }
