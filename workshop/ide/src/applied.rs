@@ -1,4 +1,4 @@
-//! The symbol that a list applies, as the drafts declare it.
+//! The symbol that a list applies, with its declaration in the drafts.
 
 use diagnostics::SourceId;
 use pddl::NameKind;
@@ -32,7 +32,7 @@ pub(crate) fn type_text(table: &TypeTable, types: &TypeSet) -> String {
     }
 }
 
-/// The draft of the domain that the names of a file come from.
+/// The draft of the domain that provides the names of a file.
 pub(crate) fn domain(project: &Project, file: SourceId) -> Option<&Domain> {
     project.domain_of(file).and_then(|domain| project.domain(domain))
 }
@@ -55,7 +55,7 @@ pub(crate) fn applied<'p>(
             .iter()
             .any(|key| section.key().eq_ignore_ascii_case(key))
     });
-    // In a plan and in a task network a name is an action's or a task's.
+    // In a plan and in a task network the head is an action or a task.
     let (kind, variables) = if in_network || context.open.len() == 1 {
         step(domain, &name)?
     } else if let Some(id) = domain.predicate(&name) {
@@ -83,7 +83,7 @@ pub(crate) fn yields<'p>(domain: &'p Domain, name: &str) -> Option<&'p TypeSet> 
     }
 }
 
-/// Whether something can be of both; what is unknown can be anything.
+/// Whether an object can be of both types; an unknown type matches any.
 pub(crate) fn meet(table: &TypeTable, a: &TypeSet, b: &TypeSet) -> bool {
     let inside = |x: &TypeSet, y: &TypeSet| x.0.iter().any(|&t| table.is_in(t, y));
     a.is_unknown()

@@ -1,15 +1,15 @@
-//! Where a cursor is in a text that is being written.
+//! The context of a cursor in a text that is being written.
 //!
-//! Problem: while an author types, parentheses are missing and the tree says little. Idea: read tokens up to the
-//! cursor and keep the lists that are open there, each with what stands in it so far. A section's keyword where
-//! none can be closes whatever was forgotten to close, as the parser does it.
+//! Problem: while an author types, parentheses are missing and the tree is of little use. Idea: read the
+//! tokens up to the cursor and keep the open lists, each with its parts so far. A section's keyword in a
+//! place where no section can be closes the lists that were left open, as in the parser.
 
 use pddl::syntax::{self, TokenKind};
 use pddl::{Source, Span};
 
 use crate::describe::{flat, typed};
 
-/// Keywords of sections: they stand directly in a `define`.
+/// Keywords of a domain's sections: they stand directly in a `define`.
 pub(crate) const DOMAIN_SECTIONS: &[&str] = &[
     ":requirements",
     ":import",
@@ -28,7 +28,7 @@ pub(crate) const DOMAIN_SECTIONS: &[&str] = &[
     ":constraints",
 ];
 
-/// The same of problems.
+/// Keywords of a problem's sections.
 pub(crate) const PROBLEM_SECTIONS: &[&str] =
     &[":domain", ":requirements", ":objects", ":htn", ":init", ":goal", ":constraints", ":metric"];
 
@@ -70,7 +70,7 @@ impl<'t> Open<'t> {
         self.head().eq_ignore_ascii_case(word)
     }
 
-    /// Whether a type should come next.
+    /// Whether a type is expected next.
     pub(crate) fn expects_type(&self) -> bool {
         self.is_headed("either") || self.items.last().is_some_and(|item| item.is("-"))
     }
@@ -81,29 +81,29 @@ impl<'t> Open<'t> {
     }
 }
 
-/// What stands behind the cursor's word on its line.
+/// The text behind the cursor's word on its line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum After {
-    /// Nothing.
+    /// Empty.
     Open,
-    /// A closing parenthesis: an editor may have put it there with the opening one.
+    /// A closing parenthesis; the editor may have inserted it with the opening one.
     Closed,
-    /// Something that belongs to the word.
+    /// Other text, which belongs to the word.
     Arguments,
 }
 
-/// A cursor.
+/// A cursor with its context.
 #[derive(Clone, Debug)]
 pub(crate) struct Context<'t> {
     source: &'t Source,
     /// The lists around it, outermost first.
     pub(crate) open: Vec<Open<'t>>,
-    /// The word that it is in or behind; empty if there is none.
+    /// The word that it is in or behind; may be empty.
     pub(crate) word: Span,
 }
 
 impl<'t> Context<'t> {
-    /// `None` inside of a comment.
+    /// The context of a position; `None` inside a comment.
     pub(crate) fn of(source: &'t Source, offset: u32) -> Option<Self> {
         let (tree, _) = syntax::parse(source);
         let mut context = Self { source, open: Vec::new(), word: Span::new(offset, offset) };
@@ -151,7 +151,7 @@ impl<'t> Context<'t> {
         }
     }
 
-    /// What stands behind the word on its line.
+    /// The text behind the word on its line.
     pub(crate) fn after(&self) -> After {
         let rest = self.source.text().get(self.word.end as usize..).unwrap_or("");
         match rest.lines().next().unwrap_or("").trim_start().chars().next() {
@@ -176,7 +176,7 @@ impl<'t> Context<'t> {
         self.open.get(1)
     }
 
-    /// The variables in sight with the names of their types, innermost first.
+    /// The visible variables with the names of their types, innermost first.
     pub(crate) fn variables(&self) -> Vec<(String, Vec<String>)> {
         let mut lists: Vec<Span> = Vec::new();
         for (depth, list) in self.open.iter().enumerate() {

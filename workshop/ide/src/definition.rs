@@ -1,4 +1,4 @@
-//! Where a name is declared.
+//! The declarations of a name.
 
 use diagnostics::Place;
 use pddl::syntax;
@@ -8,12 +8,12 @@ use crate::Position;
 use crate::entity::entity_at;
 use crate::path::path;
 
-/// Where a name is declared.
+/// The declarations of a name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Definition {
-    /// The name that was asked about.
+    /// The name in question.
     pub origin: Place,
-    /// Its declarations: several if domains that a file imports declare it, or a problem repeats a constant.
+    /// Its declarations: several if imported domains declare it, or a problem repeats a constant.
     pub targets: Vec<Target>,
 }
 
@@ -26,7 +26,7 @@ pub struct Target {
     pub name: Place,
 }
 
-/// Where the name at a position is declared; `None` if there is no name, or nothing declares it.
+/// The declarations of the name at a position; `None` if no name stands there or nothing declares it.
 pub fn definition(project: &Project, at: Position) -> Option<Definition> {
     let (entity, occurrence) = entity_at(project, at)?;
     let targets: Vec<Target> = entity
@@ -38,7 +38,7 @@ pub fn definition(project: &Project, at: Position) -> Option<Definition> {
     (!targets.is_empty()).then_some(Definition { origin, targets })
 }
 
-/// The list that a declared name opens: the whole declaration; of a name among others, itself.
+/// The whole declaration of a name: the list that it opens, or the name itself in a list of names.
 pub(crate) fn full(project: &Project, name: Place) -> Place {
     let (tree, _) = syntax::parse(project.source(name.source));
     let way = path(&tree, name.span.start);

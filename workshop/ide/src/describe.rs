@@ -1,8 +1,8 @@
 //! Declarations in words: signature and comment, from the text.
 //!
-//! The text and not the model is what is shown: it is there while the model is not, and it is what the author
-//! wrote. Comments of a declaration are those on lines of their own directly above it (if it starts its line),
-//! and the one behind it on the same line.
+//! They come from the text and not from the model, since the text is there while the model is not, and since
+//! it is what the author wrote. The comments of a declaration are those on lines of their own directly above
+//! it (if it starts its line), and the one behind it on the same line.
 
 use diagnostics::Place;
 use pddl::syntax::{self, Node, NodeKind, Tree};
@@ -20,7 +20,7 @@ pub(crate) fn flat(node: Node<'_>) -> String {
     format!("({})", parts.join(" "))
 }
 
-/// The type that each word of a typed list has; `None` where it says none.
+/// The type of each word of a typed list; `None` for an untyped word.
 pub(crate) fn typed<'t>(nodes: impl Iterator<Item = Node<'t>>) -> Vec<(Node<'t>, Option<Node<'t>>)> {
     let mut items: Vec<(Node<'t>, Option<Node<'t>>)> = Vec::new();
     let mut from = 0;
@@ -54,7 +54,7 @@ pub(crate) fn section_signature(section: Node<'_>) -> String {
     format!("({})", all.join(" "))
 }
 
-/// What the declaration of a name says on one line.
+/// The declaration of a name on one line.
 pub(crate) fn signature(tree: &Tree<'_>, span: Span, kind: NameKind) -> Option<String> {
     let way = path(tree, span.start);
     let name = *way.last().filter(|n| n.span() == span)?;
@@ -100,7 +100,7 @@ pub(crate) fn comment(project: &Project, name: Place) -> Option<String> {
     let whole = crate::definition::full(project, name).span;
     let in_section = Spot::of(&tree, name.span).is_some_and(|spot| spot.section.span() == whole);
     let mut lines = above(source, whole);
-    // A section's own comment stands behind its head, that of others behind their end.
+    // A section's own comment stands behind its head, that of other declarations behind their end.
     let behind = if in_section { name.span.end } else { whole.end };
     lines.extend(after(source, behind));
     lines.retain(|line| !line.starts_with("allow("));
@@ -108,7 +108,7 @@ pub(crate) fn comment(project: &Project, name: Place) -> Option<String> {
     (!text.is_empty()).then_some(text)
 }
 
-/// The comments on the lines directly above what starts its line.
+/// The comments on the lines directly above a place that starts its line.
 fn above(source: &Source, whole: Span) -> Vec<String> {
     let at = source.line_column(whole.start);
     let before: String = source.line(at.line).chars().take(at.column as usize - 1).collect();
@@ -122,7 +122,7 @@ fn above(source: &Source, whole: Span) -> Vec<String> {
     lines
 }
 
-/// The comment behind a place, if only parentheses stand between them.
+/// The comment behind a place, if only parentheses stand between.
 fn after(source: &Source, end: u32) -> Option<String> {
     let rest = source.text().get(end as usize..)?.lines().next()?;
     let comment = rest.trim_start_matches(|c: char| c.is_whitespace() || c == ')');

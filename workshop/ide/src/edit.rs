@@ -1,16 +1,16 @@
-//! Changes of texts, for somebody else to make.
+//! Changes of texts as data; the caller applies them.
 
 use std::collections::BTreeMap;
 
 use diagnostics::SourceId;
 use pddl::Span;
 
-/// A piece of a file and what to put in its place.
+/// A place in a file and its new text.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct TextEdit {
-    /// What goes; empty to insert only.
+    /// The replaced span; empty for an insertion.
     pub span: Span,
-    /// What comes.
+    /// The new text.
     pub text: String,
 }
 

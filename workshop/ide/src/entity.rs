@@ -1,10 +1,10 @@
-//! The thing that a name stands for, over all files.
+//! The thing that a name denotes, over all files.
 //!
-//! Problem: a predicate's name stands in its domain, in domains that import it, in problems and in plans, and a
-//! predicate of another domain may have the same name. Idea: a name means what the files declare that its own
-//! file needs (its *homes*); two names are one thing if they share a home. Where a domain imports two that both
-//! declare it, these are one thing too, so homes are joined until no more are found.
-//! Cost: a look at every occurrence of the project.
+//! Problem: a predicate's name stands in its domain, in domains that import it, in problems and in plans,
+//! and a predicate of another domain may have the same name. Idea: a name denotes the declarations in the
+//! files that its own file needs (its *homes*). Two names denote one thing if they share a home. A domain
+//! may import two domains that both declare it; those are one thing too, so homes are joined until nothing
+//! changes. Cost: a visit to every occurrence of the project.
 
 use std::collections::BTreeSet;
 
@@ -18,30 +18,30 @@ use crate::Position;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Entity {
     pub(crate) symbol: Symbol,
-    /// The files that declare it; empty if none does.
+    /// The files that declare it; empty if it is undeclared.
     pub(crate) homes: BTreeSet<SourceId>,
 }
 
-/// The occurrence at a position; of two that touch there, the one behind it.
+/// The occurrence at a position; if two touch there, the later one.
 pub(crate) fn occurrence_at(project: &Project, at: Position) -> Option<&Occurrence> {
     let all = project.reading(at.source)?.occurrences();
     let end = all.partition_point(|o| o.span.start <= at.offset);
-    // Occurrences lie beside each other, so the last ones that start before are all that can reach here.
+    // Occurrences do not overlap, so only the last ones that start before can contain the position.
     all[..end].iter().rev().take(2).find(|o| at.offset <= o.span.end)
 }
 
-/// The thing at a position, with the occurrence that stands there.
+/// The thing at a position, with its occurrence there.
 pub(crate) fn entity_at(project: &Project, at: Position) -> Option<(Entity, &Occurrence)> {
     let occurrence = occurrence_at(project, at)?;
     Some((Entity::of(project, at.source, &occurrence.symbol), occurrence))
 }
 
-/// Whether the name means something in one file only.
+/// Whether the name is local to its file.
 pub(crate) fn is_local(kind: NameKind) -> bool {
     matches!(kind, NameKind::Variable | NameKind::Subtask)
 }
 
-/// Whether domains that import a domain have it too.
+/// Whether domains that import a domain inherit it.
 fn is_imported(kind: NameKind) -> bool {
     matches!(
         kind,
@@ -49,7 +49,7 @@ fn is_imported(kind: NameKind) -> bool {
     )
 }
 
-/// The files in which a name of that kind in `file` may be declared: its own and those that it needs.
+/// The files that may declare a name of that kind for `file`: itself and those that it needs.
 pub(crate) fn visible_from(project: &Project, file: SourceId, kind: NameKind) -> Vec<SourceId> {
     let mut found = vec![file];
     let mut next = 0;
@@ -82,7 +82,7 @@ fn homes(project: &Project, file: SourceId, symbol: &Symbol) -> BTreeSet<SourceI
 }
 
 impl Entity {
-    /// What `symbol` stands for in `file`.
+    /// The thing that `symbol` denotes in `file`.
     pub(crate) fn of(project: &Project, file: SourceId, symbol: &Symbol) -> Self {
         let mut entity = Self { symbol: symbol.clone(), homes: BTreeSet::new() };
         if is_local(symbol.kind) {
@@ -104,7 +104,7 @@ impl Entity {
         }
     }
 
-    /// Every place at which it is named, by file and place.
+    /// All its occurrences, by file and place.
     pub(crate) fn occurrences<'p>(&self, project: &'p Project) -> Vec<(SourceId, &'p Occurrence)> {
         let mut found = Vec::new();
         for file in project.ids() {
@@ -116,8 +116,8 @@ impl Entity {
         found
     }
 
-    /// Whether its name means it in `file`. What nothing declares is what any file names alike that declares
-    /// nothing of the name either.
+    /// Whether the name denotes it in `file`. An undeclared thing has one identity in all files that use the
+    /// name without a declaration.
     pub(crate) fn is_known_in(&self, project: &Project, file: SourceId) -> bool {
         if is_local(self.symbol.kind) {
             return self.homes.contains(&file);

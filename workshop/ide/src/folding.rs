@@ -1,29 +1,29 @@
-//! What can be folded away.
+//! The ranges of a file that an editor can fold.
 
 use diagnostics::SourceId;
 use pddl::syntax::{self, Node, TokenKind, Tree};
 use pddl::{Source, Span};
 use project::Project;
 
-/// What is folded.
+/// The kind of a fold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FoldKind {
     /// A list over several lines.
     List,
-    /// Lines of comment below each other.
+    /// Consecutive lines of comment.
     Comment,
 }
 
-/// A piece that can be folded away.
+/// A range that can be folded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fold {
-    /// All of it.
+    /// The whole range.
     pub span: Span,
-    /// What it is.
+    /// Its kind.
     pub kind: FoldKind,
 }
 
-/// What can be folded in a file, in order of place.
+/// The folds of a file, in order of place.
 pub fn folding(project: &Project, source: SourceId) -> Vec<Fold> {
     let text = project.source(source);
     let (tree, _) = syntax::parse(text);
@@ -42,7 +42,7 @@ pub fn folding(project: &Project, source: SourceId) -> Vec<Fold> {
     folds
 }
 
-/// Comments on lines of their own, two or more below each other.
+/// Two or more consecutive lines of comment.
 fn comments(source: &Source, tree: &Tree<'_>) -> Vec<Fold> {
     let mut folds: Vec<Fold> = Vec::new();
     let mut last_line = 0;

@@ -1,6 +1,6 @@
-//! A file laid out anew, as changes of its text.
+//! Formatting a file, as edits.
 //!
-//! Only what differs is changed, so that marks and cursors stay where they are.
+//! Only differing pieces are replaced, so that marks and cursors stay where they are.
 
 use diagnostics::SourceId;
 use pddl::syntax::{self, TokenKind};
@@ -9,7 +9,7 @@ use project::Project;
 
 use crate::TextEdit;
 
-/// What to change so that the file is laid out as `pelea fmt` does; `None` while its parentheses do not match.
+/// The edits that lay the file out as `pelea fmt` does; `None` while its parentheses do not match.
 pub fn format(project: &Project, source: SourceId) -> Option<Vec<TextEdit>> {
     let old = project.source(source);
     let text = pddl::format(old).ok()?;
@@ -26,7 +26,7 @@ pub fn format(project: &Project, source: SourceId) -> Option<Vec<TextEdit>> {
     Some(edits)
 }
 
-/// Of these changes, those in the lines that `range` touches.
+/// Of these edits, those in the lines that `range` touches.
 pub fn format_range(project: &Project, source: SourceId, range: Span) -> Option<Vec<TextEdit>> {
     let text = project.source(source);
     let line = |offset: u32| text.line_column(offset).line;
@@ -36,8 +36,8 @@ pub fn format_range(project: &Project, source: SourceId, range: Span) -> Option<
     Some(edits)
 }
 
-/// A word with the white space before it. The formatter changes only the latter, and blanks at the end of a
-/// comment.
+/// A word with the white space before it. The formatter changes only white space, that at the end of a
+/// comment included.
 struct Piece {
     blank: Span,
     word: Span,

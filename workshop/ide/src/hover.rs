@@ -1,4 +1,4 @@
-//! What a name means.
+//! Hover: the meaning of a name, a word or a finding.
 
 use std::fmt::Write as _;
 
@@ -15,17 +15,17 @@ use crate::path::{Spot, path};
 use crate::usage::{Deed, deeds};
 use crate::words::meaning;
 
-/// What to show over a name.
+/// The contents of a hover.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hover {
-    /// What it is about.
+    /// The place that it is about.
     pub place: Place,
-    /// What to show, as Markdown.
+    /// The text, as Markdown.
     pub markdown: String,
 }
 
-/// What stands at a position: a name with its signature, comment and usage, or a word of the language; and what
-/// the findings there mean; of lints only those that have run.
+/// The hover for a position. It shows a name with its signature, comment and usage, or a word of the
+/// language, and the meaning of the findings there. Lints count only if they have run.
 pub fn hover(project: &Project, at: Position) -> Option<Hover> {
     let (mut span, mut parts) = (None, Vec::new());
     if let Some((entity, occurrence)) = entity_at(project, at) {
@@ -35,12 +35,12 @@ pub fn hover(project: &Project, at: Position) -> Option<Hover> {
         span = Some(word);
         parts.push(text);
     }
-    // Lints may be slow: of theirs only what is known.
+    // Lints may be slow, so only cached findings are shown.
     let lints = project.cached_lint_findings(at.source).iter().map(|linted| &linted.finding);
     for finding in project.language_findings(at.source).iter().chain(lints) {
         let place = finding.place.span;
         let around = place.start <= at.offset && at.offset <= place.end;
-        // What covers lines is not about the word.
+        // A finding over several lines is not about the word.
         if !around || project.source(at.source).slice(place).contains('\n') {
             continue;
         }
@@ -95,7 +95,7 @@ fn of_name(project: &Project, file: SourceId, entity: &Entity) -> Option<String>
     Some(text)
 }
 
-/// A word that names something outside of all files, or nothing yet.
+/// A word that names something outside of all files, or an undeclared name.
 fn undeclared(entity: &Entity) -> Option<String> {
     let symbol = &entity.symbol;
     let name = format!("`{}`", symbol.name);
@@ -124,7 +124,7 @@ fn of_kind(project: &Project, place: Place, kind: NameKind) -> String {
     }
 }
 
-/// Where types and objects stand in the hierarchy.
+/// The position of a type or an object in the hierarchy.
 fn hierarchy(project: &Project, file: SourceId, domain: &Domain, entity: &Entity) -> Vec<String> {
     let name = entity.symbol.name.as_str();
     match entity.symbol.kind {

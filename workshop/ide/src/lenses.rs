@@ -1,4 +1,4 @@
-//! Lines over declarations: what can be run, how often a name is used.
+//! Code lenses: commands over a declaration, and the number of its uses.
 
 use diagnostics::SourceId;
 use pddl::{NameKind, Role, Span, Symbol};
@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 
 use crate::entity::{occurrences, visible_from};
 
-/// What a lens says and does.
+/// The content of a lens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lens {
     /// Plan for the problem in this file, with that domain file.
@@ -22,19 +22,19 @@ pub enum Lens {
         /// The problem's file.
         problem: SourceId,
     },
-    /// How often the name below is used in the project.
+    /// The number of uses of the name below, over the project.
     References {
         /// Uses, without declarations.
         count: usize,
     },
 }
 
-/// A line over a place.
+/// A lens over a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CodeLens {
     /// The name below the line.
     pub span: Span,
-    /// What it says.
+    /// Its content.
     pub lens: Lens,
 }
 
@@ -56,8 +56,8 @@ pub fn code_lenses(project: &Project, source: SourceId) -> Vec<CodeLens> {
     }
 }
 
-/// Over each declaration how often it is named elsewhere. One look at every occurrence of the files that may name
-/// it, whatever the number of declarations.
+/// The number of uses of each declaration. Visits every occurrence of the files that may use one once,
+/// whatever the number of declarations.
 fn references(project: &Project, source: SourceId) -> Vec<CodeLens> {
     const COUNTED: [NameKind; 6] = [
         NameKind::Action,

@@ -1,9 +1,9 @@
 //! What an editor asks about PDDL, as pure functions over a [`Project`].
 //!
-//! Problem: editors speak protocols, and the answers to their questions have nothing to do with these. Idea:
-//! one function a question, in a file of its own; it takes the project and a [`Position`] or a file, and answers
-//! with plain data: places, markdown, edits. All of them work on files with errors in them, for that is when
-//! authors ask. Nothing here reads a disk, keeps a state or knows a protocol.
+//! Problem: editors speak protocols, and the answers to their questions do not depend on those. Idea: one
+//! function for each question, in a file of its own. It takes the project and a [`Position`] or a file, and
+//! returns plain data: places, Markdown, edits. All functions work on files with errors, since that is when
+//! authors ask. Nothing here reads a disk, keeps state or knows a protocol.
 //!
 //! Source: the shape of rust-analyzer's `ide` crate (architecture.md, "IDE API").
 
@@ -54,8 +54,8 @@ use project::Project;
 /// A place between two characters of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Position {
-    /// Which file.
+    /// The file.
     pub source: SourceId,
-    /// In bytes from its beginning.
+    /// The offset in bytes.
     pub offset: u32,
 }

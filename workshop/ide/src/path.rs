@@ -1,4 +1,4 @@
-//! The way from the top of a file down to a place: the lists that enclose it.
+//! The path from the top of a file down to a place: the lists that enclose it.
 
 use pddl::Span;
 use pddl::syntax::{Node, NodeKind, Tree};
@@ -9,7 +9,7 @@ pub(crate) fn path<'t>(tree: &'t Tree<'t>, offset: u32) -> Vec<Node<'t>> {
     let mut siblings = tree.roots();
     loop {
         let around = |n: &Node<'t>| n.span().start <= offset && offset <= n.span().end;
-        // Of a list that ends here and a word that starts here the later one is meant.
+        // Between a list that ends here and a word that starts here, the later one counts.
         let next = siblings.by_ref().take_while(|n| n.span().start <= offset).filter(around).last();
         let Some(next) = next else { return way };
         let inside = next.is_list()
@@ -27,7 +27,7 @@ fn ends_closed(list: Node<'_>) -> bool {
     list.text().ends_with(')')
 }
 
-/// Where a name stands: the section around it, its key, and what is in between.
+/// The context of a name: the section around it, its key, and the lists between.
 #[derive(Clone, Debug)]
 pub(crate) struct Spot<'t> {
     /// The section that holds the name, such as `(:action …)`.

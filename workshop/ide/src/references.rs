@@ -1,4 +1,4 @@
-//! Where a name is used, over all files of the project.
+//! All uses of a name, over all files of the project.
 
 use diagnostics::Place;
 use pddl::Role;
@@ -10,22 +10,22 @@ use crate::entity::entity_at;
 /// Whether declarations count as references.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Declarations {
-    /// They do.
+    /// Yes.
     Included,
-    /// They do not.
+    /// No.
     Excluded,
 }
 
-/// A name where it stands.
+/// A reference to a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Reference {
-    /// Where.
+    /// Its place.
     pub place: Place,
-    /// Whether it declares or uses.
+    /// Whether it is a declaration or a use.
     pub role: Role,
 }
 
-/// Every place of the project at which the name at a position stands; `None` if there is no name.
+/// All references to the name at a position; `None` if no name stands there.
 pub fn references(project: &Project, at: Position, declarations: Declarations) -> Option<Vec<Reference>> {
     let (entity, _) = entity_at(project, at)?;
     let all = entity.occurrences(project).into_iter();

@@ -1,4 +1,4 @@
-//! Another name for a thing, wherever it stands.
+//! Renames a declared thing in all files.
 
 use std::collections::BTreeSet;
 
@@ -13,57 +13,57 @@ use crate::{Edits, Position, TextEdit};
 /// A name that can be changed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Renamable {
-    /// Where it stands, without a variable's question mark.
+    /// Its place, without a variable's question mark.
     pub place: Place,
-    /// As it is now.
+    /// The present name.
     pub name: String,
 }
 
 /// Why a name cannot be changed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RenameError {
-    /// No name stands there.
+    /// No name stands at the position.
     #[error("there is no name here")]
     NoName,
     /// It is part of the language or of something outside the project.
     #[error("the {kind} `{name}` is not the project's to rename")]
     Foreign {
-        /// What it is.
+        /// Its kind.
         kind: NameKind,
-        /// Which.
+        /// Its name.
         name: String,
     },
-    /// The new name is none.
+    /// The new name is not a valid name.
     #[error("`{name}` is not a name")]
     Invalid {
-        /// As asked for.
+        /// The new name.
         name: String,
     },
-    /// The language has other plans for the new name.
+    /// The new name is a reserved word.
     #[error("`{name}` is a word of the language")]
     Reserved {
-        /// As asked for.
+        /// The new name.
         name: String,
     },
-    /// There is one already.
+    /// The new name is in use.
     #[error("the {kind} `{name}` exists already")]
     Clash {
-        /// What the other one is.
+        /// The kind of the other thing.
         kind: NameKind,
         /// The name.
         name: String,
-        /// Where the other one stands.
+        /// The place of the other declaration.
         place: Place,
     },
-    /// A file in which the name stands has parentheses that do not match: not every occurrence may be known.
+    /// A file with the name has unbalanced parentheses, so that some occurrences may be unknown.
     #[error("a file in which it stands is broken: its parentheses do not match")]
     Broken {
-        /// Where.
+        /// The place of the name.
         place: Place,
     },
 }
 
-/// Words that are no names where conditions, effects, types or terms stand.
+/// Reserved words in conditions, effects, types and terms.
 const RESERVED: &[&str] = &[
     "and",
     "or",
@@ -101,8 +101,8 @@ pub fn prepare_rename(project: &Project, at: Position) -> Result<Renamable, Rena
     Ok(Renamable { place: Place { source: at.source, span }, name })
 }
 
-/// Gives the thing at a position another name in all files, closed ones and plans included. A variable's name may
-/// come with its question mark or without.
+/// Renames the thing at a position in all files, closed ones and plans included. A variable's name may have
+/// its question mark or not.
 pub fn rename(project: &Project, at: Position, name: &str) -> Result<Edits, RenameError> {
     let (entity, _) = entity_at(project, at).ok_or(RenameError::NoName)?;
     let symbol = &entity.symbol;
@@ -116,7 +116,7 @@ pub fn rename(project: &Project, at: Position, name: &str) -> Result<Edits, Rena
     for file in all.iter().map(|(file, _)| *file).collect::<BTreeSet<SourceId>>() {
         check_whole(project, file)?;
     }
-    // A file that does not name it may still see it.
+    // A file without that name may still see the declaration.
     if !symbol.name.eq_ignore_ascii_case(name) {
         for file in project.ids().filter(|&file| entity.is_known_in(project, file)) {
             check_free(project, file, symbol, name)?;
@@ -131,7 +131,7 @@ pub fn rename(project: &Project, at: Position, name: &str) -> Result<Edits, Rena
 }
 
 fn check_owned(project: &Project, entity: &Entity, name: &str) -> Result<(), RenameError> {
-    // Requirements, skills and agents are declared elsewhere, if at all; so is what is only used.
+    // Requirements, skills and agents have no declaration in the project; neither has a name with uses only.
     if entity.declarations(project).is_empty() {
         return Err(RenameError::Foreign { kind: entity.symbol.kind, name: name.to_owned() });
     }
@@ -156,7 +156,7 @@ fn check_name(kind: NameKind, name: &str) -> Result<(), RenameError> {
     Ok(())
 }
 
-/// A file with lists that never end may hold names that were not read.
+/// In a file with unclosed lists, some names may not have been read.
 fn check_whole(project: &Project, file: SourceId) -> Result<(), RenameError> {
     let (_, broken) = syntax::parse(project.source(file));
     match broken.first() {
@@ -165,13 +165,13 @@ fn check_whole(project: &Project, file: SourceId) -> Result<(), RenameError> {
     }
 }
 
-/// Kinds that share their names with `kind`: what one of them names, no other may.
+/// The kinds that share a namespace with `kind`.
 fn namespace(kind: NameKind) -> &'static [NameKind] {
     match kind {
         NameKind::Action | NameKind::Task | NameKind::Process | NameKind::Event => {
             &[NameKind::Action, NameKind::Task, NameKind::Process, NameKind::Event]
         }
-        // A type may be used as a predicate of one argument, a function without arguments as an object.
+        // A type may be a predicate of one argument, a function without arguments may be an object.
         NameKind::Type | NameKind::Predicate => &[NameKind::Type, NameKind::Predicate],
         NameKind::Function | NameKind::Object => &[NameKind::Function, NameKind::Object],
         NameKind::Domain => &[NameKind::Domain],
@@ -186,7 +186,7 @@ fn namespace(kind: NameKind) -> &'static [NameKind] {
     }
 }
 
-/// Whether the new name means nothing yet where the old one stands.
+/// Whether the new name is free in every scope of the old one.
 fn check_free(project: &Project, file: SourceId, symbol: &Symbol, name: &str) -> Result<(), RenameError> {
     let files = if is_local(symbol.kind) { vec![file] } else { visible_from(project, file, symbol.kind) };
     let overlap = |o: &Symbol| match (o.scope, symbol.scope) {

@@ -1,4 +1,4 @@
-//! What to select next when a selection grows.
+//! The ranges of a growing selection.
 
 use pddl::{Span, syntax};
 use project::Project;
@@ -6,13 +6,13 @@ use project::Project;
 use crate::Position;
 use crate::path::path;
 
-/// What encloses a position, from the word to the whole file; each holds the one before it.
+/// The ranges that enclose a position, from the word to the whole file; each contains the one before it.
 pub fn selection(project: &Project, at: Position) -> Vec<Span> {
     let source = project.source(at.source);
     let (tree, _) = syntax::parse(source);
     let mut spans: Vec<Span> = Vec::new();
     for node in path(&tree, at.offset).into_iter().rev() {
-        // What a list holds comes before the list with its parentheses.
+        // The contents of a list come before the list with its parentheses.
         if node.is_list() {
             let inside = node
                 .children()

@@ -1,4 +1,4 @@
-//! What each word of a file is, for colours that know what names mean.
+//! Semantic tokens: the kind of each word, for colours by meaning.
 
 use diagnostics::SourceId;
 use pddl::syntax::{self, TokenKind};
@@ -7,7 +7,7 @@ use project::Project;
 
 use crate::entity::occurrences;
 
-/// What a word is.
+/// The kind of a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TokenRole {
     /// `;` up to the line's end.
@@ -22,19 +22,19 @@ pub enum TokenRole {
     Name(NameKind, Role),
 }
 
-/// A word and what it is.
+/// A word and its kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SemanticToken {
-    /// Where it stands, within one line.
+    /// Its place, within one line.
     pub span: Span,
-    /// What it is.
+    /// Its kind.
     pub role: TokenRole,
 }
 
-/// Words that are names only where something is called so.
+/// Words that are names only if a declaration has that name.
 const OPERATORS: &[&str] = &["=", "<", "<=", ">=", ">", "+", "-", "*", "/", "#t"];
 
-/// The words of a file (or of those of its pieces that `range` touches), in order, none overlapping.
+/// The words of a file, or those that `range` touches, in order and without overlaps.
 pub fn semantic_tokens(project: &Project, source: SourceId, range: Option<Span>) -> Vec<SemanticToken> {
     let text = project.source(source);
     let (tree, _) = syntax::parse(text);

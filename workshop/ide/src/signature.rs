@@ -1,4 +1,4 @@
-//! What an applied symbol takes, while its arguments are written.
+//! Signature help: the parameters of a symbol while its arguments are written.
 
 use diagnostics::Place;
 use pddl::NameKind;
@@ -10,20 +10,20 @@ use crate::context::Context;
 use crate::describe::comment;
 use crate::entity::Entity;
 
-/// A signature and which argument is being written.
+/// A signature and its current parameter.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SignatureHelp {
     /// `(at ?who - person ?where - place)`
     pub label: String,
-    /// Where in the label each parameter is, in bytes.
+    /// The range of each parameter in the label, in bytes.
     pub parameters: Vec<std::ops::Range<usize>>,
-    /// Which parameter is being written; `None` behind the last.
+    /// The current parameter; `None` behind the last.
     pub active: Option<usize>,
     /// The comment at the declaration, as Markdown.
     pub documentation: Option<String>,
 }
 
-/// The signature of the symbol whose arguments stand around a position.
+/// The signature of the symbol whose arguments surround a position.
 pub fn signature_help(project: &Project, at: Position) -> Option<SignatureHelp> {
     let context = Context::of(project.source(at.source), at.offset)?;
     let list = context.inner().filter(|list| !list.items.is_empty())?;

@@ -1,4 +1,4 @@
-//! What a file declares, as an outline; what a project declares, by name.
+//! The outline of a file, and a search over the declarations of a project.
 
 use diagnostics::{Place, SourceId};
 use pddl::syntax::{self, Node, Tree};
@@ -8,7 +8,7 @@ use project::Project;
 use crate::describe::{flat, section_signature, signature, typed};
 use crate::entity::{is_local, occurrences};
 
-/// What an entry of an outline is.
+/// The kind of an outline's entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SymbolShape {
     /// A section of several declarations, such as `:predicates`.
@@ -22,15 +22,15 @@ pub enum SymbolShape {
 pub struct DocumentSymbol {
     /// Its name.
     pub name: String,
-    /// What it is.
+    /// Its kind.
     pub shape: SymbolShape,
     /// Signature or type.
     pub detail: Option<String>,
     /// The whole declaration.
     pub full: Span,
-    /// The name in it.
+    /// The name inside the declaration.
     pub name_span: Span,
-    /// What is inside.
+    /// The nested entries.
     pub children: Vec<DocumentSymbol>,
 }
 
@@ -39,11 +39,11 @@ pub struct DocumentSymbol {
 pub struct WorkspaceSymbol {
     /// Its name.
     pub name: String,
-    /// What it is.
+    /// Its kind.
     pub kind: NameKind,
     /// The domain or problem that declares it.
     pub container: String,
-    /// The name where it is declared.
+    /// The place of the name in its declaration.
     pub place: Place,
 }
 
@@ -94,7 +94,7 @@ impl<'t> Outline<'t> {
             symbol.detail = section.children().nth(1).map(flat);
             return Some(symbol);
         }
-        // Types of words are looked up in one pass: objects are many.
+        // Types of all words are looked up in one pass, since objects are many.
         let items = typed(section.children().skip(1));
         let mut items = items.into_iter().peekable();
         for name in declared {
@@ -123,7 +123,7 @@ impl<'t> Outline<'t> {
         }
     }
 
-    /// The occurrences inside of a node.
+    /// The occurrences inside a node.
     fn within(&self, node: Node<'_>) -> &'t [Occurrence] {
         let first = self.names.partition_point(|o| o.span.start < node.span().start);
         let end = self.names.partition_point(|o| o.span.start < node.span().end);
@@ -142,7 +142,8 @@ fn section_symbol(keyword: Node<'_>, full: Span) -> DocumentSymbol {
     }
 }
 
-/// Declarations whose names hold the letters of `query` in order, in any case; all for the empty query.
+/// Declarations whose names contain the letters of `query` in order, in any case; all declarations for an
+/// empty query.
 pub fn workspace_symbols(project: &Project, query: &str) -> Vec<WorkspaceSymbol> {
     let mut found = Vec::new();
     for source in project.ids() {
@@ -161,7 +162,7 @@ pub fn workspace_symbols(project: &Project, query: &str) -> Vec<WorkspaceSymbol>
     found
 }
 
-/// Whether the letters of `query` stand in `name` in this order.
+/// Whether `name` contains the letters of `query` in this order.
 fn holds(name: &str, query: &str) -> bool {
     let mut letters = name.chars().flat_map(char::to_lowercase);
     query.chars().flat_map(char::to_lowercase).all(|wanted| letters.any(|c| c == wanted))

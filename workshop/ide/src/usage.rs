@@ -1,7 +1,7 @@
-//! What a declared thing is used for: who needs it, adds it, deletes it, changes it.
+//! How a declared thing is used: who needs it, adds it, deletes it, changes it.
 //!
-//! Told from where its name stands, not from the model: so it is there for drafts, and for every part of the
-//! language that has conditions and effects.
+//! The lists around a name determine its use, not the model, so this works for drafts and for every part of
+//! the language that has conditions and effects.
 
 use pddl::syntax::{self, Node};
 use pddl::{NameKind, Role, Span};
@@ -10,7 +10,7 @@ use project::{FileKind, Project};
 use crate::entity::Entity;
 use crate::path::Spot;
 
-/// What one use does.
+/// The effect of one use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Deed {
     Needs,
@@ -24,7 +24,7 @@ pub(crate) enum Deed {
 }
 
 impl Deed {
-    /// What to say before those who do it.
+    /// The words before the list of users.
     pub(crate) fn words(self) -> &'static str {
         match self {
             Self::Needs => "needed by",
@@ -39,7 +39,7 @@ impl Deed {
     }
 }
 
-/// Who does what with a thing, by deed, each once, in the order of files and places. Only domains count.
+/// The users of a thing by kind of use, each once, in the order of files and places. Only domains count.
 pub(crate) fn deeds(project: &Project, entity: &Entity) -> Vec<(Deed, Vec<String>)> {
     let mut found: Vec<(Deed, Vec<String>)> = Vec::new();
     let uses = entity.occurrences(project);
@@ -89,7 +89,7 @@ fn deed(spot: &Spot<'_>, span: Span, kind: NameKind) -> Option<(Deed, String)> {
     }
 }
 
-/// What a name in an effect does, by the lists around it.
+/// The use of a name in an effect, by the lists around it.
 fn effect(lists: &[Node<'_>], span: Span, kind: NameKind) -> Deed {
     let assigns = ["assign", "increase", "decrease", "scale-up", "scale-down"];
     let mut deed = if kind == NameKind::Predicate { Deed::Adds } else { Deed::Needs };

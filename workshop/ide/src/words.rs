@@ -1,9 +1,10 @@
-//! What the words of the language mean, in a sentence each.
+//! The meanings of the language's words, in a sentence each.
 //!
-//! Sources: Fox & Long, "PDDL2.1", JAIR 2003; Gerevini & Long, "Plan constraints and preferences in PDDL3", 2005;
-//! Kovacs, "BNF definition of PDDL 3.1", 2011; Höller et al., "HDDL", AAAI 2020; `docs/rules.md` for what is ours.
+//! Sources: Fox & Long, "PDDL2.1", JAIR 2003; Gerevini & Long, "Plan constraints and preferences in PDDL3",
+//! 2005; Kovacs, "BNF definition of PDDL 3.1", 2011; Höller et al., "HDDL", AAAI 2020; `docs/rules.md` for
+//! Pelea's own words.
 
-/// What a word of the language means; `None` if it is none.
+/// The meaning of a word of the language; `None` for other words.
 pub(crate) fn meaning(word: &str) -> Option<&'static str> {
     let word = word.to_ascii_lowercase();
     WORDS.iter().find(|(known, _)| *known == word).map(|(_, meaning)| *meaning)

@@ -1,20 +1,20 @@
-//! What the client can do, as far as we care.
+//! The client's capabilities, as far as the server uses them.
 //!
-//! Problem: `initialize` brings hundreds of fields; one that is new or wrong in a part that does not matter must not
-//! keep an editor from starting. Idea: look at the few that matter, each on its own; what is missing or odd
-//! is something that the client cannot do.
+//! Problem: `initialize` has hundreds of fields; a new or malformed field that does not matter must not keep
+//! an editor from starting. Idea: read the few fields that matter, each on its own; a missing or malformed
+//! one is a capability that the client lacks.
 
 use crate::position::Encoding;
 use serde_json::Value;
 
-/// The client's side.
+/// The client's capabilities.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Client {
     pub(crate) encoding: Encoding,
-    /// It tells us of changed files, if we ask it to.
+    /// It can watch files for the server.
     pub(crate) watches: bool,
     pub(crate) applies_edits: bool,
-    /// Edits may say to which version of a document they belong.
+    /// Edits may name the version of a document that they belong to.
     pub(crate) versioned_edits: bool,
     pub(crate) creates_files: bool,
     pub(crate) shows_progress: bool,
@@ -28,7 +28,7 @@ pub(crate) struct Client {
     pub(crate) refreshes: Refreshes,
 }
 
-/// What the client asks for anew when we say so.
+/// The results that the client can be asked to request again.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Refreshes {
     pub(crate) diagnostics: bool,

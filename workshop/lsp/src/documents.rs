@@ -1,10 +1,10 @@
-//! The texts: what the client has open, over what the disk holds.
+//! The documents: the texts that the client has open, over the texts on the disk.
 //!
-//! Problem: an open document is the client's until it closes it, whatever the disk says; a closed one is the disk's;
-//! and both belong to one project. Idea: a project of all texts, and beside it, by the same number, what only an
-//! editor's server needs: where lines start, and what the client calls the document. Invariant: the text of an open
-//! document changes by the client's notifications only; one that is closed is again what the disk holds, or is
-//! gone. Cost of an edit: the document's length, and the project's bookkeeping.
+//! Problem: an open document belongs to the client until it closes it, whatever the disk holds; a closed one
+//! belongs to the disk; and both are in one project. Idea: a project of all texts, and beside it, by the
+//! same ids, what only an editor's server needs: the starts of lines and the client's URI. Invariant: only
+//! the client's notifications change the text of an open document. A document that is closed has the disk's
+//! text again, or is removed. Cost of an edit: the document's length, and the project's bookkeeping.
 
 use crate::position::{Encoding, LineIndex};
 use crate::uri;
@@ -15,10 +15,10 @@ use project::Project;
 use rustc_hash::FxHashMap;
 use std::cell::OnceCell;
 
-/// What the client knows of a document that it has open.
+/// The client's view of an open document.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Open {
-    /// As the client writes it.
+    /// Its URI in the client's spelling.
     pub(crate) uri: String,
     pub(crate) version: i32,
 }
@@ -27,14 +27,14 @@ pub(crate) struct Open {
 struct Document {
     lines: OnceCell<LineIndex>,
     open: Option<Open>,
-    /// What the disk holds, while the document is open.
+    /// The text on the disk, while the document is open.
     on_disk: Option<String>,
-    /// How often the text has changed.
+    /// The number of changes of the text.
     stamp: u64,
 }
 
 impl Document {
-    /// The text is another now.
+    /// Updates the index after a change of the text.
     fn renew(&mut self) {
         self.lines = OnceCell::new();
         self.stamp += 1;
@@ -49,17 +49,17 @@ pub(crate) struct Documents {
     pub(crate) encoding: Encoding,
 }
 
-/// A piece of a text that has become another.
+/// A change of a piece of text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Replaced {
-    /// What went.
+    /// The replaced span.
     pub(crate) span: Span,
-    /// How many bytes came.
+    /// The length of the new text, in bytes.
     pub(crate) length: u32,
 }
 
 impl Replaced {
-    /// Moves a place along; false if it was touched.
+    /// Moves a span along with the change; false if the change touches it.
     pub(crate) fn shift(&self, place: &mut Span) -> bool {
         if place.start >= self.span.end {
             let moved =
@@ -71,34 +71,34 @@ impl Replaced {
     }
 }
 
-/// Why a text was not taken.
+/// The reason why a text was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum Refused {
     /// Spans are 32 bits wide.
     #[error("the text is larger than 4 GiB")]
     TooLarge,
-    /// The client changes what it has not opened.
+    /// The client changes a document that is not open.
     #[error("the document is not open")]
     NotOpen,
 }
 
 impl Documents {
-    /// What is read of them.
+    /// The project of all texts.
     pub(crate) fn project(&self) -> &Project {
         &self.project
     }
 
-    /// How many there are, open and closed.
+    /// The number of documents, open and closed.
     pub(crate) fn len(&self) -> usize {
         self.documents.len()
     }
 
-    /// The document that a client means.
+    /// The document with a URI of the client.
     pub(crate) fn id(&self, uri: &Uri) -> Option<SourceId> {
         self.project.id(&uri::path(uri.as_ref()))
     }
 
-    /// What the client calls a document.
+    /// The client's URI of a document.
     pub(crate) fn uri(&self, id: SourceId) -> Uri {
         match self.open(id) {
             Some(open) => Uri(open.uri.clone()),
@@ -106,12 +106,12 @@ impl Documents {
         }
     }
 
-    /// What the client knows of it, if it is open.
+    /// The client's view of it, if it is open.
     pub(crate) fn open(&self, id: SourceId) -> Option<&Open> {
         self.documents.get(&id)?.open.as_ref()
     }
 
-    /// The open ones, in the order of their numbers.
+    /// The open documents, in the order of their ids.
     pub(crate) fn all_open(&self) -> Vec<SourceId> {
         let mut open: Vec<SourceId> =
             self.documents.iter().filter(|(_, d)| d.open.is_some()).map(|(id, _)| *id).collect();
@@ -119,7 +119,7 @@ impl Documents {
         open
     }
 
-    /// The client has opened a document.
+    /// Opens a document.
     ///
     /// # Errors
     /// If the text is too large.
@@ -135,11 +135,11 @@ impl Documents {
         Ok(id)
     }
 
-    /// The client has changed a document; the changes are made one after the other. What became of the pieces is
-    /// told in the same order.
+    /// Applies the client's changes to a document, one after the other. Returns what each one replaced, in
+    /// the same order.
     ///
     /// # Errors
-    /// If the document is not open, or grows too large; it is then what it was.
+    /// If the document is not open, or grows too large; it is then unchanged.
     pub(crate) fn change(
         &mut self,
         uri: &str,
@@ -150,7 +150,8 @@ impl Documents {
         let id = self.project.id(&path).filter(|&id| self.open(id).is_some()).ok_or(Refused::NotOpen)?;
         let mut text = self.project.source(id).text().to_owned();
         let mut lines = self.lines(id).clone();
-        // Lines up to this one still start where `lines` says: changes mostly come from the end to the front.
+        // Lines up to this one are still valid in `lines`: clients mostly send changes from the end to the
+        // front.
         let mut known = u32::MAX;
         let mut replaced = Vec::with_capacity(changes.len());
         let length = |text: &str| u32::try_from(text.len()).unwrap_or(u32::MAX);
@@ -166,7 +167,7 @@ impl Documents {
                         lines = LineIndex::new(&text);
                     }
                     let span = lines.span(&text, part.range, self.encoding);
-                    // Not the line that the client names, which may lie behind the end.
+                    // The line of the offset, since the client's line may lie behind the end.
                     known = lines.line_of(span.start);
                     replaced.push(Replaced { span, length: length(&part.text) });
                     text.replace_range(span.range(), &part.text);
@@ -180,7 +181,7 @@ impl Documents {
         Ok((id, replaced))
     }
 
-    /// The client has closed a document: it is again what the disk holds. `None` if it was not open.
+    /// Closes a document: it has the disk's text again. `None` if it was not open.
     pub(crate) fn close(&mut self, uri: &str) -> Option<SourceId> {
         let path = uri::path(uri);
         let id = self.project.id(&path)?;
@@ -195,7 +196,7 @@ impl Documents {
         }
     }
 
-    /// The disk holds these texts now.
+    /// Sets texts that are on the disk.
     pub(crate) fn found(&mut self, files: Vec<(String, String)>) {
         let mut closed = Vec::with_capacity(files.len());
         for (path, text) in files {
@@ -216,7 +217,7 @@ impl Documents {
         }
     }
 
-    /// The disk does not hold that file any more.
+    /// Removes a file that is gone from the disk.
     pub(crate) fn lost(&mut self, path: &str) {
         let Some(id) = self.project.id(path) else { return };
         match self.documents.get_mut(&id) {
@@ -228,7 +229,7 @@ impl Documents {
         }
     }
 
-    /// Closed documents below a folder, for when the folder is closed or removed.
+    /// Closed documents below a folder that is closed or removed.
     pub(crate) fn closed_below(&self, folder: &str) -> Vec<String> {
         let prefix = format!("{}/", folder.trim_end_matches('/'));
         let below = |id: &SourceId| self.open(*id).is_none() && self.project.path(*id).starts_with(&prefix);
@@ -244,7 +245,7 @@ impl Documents {
         Ok(id)
     }
 
-    /// Another number after every change.
+    /// The revision of a document's text.
     pub(crate) fn stamp(&self, id: SourceId) -> u64 {
         self.documents.get(&id).map_or(0, |document| document.stamp)
     }
@@ -260,22 +261,22 @@ impl Documents {
         self.project.source(id).text()
     }
 
-    /// A place as the client counts it, in bytes.
+    /// Converts the client's position to an offset.
     pub(crate) fn offset(&self, id: SourceId, position: Position) -> u32 {
         self.lines(id).offset(self.text(id), position, self.encoding)
     }
 
-    /// A range of the client in bytes.
+    /// Converts the client's range to a span.
     pub(crate) fn span(&self, id: SourceId, range: Range) -> Span {
         self.lines(id).span(self.text(id), range, self.encoding)
     }
 
-    /// A span as the client counts it.
+    /// Converts a span to the client's range.
     pub(crate) fn range(&self, id: SourceId, span: Span) -> Range {
         self.lines(id).range(self.text(id), span, self.encoding)
     }
 
-    /// All of a document.
+    /// The range of a whole document.
     pub(crate) fn whole(&self, id: SourceId) -> Range {
         let end = u32::try_from(self.text(id).len()).unwrap_or(u32::MAX);
         self.range(id, Span::new(0, end))
@@ -352,7 +353,7 @@ mod tests {
         }
     }
 
-    /// Changes in any order give what making them one after the other on the plain text gives.
+    /// Applying changes in any order equals applying them one after the other to the plain text.
     fn check(text: &str, changes: &[(Range, String)]) {
         for encoding in [Encoding::Utf8, Encoding::Utf16, Encoding::Utf32] {
             let mut documents = Documents { encoding, ..Documents::default() };

@@ -1,24 +1,24 @@
-//! Everything that can happen to the server. Its state changes in answer to these and to nothing else.
+//! Everything that can happen to the server. Only events change its state.
 
 use crate::message::Malformed;
 use crate::news::{JobId, JobNews};
 use lsp_server::{Message, RequestId};
 
-/// What happens.
+/// An event.
 #[derive(Debug)]
 pub(crate) enum Event {
-    /// The client says something.
+    /// The client has sent a message.
     Message(Message),
-    /// The client says something that is no message.
+    /// The client has sent a malformed message.
     Malformed(Malformed),
-    /// The client does not want an answer any more to what still waits in the queue.
+    /// The client has cancelled a request that is still in the queue.
     Withdrawn(RequestId),
-    /// The client is gone without a word.
+    /// The input has ended without `exit`.
     InputEnded,
-    /// The client does not read any more.
+    /// The output has failed.
     OutputBroken,
-    /// Nothing has happened for a while.
+    /// A quiet period has begun.
     Quiet,
-    /// A thread of ours has something.
+    /// A job has sent news.
     Job(JobId, JobNews),
 }

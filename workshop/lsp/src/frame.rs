@@ -1,47 +1,48 @@
-//! Frames: a header, an empty line, and as many bytes as the header says.
+//! Frames: a header, an empty line, and a body of the length in the header.
 //!
-//! Problem: one broken header must not end an author's session, and neither must a header that claims more
-//! bytes than there will ever be. Idea: read line by line until a `Content-Length` stands in one, whatever
-//! was before it; a body grows as it arrives, never by what was claimed. Invariant: [`Frames::next`] returns after
-//! finitely many bytes, holds at most [`MAX_BODY`] of them, and fails only if the input does.
-//! Cost: a copy of each body. Source: Language Server Protocol 3.17, "Base Protocol". We deviate where
-//! that helps: a bare `\n` ends a line too, unknown headers are passed over.
+//! Problem: one broken header must not end an author's session, and neither must a header that claims a huge
+//! length. `lsp_server` reads frames too, but returns an error at the first broken header, which ends its
+//! reader, and allocates the claimed length at once. Idea: read line by line until one has a
+//! `Content-Length`, whatever came before; a body grows as it arrives. Invariant: [`Frames::next`] returns
+//! after finitely many bytes, holds at most [`MAX_BODY`] of them, and fails only if the input does. Cost: a
+//! copy of each body. Source: Language Server Protocol 3.17, "Base Protocol". Deviation: a bare `\n` ends a
+//! line too, and unknown headers are skipped.
 
 use std::io::{self, BufRead, Read};
 
-/// Longest body. A document that no editor opens fits.
+/// Longest body, in bytes; larger than any document that an editor opens.
 pub(crate) const MAX_BODY: usize = 256 << 20;
-/// Longest line of a header.
+/// Longest line of a header, in bytes.
 const MAX_LINE: u64 = 4096;
 const KEY: &[u8] = b"content-length:";
 
-/// What came in.
+/// A frame of the input.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Frame {
-    /// The bytes of one message.
+    /// The body of one message.
     Body(Vec<u8>),
-    /// Something that is none; what comes after it is read as ever.
+    /// A broken frame; reading continues after it.
     Broken(Broken),
 }
 
 /// What is wrong with a frame.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum Broken {
-    /// Neither a header nor an empty line.
+    /// A line is neither a header nor empty.
     #[error("a header was expected, and there is `{0}`")]
     NoHeader(String),
-    /// A header ends without the one that is needed.
+    /// A header ends without `Content-Length`.
     #[error("a header has no Content-Length")]
     NoLength,
-    /// Not a number, or too large a one.
+    /// The length is not a number, or too large.
     #[error("`{0}` is no length of a message; at most {MAX_BODY} bytes are read")]
     Length(String),
     /// The input ended before the body did.
     #[error("a message of {expected} bytes ends after {got}")]
     Truncated {
-        /// What the header said.
+        /// The length in the header.
         expected: usize,
-        /// What there was.
+        /// The number of bytes in the input.
         got: usize,
     },
 }
@@ -49,7 +50,7 @@ pub(crate) enum Broken {
 /// The frames of an input.
 pub(crate) struct Frames<R> {
     input: R,
-    /// Inside something that was said to be broken: it is said once.
+    /// Whether the reader is inside a broken part; it is reported once.
     lost: bool,
 }
 
@@ -58,7 +59,7 @@ impl<R: BufRead> Frames<R> {
         Self { input, lost: false }
     }
 
-    /// The next one; nothing at the end of the input.
+    /// The next frame; `None` at the end of the input.
     ///
     /// # Errors
     /// Those of the input.
@@ -75,7 +76,7 @@ impl<R: BufRead> Frames<R> {
             if line.is_empty() {
                 match length {
                     Some(length) => return self.body(length).map(Some),
-                    // Blank lines between messages harm nobody.
+                    // Blank lines between messages are allowed.
                     None if !headers => {}
                     None => return Ok(Some(Frame::Broken(Broken::NoLength))),
                 }
@@ -115,7 +116,7 @@ fn find(line: &[u8], key: &[u8]) -> Option<usize> {
     line.windows(key.len()).position(|part| part.eq_ignore_ascii_case(key))
 }
 
-/// A message as it is sent.
+/// A message with its header.
 pub(crate) fn framed(body: &[u8]) -> Vec<u8> {
     let mut frame = format!("Content-Length: {}\r\n\r\n", body.len()).into_bytes();
     frame.extend_from_slice(body);

@@ -1,9 +1,9 @@
-//! What the server needs of the program around it: a disk, a planner, a validator.
+//! What the server needs from the program around it: a disk, a planner, a validator.
 //!
-//! Problem: a server that knew the planner would draw an arrow between editors and search, and one that knew the
-//! disk could not be fuzzed or tested without one. Idea: two traits; the command line implements them.
-//! Invariant: their functions are called on threads of jobs, never on the loop's, with the one exception of
-//! [`Disk::read`] for a file that the client says has changed.
+//! Problem: a server that knew the planner would tie editors to search, and one that knew the disk could not
+//! be fuzzed or tested without one. Idea: two traits; the command line implements them. Invariant: their
+//! functions run on the threads of jobs and never on the loop's, except [`Disk::read`] for a file that the
+//! client reports as changed.
 
 use ::diagnostics::SourceId;
 use pddl::{Severity, Source, Span};
@@ -12,7 +12,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// What is handed in.
+/// The services of the program around the server.
 #[derive(Clone)]
 pub struct Host {
     /// Folders and files.
@@ -23,18 +23,18 @@ pub struct Host {
 
 /// Folders and files. Paths are absolute, with `/` between folders.
 pub trait Disk: Send + Sync + std::panic::RefUnwindSafe {
-    /// What is in a folder, in order of names; nothing if it cannot be read. Links to folders are left out,
-    /// so that no walk goes round.
+    /// The contents of a folder, in order of names; empty if it cannot be read. Links to folders are left
+    /// out, so that a walk ends.
     fn list(&self, folder: &str) -> Vec<Entry>;
 
-    /// The text of a file without a byte order mark; what is not UTF-8 is read as Latin-1.
+    /// The text of a file without a byte order mark; text that is not UTF-8 is read as Latin-1.
     ///
     /// # Errors
     /// See [`ReadError`].
     fn read(&self, path: &str, max_bytes: u64) -> Result<String, ReadError>;
 }
 
-/// Something in a folder.
+/// An entry of a folder.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Entry {
     /// A file of that name.
@@ -46,10 +46,10 @@ pub enum Entry {
 /// Why a file has no text.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ReadError {
-    /// It is larger than was asked for.
+    /// It is larger than the limit.
     #[error("it is larger than {0} bytes")]
     TooLarge(u64),
-    /// The system says no.
+    /// The operating system's error.
     #[error("{0}")]
     Unreadable(String),
 }
@@ -63,7 +63,7 @@ pub struct Task {
     pub problem: SourceId,
 }
 
-/// One of the texts of a task, or the plan for it.
+/// One of the files of a task, or the plan for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum File {
     /// The domain.
@@ -74,25 +74,25 @@ pub enum File {
     Plan,
 }
 
-/// A sentence with its place.
+/// A message with its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Remark {
-    /// How bad.
+    /// Its severity.
     pub severity: Severity,
     /// One sentence without a full stop.
     pub sentence: String,
-    /// Where.
+    /// The place that it is about.
     pub place: (File, Span),
-    /// Other places, each with what it has to do with it.
+    /// Other places, each with a note.
     pub notes: Vec<((File, Span), String)>,
 }
 
 /// Planner and validator.
 pub trait Tools: Send + Sync + std::panic::RefUnwindSafe {
-    /// Looks for a plan, until the limits say stop.
+    /// Looks for a plan within the limits.
     fn plan(&self, task: &Task, limits: &Limits) -> Planned;
 
-    /// Judges a plan.
+    /// Validates a plan.
     fn validate(&self, task: &Task, plan: &Source) -> Judged;
 }
 
@@ -123,40 +123,40 @@ impl Cancel {
     }
 }
 
-/// What came of planning.
+/// The result of planning.
 #[derive(Clone, Debug)]
 pub enum Planned {
-    /// A plan, which the validator has accepted.
+    /// A plan that the validator has accepted.
     Solved {
         /// The plan as a file.
         text: String,
-        /// How many steps it has.
+        /// The number of steps.
         steps: usize,
-        /// What it costs, as a number in words.
+        /// The cost, as text.
         cost: String,
     },
-    /// There is provably none.
+    /// There is provably no plan.
     Unsolvable(Remark),
-    /// A limit came first; this says which.
+    /// A limit was reached; the text names it.
     Limit(String),
-    /// There is something in the task that the planner cannot do.
+    /// The task has a feature that the planner does not support.
     Refused(Vec<Remark>),
-    /// Domain or problem have errors, which are known from reading them.
+    /// Domain or problem have errors, which the parser has reported.
     Unreadable,
 }
 
-/// What came of validating.
+/// The result of validating.
 #[derive(Clone, Debug)]
 pub enum Judged {
-    /// It reaches the goal.
+    /// The plan is valid.
     Valid {
-        /// How many steps it has.
+        /// The number of steps.
         steps: usize,
-        /// What it costs, as a number in words.
+        /// The cost, as text.
         cost: String,
     },
-    /// It does not, or cannot be judged, and why.
+    /// The plan is invalid, or cannot be validated, with the reasons.
     Not(Vec<Remark>),
-    /// Domain, problem or plan have errors, which are known from reading them.
+    /// Domain, problem or plan have errors, which the parser has reported.
     Unreadable,
 }

@@ -1,9 +1,11 @@
-//! The queue before the loop: in order, except that a cancellation overtakes what it cancels.
+//! The queue before the loop: first in, first out, except that a cancellation overtakes the request that it
+//! cancels.
 //!
-//! Problem: while a slow request is answered, the client may send twenty more and withdraw nineteen of them. Idea:
-//! take in all that has arrived before the next event is handled; a `$/cancelRequest` then finds its request still
-//! waiting and turns it into [`Event::Withdrawn`]. Invariant: at most [`WAITING`] events wait here; more
-//! stay in the channel, whose reader then waits, and so does the client.
+//! Problem: while the server answers a slow request, the client may send twenty more and cancel nineteen of
+//! them. Idea: take in all events that have arrived before the next one is handled. A `$/cancelRequest` then
+//! finds its request still in the queue and turns it into [`Event::Withdrawn`]. Invariant: at most
+//! [`WAITING`] events wait here; more stay in the channel, whose reader then waits, and so does the client.
+//! `lsp_server::ReqQueue` matches ids of requests that were taken; it does not see those that still wait.
 
 use crate::event::Event;
 use lsp_server::{Message, RequestId};
@@ -11,7 +13,7 @@ use std::collections::VecDeque;
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::Duration;
 
-/// How many events are looked through for what is withdrawn.
+/// Most events that are searched for cancelled requests.
 const WAITING: usize = 4096;
 
 /// The queue.
@@ -25,7 +27,7 @@ impl Inbox {
         Self { events, waiting: VecDeque::new() }
     }
 
-    /// The next event; [`Event::Quiet`] if there is none for `patience`.
+    /// The next event; [`Event::Quiet`] if none comes for `patience`.
     pub(crate) fn next(&mut self, patience: Option<Duration>) -> Event {
         while self.waiting.len() < WAITING
             && let Ok(event) = self.events.try_recv()
@@ -46,7 +48,7 @@ impl Inbox {
         }
     }
 
-    /// Whether nothing waits.
+    /// Whether no event waits.
     pub(crate) fn is_empty(&self) -> bool {
         self.waiting.is_empty()
     }

@@ -1,9 +1,9 @@
-//! Work that must not keep the loop waiting: each on a thread of its own, with a switch to stop it.
+//! Jobs: slow work on threads of their own, each of which can be cancelled.
 //!
-//! Problem: planning, reading folders and slow lints take as long as they take, and an editor wants its answer
-//! now. Idea: a job gets what it needs by value (a project is cheap to clone) and sends news; the loop alone decides
-//! what they change. Invariant: the last news of every job is [`JobNews::Ended`], whatever happened on its
-//! thread; a job that panics says so first.
+//! Problem: planning, reading folders and slow lints take long, and an editor wants its answer now. Idea: a
+//! job gets its data by value (a project is cheap to clone) and sends news; the loop alone decides what the
+//! news change. Invariant: the last news of every job is [`JobNews::Ended`], whatever happened on its
+//! thread; a job that panics reports the panic first.
 
 use crate::event::Event;
 use crate::host::{Cancel, File};
@@ -17,33 +17,33 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::SyncSender;
 use std::thread::spawn;
 
-/// What a job is for.
+/// The purpose of a job.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Purpose {
     /// Reading folders.
     Scan,
-    /// Finding what is wrong with documents, as they were in that revision.
+    /// Checking documents, in that revision.
     Check(u64),
-    /// Warning of modelling mistakes, likewise.
+    /// Running the slow lints, in that revision.
     Lint(u64),
-    /// A plan.
+    /// Planning.
     Plan(About),
-    /// A verdict on a plan.
+    /// Validating a plan.
     Validate(About),
 }
 
-/// The texts that a task was made of, and how often each had changed by then.
+/// The documents of a task, with the number of changes of each when the job started.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct About {
     pub(crate) domain: SourceId,
     pub(crate) problem: SourceId,
     pub(crate) plan: Option<SourceId>,
-    /// Of all documents that took part.
+    /// The number of changes of each document of the task.
     pub(crate) stamps: Vec<(SourceId, u64)>,
 }
 
 impl About {
-    /// The document that planner or validator means.
+    /// The document for a file of the task.
     pub(crate) fn source(&self, file: File) -> SourceId {
         match file {
             File::Domain => self.domain,
@@ -53,14 +53,14 @@ impl About {
     }
 }
 
-/// A job that has not ended.
+/// A running job.
 #[derive(Debug)]
 pub(crate) struct Running {
     pub(crate) purpose: Purpose,
     pub(crate) cancel: Cancel,
     /// The request that its result answers.
     pub(crate) answers: Option<RequestId>,
-    /// Where its progress is shown.
+    /// The token under which its progress is shown.
     pub(crate) token: Option<ProgressToken>,
 }
 
@@ -72,19 +72,19 @@ pub(crate) struct Reporter {
 }
 
 impl Reporter {
-    /// Says something.
+    /// Sends news.
     pub(crate) fn say(&self, news: JobNews) {
-        // If the loop has ended, nobody needs to know.
+        // If the loop has ended, the news is not needed.
         let _ = self.events.send(Event::Job(self.id, news));
     }
 
-    /// Whether to stop.
+    /// Whether the job should stop.
     pub(crate) fn is_cancelled(&self) -> bool {
         self.cancel.is_cancelled()
     }
 }
 
-/// The jobs that have not ended.
+/// The running jobs.
 pub(crate) struct Jobs {
     events: SyncSender<Event>,
     next: u32,
@@ -96,14 +96,14 @@ impl Jobs {
         Self { events, next: 0, running: FxHashMap::default() }
     }
 
-    /// Starts one.
+    /// Starts a job.
     pub(crate) fn start(&mut self, running: Running, work: impl FnOnce(&Reporter) + Send + 'static) -> JobId {
         let id = JobId(self.next);
         self.next = self.next.wrapping_add(1);
         let reporter = Reporter { id, events: self.events.clone(), cancel: running.cancel.clone() };
         self.running.insert(id, running);
         spawn(move || {
-            // What the work holds is dropped with it, and nobody else sees it half done.
+            // The closure owns its data, and a panic drops all of it, so no half-changed state is visible.
             if let Err(panic) = catch_unwind(AssertUnwindSafe(|| work(&reporter))) {
                 reporter.say(JobNews::Panicked(words_of(&*panic)));
             }
@@ -112,33 +112,33 @@ impl Jobs {
         id
     }
 
-    /// A job that has not ended.
+    /// A running job.
     pub(crate) fn get(&mut self, id: JobId) -> Option<&mut Running> {
         self.running.get_mut(&id)
     }
 
-    /// Takes a job out that has ended.
+    /// Removes a job that has ended.
     pub(crate) fn end(&mut self, id: JobId) -> Option<Running> {
         self.running.remove(&id)
     }
 
-    /// Those that have not ended.
+    /// All running jobs.
     pub(crate) fn iter(&self) -> impl Iterator<Item = &Running> {
         self.running.values()
     }
 
-    /// Whether one with such a purpose runs.
+    /// Whether a job with such a purpose is running.
     pub(crate) fn any(&self, purpose: impl Fn(&Purpose) -> bool) -> bool {
         self.running.values().any(|job| purpose(&job.purpose))
     }
 
-    /// Stops all.
+    /// Cancels all jobs.
     pub(crate) fn cancel_all(&self) {
         self.iter().for_each(|job| job.cancel.cancel());
     }
 }
 
-/// What a panic says.
+/// The message of a panic.
 pub(crate) fn words_of(panic: &(dyn Any + Send)) -> String {
     let words = panic.downcast_ref::<&str>().map(|words| (*words).to_owned());
     words.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "a panic".to_owned())

@@ -1,9 +1,9 @@
 //! A language server for PDDL, HDDL and plans.
 //!
-//! [`serve`] speaks the Language Server Protocol over any input and output until the client leaves. What names
-//! mean is the crate `ide`'s to know, which files belong together that of `project`; here are the protocol, the texts
-//! that an editor has open, and the order in which things happen. A [`Host`] brings what this crate has no business
-//! with: the disk, the planner, the validator.
+//! [`serve`] speaks the Language Server Protocol over any input and output until the client leaves. The
+//! crate `ide` knows the meaning of names, and `project` knows which files belong together. This crate has
+//! the protocol, the texts that an editor has open, and the order of events. A [`Host`] provides the disk,
+//! the planner and the validator.
 //!
 //! ```
 //! use lsp::{Disk, Ended, Entry, Host, Judged, Limits, Planned, ReadError, Task, Tools, serve};
@@ -28,15 +28,16 @@
 //! assert_eq!(ended, Ended::Abruptly, "without `shutdown` before it");
 //! ```
 //!
-//! Map, from the ground up: `frame` and `message` (bytes in), `position` and `uri` (how clients name places), `host`
-//! (what is handed in), `client` and `options` (what this session is like), `documents` (the texts), `job` (work on
-//! threads of its own), `outbox` (bytes out), `event` and `inbox` (what happens, in which order), `server` (the state, and
-//! what changes it), `answers` (one file a question; none changes anything), `serve` (the threads).
+//! Map, from the ground up: `frame` and `message` (bytes in), `position` and `uri` (how clients name
+//! places), `host` (the services from outside), `client` and `options` (the session's settings), `documents`
+//! (the texts), `news` (what jobs send), `event` and `inbox` (what happens, and in which order), `job` (work
+//! on other threads), `outbox` (bytes out), `server` (the state and its changes), `answers` (a file for each
+//! question; none changes the state), `serve` (the threads).
 //!
-//! **Invariant: the state changes in `Server::handle` and nowhere else.** Jobs send news; answers read.
+//! **Invariant: only `Server::handle` changes the state.** Jobs send news; answers read.
 //!
-//! **Invariant: no message ends the session but `exit`.** What cannot be read is answered with an error, a panic is
-//! caught, logged and answered.
+//! **Invariant: no message but `exit` ends the session.** A malformed message is answered with an error; a
+//! panic is caught, logged and answered.
 
 mod answers;
 mod client;

@@ -1,25 +1,26 @@
-//! A frame's bytes as a message of JSON-RPC.
+//! Parses a frame's bytes as a message of JSON-RPC.
 //!
-//! Problem: what is no message must be answered as well as can be, with its id if it has one. Idea: read JSON
-//! first, then look at which of `id`, `method`, `result` and `error` there are. Source: JSON-RPC 2.0, §4 and §5.
+//! Problem: a malformed message must be answered too, with its id if it has one; `lsp_server::Message` as a
+//! serde type only says that no variant matches. Idea: read JSON first, then look at which of `id`,
+//! `method`, `result` and `error` are present. Source: JSON-RPC 2.0, §4 and §5.
 
 use lsp_server::{ErrorCode, Message, Notification, Request, RequestId, Response};
 use serde_json::Value;
 
-/// Bytes that are no message.
+/// The bytes of a frame are not a valid message.
 #[derive(Clone, Debug)]
 pub(crate) struct Malformed {
-    /// Of the request that it might have been.
+    /// The id of the request that it may have been.
     pub(crate) id: Option<RequestId>,
     pub(crate) code: ErrorCode,
-    /// What is wrong, for the log of the client.
+    /// The reason, for the client's log.
     pub(crate) reason: String,
 }
 
 /// The message in a frame.
 ///
 /// # Errors
-/// What is wrong with it, as it has to be answered.
+/// What is wrong with it, in the form of its answer.
 pub(crate) fn parse(body: &[u8]) -> Result<Message, Malformed> {
     let value: Value = serde_json::from_slice(body).map_err(|error| Malformed {
         id: None,
@@ -49,7 +50,7 @@ pub(crate) fn parse(body: &[u8]) -> Result<Message, Malformed> {
             (_, Some(error)) => Ok(refused(id, &error).into()),
             (None, None) => Err(invalid(Some(id), "a message has neither method nor result nor error")),
         },
-        // The client could not read what we sent; there is nothing that could be answered to that.
+        // The client could not read a request of the server; the protocol has no answer to that.
         (None, None) => Err(invalid(None, "a message has neither method nor id")),
     }
 }

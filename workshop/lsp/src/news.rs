@@ -5,29 +5,29 @@ use project::Linted;
 
 use crate::host::{Judged, Planned};
 
-/// A job.
+/// The number of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) struct JobId(pub(crate) u32);
 
-/// What a job says.
+/// News from a job.
 #[derive(Debug)]
 pub(crate) enum JobNews {
-    /// How far it is, in a few words.
+    /// Its progress, in a few words.
     Progress(String),
     /// Files with their texts.
     Found(Vec<(String, String)>),
-    /// Something that the user should know of.
+    /// A problem that the user should know.
     Trouble(String),
     /// The document has been read.
     Checked(SourceId),
-    /// Warnings about a document.
+    /// The lints' findings in a document.
     Linted(SourceId, Vec<Linted>),
     /// The planner's answer.
     Planned(Planned),
-    /// The validator's.
+    /// The validator's answer.
     Judged(Judged),
-    /// A bug of ours.
+    /// A panic, with its message.
     Panicked(String),
-    /// It is over.
+    /// The job has ended.
     Ended,
 }

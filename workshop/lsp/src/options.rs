@@ -1,18 +1,18 @@
-//! What a user may set: the `initializationOptions`, or the section `pelea` of the configuration.
+//! The user's settings: the `initializationOptions`, or the section `pelea` of the configuration.
 //!
-//! Problem: a setting that is misspelt or of the wrong type must neither be ignored in silence nor keep the server
-//! from starting. Idea: each key is read on its own; what cannot be used is said to the client, and the
-//! default stays. docs/editors.md lists the keys.
+//! Problem: a setting with a misspelt key or a wrong type must neither be ignored silently nor keep the
+//! server from starting. Idea: read each key on its own; report an invalid one to the client and keep its
+//! default. docs/editors.md lists the keys.
 
 use serde_json::{Map, Value};
 use std::time::Duration;
 
-/// Who says what is wrong with a document.
+/// The side that starts the transfer of diagnostics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum DiagnosticsMode {
-    /// We tell the client when something changes, closed files included.
+    /// The server publishes changes, in closed files too.
     Push,
-    /// The client asks, about open documents.
+    /// The client requests diagnostics of open documents.
     Pull,
 }
 
@@ -20,18 +20,18 @@ pub(crate) enum DiagnosticsMode {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Options {
     pub(crate) diagnostics: DiagnosticsMode,
-    /// Whether to warn of modelling mistakes.
+    /// Whether lints run.
     pub(crate) lints: bool,
-    /// How long nothing must happen before the slow lints run.
+    /// The length of the quiet period before the slow lints run.
     pub(crate) lint_delay: Duration,
     pub(crate) code_lens: bool,
     /// For `pelea.plan`.
     pub(crate) plan_timeout: Duration,
-    /// The search of `pelea.plan`; none is the usual one.
+    /// The search of `pelea.plan`; `None` selects the default search.
     pub(crate) plan_search: Option<String>,
-    /// How many files of the folders are read.
+    /// Most files that are read from the folders.
     pub(crate) max_files: usize,
-    /// How large a closed file may be that is read.
+    /// Largest closed file that is read, in bytes.
     pub(crate) max_file_bytes: u64,
 }
 
@@ -51,7 +51,7 @@ impl Default for Options {
 }
 
 impl Options {
-    /// The settings with what `given` changes, and a sentence for each key that cannot be used.
+    /// The settings with the changes in `given`, and a sentence for each invalid key.
     pub(crate) fn with(mut self, given: &Value) -> (Self, Vec<String>) {
         let mut complaints = Vec::new();
         match given {

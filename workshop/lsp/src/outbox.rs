@@ -1,7 +1,8 @@
-//! What goes to the client: in order, by a thread of its own, so that a client that reads slowly never stops us.
+//! Sends messages to the client, in order, on a thread of its own, so that a slow client never blocks the
+//! loop.
 //!
-//! Invariant: every request of the client is answered exactly once, since answering consumes its id; requests of
-//! ours are remembered until they are answered.
+//! Invariant: every request of the client is answered exactly once, since answering consumes its id.
+//! Requests of the server are remembered until the client answers.
 
 use crate::event::Event;
 use crate::frame::framed;
@@ -13,28 +14,28 @@ use std::io::Write;
 use std::sync::mpsc::{Receiver, Sender, SyncSender, channel};
 use std::thread::{JoinHandle, spawn};
 
-/// Why we asked the client something.
+/// The purpose of a request of the server.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Asked {
-    /// To say later whether the edit of a command was applied.
+    /// To apply a command's edit, and to report if the client did not.
     ApplyEdit {
-        /// What the edit was for, if it has to be said that it was not.
+        /// The purpose of the edit, for that report.
         what: String,
-        /// The document to show when it was.
+        /// The document to show after the edit.
         show: Uri,
     },
-    /// To show progress, to watch files, to ask anew: an answer changes nothing.
+    /// To show progress, watch files, or refresh: the answer changes nothing.
     Courtesy,
 }
 
-/// The way out.
+/// The queue of outgoing messages.
 pub(crate) struct Outbox {
     bodies: Sender<Vec<u8>>,
     asked: ReqQueue<(), Asked>,
 }
 
 impl Outbox {
-    /// A thread that writes to `output`; it ends when the outbox is dropped, or the output fails.
+    /// Starts the thread that writes to `output`; it ends when the outbox is dropped or the output fails.
     pub(crate) fn over(
         output: impl Write + Send + 'static,
         events: SyncSender<Event>,
@@ -42,7 +43,7 @@ impl Outbox {
         let (bodies, queue) = channel();
         let writer = spawn(move || {
             if write_all(output, &queue).is_err() {
-                // The loop may have ended already, and then nobody needs to know.
+                // The loop may have ended already; then the event is not needed.
                 let _ = events.send(Event::OutputBroken);
             }
         });
@@ -61,7 +62,7 @@ impl Outbox {
     }
 
     fn send_body(&self, body: Vec<u8>) {
-        // If the writer is gone, `Event::OutputBroken` is on its way and ends the loop.
+        // If the writer has ended, `Event::OutputBroken` is in the queue and ends the loop.
         let _ = self.bodies.send(body);
     }
 
@@ -70,7 +71,7 @@ impl Outbox {
         self.send(response.into());
     }
 
-    /// Answers what was no message.
+    /// Answers a malformed message.
     pub(crate) fn refuse(&self, malformed: &Malformed) {
         let error = json!({"code": malformed.code as i32, "message": malformed.reason});
         let id = serde_json::to_value(&malformed.id).unwrap_or(Value::Null);
@@ -78,18 +79,18 @@ impl Outbox {
         self.send_body(body.to_string().into_bytes());
     }
 
-    /// Tells the client something.
+    /// Sends a notification.
     pub(crate) fn notify<N: Notification>(&self, params: N::Params) {
         self.send(lsp_server::Notification::new(N::METHOD.to_string(), params).into());
     }
 
-    /// Asks the client something.
+    /// Sends a request.
     pub(crate) fn ask<R: Request>(&mut self, params: R::Params, why: Asked) {
         let request = self.outgoing().register(R::METHOD.to_string(), params, why);
         self.send(request.into());
     }
 
-    /// Why we asked what is answered now; nothing if we did not.
+    /// The purpose of the request with that id; `None` for an unknown id.
     pub(crate) fn answered(&mut self, id: RequestId) -> Option<Asked> {
         self.outgoing().complete(id)
     }

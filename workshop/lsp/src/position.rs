@@ -1,20 +1,20 @@
-//! Positions: an editor counts lines and, in them, code units; we count bytes.
+//! Positions: an editor counts lines and, in them, code units; the server counts bytes.
 //!
-//! Problem: a client and a server agree on UTF-8, UTF-16 or UTF-32 units when they meet, lines end at `\n`,
-//! `\r\n` or `\r`, and a client may name places that are not in the text. Idea: a [`LineIndex`] per text holds where
-//! lines start; within a line, units are counted. Invariant: every offset that comes out is at a boundary of
-//! characters inside the text, and not between `\r` and `\n`; what lies behind a line's end is its end. Cost: a binary
-//! search and one line. Source: Language Server Protocol 3.17, "Position".
+//! Problem: a client and a server negotiate UTF-8, UTF-16 or UTF-32 units, lines end at `\n`, `\r\n` or
+//! `\r`, and a client may name positions outside the text. Idea: a [`LineIndex`] for each text has the
+//! starts of its lines; within a line, units are counted. Invariant: every resulting offset is at a
+//! character boundary inside the text, and not between `\r` and `\n`; a position behind a line's end is the
+//! line's end. Cost: a binary search and one line. Source: Language Server Protocol 3.17, "Position".
 
 use lsp_types::{Position, PositionEncodingKind, Range};
 use pddl::Span;
 
-/// What a position counts within a line.
+/// The unit of a position within a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Encoding {
     /// Bytes.
     Utf8,
-    /// What every client speaks.
+    /// The unit that every client supports.
     #[default]
     Utf16,
     /// Characters.
@@ -22,7 +22,7 @@ pub enum Encoding {
 }
 
 impl Encoding {
-    /// The best of what a client offers; UTF-8 costs least.
+    /// The best of the client's encodings; UTF-8 costs least.
     pub fn negotiate<'a>(offered: impl Iterator<Item = &'a str>) -> Self {
         let known = offered.filter_map(|name| match name {
             "utf-8" => Some(Self::Utf8),
@@ -51,7 +51,7 @@ impl Encoding {
         }
     }
 
-    /// How many units a text has.
+    /// The length of a text in units.
     pub fn length(self, text: &str) -> u32 {
         let units = match self {
             Self::Utf8 => text.len(),
@@ -62,15 +62,15 @@ impl Encoding {
     }
 }
 
-/// Where the lines of a text start.
+/// The starts of a text's lines.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LineIndex {
-    /// Of the second line and those after it.
+    /// Those of the second line and the following ones.
     starts: Vec<u32>,
 }
 
 impl LineIndex {
-    /// Of the empty text.
+    /// The index of the empty text.
     pub const EMPTY: Self = Self { starts: Vec::new() };
 
     /// Finds the lines of `text`, which is shorter than 4 GiB.
@@ -82,17 +82,17 @@ impl LineIndex {
         Self { starts: ends.map(|(next, _)| next).collect() }
     }
 
-    /// How many there are; a text without any line end is one.
+    /// The number of lines; a text without any line end has one.
     pub fn lines(&self) -> u32 {
         u32::try_from(self.starts.len()).map_or(u32::MAX, |more| more.saturating_add(1))
     }
 
-    /// The line that holds an offset.
+    /// The line that contains an offset.
     pub fn line_of(&self, offset: u32) -> u32 {
         u32::try_from(self.starts.partition_point(|&start| start <= offset)).unwrap_or(u32::MAX)
     }
 
-    /// Where a line starts, and where its text ends: before the line end.
+    /// The start of a line, and the end of its text before the line end.
     fn bounds(&self, text: &str, line: u32) -> Option<(usize, usize)> {
         let start = match (line as usize).checked_sub(1) {
             None => 0,
@@ -103,7 +103,7 @@ impl LineIndex {
         Some((start, start + content.len()))
     }
 
-    /// A place in bytes as the client counts it.
+    /// Converts an offset to the client's position.
     pub fn position(&self, text: &str, offset: u32, encoding: Encoding) -> Position {
         let line = self.line_of(offset);
         let Some((start, end)) = self.bounds(text, line) else { return Position::default() };
@@ -114,7 +114,7 @@ impl LineIndex {
         Position { line, character: encoding.length(&text[start..at]) }
     }
 
-    /// A place as the client counts it, in bytes.
+    /// Converts the client's position to an offset.
     pub fn offset(&self, text: &str, position: Position, encoding: Encoding) -> u32 {
         let offset = match self.bounds(text, position.line) {
             None => text.len(),
@@ -124,7 +124,7 @@ impl LineIndex {
                 let mut units = 0;
                 let inside = line.char_indices().find(|&(_, c)| {
                     units += encoding.width(c);
-                    // A place inside a character is the place before it.
+                    // A position inside a character moves to the character's start.
                     units > wanted
                 });
                 start + inside.map_or(line.len(), |(at, _)| at)
@@ -191,7 +191,7 @@ mod tests {
         assert_eq!(Encoding::negotiate([].into_iter()), Encoding::Utf16);
     }
 
-    /// Line and column by walking over the text, as slowly and plainly as can be.
+    /// Line and column by walking over the text: slow, plain and independent.
     fn naive(text: &str, offset: usize, encoding: Encoding) -> Position {
         let before = &text[..offset];
         let plain = before.replace("\r\n", "\n").replace('\r', "\n");

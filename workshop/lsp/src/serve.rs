@@ -1,4 +1,4 @@
-//! Threads around the loop: one reads, one writes, and between them events are handled one after the other.
+//! The threads around the loop: one reads, one writes, and the loop handles one event after the other.
 
 use crate::event::Event;
 use crate::frame::{Frame, Frames};
@@ -13,20 +13,20 @@ use std::ops::ControlFlow;
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread::spawn;
 
-/// How many events may be under way; a reader that is faster waits.
+/// Most events in the channel; a faster reader waits.
 const UNDER_WAY: usize = 256;
 
 /// Serves one client until it leaves.
 ///
-/// Input and output are `'static`, since a thread that waits for input cannot be stopped: if the output breaks,
-/// that thread stays until the input says something or ends.
+/// Input and output are `'static`, since a thread that waits for input cannot be stopped: if the output
+/// fails, that thread stays until the input has data or ends.
 pub fn serve(input: impl Read + Send + 'static, output: impl Write + Send + 'static, host: Host) -> Ended {
     let (events, received) = sync_channel(UNDER_WAY);
     let (outbox, writer) = Outbox::over(output, events.clone());
     let reader = events.clone();
     spawn(move || read(input, &reader));
     let ended = turn(Server::new(host, outbox, events), Inbox::new(received));
-    // The server is gone, and its outbox with it: the writer sends what is left and ends.
+    // The server and its outbox are dropped: the writer sends the remaining messages and ends.
     let _ = writer.join();
     ended
 }

@@ -1,13 +1,14 @@
 //! URIs of documents, and the paths in them.
 //!
-//! Problem: clients write the same file in several ways (`file:///c%3A/a%20b`, `file:///C:/a b`), and a document need
-//! not be a file (`untitled:Untitled-1`). Idea: a document is known by its path, `/`-separated and decoded; what is no
-//! file is known by its URI. What a client called an open document is remembered elsewhere and given back to
-//! it unchanged. Invariant: `path(uri_of(path))` is the path. Source: RFC 3986 and RFC 8089.
+//! Problem: clients write the same file in several ways (`file:///c%3A/a%20b`, `file:///C:/a b`), and a
+//! document need not be a file (`untitled:Untitled-1`). Idea: the key of a document is its path,
+//! `/`-separated and decoded, or its whole URI if it is not a file. `documents` remembers the client's
+//! spelling of an open document and returns it unchanged. Invariant: `path(uri_of(path))` is the path.
+//! Source: RFC 3986 and RFC 8089.
 
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, percent_decode_str, utf8_percent_encode};
 
-/// What stands for itself in a path.
+/// Characters that are not escaped in a path.
 const ENCODED: &AsciiSet = &NON_ALPHANUMERIC
     .remove(b'/')
     .remove(b'-')
@@ -17,10 +18,10 @@ const ENCODED: &AsciiSet = &NON_ALPHANUMERIC
     .remove(b'+')
     .remove(b'@');
 
-/// How a document is known here: the path of a file, or the whole URI of anything else.
+/// The key of a document: the path of a file, or the whole URI of anything else.
 pub(crate) fn path(uri: &str) -> String {
     let Some(rest) = uri.strip_prefix("file://") else { return uri.to_owned() };
-    // `file://localhost/x` is `/x`; any other host stays in the path, as Windows has it.
+    // `file://localhost/x` is `/x`; any other host stays in the path, as in Windows.
     let rest = match rest.strip_prefix("localhost/") {
         Some(rest) => format!("/{rest}"),
         None if rest.starts_with('/') => rest.to_owned(),
@@ -32,7 +33,7 @@ pub(crate) fn path(uri: &str) -> String {
     without_slash_before_drive(&decoded)
 }
 
-/// `/c:/x` is `C:/x`: Windows knows no difference in case, and clients disagree about it.
+/// `/c:/x` is `C:/x`: Windows ignores the case of drives, and clients disagree about it.
 fn without_slash_before_drive(path: &str) -> String {
     match path.as_bytes() {
         [b'/', drive, b':', ..] if drive.is_ascii_alphabetic() => {
@@ -55,7 +56,7 @@ pub(crate) fn uri_of(path: &str) -> String {
     path.to_owned()
 }
 
-/// Whether a document is a file, so that it has neighbours.
+/// Whether a document is a file, so that it can have neighbours.
 pub(crate) fn is_file(path: &str) -> bool {
     path.starts_with('/') || matches!(path.as_bytes(), [drive, b':', b'/', ..] if drive.is_ascii_alphabetic())
 }

@@ -1,23 +1,23 @@
-//! A file as it was read.
+//! The reading of a file.
 
 use pddl::model::{Domain, Problem};
 use pddl::{Analysis, Diagnostic, Occurrence, Plan};
 use serde::Serialize;
 
-/// What a file is.
+/// The kind of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum FileKind {
-    /// `(define (domain …`, or anything that is nothing else.
+    /// `(define (domain …`, or any text that is neither a problem nor a plan.
     Domain,
     /// `(define (problem …`
     Problem,
-    /// A plan, known by the file's name.
+    /// A plan, recognised by the file's name.
     Plan,
 }
 
 impl FileKind {
-    /// Whether a file of that path holds a plan: `*.plan`, `*.soln`, `plan`, and `sas_plan` with or without a
+    /// Whether the path is that of a plan: `*.plan`, `*.soln`, `plan`, and `sas_plan` with or without a
     /// number behind it.
     pub fn is_plan(path: &str) -> bool {
         let name = path.rsplit('/').next().unwrap_or(path).to_ascii_lowercase();
@@ -27,19 +27,19 @@ impl FileKind {
             || name.starts_with("sas_plan.")
     }
 
-    /// Whether a file of that path belongs into a project at all: a plan, `*.pddl` or `*.hddl`.
+    /// Whether a file with that path belongs to a project: a plan, `*.pddl` or `*.hddl`.
     pub fn is_source(path: &str) -> bool {
         Self::is_definition(path) || Self::is_plan(path)
     }
 
-    /// Whether a file of that path holds a domain or a problem: `*.pddl` or `*.hddl`.
+    /// Whether the path is that of a domain or a problem: `*.pddl` or `*.hddl`.
     pub fn is_definition(path: &str) -> bool {
         let extension = path.rsplit_once('.').map_or("", |(_, extension)| extension);
         extension.eq_ignore_ascii_case("pddl") || extension.eq_ignore_ascii_case("hddl")
     }
 }
 
-/// The model of a file as far as it could be read, with what was said and which names stand where.
+/// The draft of a file's model, with diagnostics and occurrences of names.
 #[derive(Clone, Debug)]
 pub enum Reading {
     /// A domain, vocabulary, rules, perception or methods.
@@ -60,7 +60,7 @@ impl Reading {
         }
     }
 
-    /// What the language has to say about the file.
+    /// The parser's diagnostics of the file.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         match self {
             Self::Domain(a) => &a.diagnostics,

@@ -1,21 +1,21 @@
-//! What a file defines and what it needs, before it is read.
+//! The names that a file defines and needs, found before it is read.
 //!
-//! Files come in any order, but a problem can only be read with its domain and a domain only
-//! with its imports. This looks at names alone, forgives everything, and never complains: whatever is
-//! wrong with the file, the parser says it later, with its place.
+//! Files come in any order, but reading a problem requires its domain, and reading a domain its imports.
+//! This module looks at names alone, accepts any text and reports nothing: the parser reports errors later,
+//! with their places.
 
 use pddl::Span;
 
 use crate::FileKind;
 
-/// The names in a file's head.
+/// The names in a file's header.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Header {
-    /// What the file is.
+    /// The kind of the file.
     pub kind: FileKind,
-    /// Its own name, in lower case; empty if there is none.
+    /// Its own name, in lower case; empty if it has none.
     pub name: String,
-    /// What must be read before: the problem's domain, or the domain's imports.
+    /// The names that must be read first: the problem's domain, or the domain's imports.
     pub needs: Vec<Need>,
 }
 
@@ -29,7 +29,7 @@ pub struct Need {
 }
 
 impl Header {
-    /// The head of the file at `path` with that text.
+    /// The header of the file at `path` with that text.
     pub fn of(path: &str, text: &str) -> Self {
         if FileKind::is_plan(path) {
             return Self { kind: FileKind::Plan, name: String::new(), needs: Vec::new() };
@@ -62,7 +62,7 @@ impl Header {
         header
     }
 
-    /// Whether both say the same, wherever it stands.
+    /// Whether both have the same names; places are ignored.
     pub(crate) fn same_names(&self, other: &Self) -> bool {
         let names = |header: &Self| header.needs.iter().map(|need| need.name.clone()).collect::<Vec<_>>();
         (self.kind, &self.name, names(self)) == (other.kind, &other.name, names(other))
@@ -83,7 +83,7 @@ fn span(at: usize, word: &str) -> Span {
     Span::new(offset(at), offset(at + word.len()))
 }
 
-/// Parentheses and what stands between them, without comments, each with its offset.
+/// Parentheses and words, without comments, each with its offset.
 fn words(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut at = 0;
     std::iter::from_fn(move || {

@@ -1,9 +1,9 @@
-//! What there is to say about a file: the language's word first, then that of the lints.
+//! All findings in a file: the parser's first, then the lints'.
 //!
-//! Lints look only at models that are sound, alone and with what they depend on: in a draft half of everything
-//! is unused. What they find in a domain counts only if all its problems agree, so a domain is linted with
-//! them. Bound: with problems of more than [`MOST_LINTED`] bytes in sum the domain is looked at alone, and a
-//! larger problem not at all.
+//! Lints run only on models that are sound, together with the models that they depend on: in a draft, half
+//! of all names are unused. A finding in a domain counts only if all its problems agree, so a domain is
+//! linted with them. Bound: if its problems exceed [`MOST_LINTED`] bytes in sum, the domain is linted alone,
+//! and a larger problem is not linted at all.
 
 use pddl::Severity;
 
@@ -13,14 +13,14 @@ use diagnostics::{Finding, Place, SourceId};
 /// Longest problems that are linted, in bytes.
 const MOST_LINTED: usize = 2 << 20;
 
-/// What the language says, in order of place.
+/// The parser's findings, in order of place.
 pub(crate) fn language(project: &Project, id: SourceId, reading: &Reading) -> Vec<Finding> {
     let diagnostics = reading.diagnostics().iter();
     if project.kind(id) != FileKind::Problem || has_its_domain(project, id, reading) {
         return diagnostics.map(|d| d.finding(id)).collect();
     }
-    // Without its domain every name in it is unknown: what is said is what is missing, and what the text alone
-    // shows.
+    // Without its domain every name in a problem is unknown, so only the missing domain and the errors of
+    // the text itself are reported.
     let mut findings: Vec<Finding> =
         diagnostics.filter(|d| &d.code()[1..] < "0200").map(|d| d.finding(id)).collect();
     if let Some(need) = project.header(id).and_then(|header| header.needs.first()) {
@@ -39,8 +39,8 @@ pub(crate) fn language(project: &Project, id: SourceId, reading: &Reading) -> Ve
     findings
 }
 
-/// Whether a problem was read with the domain that it means. One of another name that stands beside it counts, as
-/// long as the problem has no errors with it.
+/// Whether a problem was read with the domain that it requires. A domain of another name beside it counts,
+/// as long as the problem has no errors with it.
 fn has_its_domain(project: &Project, id: SourceId, reading: &Reading) -> bool {
     let wanted = project.header(id).and_then(|header| header.needs.first());
     let found = project.domain_of(id).and_then(|domain| project.header(domain));
@@ -49,7 +49,7 @@ fn has_its_domain(project: &Project, id: SourceId, reading: &Reading) -> bool {
         || reading.diagnostics().iter().all(|d| d.severity != Severity::Error)
 }
 
-/// What the lints say, in order of place.
+/// The lints' findings, in order of place.
 pub(crate) fn lints(project: &Project, id: SourceId) -> Vec<Linted> {
     let size = |id: SourceId| project.source(id).text().len();
     let mut said = match project.kind(id) {

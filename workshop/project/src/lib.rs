@@ -1,9 +1,9 @@
-//! A set of PDDL files as one project: which file needs which, and what is wrong where.
+//! A set of PDDL files as one project: which file needs which, and the findings in each.
 //!
-//! Problem: a problem means nothing without its domain, a domain nothing without its imports, a plan nothing
-//! without its problem, and an author edits all of them at once. Idea: texts are handed in by path
-//! ([`Project::set`]); names in their heads say what belongs together; each file is read when somebody first
-//! asks, and again only after something that it depends on has changed. Nothing here reads a disk.
+//! Problem: a problem has no meaning without its domain, a domain without its imports, a plan without its
+//! problem, and an author edits all of them at once. Idea: callers hand in texts by path ([`Project::set`]),
+//! and the names in their headers link them. A file is read at the first query, and again only after it or a
+//! file that it depends on has changed. Nothing here reads a disk.
 //!
 //! ```
 //! use project::Project;
@@ -22,11 +22,9 @@
 //! assert!(project.language_findings(problem).is_empty());
 //! ```
 //!
-//! Map, from the ground up: `header` (the names
-//! in a file's head), `pairs` (which
-//! domain a problem means, which problem a plan), `links` (which file needs which), `file` (a file as it was read), `lint` (a domain with all
-//! its problems, looked at by lints), `judge` (what there is to say about a file), `project`,
-//! `task` (a problem with its domain and its imports).
+//! Map, from the ground up: `header` (the names in a file's header), `pairs` (the domain of a problem, the
+//! problem of a plan), `links` (which file needs which), `file` (a file's reading), `lint` (lints over a
+//! domain with all its problems), `judge` (all findings in a file), `project`, `task` (a problem with its domain and imports).
 
 mod file;
 mod header;

@@ -1,14 +1,14 @@
 //! Which file needs which.
 //!
-//! A problem needs the file that defines its domain, a domain those of its imports, a plan its problem. Where
-//! several files define a domain the nearest counts: in the same folder before others, then one with the same
-//! stem (`p01-domain.pddl` for `p01.pddl`), then the one whose folder has most in common, then the first. A
-//! problem asks `pairs` first, and where no domain near it has the name that it says, it means the only one
-//! beside it (or the one with its key) before a domain of that name far away. A plan belongs to a problem of
-//! its folder, or of the one above if there is none.
+//! A problem needs the file that defines its domain, a domain those of its imports, a plan its problem. If
+//! several files define a domain, the nearest one counts: one in the same folder before others, then one
+//! with the same stem (`p01-domain.pddl` for `p01.pddl`), then the one whose folder shares the longest path,
+//! then the first. For a problem, `pairs` decides first. If no domain near the problem has the required
+//! name, the only domain beside it (or the one with its key) comes before a domain of that name far away. A
+//! plan belongs to a problem of its folder, or of the parent folder if its own has none.
 //!
-//! Invariant: links have no cycle. Where imports go round, the one that closes the circle is left out, and the
-//! reader then says that it knows no such domain.
+//! Invariant: links have no cycle. In a cycle of imports the link that closes it is left out, and the reader
+//! then reports an unknown domain.
 
 use rustc_hash::FxHashMap;
 
@@ -17,10 +17,11 @@ use crate::{FileKind, Header};
 use diagnostics::SourceId;
 use std::path::Path;
 
-/// A file with its path and head.
+/// A file with its path and header.
 pub(crate) type Entry<'a> = (SourceId, &'a str, &'a Header);
 
-/// For each entry what provides each of its needs. A plan has one, its problem; a problem one, its domain.
+/// For each file the provider of each of its needs. A plan has one need, its problem; a problem has one, its
+/// domain.
 pub(crate) fn links(entries: &[Entry<'_>]) -> FxHashMap<SourceId, Vec<Option<SourceId>>> {
     let mut domains: FxHashMap<&str, Vec<usize>> = FxHashMap::default();
     let mut folders: FxHashMap<&str, Vec<usize>> = FxHashMap::default();
@@ -80,7 +81,7 @@ fn only(candidates: &[usize]) -> Option<usize> {
     if let [one] = candidates { Some(*one) } else { None }
 }
 
-/// The domain near the problem that is called as it says.
+/// The domain near the problem that has the required name.
 fn near_domain(path: &str, wanted: Option<&str>, named: &[usize], entries: &[Entry<'_>]) -> Option<usize> {
     let candidates: Vec<Candidate<'_>> =
         named.iter().map(|&i| Candidate { path: place(entries[i].1), name: &entries[i].2.name }).collect();
@@ -111,7 +112,8 @@ fn stem(path: &str) -> &str {
     name.rsplit_once('.').map_or(name, |(stem, _)| stem)
 }
 
-/// Leaves out each link that leads back to a file on the way. Iterative: imports can be many.
+/// Removes each link that leads back to a file on the current path. Iterative: chains of imports can be
+/// long.
 fn cut_cycles(links: &mut [Vec<Option<usize>>]) {
     #[derive(Clone, Copy, PartialEq)]
     enum State {
@@ -125,7 +127,7 @@ fn cut_cycles(links: &mut [Vec<Option<usize>>]) {
             continue;
         }
         states[start] = State::OnWay;
-        // Each file on the way with the position of its next link to follow.
+        // Each file on the path with the position of its next link to follow.
         let mut way = vec![(start, 0)];
         while let Some((at, next)) = way.last_mut() {
             let (at, position) = (*at, *next);

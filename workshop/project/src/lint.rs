@@ -1,38 +1,38 @@
-//! What lints say of a domain and its problems.
+//! Runs the lints over a domain and its problems.
 //!
-//! Problem: what is a mistake in a domain often shows only with its problems, and one problem alone proves little.
-//! Idea: a domain is looked at together with all problems of the project that are for it; see [`lints::Linter`].
-//! Invariant: files with errors are not looked at. Nothing is kept here; [`Project::lint_findings`]
-//! keeps what everybody wants to read.
+//! Problem: many mistakes in a domain show only with its problems, and a single problem proves little. Idea:
+//! lint a domain together with all problems of the project that are for it; see [`lints::Linter`].
+//! Invariant: files with errors are not linted. Nothing is cached here; [`Project::lint_findings`] caches
+//! what it returns.
 
 use lints::{File, Level, Linter};
 
 use crate::{Project, Reading};
 use diagnostics::{Finding, Place, SourceId};
 
-/// A warning with a way to mend it.
+/// A warning, with a fix if there is one.
 #[derive(Clone, Debug)]
 pub struct Linted {
-    /// What is said, where.
+    /// The finding.
     pub finding: Finding,
     /// The lint's name, for a comment that silences it.
     pub lint: &'static str,
-    /// How a machine can mend it.
+    /// The edits that correct it.
     pub fix: Option<Fix>,
 }
 
-/// Edits that mend what was found.
+/// Edits that correct a finding.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fix {
     /// What they do, in a few words.
     pub title: String,
-    /// What becomes which text; they do not overlap.
+    /// The replaced places with their new texts; they do not overlap.
     pub edits: Vec<(Place, String)>,
 }
 
 impl Project {
-    /// What lints up to `level` say of a domain and of all its problems, in order of files and places. Nothing, if
-    /// the file is no domain or has errors.
+    /// The findings of lints up to `level` in a domain and in all its problems, in order of files and
+    /// places. Empty if the file is not a domain or has errors.
     pub fn lint_family(&self, domain: SourceId, level: Level) -> Vec<Linted> {
         let Some(mut linter) = self.linter(domain, level) else { return Vec::new() };
         let mut said: Vec<Linted> = Vec::new();
@@ -46,13 +46,13 @@ impl Project {
         said
     }
 
-    /// What lints up to `level` say of a domain whatever its problems are.
+    /// The findings of lints up to `level` in a domain without its problems.
     pub fn lint_domain(&self, domain: SourceId, level: Level) -> Vec<Linted> {
         let linter = self.linter(domain, level);
         linter.map_or_else(Vec::new, |l| l.finish().iter().map(|f| linted(f, domain, domain)).collect())
     }
 
-    /// What lints up to `level` say of a problem alone.
+    /// The findings of lints up to `level` in a problem alone.
     pub fn lint_problem(&self, problem: SourceId, level: Level) -> Vec<Linted> {
         let linter = self.domain_of(problem).and_then(|domain| Some((domain, self.linter(domain, level)?)));
         match (linter, self.sound_problem(problem)) {

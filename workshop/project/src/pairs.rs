@@ -1,28 +1,29 @@
-//! Which domain a problem of a collection belongs to, and which problem a plan.
+//! Finds the domain of a problem and the problem of a plan in a collection of files.
 //!
-//! Problem: collections have hundreds of domains of one name, so names alone say little, and there are many
-//! ways to lay them out: `domain.pddl` beside `p01.pddl`; `domains/domain-1.pddl` and
-//! `instances/instance-1.pddl`; `p01-domain.pddl`, `domain_p01.pddl`; a folder above. Idea: only domains near
-//! the problem are asked (its folder, those above it as far as they hold any, folders beside it), and of those the one
-//! wins that is named as the problem says, then the one whose file's name has the same *key*, then the one
-//! without a key, then the nearest. The key is what is left of a file's name without words such as
-//! `domain` and `problem`.
+//! Problem: collections have hundreds of domains of one name, so names alone decide little, and their
+//! layouts differ: `domain.pddl` beside `p01.pddl`; `domains/domain-1.pddl` and `instances/instance-1.pddl`;
+//! `p01-domain.pddl`, `domain_p01.pddl`; a folder above. Idea: consider only domains near the problem (in
+//! its folder, in those above it that hold domains, in folders beside it). Of those, prefer the domain with
+//! the name that the problem requires, then the one whose file name has the same *key*, then the one without
+//! a key, then the nearest. The key is the rest of a file's name without words such as `domain` and
+//! `problem`.
 
 use std::path::Path;
 
-/// Words of files' names that do not tell one task from another.
+/// Words of file names that do not distinguish one task from another.
 const WORDS: &[&str] = &["domain", "problem", "instance", "pfile", "prob", "task", "plan", "inst", "p", "d"];
 
-/// A domain that could be meant.
+/// A candidate.
 #[derive(Clone, Copy, Debug)]
 pub struct Candidate<'a> {
-    /// Where it is.
+    /// The file's path.
     pub path: &'a Path,
-    /// What it is called inside.
+    /// The name in its `(define (domain …))`.
     pub name: &'a str,
 }
 
-/// What tells files of a folder apart: `p01-domain.pddl` and `instance-1.pddl` have both the key `1`.
+/// The part of a file's name that distinguishes it in its folder: `p01-domain.pddl` and `instance-1.pddl`
+/// both have the key `1`.
 pub(crate) fn key(path: &Path) -> String {
     let stem = path.file_stem().map(|s| s.to_string_lossy().to_lowercase()).unwrap_or_default();
     let mut key = String::new();
@@ -43,7 +44,7 @@ pub(crate) fn key(path: &Path) -> String {
     key
 }
 
-/// The domain of the problem at `path` that says that it is for the domain `wanted`; an index.
+/// The index of the domain for the problem at `path`, which requires a domain named `wanted`.
 pub fn domain_for(path: &Path, wanted: Option<&str>, domains: &[Candidate<'_>]) -> Option<usize> {
     let problem_key = key(path);
     let score = |candidate: &Candidate<'_>| {
@@ -53,12 +54,12 @@ pub fn domain_for(path: &Path, wanted: Option<&str>, domains: &[Candidate<'_>]) 
         Some((named, domain_key == problem_key, domain_key.is_empty(), std::cmp::Reverse(distance)))
     };
     let scored = domains.iter().enumerate().filter_map(|(index, domain)| Some((score(domain)?, index)));
-    // Of equally good ones the first.
+    // The first of equally good ones.
     scored.max_by_key(|&(score, index)| (score, std::cmp::Reverse(index))).map(|(_, index)| index)
 }
 
-/// The problem of the plan at `path`, of those in its folder: the one whose stem its name starts with
-/// (`p01-better.plan` for `p01.pddl`), else the one with its key, else the only one. An index.
+/// The index of the problem for the plan at `path`, among those in its folder: the one whose stem begins the
+/// plan's name (`p01-better.plan` for `p01.pddl`), else the one with its key, else the only one.
 pub fn problem_for(path: &Path, problems: &[&Path]) -> Option<usize> {
     let beside = || problems.iter().enumerate().filter(|(_, p)| p.parent() == path.parent());
     let name = path.file_name().map(|n| n.to_string_lossy()).unwrap_or_default();
@@ -76,8 +77,8 @@ pub fn problem_for(path: &Path, problems: &[&Path]) -> Option<usize> {
     same.or_else(only).map(|(index, _)| index)
 }
 
-/// How far a domain is from a problem: steps up from the problem's folder and down again; `None` where nobody
-/// would look, which is everything but the folders above and those directly in them that are named for it.
+/// The distance of a domain from a problem: steps up from the problem's folder and down again; `None`
+/// outside of the folders above and their direct subfolders for domains.
 fn distance(problem: &Path, domain: &Path) -> Option<usize> {
     let (from, to) = (problem.parent()?, domain.parent()?);
     let up = from.ancestors().position(|above| to.starts_with(above))?;

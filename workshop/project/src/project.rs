@@ -1,9 +1,9 @@
-//! The files of a project, read when asked for and again after a change.
+//! The files of a project, read on demand and again after a change.
 //!
-//! Invariant: a reading is kept only as long as neither its text, nor what provides its needs, nor the reading
-//! of that has changed. Cost of a change: linear in the number of files if a head changed (links are made
-//! anew), else in the number of those that depend on the file; reading is put off until somebody asks. A clone
-//! is cheap and shares what was read, so that a server can answer from a snapshot.
+//! Invariant: a cached reading is valid: neither its text, nor the files that it needs, nor their readings
+//! have changed since. Cost of a change: linear in the number of files if a header changed (all links are
+//! made again), else in the number of dependent files; reading is deferred until a query. A clone is cheap
+//! and shares the readings, so a server can answer from a snapshot.
 
 use std::sync::{Arc, OnceLock};
 
@@ -16,14 +16,14 @@ use crate::links::links;
 use crate::{FileKind, Header, Linted, Reading};
 use diagnostics::{Finding, SourceId, Sources};
 
-/// What is known of a file.
+/// A file and its cached results.
 #[derive(Debug)]
 struct File {
     header: Header,
-    /// What provides each need; see [`links`].
+    /// The provider of each need; see [`links`].
     links: Vec<Option<SourceId>>,
     read: OnceLock<Read>,
-    /// What lints say. Of a domain it depends on its problems too.
+    /// The lints' findings. Those of a domain depend on its problems too.
     lints: OnceLock<Vec<Linted>>,
 }
 
@@ -55,7 +55,7 @@ pub struct Project {
     level: LintLevel,
 }
 
-/// What lints may say.
+/// Which lints run.
 #[derive(Clone, Copy, Debug)]
 struct LintLevel(lints::Level);
 
@@ -66,28 +66,28 @@ impl Default for LintLevel {
 }
 
 impl Project {
-    /// No files.
+    /// An empty project.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// No files, and of those to come only what is wrong with them is wanted: readings have no occurrences.
+    /// An empty project for callers that need findings only: readings have no occurrences.
     pub fn without_names() -> Self {
         Self { names: Names::Skipped, ..Self::default() }
     }
 
-    /// Lets lints up to `level` speak, in files that are set from now on.
+    /// Enables lints up to `level` for files that are set from now on.
     pub fn set_lint_level(&mut self, level: lints::Level) {
         self.level = LintLevel(level);
     }
 
-    /// Up to which level lints speak.
+    /// The highest level of lints that run.
     pub fn lint_level(&self) -> lints::Level {
         self.level.0
     }
 
-    /// Adds the file at `path` or gives it another text. Paths have `/` between folders; a path keeps its id,
-    /// also over [`Project::remove`].
+    /// Adds the file at `path` or replaces its text. Paths have `/` between folders; a path keeps its id,
+    /// even over [`Project::remove`].
     ///
     /// # Panics
     /// Like [`Source::new`].
@@ -95,7 +95,7 @@ impl Project {
         self.set_all([Source::new(path, text)])[0]
     }
 
-    /// Many files at once, named by their paths: links between them are looked for only once.
+    /// Sets many files at once, by their paths: links between them are made only once.
     pub fn set_all(&mut self, sources: impl IntoIterator<Item = Source>) -> Vec<SourceId> {
         let mut changed = Vec::new();
         let mut relink = false;
@@ -130,7 +130,7 @@ impl Project {
         changed
     }
 
-    /// Takes the file at `path` out. Its id stays its own.
+    /// Removes the file at `path`. No other file gets its id.
     pub fn remove(&mut self, path: &str) -> Option<SourceId> {
         let id = *self.by_path.get(path)?;
         let before = self.files[id].take()?.links.iter().flatten().copied().collect();
@@ -139,8 +139,9 @@ impl Project {
         Some(id)
     }
 
-    /// Makes links anew if `relink`, then forgets what was read of the changed files and of all that depend on
-    /// them, and what lints said of these and of what the changed files needed `before`.
+    /// Makes links again if `relink`. Then drops the readings of the changed files and of all files that
+    /// depend on them, and the lints' findings of these and of the files that the changed ones needed
+    /// `before`.
     fn settle(&mut self, mut changed: FxHashSet<SourceId>, relink: bool, before: Vec<SourceId>) {
         let mut linted_with = before;
         if relink {
@@ -150,7 +151,7 @@ impl Project {
                 .collect();
             for (id, links) in links(&entries) {
                 if let Some(file) = &self.files[id]
-                    // What is missing is told with names that are near: those may be others now.
+                    // A diagnostic about a missing name suggests similar names, and those may differ now.
                     && (file.links != links || links.contains(&None))
                 {
                     linted_with.extend(file.links.iter().flatten().copied());
@@ -186,7 +187,7 @@ impl Project {
             .collect()
     }
 
-    /// Domains are linted with their problems: what was said of the domains of changed ones is forgotten.
+    /// Domains are linted with their problems: drops the lints' findings of the domains of changed problems.
     fn forget_lints(&mut self, domains: impl IntoIterator<Item = SourceId>) {
         for domain in domains {
             if let Some(file) = &self.files[domain]
@@ -197,7 +198,7 @@ impl Project {
         }
     }
 
-    /// The files, in the order in which they came.
+    /// The files, in the order in which they were added.
     pub fn ids(&self) -> impl Iterator<Item = SourceId> + '_ {
         self.files.enumerate().filter(|(_, file)| file.is_some()).map(|(id, _)| id)
     }
@@ -207,12 +208,12 @@ impl Project {
         self.by_path.get(path).copied().filter(|&id| self.files[id].is_some())
     }
 
-    /// Whether the file is (still) one of the project's.
+    /// Whether the file is (still) in the project.
     pub fn contains(&self, id: SourceId) -> bool {
         self.files.get(id).is_some_and(Option::is_some)
     }
 
-    /// The texts; of a file that was taken out, the empty one.
+    /// The texts; empty for a removed file.
     pub fn sources(&self) -> &Sources {
         &self.sources
     }
@@ -227,18 +228,18 @@ impl Project {
         self.sources[id].name()
     }
 
-    /// What a file is; a domain, if it is none of the project's.
+    /// The kind of a file; a domain, if it is not in the project.
     pub fn kind(&self, id: SourceId) -> FileKind {
         self.file(id).map_or(FileKind::Domain, |file| file.header.kind)
     }
 
-    /// The names in a file's head.
+    /// The names in a file's header.
     pub fn header(&self, id: SourceId) -> Option<&Header> {
         self.file(id).map(|file| &file.header)
     }
 
-    /// What a file needs directly, for each need in its head what provides it. A problem has one, its domain;
-    /// a plan one, its problem.
+    /// The files that a file needs directly, the provider of each need in its header. A problem has one, its
+    /// domain; a plan has one, its problem.
     pub fn needs(&self, id: SourceId) -> &[Option<SourceId>] {
         self.file(id).map_or(&[], |file| &file.links)
     }
@@ -248,7 +249,7 @@ impl Project {
         self.ids().filter(move |&other| self.needs(other).contains(&Some(id)))
     }
 
-    /// The domain file that a file's names come from: its own for a domain, else by way of the problem.
+    /// The domain file that provides a file's names: itself for a domain, else through its problem.
     pub fn domain_of(&self, id: SourceId) -> Option<SourceId> {
         let need = || self.needs(id).first().copied().flatten();
         match self.kind(id) {
@@ -258,7 +259,7 @@ impl Project {
         }
     }
 
-    /// The problem file that a file's objects come from: its own for a problem, a plan's for a plan.
+    /// The problem file that provides a file's objects: itself for a problem, a plan's problem for a plan.
     pub fn problem_of(&self, id: SourceId) -> Option<SourceId> {
         match self.kind(id) {
             FileKind::Domain => None,
@@ -267,12 +268,12 @@ impl Project {
         }
     }
 
-    /// A file as it was read; `None` if it is none of the project's.
+    /// The reading of a file; `None` if it is not in the project.
     pub fn reading(&self, id: SourceId) -> Option<&Reading> {
         self.read(id).map(|read| &*read.reading)
     }
 
-    /// The model of the domain in a file, whatever is wrong with it; `None` if the file is no domain.
+    /// The draft of the domain in a file, even with errors; `None` if the file is not a domain.
     pub fn domain(&self, id: SourceId) -> Option<&Domain> {
         match self.reading(id)? {
             Reading::Domain(analysis) => Some(&analysis.draft),
@@ -280,7 +281,7 @@ impl Project {
         }
     }
 
-    /// The model of the problem in a file, whatever is wrong with it; `None` if the file is no problem.
+    /// The draft of the problem in a file, even with errors; `None` if the file is not a problem.
     pub fn problem(&self, id: SourceId) -> Option<&pddl::model::Problem> {
         match self.reading(id)? {
             Reading::Problem(analysis) => Some(&analysis.draft),
@@ -288,23 +289,23 @@ impl Project {
         }
     }
 
-    /// What the language says about a file, in order of place.
+    /// The parser's findings in a file, in order of place.
     pub fn language_findings(&self, id: SourceId) -> &[Finding] {
         self.read(id).map_or(&[], |read| &read.language)
     }
 
-    /// What lints say about a file, in order of place; nothing while it or its domain has errors.
+    /// The lints' findings in a file, in order of place; empty while it or its domain has errors.
     pub fn lint_findings(&self, id: SourceId) -> &[Linted] {
         self.file(id).map_or(&[], |file| file.lints.get_or_init(|| judge::lints(self, id)))
     }
 
-    /// What lints say about a file if they have looked at it since it changed; nothing if they have not. For whoever
+    /// The lints' findings in a file, if lints have run since it changed; otherwise empty. For callers that
     /// must not wait: lints may take longer than reading.
     pub fn cached_lint_findings(&self, id: SourceId) -> &[Linted] {
         self.file(id).and_then(|file| file.lints.get()).map_or(&[], Vec::as_slice)
     }
 
-    /// Everything to say about a file, in order of place.
+    /// All findings in a file, in order of place.
     pub fn findings(&self, id: SourceId) -> Vec<Finding> {
         let lints = self.lint_findings(id).iter().map(|linted| &linted.finding);
         let mut all: Vec<Finding> = self.language_findings(id).iter().chain(lints).cloned().collect();
@@ -316,7 +317,7 @@ impl Project {
         self.files.get(id)?.as_deref()
     }
 
-    /// Reads a file after all that it needs, which may be a long way: the way is on a stack of our own.
+    /// Reads a file after all files that it needs. The chain can be long, so it is on an explicit stack.
     fn read(&self, id: SourceId) -> Option<&Read> {
         let mut way = vec![id];
         while let Some(&next) = way.last() {

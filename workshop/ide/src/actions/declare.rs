@@ -1,4 +1,4 @@
-//! Declarations for names that nothing declares, with types told from where the names stand.
+//! Declares undeclared names, with types inferred from their uses.
 
 use diagnostics::SourceId;
 use pddl::model::TypeSet;
@@ -12,7 +12,7 @@ use crate::context::Context;
 use crate::path::{Spot, path};
 use crate::{Edits, TextEdit};
 
-/// What declaring an unknown name would change; `None` where nothing sensible can be said.
+/// The edits that declare an unknown name; `None` if its use does not determine a declaration.
 pub(super) fn declare(
     project: &Project,
     file: SourceId,
@@ -55,7 +55,7 @@ pub(super) fn of_one(file: SourceId, edit: TextEdit) -> Edits {
     Edits { files: [(file, vec![edit])].into() }
 }
 
-/// `(at ?l - lamp ?x - place)` for the list that the name at `span` opens: its arguments with their types.
+/// `(at ?l - lamp ?x - place)` for the list with the head at `span`: its arguments with their types.
 fn applied_form(project: &Project, file: SourceId, tree: &Tree<'_>, span: Span) -> Option<String> {
     let way = path(tree, span.start);
     let list =

@@ -1,4 +1,4 @@
-//! Text for a place that may not be there yet: at the end of a section, or in a new one.
+//! Inserts text into a section, at its end or as a new section.
 
 use pddl::syntax::{self, Node};
 use pddl::{Source, Span};
@@ -6,11 +6,11 @@ use pddl::{Source, Span};
 use crate::TextEdit;
 use crate::describe::{typed, value_of};
 
-/// Sections that stand before what uses them, in their usual order.
+/// Sections in their usual order, declarations before uses.
 const ORDER: &[&str] =
     &[":domain", ":requirements", ":import", ":types", ":constants", ":objects", ":predicates", ":functions"];
 
-/// Adds `text` to the section, which is put at its usual place if the file has none.
+/// Adds `text` to a section; creates the section at its usual place if the file has none.
 pub(super) fn into_section(source: &Source, keyword: &str, text: &str) -> Option<TextEdit> {
     let (tree, _) = syntax::parse(source);
     let define = tree.roots().find(|n| n.is_headed("define"))?;
@@ -34,7 +34,7 @@ pub(super) fn into_section(source: &Source, keyword: &str, text: &str) -> Option
     Some(insertion(at, format!("\n  ({keyword} {text})")))
 }
 
-/// What stands last without a type must not get that of what comes behind it.
+/// An untyped last item must not receive the type of the inserted ones.
 fn type_of_those_before(section: Node<'_>, keyword: &str) -> &'static str {
     let untyped = typed(section.children().skip(1)).last().is_some_and(|(_, types)| types.is_none());
     match keyword {
@@ -44,7 +44,7 @@ fn type_of_those_before(section: Node<'_>, keyword: &str) -> &'static str {
     }
 }
 
-/// A line of its own above that of a place, as far in.
+/// A new line above a place, with the same indentation.
 pub(super) fn before_line(source: &Source, offset: u32, text: &str) -> TextEdit {
     let at = source.line_column(offset);
     let line = source.line(at.line);
@@ -80,7 +80,7 @@ fn starts_line(source: &Source, node: Node<'_>) -> bool {
     source.line(at.line).chars().take(at.column as usize - 1).all(char::is_whitespace)
 }
 
-/// A comment behind what is added to stays behind it.
+/// A comment behind the last item stays behind that item.
 fn end_of_line_if_comment(source: &Source, end: u32) -> u32 {
     let rest = source.text().get(end as usize..).unwrap_or("");
     let line = rest.lines().next().unwrap_or("");

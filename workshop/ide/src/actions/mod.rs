@@ -1,4 +1,4 @@
-//! What can be done about a finding, or about a name.
+//! Code actions: fixes for findings, and refactorings of names.
 
 mod declare;
 mod insert;
@@ -14,38 +14,38 @@ use declare::{declare, of_one};
 use insert::{before_line, into_section};
 use remove::remove;
 
-/// Why an action is offered.
+/// The kind of an action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ActionKind {
-    /// It makes a finding go away.
+    /// It removes a finding.
     Fix,
-    /// It leaves everything as it is.
+    /// It preserves the meaning.
     Refactor,
 }
 
-/// A change to offer.
+/// A change that an editor can offer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CodeAction {
-    /// What it does, in the imperative.
+    /// Its title, in the imperative.
     pub title: String,
-    /// Why it is offered.
+    /// Its kind.
     pub kind: ActionKind,
     /// The finding's code and place if it is a fix.
     pub fixes: Option<(&'static str, Span)>,
-    /// Whether it is the one to take if there are several.
+    /// Whether it is the preferred one of several.
     pub preferred: bool,
-    /// What it changes.
+    /// The edits.
     pub edits: Edits,
 }
 
-/// What can be done where `range` is: the nearest name for a mistyped one, a declaration for one that nothing
-/// declares, the requirement that is missing, and what lints know to mend, if they have run.
+/// The actions for `range`: the nearest name for a misspelt one, a declaration for an undeclared name, a
+/// missing requirement, and the fixes of lints that have run.
 pub fn code_actions(project: &Project, source: SourceId, range: Span) -> Vec<CodeAction> {
     let touches = |span: Span| span.start <= range.end && range.start <= span.end;
     let mut actions = Vec::new();
     let diagnostics = project.reading(source).map_or(&[][..], Reading::diagnostics);
     let needs_domain = project.kind(source) == FileKind::Problem && project.domain_of(source).is_none();
-    // A domain of another name that stands beside the problem is read with a warning.
+    // A domain of another name beside the problem is used with a warning.
     let misnamed = diagnostics.iter().any(|d| d.code() == "W0223");
     if needs_domain || misnamed {
         let is_read = !needs_domain && diagnostics.iter().all(|d| d.severity != Severity::Error);
@@ -53,7 +53,7 @@ pub fn code_actions(project: &Project, source: SourceId, range: Span) -> Vec<Cod
         let offered = other_domain(project, source, code);
         actions.extend(offered.filter(|action| action.fixes.is_some_and(|(_, s)| touches(s))));
     }
-    // Without a domain every name is unknown; that is not what is wrong.
+    // Without a domain every name is unknown; the names are not the mistake.
     for diagnostic in diagnostics.iter().filter(|d| touches(d.span) && !needs_domain) {
         of_diagnostic(project, source, diagnostic, &mut actions);
     }
@@ -119,7 +119,7 @@ fn of_diagnostic(
     }
 }
 
-/// The nearest domain for a problem that names one that is nowhere.
+/// The nearest known domain for a problem whose domain does not exist.
 fn other_domain(project: &Project, source: SourceId, code: &'static str) -> impl Iterator<Item = CodeAction> {
     let need = project.header(source).and_then(|header| header.needs.first());
     let domains = project.ids().filter(|&id| project.kind(id) == FileKind::Domain);

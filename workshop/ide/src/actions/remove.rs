@@ -1,4 +1,4 @@
-//! What lints call unused, taken out where nothing else would have to change.
+//! Removes an unused declaration or parameter, if nothing else would have to change.
 
 use diagnostics::SourceId;
 use pddl::syntax::{self, Node, Tree};
@@ -10,7 +10,7 @@ use crate::entity::entity_at;
 use crate::path::{Spot, path};
 use crate::{Position, TextEdit};
 
-/// Takes out what the finding is about; `None` if that is not as simple as it seems.
+/// The edit that removes what the finding is about; `None` if other places would have to change.
 pub(super) fn remove(project: &Project, file: SourceId, linted: &Linted) -> Option<TextEdit> {
     let span = linted.finding.place.span;
     let (tree, _) = syntax::parse(project.source(file));
@@ -20,11 +20,11 @@ pub(super) fn remove(project: &Project, file: SourceId, linted: &Linted) -> Opti
             let list = way.iter().rev().find(|n| n.is_list())?;
             let section = way.len().checked_sub(3).map(|i| way[i])?;
             list.head().filter(|h| h.span() == span)?;
-            // Facts and goals of problems may name it all the same.
+            // Facts and goals of problems may still use it.
             if is_used(project, file, span) { None } else { Some(cut(section, list.span(), list.span())) }
         }
         "unused-parameter" => {
-            // Whoever names the action gives it an argument for the parameter.
+            // Every use of the action has an argument for the parameter.
             let name = Spot::of(&tree, span)?.name()?.span();
             if is_used(project, file, name) { None } else { item(&tree, span) }
         }
@@ -37,7 +37,7 @@ fn is_used(project: &Project, file: SourceId, name: Span) -> bool {
     entity.is_some_and(|(entity, _)| entity.occurrences(project).iter().any(|(_, o)| o.role == Role::Use))
 }
 
-/// An item of a typed list, with its type if no other item has it.
+/// An item of a typed list, with its type if it is the only item of that type.
 fn item(tree: &Tree<'_>, span: Span) -> Option<TextEdit> {
     let way = path(tree, span.start);
     let list = *way.iter().rev().find(|n| n.is_list())?;
@@ -49,7 +49,7 @@ fn item(tree: &Tree<'_>, span: Span) -> Option<TextEdit> {
     Some(cut(list, span, Span::new(span.start, end)))
 }
 
-/// Takes out `whole`, which begins with the child at `first`, with the white space before it.
+/// Removes `whole`, which begins with the child at `first`, and the white space before it.
 fn cut(list: Node<'_>, first: Span, whole: Span) -> TextEdit {
     let before = list.children().take_while(|n| n.span().start < first.start).last();
     match before {

@@ -1,4 +1,4 @@
-//! Names and words that fit what is expected.
+//! Names and words of the expected kind.
 
 use pddl::model::{Domain, Requirement, TypeSet, Variables};
 use pddl::{NameKind, Role, Span};
@@ -13,7 +13,7 @@ use crate::context::{After, Context, DOMAIN_SECTIONS, PROBLEM_SECTIONS};
 use crate::entity::occurrences;
 use crate::words::meaning;
 
-/// Ranks: what is nearest first.
+/// Ranks: the nearest first.
 const VARIABLE: u32 = 0;
 const OBJECT: u32 = 10;
 const NAME: u32 = 20;
@@ -71,7 +71,8 @@ impl<'a> Candidates<'a> {
         self.push(CompletionKind::Keyword, word, None, WORD).documentation = documentation;
     }
 
-    /// Snippets, each with what closes it, that lack `before`: an opening parenthesis, where there is none yet.
+    /// Snippets, completed by a closing parenthesis, and by `before`: an opening one, if the text has none
+    /// yet.
     fn snippets(&mut self, snippets: &[Snippet], before: &str, rank: u32) {
         let after = self.context.after();
         for (label, body) in snippets {
@@ -89,7 +90,7 @@ impl<'a> Candidates<'a> {
         }
     }
 
-    /// Keys and types: pieces that close nothing.
+    /// Keys and types: snippets without parentheses.
     fn pieces(&mut self, snippets: &[Snippet], rank: u32) {
         for (label, body) in snippets {
             let documentation = meaning(label).map(str::to_owned);
@@ -222,7 +223,7 @@ impl<'a> Candidates<'a> {
         }
     }
 
-    /// A symbol with places for its arguments.
+    /// A symbol with placeholders for its arguments.
     fn applied(&mut self, domain: &Domain, kind: NameKind, name: &str, variables: &Variables, before: &str) {
         let parameters = variables.parameters();
         let shown: Vec<String> = parameters
@@ -255,19 +256,19 @@ impl<'a> Candidates<'a> {
 
     fn side(&mut self) {
         let Some(domain) = self.domain() else { return };
-        // Beside an object fluent or a variable only what is of its type makes sense; here all may stand.
+        // Next to an object fluent or a variable only terms of its type fit; here all are offered.
         self.terms(&TypeSet::any());
         for f in &domain.functions {
             self.applied(domain, NameKind::Function, &f.name, &f.variables, "(");
         }
     }
 
-    /// Variables in sight and objects that can be of these types.
+    /// Visible variables and objects that can be of these types.
     fn terms(&mut self, wanted: &TypeSet) {
         let Some(domain) = self.domain() else { return };
         for (name, types) in self.context.variables() {
             let ids = types.iter().map(|t| domain.types.find(&t.to_ascii_lowercase()));
-            // A type that nothing declares can be anything.
+            // An undeclared type matches any.
             let own = TypeSet(ids.collect::<Option<_>>().unwrap_or_default());
             if meet(&domain.types, &own, wanted) {
                 let exact = own.is_unknown() || domain.types.is_subset(&own, wanted);
@@ -292,7 +293,7 @@ impl<'a> Candidates<'a> {
 
     fn subtasks(&mut self) {
         let Some(section) = self.context.section() else { return };
-        // Ids of this section: declared behind its beginning and in its scope.
+        // Ids of this section: declared inside it, in its scope.
         let here = |scope: Option<Span>| scope.is_some_and(|scope| scope.start == section.start);
         let mut names: Vec<String> = occurrences(self.project, self.at.source)
             .iter()

@@ -1,8 +1,8 @@
-//! What kind of thing may stand at a cursor.
+//! What kind of thing is expected at a cursor.
 
 use crate::context::{Context, Open};
 
-/// What may stand there.
+/// The kind of thing that is expected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Expected {
     /// A whole definition, with its parenthesis or without.
@@ -19,7 +19,7 @@ pub(super) enum Expected {
     Key,
     /// A condition, an effect or a number, with its parenthesis or without.
     Form { form: Form, parenthesis: bool },
-    /// An argument of what the innermost list applies.
+    /// An argument of the symbol at the head of the innermost list.
     Argument,
     /// A side of an equation: a term or a function.
     Side,
@@ -31,7 +31,7 @@ pub(super) enum Expected {
     SubtaskId,
 }
 
-/// What a list may be.
+/// The possible roles of a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
     Condition,
@@ -66,7 +66,7 @@ fn one_of(word: &str, words: &[&str]) -> bool {
     words.iter().any(|w| w.eq_ignore_ascii_case(word))
 }
 
-/// What may stand at the cursor; `None` where only its author knows.
+/// What is expected at the cursor; `None` where any new name may stand.
 pub(super) fn expected(context: &Context<'_>, is_plan: bool) -> Option<Expected> {
     let Some(inner) = context.inner() else {
         return Some(if is_plan {
@@ -117,13 +117,13 @@ pub(super) fn expected(context: &Context<'_>, is_plan: bool) -> Option<Expected>
     }
 }
 
-/// Inside of a section with keys.
+/// Inside a section with keys.
 fn keyed(context: &Context<'_>, section: &Open<'_>, keyword: &str) -> Option<Expected> {
     let inner = context.inner()?;
     let key = section.key().to_ascii_lowercase();
     let named = usize::from(keyword != ":htn");
     if context.open.len() == 2 {
-        // Behind a key its value comes, else the next key.
+        // A key expects its value, a value the next key.
         let after_key =
             inner.items.len() > 1 && inner.items.last().is_some_and(super::super::context::Item::is_keyword);
         if !after_key {
@@ -147,7 +147,7 @@ fn keyed(context: &Context<'_>, section: &Open<'_>, keyword: &str) -> Option<Exp
     }
 }
 
-/// Inside of a condition, an effect or the like, which begins at `depth`.
+/// Inside a condition, an effect or a similar form, which begins at `depth`.
 fn form(context: &Context<'_>, form: Form, depth: usize) -> Option<Expected> {
     let inner = context.inner()?;
     let nested = &context.open[depth.min(context.open.len())..];
@@ -194,7 +194,7 @@ fn form(context: &Context<'_>, form: Form, depth: usize) -> Option<Expected> {
     Some(Expected::Argument)
 }
 
-/// What stands inside of the lists around it.
+/// What the enclosing lists expect.
 fn at(form: Form, around: &[Open<'_>]) -> Form {
     let mut now = form;
     for list in around {

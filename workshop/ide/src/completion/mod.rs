@@ -1,8 +1,9 @@
-//! What may stand at a position.
+//! Completion: the names and words that fit a position.
 //!
-//! Problem: while somebody types, the text is broken just there. Idea: [`Context`] tells from the tokens before the
-//! cursor which lists are open; `expected` tells from these what may stand there; `candidates` asks the drafts,
-//! which lack only what is broken, for names that fit. Editors filter by what was typed so far.
+//! Problem: the text is broken exactly where the author is typing. Idea: [`Context`] finds the open lists
+//! from the tokens before the cursor. `expected` derives from them what kind of thing fits. `candidates`
+//! asks the drafts, which lack only the broken parts, for names of that kind. Editors filter by the typed
+//! prefix.
 
 mod candidates;
 mod expected;
@@ -17,7 +18,7 @@ use crate::context::Context;
 use candidates::Candidates;
 use expected::expected;
 
-/// What a completion puts in.
+/// The kind of a completion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CompletionKind {
     /// A word of the language.
@@ -28,28 +29,28 @@ pub enum CompletionKind {
     Name(NameKind),
 }
 
-/// Something that may stand at a position.
+/// A candidate for a position.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Completion {
-    /// What to show in the list.
+    /// Its text in the list.
     pub label: String,
-    /// What it is.
+    /// Its kind.
     pub kind: CompletionKind,
     /// Signature or type, beside the label.
     pub detail: Option<String>,
-    /// More, as Markdown.
+    /// Documentation, as Markdown.
     pub documentation: Option<String>,
-    /// What goes: the word so far.
+    /// The replaced span: the word so far.
     pub span: Span,
-    /// What comes, without places to fill in.
+    /// The inserted text, without placeholders.
     pub text: String,
-    /// What comes, with `$1`, `${2:name}` … `$0` to fill in, in the syntax of language servers.
+    /// The inserted text with placeholders `$1`, `${2:name}` … `$0`, in the syntax of language servers.
     pub snippet: Option<String>,
-    /// Smaller is better: fitting types first, then what is nearest.
+    /// The rank, smaller is better: fitting types first, then the nearest.
     pub rank: u32,
 }
 
-/// What may stand at a position, best first.
+/// The candidates for a position, best first.
 pub fn completions(project: &Project, at: Position) -> Vec<Completion> {
     let Some(context) = Context::of(project.source(at.source), at.offset) else { return Vec::new() };
     let is_plan = project.kind(at.source) == FileKind::Plan;

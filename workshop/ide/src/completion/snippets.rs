@@ -1,6 +1,6 @@
-//! Sections, keys and forms with places to fill in.
+//! Sections, keys and forms with placeholders.
 
-/// A piece of text with its places to fill in, in the syntax of language servers.
+/// A piece of text with placeholders, in the syntax of language servers.
 pub(super) type Snippet = (&'static str, &'static str);
 
 /// Whole definitions.

@@ -10,7 +10,8 @@ pub(crate) fn answer(
     params: &CodeActionParams,
 ) -> Result<Option<Vec<CodeActionResponse>>, Refusal> {
     let Some(source) = q.documents.id(&params.text_document.uri) else { return Ok(None) };
-    // A client that takes commands only would need one to apply edits; all that are alive take actions.
+    // A client without code action literals would need commands that apply edits; all maintained clients
+    // have literals.
     if !q.client.action_literals {
         return Ok(None);
     }
@@ -19,7 +20,7 @@ pub(crate) fn answer(
     Ok(Some(actions.map(CodeActionResponse::CodeAction).collect()))
 }
 
-/// An offer as the client wants it; nothing if it asked for other kinds.
+/// An action in the protocol's form; `None` if the client asked for other kinds.
 fn action(q: &Question<'_>, source: SourceId, params: &CodeActionParams, offer: Offer) -> Option<CodeAction> {
     let kind = match offer.kind {
         ActionKind::Fix => CodeActionKind::QuickFix,
@@ -44,7 +45,7 @@ fn action(q: &Question<'_>, source: SourceId, params: &CodeActionParams, offer: 
     })
 }
 
-/// Kinds are words between dots; a kind is all those that it begins with.
+/// Kinds are words separated by dots; a kind includes those that begin with it.
 fn is_a(kind: &CodeActionKind, wanted: &CodeActionKind) -> bool {
     let (kind, wanted) = (kind.to_string(), wanted.to_string());
     wanted.is_empty() || kind == wanted || kind.starts_with(&format!("{wanted}."))

@@ -1,4 +1,4 @@
-//! What the server can do, as `initialize` is answered.
+//! The server's capabilities, for the answer to `initialize`.
 
 use super::{lenses, tokens};
 use crate::client::Client;
@@ -10,7 +10,7 @@ use lsp_types::{
     TextDocumentSyncOptions, WorkDoneProgressOptions, WorkspaceFoldersServerCapabilities, WorkspaceOptions,
 };
 
-/// The files that a client shall watch for us.
+/// The files that the client shall watch.
 pub(crate) const WATCHED: [&str; 3] = ["**/*.{pddl,hddl,plan,soln}", "**/plan", "**/sas_plan*"];
 
 pub(crate) fn all(client: &Client, options: &Options) -> InitializeResult {
@@ -72,7 +72,7 @@ pub(crate) fn all(client: &Client, options: &Options) -> InitializeResult {
             commands: vec![lenses::PLAN.to_owned(), lenses::VALIDATE.to_owned()],
             work_done_progress_options: shown,
         }),
-        // Clients that see this ask of their own accord, and would show everything twice.
+        // With this capability clients pull diagnostics, and would show pushed ones twice.
         diagnostic_provider: (options.diagnostics == DiagnosticsMode::Pull).then(|| {
             DiagnosticOptions {
                 identifier: None,

@@ -47,8 +47,8 @@ fn item(q: &Question<'_>, source: SourceId, completion: Completion) -> Completio
     }
 }
 
-/// What the word so far is compared with. A parenthesis or a question mark that is written already and not part of
-/// the label would let clients drop everything.
+/// The text that the client matches with the word so far. It includes an opening parenthesis or a question
+/// mark that is written already, since a client drops candidates without it.
 fn filter(word: &str, label: &str) -> String {
     let mark: String = word.chars().take_while(|c| !c.is_alphanumeric()).collect();
     if label.starts_with(&mark) { label.to_owned() } else { format!("{mark}{label}") }

@@ -1,4 +1,4 @@
-//! What is wrong, as the client shows it; `textDocument/diagnostic` for clients that ask.
+//! Findings in the protocol's form; `textDocument/diagnostic` for clients that pull.
 
 use super::{Question, Refusal};
 use crate::client::Client;
@@ -25,7 +25,7 @@ pub(crate) fn answer(
     }))
 }
 
-/// What reading a document found.
+/// A finding of the parser or of a lint.
 pub(crate) fn of_finding(documents: &Documents, client: &Client, finding: &Finding) -> Diagnostic {
     let related = finding.related.iter().map(|(place, text)| (*place, text.clone())).collect();
     let mut message = finding.message.clone();
@@ -38,7 +38,7 @@ pub(crate) fn of_finding(documents: &Documents, client: &Client, finding: &Findi
     diagnostic
 }
 
-/// What planner or validator found.
+/// A remark of the planner or the validator.
 pub(crate) fn of_remark(
     documents: &Documents,
     client: &Client,

@@ -1,4 +1,4 @@
-//! Changes of texts, as the client wants them: with versions where it can check them.
+//! Edits in the protocol's form, with versions where the client can check them.
 
 use crate::client::Client;
 use crate::documents::Documents;
@@ -31,7 +31,7 @@ pub(crate) fn workspace_edit(documents: &Documents, client: &Client, edits: &Edi
     result
 }
 
-/// Another text for the document at `path`, which need not exist.
+/// A new text for the document at `path`, which need not exist.
 pub(crate) fn replacing(documents: &Documents, client: &Client, path: &str, text: &str) -> WorkspaceEdit {
     let known = documents.project().id(path);
     let uri = uri_of_path(documents, path);
@@ -55,7 +55,7 @@ pub(crate) fn replacing(documents: &Documents, client: &Client, path: &str, text
     WorkspaceEdit { document_changes: Some(changes), ..WorkspaceEdit::default() }
 }
 
-/// What the client calls the document at `path`.
+/// The client's URI of the document at `path`.
 pub(crate) fn uri_of_path(documents: &Documents, path: &str) -> Uri {
     documents.project().id(path).map_or_else(|| Uri(uri_of(path)), |source| documents.uri(source))
 }

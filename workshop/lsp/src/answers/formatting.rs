@@ -1,5 +1,5 @@
-//! `textDocument/formatting` and `textDocument/rangeFormatting`. How wide an indent is, is not the client's to say:
-//! files look as `pelea fmt` lays them out.
+//! `textDocument/formatting` and `textDocument/rangeFormatting`. The client's indent width is ignored: files
+//! look as `pelea fmt` lays them out.
 
 use super::{Question, Refusal};
 use diagnostics::SourceId;

@@ -23,7 +23,7 @@ pub(crate) fn answer(q: &Question<'_>, params: &CodeLensParams) -> Result<Option
             Lens::References { count: 1 } => ("1 reference".to_owned(), ""),
             Lens::References { count } => (format!("{count} references"), ""),
         };
-        // A lens without a command only says something.
+        // A lens without a command is only a text.
         let arguments = (!command.is_empty()).then(|| vec![json!(uri)]);
         CodeLens {
             range: q.documents.range(source, found.span),

@@ -1,4 +1,5 @@
-//! One file a question: the client's words in, `ide`'s answer, the client's words out. Nothing here changes anything.
+//! One file for each question: reads the client's parameters, calls `ide`, and writes the protocol's answer.
+//! Answers change no state.
 
 pub(crate) mod actions;
 pub(crate) mod capabilities;
@@ -26,16 +27,16 @@ use ide::Position;
 use lsp_types::{Documentation, MarkupContent, MarkupKind, TextDocumentPositionParams};
 use project::Project;
 
-/// What an answer may look at.
+/// The state that an answer may read.
 pub(crate) struct Question<'a> {
     pub(crate) documents: &'a Documents,
     pub(crate) client: &'a Client,
     pub(crate) options: &'a Options,
-    /// All that is known to be wrong with a document.
+    /// All findings in a document.
     pub(crate) diagnostics: &'a dyn Fn(SourceId) -> Vec<lsp_types::Diagnostic>,
 }
 
-/// Why there is no answer, as a sentence for the user.
+/// The reason for a missing answer, as a sentence for the user.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Refusal(pub(crate) String);
 
@@ -44,13 +45,13 @@ impl<'a> Question<'a> {
         self.documents.project()
     }
 
-    /// The place that the client asks about; `None` if it has never told us of the document.
+    /// The position in the client's question; `None` for an unknown document.
     pub(crate) fn place(&self, at: &TextDocumentPositionParams) -> Option<Position> {
         let source = self.documents.id(&at.text_document.uri)?;
         Some(Position { source, offset: self.documents.offset(source, at.position) })
     }
 
-    /// Markdown, or its text where the client shows no other.
+    /// Markdown, or plain text for a client without Markdown.
     pub(crate) fn markup(&self, markdown: String) -> MarkupContent {
         let kind = if self.client.markdown { MarkupKind::Markdown } else { MarkupKind::PlainText };
         MarkupContent { kind, value: markdown }

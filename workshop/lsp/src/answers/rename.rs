@@ -27,7 +27,7 @@ pub(crate) fn answer(q: &Question<'_>, params: &RenameParams) -> Result<Option<W
     Ok(Some(edits::workspace_edit(q.documents, q.client, &found)))
 }
 
-/// The reason, and where it is to be found.
+/// The reason, with a place if it has one.
 fn refusal(q: &Question<'_>, error: &RenameError) -> Refusal {
     let place = match error {
         RenameError::Clash { place, .. } | RenameError::Broken { place, .. } => Some(*place),

@@ -15,7 +15,7 @@ pub(crate) fn answer(
         let outside_in = spans.into_iter().rev().map(|span| q.documents.range(source, span));
         let chain = outside_in
             .fold(None, |parent, range| Some(SelectionRange { range, parent: parent.map(Box::new) }));
-        // There is an answer for each position, be it empty.
+        // Each position needs an answer, even an empty one.
         chain.unwrap_or(SelectionRange { range: Range { start: position, end: position }, parent: None })
     });
     Ok(Some(ranges.collect()))

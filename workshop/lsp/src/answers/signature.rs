@@ -12,14 +12,14 @@ pub(crate) fn answer(
 ) -> Result<Option<SignatureHelp>, Refusal> {
     let at = q.place(&params.text_document_position_params);
     let Some(found) = at.and_then(|at| ide::signature_help(q.project(), at)) else { return Ok(None) };
-    // Places in a label are counted as places in a line.
+    // Ranges in a label are counted in the same units as positions in a line.
     let encoding = q.documents.encoding;
     let units = |bytes: usize| found.label.get(..bytes).map_or(0, |before| encoding.length(before));
     let parameters = found.parameters.iter().map(|range| ParameterInformation {
         label: ParameterInformationLabel::Tuple((units(range.start), units(range.end))),
         documentation: None,
     });
-    // Behind the last parameter none is shown, which is what a number beyond them means.
+    // A number beyond the last parameter selects none.
     let active = found.active.unwrap_or(found.parameters.len());
     let active = u32::try_from(active).unwrap_or(u32::MAX);
     let signature = SignatureInformation {

@@ -9,7 +9,7 @@ use lsp_types::{
 };
 use pddl::NameKind;
 
-/// How many symbols of a workspace are sent; who wants others asks with more letters.
+/// Most symbols of a workspace in one answer; a longer query finds others.
 const MOST: usize = 1_000;
 
 pub(crate) fn of_document(

@@ -11,7 +11,7 @@ use lsp_types::{
 };
 use pddl::{NameKind, Role, Span};
 
-/// The types of tokens, by their numbers. All are the protocol's own, so that every theme has colours for them.
+/// The types of tokens, by their numbers. All are in the protocol, so every theme has colours for them.
 const TYPES: [&str; 14] = [
     "comment",
     "keyword",
@@ -30,7 +30,7 @@ const TYPES: [&str; 14] = [
 ];
 const DECLARATION: u32 = 1;
 
-/// What the numbers mean.
+/// The names of the numbers.
 pub(crate) fn legend() -> SemanticTokensLegend {
     SemanticTokensLegend {
         token_types: TYPES.iter().map(|name| (*name).to_owned()).collect(),

@@ -1,4 +1,4 @@
-//! What is known to be wrong with each document, from where, and what of it the client has been told.
+//! The findings in each document by source, and those that were published.
 
 use crate::documents::Replaced;
 use crate::job::About;
@@ -6,34 +6,34 @@ use diagnostics::{Finding, SourceId};
 use lsp_types::Diagnostic;
 use rustc_hash::FxHashMap;
 
-/// Findings and what became of them.
+/// The findings of a session.
 #[derive(Debug, Default)]
 pub(crate) struct Board {
     /// Counts the changes of any text.
     pub(crate) revision: u64,
     /// The document that the client has opened or changed last.
     pub(crate) latest: Option<SourceId>,
-    /// The revision that was last handed to be checked.
+    /// The revision of the last check that was started.
     pub(crate) checked: u64,
-    /// The revision that was last handed to the slow lints.
+    /// The revision of the last run of the slow lints that was started.
     pub(crate) linted: u64,
-    /// What the slow lints said last. It stays, moved along with the text, until they say something
-    /// else: a warning that comes and goes with every letter would be worse than one that is late.
+    /// The last findings of the slow lints. They stay, moved along with the text, until the next run: a
+    /// warning that flickers with every letter would be worse than a late one.
     pub(crate) lints: FxHashMap<SourceId, Warnings>,
-    /// What planner and validator said last, by the document that the command was about.
+    /// The last remarks of planner and validator, by the command's document.
     pub(crate) verdicts: FxHashMap<SourceId, Verdict>,
-    /// What the client was told.
+    /// The published findings.
     pub(crate) told: FxHashMap<SourceId, Told>,
 }
 
-/// What the slow lints said of a document.
+/// The slow lints' findings in a document.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Warnings {
     pub(crate) said: Vec<Finding>,
 }
 
 impl Warnings {
-    /// Moves them along with a change of the text; what the change touches is not said any more.
+    /// Moves them along with a change of the text; drops those that the change touches.
     pub(crate) fn shift(&mut self, source: SourceId, change: &Replaced) {
         self.said.retain_mut(|finding| {
             let places = finding.related.iter_mut().map(|(place, _)| place);
@@ -45,7 +45,7 @@ impl Warnings {
     }
 }
 
-/// What planner or validator said.
+/// The remarks of planner or validator.
 #[derive(Clone, Debug)]
 pub(crate) struct Verdict {
     /// By document.
@@ -54,7 +54,7 @@ pub(crate) struct Verdict {
     pub(crate) about: About,
 }
 
-/// What the client was told of a document.
+/// The published findings in a document.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Told {
     pub(crate) version: Option<i32>,

@@ -1,8 +1,9 @@
-//! `pelea.plan` and `pelea.validate`: what a lens over a problem or a plan runs.
+//! `pelea.plan` and `pelea.validate`: the commands of the lenses over problems and plans.
 //!
-//! Both take the URI of a document, run as jobs that can be stopped, and answer when they have ended. A plan is put into
-//! `PROBLEM.plan` beside the problem by an edit that the client applies and that can be undone; what planner and
-//! validator complain of stands as diagnostics at its places, until a text changes that it was about.
+//! Both take the URI of a document, run as jobs that can be cancelled, and answer when the job ends. A plan
+//! is written to `PROBLEM.plan` beside the problem by an edit that the client applies and can undo. The
+//! remarks of planner and validator are shown as diagnostics until one of the texts that they are about
+//! changes.
 //!
 //! The answer to `pelea.plan` is `{"outcome": "solved", "plan": URI, "text": "…", "steps": 3, "cost": "3"}`, or
 //! `{"outcome": "unsolvable" | "limit" | "refused", "message": "…"}`; that to `pelea.validate`
@@ -50,7 +51,7 @@ impl Server {
         }
     }
 
-    /// The document that a command is about: `["file:///…"]` or `[{"uri": "file:///…"}]`.
+    /// The document in the arguments of a command: `["file:///…"]` or `[{"uri": "file:///…"}]`.
     fn argument(&self, arguments: Option<&[Value]>) -> Result<SourceId, String> {
         let first = arguments.and_then(<[Value]>::first);
         let uri = first.and_then(|value| value.as_str().or_else(|| value.get("uri")?.as_str()));
@@ -104,7 +105,7 @@ impl Server {
         Ok(())
     }
 
-    /// A problem with all that it needs, as the texts are now.
+    /// A problem with all files that it needs, from the present texts.
     fn task(&self, problem: SourceId, plan: Option<SourceId>) -> Result<(Task, About), String> {
         let project = self.documents.project();
         let domain = project.domain_of(problem).ok_or("no file defines the problem's domain")?;
@@ -114,7 +115,7 @@ impl Server {
         Ok((task, About { domain, problem, plan, stamps }))
     }
 
-    /// The planner has answered.
+    /// Handles the planner's answer.
     pub(crate) fn planned(&mut self, id: JobId, planned: Planned) {
         let Some(Running { purpose: Purpose::Plan(about), answers, cancel, .. }) = self.jobs.get(id) else {
             return;
@@ -166,7 +167,7 @@ impl Server {
         json!({"outcome": outcome, "message": message})
     }
 
-    /// The validator has answered.
+    /// Handles the validator's answer.
     pub(crate) fn judged(&mut self, id: JobId, judged: Judged) {
         let Some(Running { purpose: Purpose::Validate(about), answers, .. }) = self.jobs.get(id) else {
             return;
@@ -196,7 +197,7 @@ impl Server {
         }
     }
 
-    /// Remembers what was said about a document and the texts that it needs, and publishes it.
+    /// Stores remarks about a document and the texts that it needs, and publishes them.
     fn judge(&mut self, source: SourceId, about: &About, remarks: &[Remark]) {
         let mut concerned: Vec<SourceId> = vec![source];
         let before = self.board.verdicts.get(&source).into_iter().flat_map(|verdict| &verdict.diagnostics);

@@ -1,10 +1,11 @@
-//! When which document is checked, and when the client hears of it.
+//! Decides which document is checked when, and when its findings are published.
 //!
-//! Problem: a letter typed into a domain may change what is wrong with a thousand problems, and the author waits for
-//! the answer about one file. Idea: after a change, once nothing else waits, a job reads a snapshot: open documents first,
-//! the one changed last before all, then those that depend on them. Its readings are shared with ours, so what it has
-//! read costs nothing when it is published. A change stops the job after the file that it is at. Slow lints wait until
-//! nothing has happened for a while. Invariant: what is published belongs to the texts as they are now.
+//! Problem: one letter typed into a domain may change the findings in a thousand problems, and the author
+//! waits for those of one file. Idea: after a change, when the queue is empty, a job reads a snapshot: first
+//! the open documents, the last changed one before all others, then their dependents. The job shares its
+//! readings with the server's project, so publishing them costs nothing. A change stops the job after the
+//! current file. Slow lints wait for a quiet period. Invariant: published findings belong to the present
+//! texts.
 
 use super::Server;
 use super::board::{Told, Warnings};
@@ -21,11 +22,11 @@ use lsp_types::{
 use project::{Linted, Project};
 use std::collections::BTreeSet;
 
-/// How many closed documents are checked because of open ones.
+/// Most closed documents that are checked because of open ones.
 const CLOSED: usize = 500;
 
 impl Server {
-    /// Some text has changed.
+    /// Handles a change of any text.
     pub(crate) fn changed(&mut self) {
         self.board.revision += 1;
         for job in self.jobs.iter() {
@@ -35,7 +36,7 @@ impl Server {
         }
     }
 
-    /// Starts to check, if there is anything new and nobody is at it.
+    /// Starts a check if a text has changed and no check is running.
     pub(crate) fn check(&mut self) {
         let revision = self.board.revision;
         if self.board.checked == revision || self.jobs.any(|p| matches!(p, Purpose::Check(_))) {
@@ -56,14 +57,14 @@ impl Server {
         });
     }
 
-    /// A job has read a document.
+    /// Handles a document that a job has read.
     pub(crate) fn checked(&mut self, purpose: &Purpose, source: SourceId) {
         if *purpose == Purpose::Check(self.board.revision) {
             self.publish(source);
         }
     }
 
-    /// Whether slow lints are due when nothing happens.
+    /// Whether the slow lints should run in the next quiet period.
     pub(crate) fn wants_lints(&self) -> bool {
         self.options.lints
             && self.board.linted != self.board.revision
@@ -89,7 +90,7 @@ impl Server {
         });
     }
 
-    /// A job has looked for modelling mistakes.
+    /// Handles a job's lint findings.
     pub(crate) fn linted(&mut self, purpose: &Purpose, source: SourceId, said: Vec<Linted>) {
         if *purpose == Purpose::Lint(self.board.revision) {
             let said = said.into_iter().map(|linted| linted.finding).collect();
@@ -98,7 +99,7 @@ impl Server {
         }
     }
 
-    /// Everything that is known about a document.
+    /// All findings in a document, from every source.
     pub(crate) fn diagnostics(&self, source: SourceId) -> Vec<Diagnostic> {
         let findings = self.documents.project().language_findings(source);
         let warnings = self.board.lints.get(&source).filter(|_| self.options.lints);
@@ -115,7 +116,7 @@ impl Server {
         said
     }
 
-    /// Tells the client what is wrong with a document, if that is news.
+    /// Publishes the findings in a document if they have changed.
     pub(crate) fn publish(&mut self, source: SourceId) {
         if self.options.diagnostics == DiagnosticsMode::Pull {
             if self.client.refreshes.diagnostics && self.documents.open(source).is_some() {
@@ -143,7 +144,7 @@ impl Server {
         self.board.told.insert(source, told);
     }
 
-    /// Of documents that are not looked at any more, nothing is said.
+    /// Clears the findings in documents that are not checked any more.
     fn forget_all_but(&mut self, looked_at: &[SourceId]) {
         let mut gone: Vec<SourceId> =
             self.board.told.keys().copied().filter(|source| !looked_at.contains(source)).collect();
@@ -153,7 +154,7 @@ impl Server {
         }
     }
 
-    /// Says that nothing is wrong with a document, if anything was.
+    /// Clears the findings in a document if any were published.
     pub(crate) fn withdraw(&mut self, source: SourceId) {
         let told = self.board.told.get(&source);
         if told.is_some_and(|told| !told.diagnostics.is_empty()) {
@@ -163,7 +164,7 @@ impl Server {
         self.board.lints.remove(&source);
     }
 
-    /// The documents that the client hears of, in the order in which it should.
+    /// The documents whose findings are published, in order of importance.
     fn audience(&self) -> Vec<SourceId> {
         let mut open = self.documents.all_open();
         open.sort_by_key(|&id| (Some(id) != self.board.latest, id));
@@ -177,7 +178,8 @@ fn background(purpose: Purpose) -> Running {
     Running { purpose, cancel: Cancel::default(), answers: None, token: None }
 }
 
-/// What open documents need, and what needs them. Problems that only share a domain with an open one are not related.
+/// The files that open documents need, and their dependents. Problems that only share a domain with an open
+/// one are not related.
 fn related(project: &Project, open: &[SourceId]) -> Vec<SourceId> {
     let mut found: BTreeSet<SourceId> = BTreeSet::new();
     let mut above = open.to_vec();

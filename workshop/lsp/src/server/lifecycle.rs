@@ -23,7 +23,7 @@ impl Server {
         self.respond(id, capabilities::all(&self.client, &self.options));
     }
 
-    /// Takes over what can be used of the options, and says what cannot.
+    /// Applies the valid options, and reports the others.
     pub(crate) fn set_options(&mut self, given: &Value) {
         let (options, complaints) = self.options.clone().with(given);
         self.options = options;

@@ -1,9 +1,9 @@
 //! The state of a session, and the one function that changes it.
 //!
-//! Problem: twenty kinds of messages, five kinds of jobs and their cancellations, in any order. Idea: all of them are an
-//! [`Event`]; [`Server::handle`] takes them one after the other, and what is slow goes to a [`Jobs`] thread that comes
-//! back as an event. Invariant: every request is answered exactly once; what a job found about texts that have
-//! changed since is not used.
+//! Problem: twenty kinds of messages, five kinds of jobs and their cancellations, in any order. Idea: each
+//! of them is an [`Event`]. [`Server::handle`] takes one event after the other; slow work runs on a thread
+//! of [`Jobs`] and returns as an event. Invariant: every request is answered exactly once; a job's result
+//! about texts that have changed since is discarded.
 
 mod board;
 mod commands;
@@ -34,18 +34,18 @@ use std::time::Duration;
 /// How a session ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ended {
-    /// As the protocol wants it: `shutdown`, then `exit`.
+    /// As the protocol requires: `shutdown`, then `exit`.
     Properly,
     /// By `exit` alone, or because input or output ended.
     Abruptly,
 }
 
-/// How far the session is.
+/// The phase of a session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Phase {
     /// Before `initialize`.
     New,
-    /// The work.
+    /// Between `initialize` and `shutdown`.
     Running,
     /// After `shutdown`.
     ShutDown,
@@ -63,7 +63,7 @@ pub(crate) struct Server {
     /// The paths of the folders that the client has open.
     folders: Vec<String>,
     board: Board,
-    /// Counts the tokens of progress that we have made.
+    /// The number of progress tokens that the server has made.
     tokens: u32,
 }
 
@@ -84,7 +84,7 @@ impl Server {
         }
     }
 
-    /// Takes in one event. The one place where the state changes.
+    /// Handles one event. The only function that changes the state.
     pub(crate) fn handle(&mut self, event: Event) -> ControlFlow<Ended> {
         match event {
             Event::Message(Message::Request(request)) => {
@@ -103,7 +103,7 @@ impl Server {
                         Phase::New | Phase::Running => Ended::Abruptly,
                     });
                 }
-                // A text is put in its place at once or not at all, so that what a panic leaves is whole.
+                // A text is replaced in one step or not at all, so a panic leaves a consistent state.
                 if let Err(panic) = catch_unwind(AssertUnwindSafe(|| self.notification(notification))) {
                     self.bug(&words_of(&*panic));
                 }
@@ -121,19 +121,19 @@ impl Server {
         ControlFlow::Continue(())
     }
 
-    /// Starts what was put off until nothing else waits.
+    /// Starts the work that waits for an empty queue.
     pub(crate) fn settle(&mut self) {
         if self.phase == Phase::Running {
             self.check();
         }
     }
 
-    /// How long to wait for the next event until it counts as quiet.
+    /// How long the queue must be empty before a quiet period begins.
     pub(crate) fn patience(&self) -> Option<Duration> {
         (self.phase == Phase::Running && self.wants_lints()).then_some(self.options.lint_delay)
     }
 
-    /// The client answers something that we asked.
+    /// Handles the client's answer to a request of the server.
     fn answered(&mut self, response: Response) {
         let asked = self.outbox.answered(response.id);
         if let Some(Asked::ApplyEdit { what, show }) = asked {
@@ -178,7 +178,7 @@ impl Server {
         self.end_progress(id);
         let Some(job) = self.jobs.end(id) else { return };
         if let Some(request) = job.answers {
-            // It had nothing to say: it was stopped, or it panicked.
+            // The job ended without a result: it was cancelled, or it panicked.
             let (code, text) = if job.cancel.is_cancelled() {
                 (ErrorCode::RequestCanceled, "withdrawn by the client")
             } else {
@@ -199,13 +199,13 @@ impl Server {
         self.outbox.respond(Response::new_err(id, code as i32, message));
     }
 
-    /// For the log that an editor keeps.
+    /// Writes to the editor's log.
     fn log(&self, kind: MessageType, message: &str) {
         tracing::debug!(message);
         self.outbox.notify::<LogMessageNotification>(LogMessageParams { kind, message: message.to_owned() });
     }
 
-    /// For the user's eyes.
+    /// Shows a message to the user.
     fn show(&self, kind: MessageType, message: &str) {
         self.outbox
             .notify::<ShowMessageNotification>(ShowMessageParams { kind, message: message.to_owned() });

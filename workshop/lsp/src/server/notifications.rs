@@ -1,4 +1,4 @@
-//! What the client tells us. Nobody waits for an answer; what cannot be read is logged.
+//! Handles the client's notifications. They have no answer, so a malformed one is logged.
 
 use super::{Phase, Server};
 use crate::documents::Refused;
@@ -41,7 +41,8 @@ impl Server {
             }
             "window/workDoneProgress/cancel" => serde_json::from_value(params)
                 .map(|params: WorkDoneProgressCancelParams| self.stop_by_token(&params.token)),
-            // Those that begin with `$/` may be passed over, and so may those that nobody asked for.
+            // Methods that begin with `$/` may be ignored, and so may notifications that the server did not
+            // register for.
             _ => Ok(()),
         };
         if let Err(reason) = understood {
@@ -78,7 +79,7 @@ impl Server {
     }
 
     fn did_close(&mut self, params: &DidCloseTextDocumentParams) {
-        // While the client still calls it by the name that it opened it with.
+        // Must come before the document loses the URI under which the client opened it.
         if let Some(source) = self.documents.id(&params.text_document.uri) {
             self.withdraw(source);
         }
@@ -88,13 +89,14 @@ impl Server {
     }
 
     fn configuration_changed(&mut self, params: &Value) {
-        // Clients that wait to be asked send null; those that do not, all that they have, or our section only.
+        // Clients that expect a `workspace/configuration` request send null; others send all settings, or
+        // our section only.
         let settings = params.get("settings").unwrap_or(&Value::Null);
         self.set_options(settings.get("pelea").unwrap_or(settings));
         self.changed();
     }
 
-    /// The client does not want an answer any more, and the request does not wait in the queue.
+    /// Cancels a request that has left the queue.
     fn cancel(&mut self, params: &Value) {
         let id = cancelled_id(params);
         for job in self.jobs.iter().filter(|job| id.is_some() && job.answers == id) {

@@ -1,4 +1,4 @@
-//! Telling the user that something takes time, where the client can show it.
+//! Progress of jobs, for clients that can show it.
 
 use super::Server;
 use crate::news::JobId;
@@ -10,7 +10,8 @@ use lsp_types::{
 use serde_json::{Value, json};
 
 impl Server {
-    /// Begins to show progress: under the client's token, if it gave one, or else one of ours.
+    /// Begins to show progress: under the client's token, if it gave one, or else under a token of the
+    /// server.
     pub(crate) fn begin_progress(
         &mut self,
         title: &str,
@@ -28,7 +29,7 @@ impl Server {
             }
             None => return None,
         };
-        // Only what carries its own token can be stopped by `window/workDoneProgress/cancel`.
+        // `window/workDoneProgress/cancel` can stop only progress with the server's own token.
         let begin = json!({"kind": "begin", "title": title, "cancellable": ours});
         self.progress(token.clone(), begin);
         Some(token)
@@ -46,7 +47,7 @@ impl Server {
         }
     }
 
-    /// The user has stopped what a token stands for.
+    /// Handles the user's cancellation of a token.
     pub(crate) fn stop_by_token(&mut self, token: &ProgressToken) {
         for job in self.jobs.iter().filter(|job| job.token.as_ref() == Some(token)) {
             job.cancel.cancel();

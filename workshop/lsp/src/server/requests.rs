@@ -1,4 +1,4 @@
-//! What the client asks, and who answers.
+//! Dispatches the client's requests.
 
 use super::{Phase, Server};
 use crate::answers::Refusal;
@@ -57,14 +57,14 @@ impl Server {
     }
 }
 
-/// A request on its way down the list of methods.
+/// A request that is compared with one method after the other.
 struct Table<'a> {
     server: &'a Server,
     waiting: Option<Request>,
 }
 
 impl Table<'_> {
-    /// If the request is of that kind, answers it.
+    /// Answers the request if it has that method.
     fn answer<R: lsp_types::Request>(
         &mut self,
         answer: fn(&Question<'_>, &R::Params) -> Result<R::Result, Refusal>,

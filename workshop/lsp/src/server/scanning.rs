@@ -1,8 +1,9 @@
 //! Reading the folders that the client has open.
 //!
-//! Problem: a domain that nobody has opened still says what the names in an open problem mean; but a folder may hold a
-//! hundred thousand files. Idea: a job walks, breadth first, so that what lies near the top is found first, and stops at
-//! the limits of the options, saying so. Invariant: no folder is entered twice, for links to folders are not followed.
+//! Problem: a domain that is not open still gives meaning to the names in an open problem, but a folder may
+//! hold a hundred thousand files. Idea: a job walks breadth first, so that files near the top come first,
+//! and stops at the limits of the options with a message. Invariant: each folder is entered once, since
+//! links to folders are not followed.
 
 use super::Server;
 use crate::host::{Cancel, Disk, Entry, ReadError};
@@ -14,17 +15,17 @@ use project::FileKind;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// Folders that hold no one's sources.
+/// Folders that hold no sources of the author.
 const PASSED_OVER: [&str; 3] = ["node_modules", "target", "__pycache__"];
-/// How many folders are entered.
+/// Most folders that are entered.
 const FOLDERS: usize = 50_000;
-/// How many bytes of text are kept of closed files.
+/// Most bytes of text of closed files.
 const BYTES: usize = 256 << 20;
-/// How many files are handed over at once: links between files are then made once.
+/// Files in one batch: links between files are made once for each batch.
 const BATCH: usize = 512;
 
 impl Server {
-    /// Reads what is in folders.
+    /// Starts to read folders.
     pub(crate) fn scan(&mut self, folders: Vec<String>) {
         let folders: Vec<String> = folders.into_iter().filter(|folder| crate::uri::is_file(folder)).collect();
         if folders.is_empty() {
@@ -43,13 +44,13 @@ impl Server {
         self.jobs.start(running, move |reporter| walk.run(folders, reporter));
     }
 
-    /// A job has found files.
+    /// Handles a batch of files.
     pub(crate) fn found(&mut self, files: Vec<(String, String)>) {
         self.documents.found(files);
         self.changed();
     }
 
-    /// The client has opened or closed folders.
+    /// Handles opened and closed folders.
     pub(crate) fn folders_changed(&mut self, params: &DidChangeWorkspaceFoldersParams) {
         for gone in &params.event.removed {
             let folder = crate::uri::path(gone.uri.as_ref());
@@ -63,14 +64,14 @@ impl Server {
         self.scan(added);
     }
 
-    /// The client says that files have changed on the disk.
+    /// Handles files that have changed on the disk.
     pub(crate) fn files_changed(&mut self, params: DidChangeWatchedFilesParams) {
         let mut found = Vec::new();
         for FileEvent { uri, kind } in params.changes {
             let path = crate::uri::path(uri.as_ref());
             if kind == FileChangeType::Deleted {
                 self.documents.lost(&path);
-                // It may have been a folder.
+                // The path may be that of a folder.
                 self.lose_below(&path);
             } else if FileKind::is_source(&path) {
                 match self.host.disk.read(&path, self.options.max_file_bytes) {
@@ -92,9 +93,9 @@ impl Server {
 struct Walk {
     disk: Arc<dyn Disk>,
     options: Options,
-    /// How many more files may be read.
+    /// The number of files that may still be read.
     left: usize,
-    /// And how many bytes.
+    /// The number of bytes that may still be read.
     bytes: usize,
     batch: Vec<(String, String)>,
     too_large: usize,
