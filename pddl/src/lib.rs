@@ -49,11 +49,11 @@ pub mod syntax;
 pub use analysis::{Analysis, Names, analyze_domain, analyze_plan, analyze_problem};
 pub use decimal::{Decimal, NotADecimal};
 pub use diagnostic::{
-    Diagnostic, DiagnosticKind, Explanation, FileKind, Label, MalformedExplanation, SymbolKind, UnknownCode,
-    UnsupportedFeature, explain, explanations,
+    Diagnostic, DiagnosticKind, Explanation, FileKind, Label, SymbolKind, UnknownCode, UnsupportedFeature,
+    explain, explanations,
 };
 /// Texts and places in them, for callers that read nothing but PDDL.
-pub use diagnostics::{LineColumn, Severity, Source, Span};
+pub use diagnostics::{Severity, Source, Span};
 pub use format::format;
 pub use occurrence::{NameKind, Occurrence, Role, Symbol};
 pub use parse::{Parsed, parse_domain, parse_plan, parse_problem};

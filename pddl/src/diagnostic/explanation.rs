@@ -46,7 +46,7 @@ pub struct Explanation {
 
 /// The page of an explanation is malformed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum MalformedExplanation {
+enum Malformed {
     /// The first line is not `# ` and a title.
     #[error("the first line is not `# TITLE`")]
     NoTitle,
@@ -67,33 +67,30 @@ pub enum MalformedExplanation {
 const FENCE: &str = "```";
 
 impl Explanation {
-    /// Reads the page of a code.
-    ///
-    /// # Errors
-    /// [`MalformedExplanation`] where the page departs from the format above.
-    pub fn parse(code: &'static str, page: &'static str) -> Result<Self, MalformedExplanation> {
+    /// Reads the page of a code; [`Malformed`] if it departs from the format above.
+    fn parse(code: &'static str, page: &'static str) -> Result<Self, Malformed> {
         let (first, body) = page.split_once('\n').unwrap_or((page, ""));
-        let title = first.strip_prefix("# ").ok_or(MalformedExplanation::NoTitle)?;
+        let title = first.strip_prefix("# ").ok_or(Malformed::NoTitle)?;
         let (prose, mut blocks) = body.split_at(body.find(FENCE).unwrap_or(body.len()));
         let mut paragraphs = prose.trim().split("\n\n").map(|paragraph| paragraph.replace('\n', " "));
         let meaning = paragraphs.next().unwrap_or_default();
         let why = paragraphs.collect::<Vec<_>>().join("\n");
         if why.is_empty() {
-            return Err(MalformedExplanation::NoReason);
+            return Err(Malformed::NoReason);
         }
         let (mut wrong, mut right) = (Vec::new(), Vec::new());
         while let Some(rest) = blocks.trim_start().strip_prefix(FENCE) {
-            let (opening, rest) = rest.split_once('\n').ok_or(MalformedExplanation::OpenBlock)?;
-            let (file, rest) = rest.split_once("\n```").ok_or(MalformedExplanation::OpenBlock)?;
+            let (opening, rest) = rest.split_once('\n').ok_or(Malformed::OpenBlock)?;
+            let (file, rest) = rest.split_once("\n```").ok_or(Malformed::OpenBlock)?;
             match opening.split_once(' ') {
                 Some((_, "wrong")) => wrong.push(file),
                 Some((_, "right")) => right.push(file),
-                _ => return Err(MalformedExplanation::UnknownBlock(opening)),
+                _ => return Err(Malformed::UnknownBlock(opening)),
             }
             blocks = rest;
         }
         if !blocks.trim().is_empty() {
-            return Err(MalformedExplanation::TextBehindExamples(blocks.trim()));
+            return Err(Malformed::TextBehindExamples(blocks.trim()));
         }
         Ok(Self { code, title, meaning, why, wrong, right })
     }
@@ -101,7 +98,7 @@ impl Explanation {
     /// Reads a page that is part of the program: `Explanation::included("W0701", include_str!("W0701.md"))`.
     ///
     /// # Panics
-    /// If the page is malformed. Whoever keeps a table of pages has a test that reads all of them.
+    /// If the page is malformed. Each table of pages has a test that reads all of them.
     pub fn included(code: &'static str, page: &'static str) -> Self {
         Self::parse(code, page).unwrap_or_else(|malformed| panic!("{code}.md: {malformed}"))
     }
@@ -109,7 +106,7 @@ impl Explanation {
 
 #[cfg(test)]
 mod tests {
-    use super::{Explanation, MalformedExplanation};
+    use super::{Explanation, Malformed};
 
     #[test]
     fn paragraphs_are_joined_and_blocks_are_kept_as_they_stand() {
@@ -122,7 +119,7 @@ mod tests {
 
     #[test]
     fn a_malformed_page_is_refused() {
-        use MalformedExplanation::{NoReason, NoTitle, OpenBlock, TextBehindExamples, UnknownBlock};
+        use Malformed::{NoReason, NoTitle, OpenBlock, TextBehindExamples, UnknownBlock};
         let refused = |page| Explanation::parse("E0001", page).expect_err("the page is malformed");
         assert_eq!(refused("a title\n\nWhen.\n\nWhy.\n"), NoTitle);
         assert_eq!(refused("# a title\n\nWhen.\n\n```pddl wrong\na\n```\n"), NoReason);

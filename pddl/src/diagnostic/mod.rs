@@ -11,7 +11,7 @@ mod explanation;
 mod kind;
 
 pub use explain::{UnknownCode, explain, explanations};
-pub use explanation::{Explanation, MalformedExplanation};
+pub use explanation::Explanation;
 pub use kind::{DiagnosticKind, FileKind, SymbolKind, UnsupportedFeature};
 
 use diagnostics::{Severity, Span};

@@ -1,7 +1,7 @@
 //! What conditions, effects and expressions have in common: terms, arguments, quantifiers.
 //!
 //! The files beside this one add the forms. All of them recurse at most as deep as the tree has nodes
-//! ([`crate::syntax::MAX_DEPTH`]). Each form has its own function, so that a level needs little stack. An
+//! (`MAX_DEPTH` in `syntax::build`). Each form has its own function, so that a level needs little stack. An
 //! error leaves a placeholder in the model, which `parse_*` then does not hand out.
 
 use super::function_term::FunctionTerms;

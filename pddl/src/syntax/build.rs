@@ -24,7 +24,7 @@ use crate::diagnostic::{Diagnostic, DiagnosticKind, Label};
 use crate::{Source, Span};
 
 /// Deepest nesting that gets nodes; deeper lists are reported.
-pub const MAX_DEPTH: usize = 1000;
+pub(super) const MAX_DEPTH: usize = 1000;
 
 /// Bytes of text for each node that is allocated in advance; few texts have fewer bytes a node.
 const BYTES_PER_NODE: usize = 8;

@@ -12,7 +12,7 @@ mod token;
 mod tokens;
 mod tree;
 
-pub use build::{MAX_DEPTH, parse};
+pub use build::parse;
 pub use token::TokenKind;
 pub use tokens::Tokens;
 pub use tree::{Children, Node, NodeKind, Tree};

@@ -57,6 +57,5 @@ mod server;
 mod uri;
 
 pub use host::{Cancel, Disk, Entry, File, Host, Judged, Limits, Planned, ReadError, Remark, Task, Tools};
-pub use position::{Encoding, LineIndex};
 pub use serve::serve;
 pub use server::Ended;

@@ -11,7 +11,7 @@ use pddl::Span;
 
 /// The unit of a position within a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Encoding {
+pub(crate) enum Encoding {
     /// Bytes.
     Utf8,
     /// The unit that every client supports.
@@ -23,7 +23,7 @@ pub enum Encoding {
 
 impl Encoding {
     /// The best of the client's encodings; UTF-8 costs least.
-    pub fn negotiate<'a>(offered: impl Iterator<Item = &'a str>) -> Self {
+    pub(crate) fn negotiate<'a>(offered: impl Iterator<Item = &'a str>) -> Self {
         let known = offered.filter_map(|name| match name {
             "utf-8" => Some(Self::Utf8),
             "utf-16" => Some(Self::Utf16),
@@ -35,7 +35,7 @@ impl Encoding {
     }
 
     /// Its name in the protocol.
-    pub fn kind(self) -> PositionEncodingKind {
+    pub(crate) fn kind(self) -> PositionEncodingKind {
         match self {
             Self::Utf8 => PositionEncodingKind::UTF8,
             Self::Utf16 => PositionEncodingKind::UTF16,
@@ -52,7 +52,7 @@ impl Encoding {
     }
 
     /// The length of a text in units.
-    pub fn length(self, text: &str) -> u32 {
+    pub(crate) fn length(self, text: &str) -> u32 {
         let units = match self {
             Self::Utf8 => text.len(),
             _ if text.is_ascii() => text.len(),
@@ -64,17 +64,17 @@ impl Encoding {
 
 /// The starts of a text's lines.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LineIndex {
+pub(crate) struct LineIndex {
     /// Those of the second line and the following ones.
     starts: Vec<u32>,
 }
 
 impl LineIndex {
     /// The index of the empty text.
-    pub const EMPTY: Self = Self { starts: Vec::new() };
+    pub(crate) const EMPTY: Self = Self { starts: Vec::new() };
 
     /// Finds the lines of `text`, which is shorter than 4 GiB.
-    pub fn new(text: &str) -> Self {
+    pub(crate) fn new(text: &str) -> Self {
         let bytes = text.as_bytes();
         let ends = (1u32..).zip(bytes).filter(|&(next, &byte)| {
             byte == b'\n' || byte == b'\r' && bytes.get(next as usize) != Some(&b'\n')
@@ -82,13 +82,8 @@ impl LineIndex {
         Self { starts: ends.map(|(next, _)| next).collect() }
     }
 
-    /// The number of lines; a text without any line end has one.
-    pub fn lines(&self) -> u32 {
-        u32::try_from(self.starts.len()).map_or(u32::MAX, |more| more.saturating_add(1))
-    }
-
     /// The line that contains an offset.
-    pub fn line_of(&self, offset: u32) -> u32 {
+    pub(crate) fn line_of(&self, offset: u32) -> u32 {
         u32::try_from(self.starts.partition_point(|&start| start <= offset)).unwrap_or(u32::MAX)
     }
 
@@ -104,7 +99,7 @@ impl LineIndex {
     }
 
     /// Converts an offset to the client's position.
-    pub fn position(&self, text: &str, offset: u32, encoding: Encoding) -> Position {
+    pub(crate) fn position(&self, text: &str, offset: u32, encoding: Encoding) -> Position {
         let line = self.line_of(offset);
         let Some((start, end)) = self.bounds(text, line) else { return Position::default() };
         let mut at = (offset as usize).clamp(start, end);
@@ -115,7 +110,7 @@ impl LineIndex {
     }
 
     /// Converts the client's position to an offset.
-    pub fn offset(&self, text: &str, position: Position, encoding: Encoding) -> u32 {
+    pub(crate) fn offset(&self, text: &str, position: Position, encoding: Encoding) -> u32 {
         let offset = match self.bounds(text, position.line) {
             None => text.len(),
             Some((start, end)) => {
@@ -134,13 +129,13 @@ impl LineIndex {
     }
 
     /// A span as a range.
-    pub fn range(&self, text: &str, span: Span, encoding: Encoding) -> Range {
+    pub(crate) fn range(&self, text: &str, span: Span, encoding: Encoding) -> Range {
         let start = self.position(text, span.start, encoding);
         Range { start, end: self.position(text, span.end.max(span.start), encoding) }
     }
 
     /// A range as a span; one that ends before it starts is empty.
-    pub fn span(&self, text: &str, range: Range, encoding: Encoding) -> Span {
+    pub(crate) fn span(&self, text: &str, range: Range, encoding: Encoding) -> Span {
         let start = self.offset(text, range.start, encoding);
         Span::new(start, self.offset(text, range.end, encoding).max(start))
     }
@@ -161,7 +156,7 @@ mod tests {
     fn units_are_counted() {
         let text = "a\r\n😀é b\rc\n";
         let index = LineIndex::new(text);
-        assert_eq!(index.lines(), 4);
+        assert_eq!(index.starts.len(), 3, "four lines start, the first at 0");
         let b = u32::try_from(text.find('b').expect("it is there")).expect("short");
         let columns = ALL.map(|encoding| index.position(text, b, encoding));
         assert_eq!(columns, [position(1, 7), position(1, 4), position(1, 3)]);
@@ -231,7 +226,7 @@ mod tests {
                     prop_assert!(text.is_char_boundary(at as usize));
                 }
                 let at = index.position(&text, offset % 40, encoding);
-                prop_assert!(at.line < index.lines());
+                prop_assert!(at.line as usize <= index.starts.len());
             }
         }
     }
