@@ -12,7 +12,7 @@ use crate::Position;
 use crate::describe::{comment, signature_at};
 use crate::entity::{Entity, entity_at};
 use crate::path::{Spot, path};
-use crate::usage::{Deed, deeds};
+use crate::usage::{Usage, usages};
 use crate::words::meaning;
 
 /// The contents of a hover.
@@ -86,10 +86,10 @@ fn of_name(project: &Project, file: SourceId, entity: &Entity) -> Option<String>
         }
     }
     if matches!(symbol.kind, NameKind::Predicate | NameKind::Function | NameKind::Action | NameKind::Task) {
-        for (deed, who) in deeds(project, entity) {
-            let names: Vec<String> = who.iter().map(|name| format!("`{name}`")).collect();
-            let names = if deed == Deed::Derives { "by an axiom".to_owned() } else { names.join(", ") };
-            let _ = write!(text, "\n\n*{}* {names}", deed.words());
+        for (usage, users) in usages(project, entity) {
+            let names: Vec<String> = users.iter().map(|name| format!("`{name}`")).collect();
+            let names = if usage == Usage::Derives { "by an axiom".to_owned() } else { names.join(", ") };
+            let _ = write!(text, "\n\n*{}* {names}", usage.words());
         }
     }
     Some(text)

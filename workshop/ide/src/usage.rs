@@ -1,4 +1,4 @@
-//! How a declared thing is used: who needs it, adds it, deletes it, changes it.
+//! How a declared thing is used: user needs it, adds it, deletes it, changes it.
 //!
 //! The lists around a name determine its use, not the model, so this works for drafts and for every part of
 //! the language that has conditions and effects.
@@ -12,7 +12,7 @@ use crate::path::Spot;
 
 /// The effect of one use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Deed {
+pub(crate) enum Usage {
     Needs,
     Adds,
     Deletes,
@@ -23,7 +23,7 @@ pub(crate) enum Deed {
     Writes,
 }
 
-impl Deed {
+impl Usage {
     /// The words before the list of users.
     pub(crate) fn words(self) -> &'static str {
         match self {
@@ -40,8 +40,8 @@ impl Deed {
 }
 
 /// The users of a thing by kind of use, each once, in the order of files and places. Only domains count.
-pub(crate) fn deeds(project: &Project, entity: &Entity) -> Vec<(Deed, Vec<String>)> {
-    let mut found: Vec<(Deed, Vec<String>)> = Vec::new();
+pub(crate) fn usages(project: &Project, entity: &Entity) -> Vec<(Usage, Vec<String>)> {
+    let mut found: Vec<(Usage, Vec<String>)> = Vec::new();
     let uses = entity.occurrences(project);
     for file in project.ids().filter(|&file| project.kind(file) == FileKind::Domain) {
         let here: Vec<Span> =
@@ -51,60 +51,60 @@ pub(crate) fn deeds(project: &Project, entity: &Entity) -> Vec<(Deed, Vec<String
         }
         let (tree, _) = syntax::parse(project.source(file));
         for span in here {
-            let Some((deed, who)) =
-                Spot::of(&tree, span).and_then(|spot| deed(&spot, span, entity.symbol.kind))
+            let Some((usage, user)) =
+                Spot::of(&tree, span).and_then(|spot| usage(&spot, span, entity.symbol.kind))
             else {
                 continue;
             };
-            match found.iter_mut().find(|(d, _)| *d == deed) {
-                Some((_, all)) if all.contains(&who) => {}
-                Some((_, all)) => all.push(who),
-                None => found.push((deed, vec![who])),
+            match found.iter_mut().find(|(d, _)| *d == usage) {
+                Some((_, all)) if all.contains(&user) => {}
+                Some((_, all)) => all.push(user),
+                None => found.push((usage, vec![user])),
             }
         }
     }
-    found.sort_by_key(|(deed, _)| *deed);
+    found.sort_by_key(|(usage, _)| *usage);
     found
 }
 
-fn deed(spot: &Spot<'_>, span: Span, kind: NameKind) -> Option<(Deed, String)> {
+fn usage(spot: &Spot<'_>, span: Span, kind: NameKind) -> Option<(Usage, String)> {
     let name = || spot.name().map_or_else(String::new, |n| n.text().to_owned());
     let keyword = spot.keyword().to_ascii_lowercase();
     let subtasks = [":subtasks", ":tasks", ":ordered-subtasks", ":ordered-tasks"];
     match keyword.as_str() {
-        ":writes" => Some((Deed::Writes, name())),
+        ":writes" => Some((Usage::Writes, name())),
         ":derived" => {
             let head = spot.section.children().nth(1)?;
             let in_head = head.span().start <= span.start && span.end <= head.span().end;
             let derived = head.head().map_or("", Node::text).to_owned();
-            Some((if in_head { Deed::Derives } else { Deed::Needs }, derived))
+            Some((if in_head { Usage::Derives } else { Usage::Needs }, derived))
         }
-        ":method" if spot.has_key(":task") => Some((Deed::Decomposes, name())),
-        ":method" if subtasks.iter().any(|key| spot.has_key(key)) => Some((Deed::Holds, name())),
+        ":method" if spot.has_key(":task") => Some((Usage::Decomposes, name())),
+        ":method" if subtasks.iter().any(|key| spot.has_key(key)) => Some((Usage::Holds, name())),
         ":action" | ":durative-action" | ":process" | ":event" if spot.has_key(":effect") => {
             Some((effect(&spot.lists, span, kind), name()))
         }
-        ":action" | ":durative-action" | ":process" | ":event" | ":method" => Some((Deed::Needs, name())),
+        ":action" | ":durative-action" | ":process" | ":event" | ":method" => Some((Usage::Needs, name())),
         _ => None,
     }
 }
 
 /// The use of a name in an effect, by the lists around it.
-fn effect(lists: &[Node<'_>], span: Span, kind: NameKind) -> Deed {
+fn effect(lists: &[Node<'_>], span: Span, kind: NameKind) -> Usage {
     let assigns = ["assign", "increase", "decrease", "scale-up", "scale-down"];
-    let mut deed = if kind == NameKind::Predicate { Deed::Adds } else { Deed::Needs };
+    let mut usage = if kind == NameKind::Predicate { Usage::Adds } else { Usage::Needs };
     for list in lists {
         let first =
             list.children().nth(1).is_some_and(|n| n.span().start <= span.start && span.end <= n.span().end);
         if list.is_headed("when") && first {
-            return Deed::Needs;
+            return Usage::Needs;
         }
         if list.is_headed("not") && kind == NameKind::Predicate {
-            deed = Deed::Deletes;
+            usage = Usage::Deletes;
         }
         if assigns.iter().any(|word| list.is_headed(word)) {
-            deed = if first && kind == NameKind::Function { Deed::Changes } else { Deed::Needs };
+            usage = if first && kind == NameKind::Function { Usage::Changes } else { Usage::Needs };
         }
     }
-    deed
+    usage
 }
