@@ -3,7 +3,7 @@
 use crate::clock::{Deadline, Seconds};
 use crate::memory;
 use crate::plan::{Unsolvable, limit_words, written};
-use ::lsp::{File, Judged, Limits, Planned, Remark, Task};
+use ::lsp::{File, Judged, PlanOptions, Planned, Remark, Task};
 use pddl::{Severity, Source, Span, parse_plan};
 use planner::{
     Budget, GroundError, GroundOptions, Origin, Outcome, Query, SearchConfiguration, ground, solve,
@@ -14,17 +14,17 @@ use validator::{Verdict, explain, validate};
 pub(super) struct Tools;
 
 impl ::lsp::Tools for Tools {
-    fn plan(&self, task: &Task, limits: &Limits) -> Planned {
+    fn plan(&self, task: &Task, settings: &PlanOptions) -> Planned {
         let Ok(project::Task { domain, problem, .. }) = task.project.task(task.problem) else {
             return Planned::Unreadable;
         };
-        let configuration = match limits.search.as_deref().map(SearchConfiguration::named) {
+        let configuration = match settings.search.as_deref().map(SearchConfiguration::named) {
             None => SearchConfiguration::portfolio(),
             Some(Some(configuration)) => configuration,
             Some(None) => return Planned::Limit("there is no search of the name in `planSearch`".to_owned()),
         };
-        let deadline = Deadline::after(Some(Seconds::from(limits.timeout)));
-        let interrupted = || deadline.is_over() || limits.cancelled.is_cancelled();
+        let deadline = Deadline::after(Some(Seconds::from(settings.timeout)));
+        let interrupted = || deadline.is_over() || settings.cancellation.is_cancelled();
         let memory = memory::budget();
         let budget = Budget { memory_bytes: Some(memory), interrupted: &interrupted, ..Budget::default() };
         let options = GroundOptions { budget, ..GroundOptions::default() };

@@ -5,7 +5,7 @@
 use std::io::Cursor;
 use std::sync::Arc;
 
-use lsp::{Disk, Ended, Entry, Host, Judged, Limits, Planned, ReadError, Task, Tools};
+use lsp::{Disk, Ended, Entry, Host, Judged, PlanOptions, Planned, ReadError, Task, Tools};
 use pddl::Source;
 
 /// A computer without files and programs.
@@ -22,7 +22,7 @@ impl Disk for Nothing {
 }
 
 impl Tools for Nothing {
-    fn plan(&self, _task: &Task, _limits: &Limits) -> Planned {
+    fn plan(&self, _task: &Task, _options: &PlanOptions) -> Planned {
         Planned::Unreadable
     }
 

@@ -1,4 +1,4 @@
-//! How a declared thing is used: user needs it, adds it, deletes it, changes it.
+//! How a declared thing is used: who needs it, adds it, deletes it, changes it.
 //!
 //! The lists around a name determine its use, not the model, so this works for drafts and for every part of
 //! the language that has conditions and effects.

@@ -6,7 +6,7 @@
 #![allow(clippy::unwrap_used, missing_docs, reason = "a bench")]
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use lsp::{Disk, Entry, Host, Judged, Limits, Planned, ReadError, Task, Tools, serve};
+use lsp::{Disk, Entry, Host, Judged, PlanOptions, Planned, ReadError, Task, Tools, serve};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::hint::black_box;
@@ -25,7 +25,7 @@ impl Disk for Nothing {
 }
 
 impl Tools for Nothing {
-    fn plan(&self, _: &Task, _: &Limits) -> Planned {
+    fn plan(&self, _: &Task, _: &PlanOptions) -> Planned {
         Planned::Unreadable
     }
     fn validate(&self, _: &Task, _: &pddl::Source) -> Judged {

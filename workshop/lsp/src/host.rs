@@ -6,10 +6,10 @@
 //! client reports as changed.
 
 use ::diagnostics::SourceId;
+use budget::Cancellation;
 use pddl::{Severity, Source, Span};
 use project::Project;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 /// The services of the program around the server.
@@ -89,38 +89,22 @@ pub struct Remark {
 
 /// Planner and validator.
 pub trait Tools: Send + Sync + std::panic::RefUnwindSafe {
-    /// Looks for a plan within the limits.
-    fn plan(&self, task: &Task, limits: &Limits) -> Planned;
+    /// Looks for a plan.
+    fn plan(&self, task: &Task, options: &PlanOptions) -> Planned;
 
     /// Validates a plan.
     fn validate(&self, task: &Task, plan: &Source) -> Judged;
 }
 
-/// How far planning may go.
+/// The settings of one search for a plan.
 #[derive(Clone, Debug)]
-pub struct Limits {
-    /// How long.
+pub struct PlanOptions {
+    /// The time that it may take.
     pub timeout: Duration,
-    /// Which search; the usual one if none is named.
+    /// The name of the search; `None` selects the default search.
     pub search: Option<String>,
-    /// Whether somebody has said stop.
-    pub cancelled: Cancel,
-}
-
-/// A switch that several threads hold, and that can only be turned on.
-#[derive(Clone, Debug, Default)]
-pub struct Cancel(Arc<AtomicBool>);
-
-impl Cancel {
-    /// Turns it on.
-    pub fn cancel(&self) {
-        self.0.store(true, Ordering::Relaxed);
-    }
-
-    /// Whether it is on.
-    pub fn is_cancelled(&self) -> bool {
-        self.0.load(Ordering::Relaxed)
-    }
+    /// Cancelled when the client withdraws the request.
+    pub cancellation: Cancellation,
 }
 
 /// The result of planning.

@@ -6,8 +6,9 @@
 //! thread; a job that panics reports the panic first.
 
 use crate::event::Event;
-use crate::host::{Cancel, File};
+use crate::host::File;
 use crate::news::{JobId, JobNews};
+use budget::Cancellation;
 use diagnostics::SourceId;
 use lsp_server::RequestId;
 use lsp_types::ProgressToken;
@@ -57,7 +58,7 @@ impl About {
 #[derive(Debug)]
 pub(crate) struct Running {
     pub(crate) purpose: Purpose,
-    pub(crate) cancel: Cancel,
+    pub(crate) cancel: Cancellation,
     /// The request that its result answers.
     pub(crate) answers: Option<RequestId>,
     /// The token under which its progress is shown.
@@ -68,7 +69,7 @@ pub(crate) struct Running {
 pub(crate) struct Reporter {
     id: JobId,
     events: SyncSender<Event>,
-    cancel: Cancel,
+    cancel: Cancellation,
 }
 
 impl Reporter {

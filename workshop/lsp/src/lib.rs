@@ -6,7 +6,7 @@
 //! the planner and the validator.
 //!
 //! ```
-//! use lsp::{Disk, Ended, Entry, Host, Judged, Limits, Planned, ReadError, Task, Tools, serve};
+//! use lsp::{Disk, Ended, Entry, Host, Judged, PlanOptions, Planned, ReadError, Task, Tools, serve};
 //! use std::sync::Arc;
 //!
 //! struct Nothing;
@@ -17,7 +17,7 @@
 //!     }
 //! }
 //! impl Tools for Nothing {
-//!     fn plan(&self, _: &Task, _: &Limits) -> Planned { Planned::Limit("no planner".into()) }
+//!     fn plan(&self, _: &Task, _: &PlanOptions) -> Planned { Planned::Limit("no planner".into()) }
 //!     fn validate(&self, _: &Task, _: &pddl::Source) -> Judged { Judged::Not(vec![]) }
 //! }
 //!
@@ -56,6 +56,6 @@ mod serve;
 mod server;
 mod uri;
 
-pub use host::{Cancel, Disk, Entry, File, Host, Judged, Limits, Planned, ReadError, Remark, Task, Tools};
+pub use host::{Disk, Entry, File, Host, Judged, PlanOptions, Planned, ReadError, Remark, Task, Tools};
 pub use serve::serve;
 pub use server::Ended;

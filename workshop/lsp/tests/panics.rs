@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test")]
 
-use lsp::{Disk, Ended, Entry, Host, Judged, Limits, Planned, ReadError, Task, Tools, serve};
+use lsp::{Disk, Ended, Entry, Host, Judged, PlanOptions, Planned, ReadError, Task, Tools, serve};
 use serde_json::{Value, json};
 use std::io::{Cursor, Write};
 use std::sync::{Arc, Mutex};
@@ -19,7 +19,7 @@ impl Disk for Clumsy {
 }
 
 impl Tools for Clumsy {
-    fn plan(&self, _: &Task, _: &Limits) -> Planned {
+    fn plan(&self, _: &Task, _: &PlanOptions) -> Planned {
         panic!("fell over a plan")
     }
     fn validate(&self, _: &Task, _: &pddl::Source) -> Judged {

@@ -13,11 +13,12 @@ use super::Server;
 use super::board::Verdict;
 use crate::answers::lenses::{PLAN, VALIDATE};
 use crate::answers::{diagnostics, edits};
-use crate::host::{Cancel, Judged, Limits, Planned, Remark, Task};
+use crate::host::{Judged, PlanOptions, Planned, Remark, Task};
 use crate::job::{About, Purpose, Running};
 use crate::news::{JobId, JobNews};
 use crate::outbox::Asked;
 use ::diagnostics::SourceId;
+use budget::Cancellation;
 use lsp_server::{ErrorCode, RequestId};
 use lsp_types::{
     ApplyWorkspaceEditParams, ApplyWorkspaceEditRequest, CodeLensRefreshRequest, ExecuteCommandParams,
@@ -69,17 +70,17 @@ impl Server {
             return Err("only for a problem can there be a plan".to_owned());
         }
         let (task, about) = self.task(problem, None)?;
-        let cancel = Cancel::default();
-        let limits = Limits {
+        let cancel = Cancellation::default();
+        let options = PlanOptions {
             timeout: self.options.plan_timeout,
             search: self.options.plan_search.clone(),
-            cancelled: cancel.clone(),
+            cancellation: cancel.clone(),
         };
         let title = format!("planning for {}", task.project.path(task.problem));
         let token = self.begin_progress(&title, token);
         let running = Running { purpose: Purpose::Plan(about), cancel, answers: Some(id), token };
         let tools = Arc::clone(&self.host.tools);
-        self.jobs.start(running, move |reporter| reporter.say(JobNews::Planned(tools.plan(&task, &limits))));
+        self.jobs.start(running, move |reporter| reporter.say(JobNews::Planned(tools.plan(&task, &options))));
         Ok(())
     }
 
@@ -99,7 +100,7 @@ impl Server {
         let title = format!("validating {}", text.name());
         let token = self.begin_progress(&title, token);
         let purpose = Purpose::Validate(about);
-        let running = Running { purpose, cancel: Cancel::default(), answers: Some(id), token };
+        let running = Running { purpose, cancel: Cancellation::default(), answers: Some(id), token };
         let tools = Arc::clone(&self.host.tools);
         self.jobs.start(running, move |reporter| reporter.say(JobNews::Judged(tools.validate(&task, &text))));
         Ok(())

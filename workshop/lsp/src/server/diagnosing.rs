@@ -10,12 +10,12 @@
 use super::Server;
 use super::board::{Told, Warnings};
 use crate::answers::diagnostics;
-use crate::host::Cancel;
 use crate::job::{Purpose, Running};
 use crate::news::JobNews;
 use crate::options::DiagnosticsMode;
 use crate::outbox::Asked;
 use ::diagnostics::SourceId;
+use budget::Cancellation;
 use lsp_types::{
     Diagnostic, DiagnosticRefreshRequest, PublishDiagnosticsNotification, PublishDiagnosticsParams,
 };
@@ -175,7 +175,7 @@ impl Server {
 }
 
 fn background(purpose: Purpose) -> Running {
-    Running { purpose, cancel: Cancel::default(), answers: None, token: None }
+    Running { purpose, cancel: Cancellation::default(), answers: None, token: None }
 }
 
 /// The files that open documents need, and their dependents. Problems that only share a domain with an open

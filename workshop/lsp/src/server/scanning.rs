@@ -6,10 +6,11 @@
 //! links to folders are not followed.
 
 use super::Server;
-use crate::host::{Cancel, Disk, Entry, ReadError};
+use crate::host::{Disk, Entry, ReadError};
 use crate::job::{Purpose, Reporter, Running};
 use crate::news::JobNews;
 use crate::options::Options;
+use budget::Cancellation;
 use lsp_types::{DidChangeWatchedFilesParams, DidChangeWorkspaceFoldersParams, FileChangeType, FileEvent};
 use project::FileKind;
 use std::collections::VecDeque;
@@ -40,7 +41,8 @@ impl Server {
             too_large: 0,
         };
         let token = self.begin_progress("reading PDDL files", None);
-        let running = Running { purpose: Purpose::Scan, cancel: Cancel::default(), answers: None, token };
+        let running =
+            Running { purpose: Purpose::Scan, cancel: Cancellation::default(), answers: None, token };
         self.jobs.start(running, move |reporter| walk.run(folders, reporter));
     }
 
