@@ -1,6 +1,6 @@
 //! What grounding asks for and how it refuses.
 
-use budget::Budget;
+use budget::{Budget, Interrupted};
 use pddl::Span;
 use pddl::model::{Name, PredicateId};
 
@@ -92,4 +92,25 @@ pub enum GroundError {
         /// Where.
         span: Span,
     },
+}
+
+/// Why a stage of grounding ended early.
+pub(crate) enum Failure {
+    Ground(GroundError),
+    /// Costs are no sum: an operator improves the metric.
+    NegativeCost,
+    /// The caller cancelled, or the budget was used up.
+    Interrupted,
+}
+
+impl From<Interrupted> for Failure {
+    fn from(_: Interrupted) -> Self {
+        Self::Interrupted
+    }
+}
+
+impl From<GroundError> for Failure {
+    fn from(error: GroundError) -> Self {
+        Self::Ground(error)
+    }
 }

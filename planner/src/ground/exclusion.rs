@@ -10,16 +10,15 @@
 //!
 //! Source: Helmert, "Concise finite-domain representations for PDDL planning tasks", AIJ 2009, §5.
 
-use super::cost::resolve;
-use super::instantiate::Lit;
-use super::join::{Bindings, Reached};
+use super::binding::resolve;
+use super::literal::Lit;
+use super::normalise::Normalised;
+use super::relax::{Bindings, Reached};
 use crate::ids::id32;
-use crate::task::Rows;
-use crate::task::ValuePredicates;
-use crate::task::{AtomTable, RowKeys};
+use crate::task::{AtomTable, RowKeys, Rows, ValuePredicates};
 use analysis::invariants::{Happening, Invariant, Member, Proviso, conditional_invariants};
 use budget::{Interrupted, Meter};
-use pddl::model::{Domain, PredicateId, Problem, Term};
+use pddl::model::{Domain, PredicateId, Term};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Atoms in groups, over all of them; invariants beyond that are left out.
@@ -34,18 +33,13 @@ pub(crate) struct Exclusions {
 }
 
 impl Exclusions {
-    /// Of the atoms that were reached. `initial` are those that change and hold at first.
-    #[expect(clippy::too_many_arguments, reason = "a stage takes what the stages before it made")]
+    /// Of the atoms that were reached.
     pub(crate) fn new(
-        domain: &Domain,
-        problem: &Problem,
-        values: &ValuePredicates,
-        exogenous: &[PredicateId],
-        Reached { table, bindings }: &Reached,
-        statics: u32,
-        initial: &[u32],
+        model: &Normalised<'_>,
+        Reached { table, statics, initial, bindings }: &Reached,
         meter: &Meter<'_>,
     ) -> Result<Self, Interrupted> {
+        let Normalised { domain, problem, exogenous, values, .. } = model;
         // Invariants take an object to be of one type.
         if problem.objects.iter().any(|o| o.types.0.len() > 1) {
             return Ok(Self::default());
@@ -82,7 +76,7 @@ impl Exclusions {
         }
         let atoms = id32(table.len());
         let mut by_predicate: Vec<Vec<u32>> = vec![Vec::new(); domain.predicates.len()];
-        for atom in statics..atoms {
+        for atom in *statics..atoms {
             meter.spend(8)?;
             by_predicate[table.predicate(atom).0 as usize].push(atom);
         }

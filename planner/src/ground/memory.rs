@@ -17,57 +17,57 @@ use std::cell::Cell;
 const MOST: usize = if usize::BITS > 36 { 1 << 36 } else { usize::MAX };
 
 /// The budget, with a limit of bytes that keeps the invariant.
-pub(super) fn limited(budget: Budget<'_>) -> Budget<'_> {
+pub(crate) fn limited(budget: Budget<'_>) -> Budget<'_> {
     Budget { memory_bytes: Some(budget.memory_bytes.unwrap_or(MOST).min(MOST)), ..budget }
 }
 
 /// Bytes that a ground atom of so many arguments takes: its numbers, its keys, its fact.
-pub(super) fn atom(arguments: usize) -> usize {
+pub(crate) fn atom(arguments: usize) -> usize {
     160 + 8 * arguments
 }
 
 /// Bytes that an instance takes with so many parameters, literals and changes together.
-pub(super) fn instance(parameters: usize, parts: usize) -> usize {
+pub(crate) fn instance(parameters: usize, parts: usize) -> usize {
     250 + 8 * parameters + 30 * parts
 }
 
 /// Limits the expansion of one formula after the other.
-pub(super) struct Guard<'a> {
+pub(crate) struct Guard<'a> {
     meter: &'a Meter<'a>,
     parts: Cell<usize>,
 }
 
 impl<'a> Guard<'a> {
-    pub(super) fn new(meter: &'a Meter<'a>) -> Self {
+    pub(crate) fn new(meter: &'a Meter<'a>) -> Self {
         Self { meter, parts: Cell::new(0) }
     }
 
     /// The next instance begins.
-    pub(super) fn begin(&self) {
+    pub(crate) fn begin(&self) {
         self.parts.set(0);
         // Callers ask `interruption` at the end of the expansion.
         let _ = self.meter.spend(256);
     }
 
     /// Counts a part that is looked at. Answers whether to go on.
-    pub(super) fn look(&self) -> bool {
+    pub(crate) fn look(&self) -> bool {
         self.meter.spend(16).is_ok()
     }
 
     /// Counts a part that is kept.
-    pub(super) fn keep(&self) {
+    pub(crate) fn keep(&self) {
         let parts = self.parts.get() + 1;
         self.parts.set(parts);
         let _ = self.meter.spend(32).and_then(|()| self.meter.hold(instance(0, parts)));
     }
 
     /// Whether so many parts may be looked at, each of which may be kept.
-    pub(super) fn allows(&self, parts: usize) -> bool {
+    pub(crate) fn allows(&self, parts: usize) -> bool {
         self.meter.hold(parts).is_ok()
     }
 
     /// Why the expansion was cut short.
-    pub(super) fn interruption(&self) -> Option<Interrupted> {
+    pub(crate) fn interruption(&self) -> Option<Interrupted> {
         self.meter.interruption()
     }
 }

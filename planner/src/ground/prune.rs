@@ -6,10 +6,13 @@
 //! exogenous predicates are neither folded nor dropped. Cost: linear in the raw task.
 //!
 //! Source: Helmert, "The Fast Downward planning system", JAIR 2006, §5.1 (relevance); Helmert 2009.
+//!
+//! In: the raw task, and what reachability knows of its atoms. Out: [`Pruned`].
 
-use super::instantiate::Lit;
-use super::numbers::{Comparison, RawChange};
-use super::raw::{RawEffects, RawTask};
+use super::instantiate::{Comparison, RawChange, RawEffects, RawTask};
+use super::literal::Lit;
+use super::normalise::Normalised;
+use super::relax::Reached;
 use crate::ids::id32;
 use crate::number::{Expression, Influence, Relation};
 use crate::task::Rows;
@@ -30,6 +33,10 @@ pub(crate) struct Pruned {
     pub(crate) measured: Vec<bool>,
     /// By operator: whether it may make a metric better that is no sum of costs.
     pub(crate) improves: Vec<bool>,
+    /// By atom: whether axioms decide it.
+    pub(crate) derived: Vec<bool>,
+    /// By atom: whether it compares numbers.
+    pub(crate) compared: Vec<bool>,
 }
 
 impl Pruned {
@@ -73,15 +80,28 @@ impl Ways {
     }
 }
 
-/// Analyses the raw task. `initial`, `derived`, `exogenous` mark atoms.
+/// Analyses the raw task.
 pub(crate) fn prune(
+    model: &Normalised<'_>,
+    Reached { table, statics, initial, .. }: &Reached,
     raw: &RawTask,
-    initial: &[bool],
-    derived: &[bool],
-    exogenous: &[bool],
     meter: &Meter<'_>,
 ) -> Result<Pruned, Interrupted> {
-    let reached = reachable(raw, initial, derived, exogenous, meter)?;
+    let (known, statics) = (id32(table.len()), *statics);
+    let value = |&fluent: &u32| model.fluents.initial(&raw.numbers.keys[fluent as usize]);
+    let compared = marked(raw.atoms, raw.numbers.atoms.iter().map(|(atom, _)| *atom));
+    let compare = |comparison: &Comparison<u32>| {
+        comparison.expression.evaluate(&value).is_ok_and(|n| comparison.relation.holds(n.sign()))
+    };
+    let equal = raw.numbers.atoms.iter().filter(|(_, c)| compare(c)).map(|(atom, _)| *atom);
+    let holds = marked(raw.atoms, (0..statics).chain(initial.iter().copied()).chain(equal));
+    let is_derived = |a: u32| {
+        if a < known { model.domain.predicates[table.predicate(a)].derived } else { !compared[a as usize] }
+    };
+    let derived = marked(raw.atoms, (statics..raw.atoms).filter(|&a| is_derived(a)));
+    let is_exogenous = |a: u32| a < known && model.exogenous.contains(&table.predicate(a));
+    let exogenous = &marked(raw.atoms, (statics..raw.atoms).filter(|&a| is_exogenous(a)));
+    let reached = reachable(raw, &holds, &derived, exogenous, meter)?;
     let n = raw.atoms as usize;
     let mut pruned = Pruned {
         always: (0..n).map(|a| !derived[a] && !reached[a << 1 | 1]).collect(),
@@ -90,6 +110,8 @@ pub(crate) fn prune(
         read: vec![false; raw.numbers.keys.len()],
         measured: vec![false; raw.numbers.keys.len()],
         improves: vec![false; raw.operators.len()],
+        derived,
+        compared,
     };
     always_derived(raw, &mut pruned, meter)?;
     relevance(raw, exogenous, &mut pruned, meter)?;
@@ -387,4 +409,14 @@ fn relevance(
         }
     }
     Ok(())
+}
+
+/// By atom: whether it is among these.
+fn marked(atoms: u32, which: impl Iterator<Item = u32>) -> Vec<bool> {
+    let mut marks = vec![false; atoms as usize];
+    for atom in which {
+        marks[atom as usize] = true;
+    }
+    debug_assert!(id32(marks.len()) == atoms);
+    marks
 }

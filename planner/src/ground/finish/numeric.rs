@@ -1,9 +1,9 @@
 //! The numeric part of the final task: fluents, comparisons, effects and the metric.
 
-use super::finish::View;
-use super::fluents::{Fluents, STEPS};
-use super::prune::Pruned;
-use super::raw::{RawOperator, RawTask};
+use super::view::View;
+use crate::ground::instantiate::{RawOperator, RawTask};
+use crate::ground::normalise::{Fluents, STEPS};
+use crate::ground::prune::Pruned;
 use crate::ids::{FactId, FluentId};
 use crate::number::{Expression, Number};
 use crate::task::{Fluent, Metric, NumericEffects, Update, changed};

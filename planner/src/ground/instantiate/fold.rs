@@ -5,13 +5,13 @@
 //! that survive become alternatives (a copy of the operator each) while these are few, and an
 //! auxiliary derived atom otherwise; equal disjunctions share their atom.
 
-use super::cost::resolve;
-use super::exclusion::{Exclusions, Marks};
-use super::fluents::{Fluents, Key};
-use super::formula::{Formula, Literal};
-use super::memory::Guard;
-use super::numbers::{Comparison, Numbers};
-use super::universe::Range;
+use super::folded::{Comparison, Connective, Ground, fold_parts};
+use super::numbers::Numbers;
+use crate::ground::binding::resolve;
+use crate::ground::exclusion::{Exclusions, Marks};
+use crate::ground::literal::{Lit, consistent};
+use crate::ground::memory::Guard;
+use crate::ground::normalise::{Fluents, Formula, Key, Literal, Range};
 use crate::ids::id32;
 use crate::task::AtomTable;
 use budget::Meter;
@@ -19,30 +19,13 @@ use pddl::model::VariableId;
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
 
-/// A ground literal: `atom << 1 | negated`.
-pub(crate) type Lit = u32;
-
-/// A folded formula.
-#[derive(Clone, Debug)]
-pub(crate) enum Ground {
-    True,
-    False,
-    Literal(Lit),
-    /// Of literals, as most conditions are: no vector of formulas is made for them.
-    Conjunction(Vec<Lit>),
-    And(Vec<Ground>),
-    Or(Vec<Ground>),
-    /// A comparison, and whether it must hold or must not.
-    Compare(Box<Comparison<Key>>),
-}
-
 /// Folds formulas and keeps the auxiliary atoms that they need.
 pub(crate) struct Instantiator<'a> {
     pub(crate) table: &'a AtomTable,
     pub(crate) is_static: &'a [bool],
     pub(crate) exclusions: &'a Exclusions,
     pub(crate) marks: Marks,
-    pub(super) guard: Guard<'a>,
+    pub(crate) guard: Guard<'a>,
     pub(crate) fluents: &'a Fluents,
     /// Fluents and comparisons met.
     pub(crate) numbers: Numbers,
@@ -267,46 +250,4 @@ impl<'a> Instantiator<'a> {
         self.auxiliary.insert(rows, atom);
         atom
     }
-}
-
-/// What joins the parts of a formula.
-#[derive(Clone, Copy)]
-enum Connective {
-    And,
-    Or,
-}
-
-/// Folds the parts: what is neutral is left out, what absorbs ends it, and like nests into like.
-fn fold_parts<T>(
-    connective: Connective,
-    parts: impl Iterator<Item = T>,
-    fold: impl Fn(T, &mut [u32]) -> Ground,
-    binding: &mut [u32],
-) -> Ground {
-    use Connective::{And, Or};
-    let mut kept = Vec::new();
-    for part in parts {
-        match (connective, fold(part, binding)) {
-            (And, Ground::True) | (Or, Ground::False) => {}
-            (And, Ground::False) => return Ground::False,
-            (Or, Ground::True) => return Ground::True,
-            (And, Ground::Conjunction(inner)) => kept.extend(inner.into_iter().map(Ground::Literal)),
-            (And, Ground::And(inner)) | (Or, Ground::Or(inner)) => kept.extend(inner),
-            (_, other) => kept.push(other),
-        }
-    }
-    match (connective, kept.len()) {
-        (And, 0) => Ground::True,
-        (Or, 0) => Ground::False,
-        (_, 1) => kept.remove(0),
-        (And, _) => Ground::And(kept),
-        (Or, _) => Ground::Or(kept),
-    }
-}
-
-/// Sorted without duplicates; `None` if it holds a literal and its negation.
-pub(crate) fn consistent(mut literals: Vec<Lit>) -> Option<Vec<Lit>> {
-    literals.sort_unstable();
-    literals.dedup();
-    (!literals.windows(2).any(|w| w[0] ^ 1 == w[1])).then_some(literals)
 }

@@ -1,11 +1,7 @@
 //! Rules of reachability: what must be joined, and what follows.
 
-use super::fluents::Fluents;
-use super::formula::{Formula, Literal};
-use super::join::is_refuted;
-use super::plan::Filter;
-use super::schema::{Product, Schema};
-use super::universe::Range;
+use super::filter::Filter;
+use crate::ground::normalise::{Fluents, Formula, Literal, Product, Range, Schema};
 use pddl::model::{Idx, PredicateId, Term, VariableId};
 use std::sync::Arc;
 
@@ -81,7 +77,7 @@ impl Rule {
 /// The rules of all schemas.
 pub(crate) fn rules(schemas: &[Schema], is_static: &[bool], fluents: &Fluents) -> Vec<Rule> {
     let mut found = Vec::new();
-    for (i, schema) in schemas.iter().enumerate().filter(|(_, s)| !is_refuted(&s.condition)) {
+    for (i, schema) in schemas.iter().enumerate().filter(|(_, s)| !s.condition.is_refuted()) {
         let mut main = Rule::new(i, schema, is_static, fluents);
         main.collected = true;
         match &schema.product {
@@ -91,7 +87,7 @@ pub(crate) fn rules(schemas: &[Schema], is_static: &[bool], fluents: &Fluents) -
                     let head = (effect.predicate, effect.arguments.clone());
                     if effect.is_simple() {
                         main.heads.push(head);
-                    } else if !is_refuted(&effect.condition) {
+                    } else if !effect.condition.is_refuted() {
                         let mut rule = Rule::new(i, schema, is_static, fluents);
                         rule.require(&effect.condition, is_static, fluents);
                         rule.variables.extend(&effect.quantified);

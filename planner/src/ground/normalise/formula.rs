@@ -8,8 +8,8 @@
 //!
 //! Source: Helmert, "Concise finite-domain representations", AIJ 2009, §4.
 
-use super::error::{Feature, GroundError, Origin};
 use super::universe::{Range, Universe};
+use crate::ground::error::{Feature, GroundError, Origin};
 use crate::number::Relation;
 use pddl::model::{
     Comparison, Condition, ConditionKind, Expression, ExpressionKind, PredicateId, Term, VariableId,
@@ -279,6 +279,11 @@ impl Formula {
             Self::Exists(_, inner) | Self::Forall(_, inner) => inner.leaves(),
             Self::Literal(_) | Self::Same { .. } | Self::OneOf { .. } | Self::Compare { .. } => 1,
         }
+    }
+
+    /// Whether it can never hold, by its structure alone.
+    pub(crate) fn is_refuted(&self) -> bool {
+        self.conjuncts().iter().any(|c| matches!(c, Self::Or(parts) if parts.is_empty()))
     }
 
     /// The conjuncts of the top level.

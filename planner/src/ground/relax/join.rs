@@ -11,21 +11,18 @@
 //! Source: Helmert, "Concise finite-domain representations", AIJ 2009, §6 (grounding as Datalog);
 //! Ullman, "Principles of database and knowledge-base systems", 1989, ch. 3 (semi-naive evaluation).
 
-use super::cost::resolve;
-use super::error::GroundError;
-use super::fluents::Fluents;
-use super::formula::Formula;
-use super::instantiate::Ground;
-use super::memory;
-use super::numbers::Comparison;
-use super::plan::{Filter, JoinPlan, Step, plan};
-use super::raw::Failure;
-use super::rule::Rule;
-use super::schema::Schema;
-use crate::task::{AtomTable, RowKeys};
+use super::filter::Filter;
+use super::indices::Indices;
+use super::plan::{JoinPlan, Statistics, Step, plan};
+use super::rule::{Rule, rules};
+use crate::ground::binding::resolve;
+use crate::ground::error::{Failure, GroundError};
+use crate::ground::memory;
+use crate::ground::normalise::{Fluents, Normalised, Schema};
+use crate::ids::id32;
+use crate::task::AtomTable;
 use budget::{Interrupted, Meter};
-use pddl::model::{PredicateId, Term};
-use rustc_hash::FxHashMap;
+use pddl::model::Term;
 
 /// The bindings found for one schema: parameters, then hoisted variables, `width` a row.
 #[derive(Clone, Debug, Default)]
@@ -35,75 +32,20 @@ pub(crate) struct Bindings {
     pub(crate) values: Vec<u32>,
 }
 
-/// One hash index of a predicate.
-#[derive(Default)]
-struct Index {
-    positions: Box<[usize]>,
-    buckets: FxHashMap<u64, Vec<u32>>,
-}
-
-/// All indices that some plan uses.
-#[derive(Default)]
-pub(crate) struct Indices {
-    packing: RowKeys,
-    all: Vec<Index>,
-    of_predicate: Vec<Vec<usize>>,
-}
-
-impl Indices {
-    fn new(predicates: usize, objects: usize) -> Self {
-        Self { packing: RowKeys::new(objects), all: Vec::new(), of_predicate: vec![Vec::new(); predicates] }
-    }
-
-    /// The index of `predicate` on these positions.
-    pub(crate) fn on(&mut self, predicate: PredicateId, positions: &[usize]) -> usize {
-        let own = &mut self.of_predicate[predicate.0 as usize];
-        if let Some(&i) = own.iter().find(|&&i| *self.all[i].positions == *positions) {
-            return i;
-        }
-        own.push(self.all.len());
-        self.all.push(Index { positions: positions.into(), buckets: FxHashMap::default() });
-        self.all.len() - 1
-    }
-
-    fn insert(&mut self, table: &AtomTable, atom: u32) {
-        let row = table.row(atom);
-        for &i in &self.of_predicate[table.predicate(atom).0 as usize] {
-            let index = &mut self.all[i];
-            let key = self.packing.key(index.positions.iter().map(|&p| row[p]));
-            index.buckets.entry(key).or_default().push(atom);
-        }
-    }
-
-    fn bucket(&self, index: usize, key: &[Term], binding: &[u32]) -> &[u32] {
-        self.packing
-            .find(key.iter().map(|&t| resolve(t, binding)))
-            .and_then(|key| self.all[index].buckets.get(&key))
-            .map_or(&[], Vec::as_slice)
-    }
-}
-
-/// What reachability found.
-pub(crate) struct Reached {
-    pub(crate) table: AtomTable,
-    /// By schema.
-    pub(crate) bindings: Vec<Bindings>,
-}
-
 /// Runs all rules to a fixpoint. The first `statics` atoms of `table` never change.
-pub(crate) fn reach(
-    schemas: &[Schema],
-    rules: &[Rule],
+pub(super) fn join(
+    model: &Normalised<'_>,
     table: AtomTable,
     statics: u32,
-    (is_static, fluents): (&[bool], &Fluents),
-    objects: usize,
     meter: &Meter<'_>,
-) -> Result<Reached, Failure> {
+) -> Result<(AtomTable, Vec<Bindings>), Failure> {
+    let Normalised { schemas, is_static, fluents, .. } = model;
+    let rules = &rules(schemas, is_static, fluents);
+    let objects = model.problem.objects.len();
     let mut indices = Indices::new(is_static.len(), objects);
     let mut triggered: Vec<Vec<(usize, JoinPlan)>> = vec![Vec::new(); is_static.len()];
     let mut at_once = Vec::new();
-    let mut statistics = super::plan::Statistics::new(&table, statics, meter);
+    let mut statistics = Statistics::new(&table, statics, meter);
     for (r, rule) in rules.iter().enumerate() {
         let changing: Vec<usize> =
             (0..rule.body.len()).filter(|&i| !is_static[rule.body[i].predicate.0 as usize]).collect();
@@ -119,7 +61,7 @@ pub(crate) fn reach(
         .iter()
         .map(|s| Bindings { width: s.parameters + s.hoisted.len(), ..Bindings::default() })
         .collect();
-    let bytes = (0..crate::ids::id32(table.len())).map(|a| memory::atom(table.row(a).len())).sum();
+    let bytes = (0..id32(table.len())).map(|a| memory::atom(table.row(a).len())).sum();
     let instance_bytes = schemas.iter().map(Schema::instance_bytes).collect();
     let mut out = Out { schemas, table, bindings, instance_bytes, bytes, meter, fluents };
     for atom in 0..statics {
@@ -141,7 +83,7 @@ pub(crate) fn reach(
         }
         current += 1;
     }
-    Ok(Reached { table: out.table, bindings: out.bindings })
+    Ok((out.table, out.bindings))
 }
 
 struct Out<'a> {
@@ -232,8 +174,9 @@ impl Join<'_, '_> {
                         .find(*predicate, arguments.iter().map(|&t| resolve(t, binding)))
                         .is_none(),
                     Filter::Compare { relation, left, right } => {
-                        let known = Comparison::fold(*relation, left, right, self.out.fluents, binding);
-                        matches!(known, Ground::True)
+                        let difference = self.out.fluents.difference(left, right, binding);
+                        let value = difference.ok().and_then(|difference| difference.as_constant());
+                        value.is_some_and(|value| relation.holds(value.sign()))
                     }
                 };
                 if holds { self.step(at + 1, binding) } else { Ok(()) }
@@ -304,9 +247,4 @@ impl Join<'_, '_> {
         }
         self.out.meter.hold(self.out.bytes).map_err(|why| self.out.stopped(why, self.rule.schema))
     }
-}
-
-/// The conjuncts of a formula that are positive literals, and whether it can hold at all.
-pub(crate) fn is_refuted(formula: &Formula) -> bool {
-    formula.conjuncts().iter().any(|c| matches!(c, Formula::Or(parts) if parts.is_empty()))
 }

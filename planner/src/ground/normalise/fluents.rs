@@ -4,8 +4,8 @@
 //! the others only those that something reads are worth a place in the state. Undefined initial values
 //! are no entries; `total-cost` starts at 0 even where `:init` forgets to say so.
 
-use super::cost::resolve;
-use super::error::{Feature, GroundError, Origin};
+use crate::ground::binding::resolve;
+use crate::ground::error::{Feature, GroundError, Origin};
 use crate::number::{Expression, NoValue, Number};
 use pddl::Span;
 use pddl::model::{
@@ -177,6 +177,16 @@ impl Fluents {
             ExpressionKind::TotalTime => Ok(Expression::fluent((STEPS, Box::default()))),
             ExpressionKind::Duration | ExpressionKind::IsViolated(_) => Err(NoValue::Undefined),
         }
+    }
+
+    /// The difference of two expressions under a binding, constants folded.
+    pub(crate) fn difference(
+        &self,
+        left: &Written,
+        right: &Written,
+        binding: &[u32],
+    ) -> Result<Expression<Key>, NoValue> {
+        self.fold(left, binding)?.minus(self.fold(right, binding)?)
     }
 
     /// The value of an expression that is static.

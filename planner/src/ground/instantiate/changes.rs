@@ -5,88 +5,14 @@
 //! an action have no result (a value that is undefined, two changes of one fluent that disagree)
 //! becomes part of its precondition. Invariant: an instance is applicable exactly where its action is.
 
-use super::cost::resolve;
-use super::fluents::{Fluents, Key};
-use super::instantiate::{Ground, Instantiator, Lit, consistent};
-use super::raw::each_binding;
-use super::schema::{NumericEffects, Schema};
-use crate::ids::id32;
+use super::fold::Instantiator;
+use super::folded::Comparison;
+use super::raw::RawChange;
+use crate::ground::binding::{each_binding, resolve};
+use crate::ground::literal::{Lit, consistent};
+use crate::ground::normalise::{Fluents, Key, NumericEffects, Schema};
 use crate::number::{Change, Expression, NoValue, Number, Relation};
 use pddl::model::{AssignOperator, Expression as Written};
-use rustc_hash::FxHashMap;
-
-/// An expression in a relation to 0.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(crate) struct Comparison<V> {
-    pub(crate) relation: Relation,
-    pub(crate) expression: Expression<V>,
-}
-
-impl Comparison<Key> {
-    pub(crate) fn fold(
-        relation: Relation,
-        left: &Written,
-        right: &Written,
-        fluents: &Fluents,
-        binding: &[u32],
-    ) -> Ground {
-        let difference = || fluents.fold(left, binding)?.minus(fluents.fold(right, binding)?);
-        let Ok(expression) = difference() else { return Ground::False };
-        match expression.as_constant() {
-            Some(value) if relation.holds(value.sign()) => Ground::True,
-            Some(_) => Ground::False,
-            None => Ground::Compare(Box::new(Self { relation, expression })),
-        }
-    }
-}
-
-/// A change of a numeric fluent.
-#[derive(Clone, Debug)]
-pub(crate) struct RawChange {
-    pub(crate) condition: Vec<Lit>,
-    pub(crate) fluent: u32,
-    pub(crate) change: Change,
-    /// `None` takes the value away.
-    pub(crate) value: Option<Expression<u32>>,
-}
-
-/// Fluents and comparisons, numbered as they are met.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Numbers {
-    fluents: FxHashMap<Key, u32>,
-    pub(crate) keys: Vec<Key>,
-    comparisons: FxHashMap<Comparison<u32>, u32>,
-    /// Atoms of comparisons.
-    pub(crate) atoms: Vec<(u32, Comparison<u32>)>,
-}
-
-impl Numbers {
-    pub(crate) fn fluent(&mut self, key: &Key) -> u32 {
-        if let Some(&known) = self.fluents.get(key) {
-            return known;
-        }
-        let next = id32(self.keys.len());
-        self.keys.push(key.clone());
-        self.fluents.insert(key.clone(), next);
-        next
-    }
-
-    pub(crate) fn expression(&mut self, expression: &Expression<Key>) -> Expression<u32> {
-        expression.map(&mut |key| self.fluent(key))
-    }
-
-    /// The atom of a comparison: `next` if it was not met before.
-    pub(crate) fn comparison(&mut self, comparison: &Comparison<Key>, next: u32) -> u32 {
-        let own =
-            Comparison { relation: comparison.relation, expression: self.expression(&comparison.expression) };
-        if let Some(&atom) = self.comparisons.get(&own) {
-            return atom;
-        }
-        self.atoms.push((next, own.clone()));
-        self.comparisons.insert(own, next);
-        next
-    }
-}
 
 /// A change before its fluents are numbered.
 struct Instance {
@@ -98,7 +24,7 @@ struct Instance {
 
 /// The numeric effects of an instance of a schema. Conjunctions under which they have no result are
 /// added to `never`; `None` if they never have one.
-pub(crate) fn changes(
+pub(super) fn changes(
     work: &mut Instantiator<'_>,
     schema: &Schema,
     effects: &NumericEffects,
@@ -116,7 +42,7 @@ pub(crate) fn changes(
     }
     let mut instances: Vec<Instance> = Vec::new();
     for effect in &effects.changes {
-        each_binding(&effect.quantified, schema, binding, &mut |binding| {
+        each_binding(&effect.quantified, &schema.slots, binding, &mut |binding| {
             let condition = work.fold(&effect.condition, &schema.slots, binding);
             let Some(condition) = work.conjunction(condition) else { return };
             let row = effect.fluent.arguments.iter().map(|&t| resolve(t, binding)).collect();

@@ -1,11 +1,11 @@
 //! Action and axiom schemas, normalised for the join.
 
 use super::cost::{CostModel, CostTerm};
-use super::error::{GroundError, Origin};
 use super::fluents::Fluents;
 use super::formula::Formula;
-use super::memory;
 use super::universe::{Range, Universe};
+use crate::ground::error::{GroundError, Origin};
+use crate::ground::memory;
 use pddl::model::{
     Action, ActionId, Application, AssignOperator, AssignedValue, Axiom, Domain, Effect, EffectKind,
     Expression, Name, PredicateId, Term, VariableId,

@@ -4,63 +4,13 @@
 //! predicates the measured mean bucket of the index, for changing ones the product of what its free
 //! variables can be. Filters run as soon as they are bound; fully bound atoms are mere probes.
 
-use super::join::Indices;
+use super::filter::{Filter, is_bound};
+use super::indices::Indices;
 use super::rule::{BodyAtom, Rule};
-use super::universe::Range;
-use crate::number::Relation;
 use crate::task::AtomTable;
 use budget::Meter;
-use pddl::model::{Expression, ExpressionKind, PredicateId, Term};
+use pddl::model::{PredicateId, Term};
 use rustc_hash::{FxHashMap, FxHashSet};
-use std::sync::Arc;
-
-/// A test on bound variables.
-#[derive(Clone, Debug)]
-pub(crate) enum Filter {
-    Same {
-        positive: bool,
-        left: Term,
-        right: Term,
-    },
-    /// An object that must be, or must not be, in a range.
-    OneOf {
-        positive: bool,
-        term: Term,
-        range: Arc<Range>,
-    },
-    /// A static atom that must not hold.
-    Absent {
-        predicate: PredicateId,
-        arguments: Box<[Term]>,
-    },
-    /// How `left - right` relates to 0, where no action changes either.
-    Compare {
-        relation: Relation,
-        left: Arc<Expression>,
-        right: Arc<Expression>,
-    },
-}
-
-impl Filter {
-    fn is_bound(&self, bound: &[bool]) -> bool {
-        match self {
-            Self::Same { left, right, .. } => is_bound(*left, bound) && is_bound(*right, bound),
-            Self::OneOf { term, .. } => is_bound(*term, bound),
-            Self::Absent { arguments, .. } => arguments.iter().all(|&t| is_bound(t, bound)),
-            Self::Compare { left, right, .. } => {
-                let mut all = true;
-                for side in [left, right] {
-                    side.each(&mut |part| {
-                        if let ExpressionKind::Fluent(application) = &part.kind {
-                            all &= application.arguments.iter().all(|&t| is_bound(t, bound));
-                        }
-                    });
-                }
-                all
-            }
-        }
-    }
-}
 
 /// One step of a join.
 #[derive(Clone, Debug)]
@@ -110,20 +60,13 @@ impl<'a> Statistics<'a> {
     }
 
     fn distinct(&mut self, predicate: PredicateId, positions: &[usize]) -> usize {
-        // Where the meter is over nobody asks for the number.
+        // Once the meter refuses, the stage ends and the number is not used.
         let (table, meter, atoms) = (self.table, self.meter, self.of_predicate.get(&predicate));
         *self.distinct.entry((predicate, positions.to_vec())).or_insert_with(|| {
             let atoms = atoms.into_iter().flatten().take_while(|_| meter.spend(64).is_ok());
             let rows = atoms.map(|&a| table.row(a));
             rows.map(|r| positions.iter().map(|&p| r[p]).collect()).collect::<FxHashSet<Vec<u32>>>().len()
         })
-    }
-}
-
-fn is_bound(term: Term, bound: &[bool]) -> bool {
-    match term {
-        Term::Variable(v) => bound[v.0 as usize],
-        Term::Object(_) => true,
     }
 }
 

@@ -12,7 +12,7 @@ use crate::number::Number;
 use pddl::Span;
 use pddl::model::{
     Application, ArithmeticOperator, AssignOperator, AssignedValue, Domain, Effect, EffectKind, Expression,
-    ExpressionKind, FunctionId, Metric, Objective, Problem, Term,
+    ExpressionKind, FunctionId, Metric, Objective, Problem,
 };
 use rustc_hash::FxHashMap;
 
@@ -103,22 +103,6 @@ impl CostModel {
 /// Where a metric's text is.
 pub(crate) fn metric_span(problem: &Problem) -> Span {
     problem.metric.as_ref().map_or(problem.goal_span, |metric| metric.expression.span)
-}
-
-pub(crate) fn resolve(term: Term, binding: &[u32]) -> u32 {
-    match term {
-        Term::Variable(v) => binding[v.0 as usize],
-        Term::Object(o) => o.0,
-    }
-}
-
-/// The smallest power of ten that makes all costs integers (up to six decimals).
-pub(crate) fn scale(costs: &[f64]) -> u32 {
-    (0..6)
-        .map(|k| 10_u32.pow(k))
-        .take_while(|&s| s == 1 || costs.iter().all(|c| c * f64::from(s) < f64::from(u32::MAX / 2)))
-        .find(|&s| costs.iter().all(|c| ((c * f64::from(s)) - (c * f64::from(s)).round()).abs() < 1e-6))
-        .unwrap_or(1)
 }
 
 struct WeightedSum {

@@ -1,0 +1,33 @@
+//! Variables bound to objects.
+//!
+//! A binding is a slice with one object number per slot of a schema.
+
+use crate::ground::normalise::Range;
+use pddl::model::{Term, VariableId};
+use std::sync::Arc;
+
+/// The object that a term stands for.
+pub(crate) fn resolve(term: Term, binding: &[u32]) -> u32 {
+    match term {
+        Term::Variable(v) => binding[v.0 as usize],
+        Term::Object(o) => o.0,
+    }
+}
+
+/// Calls `f` with each binding of these variables to objects of their ranges.
+pub(crate) fn each_binding(
+    vs: &[VariableId],
+    slots: &[Arc<Range>],
+    binding: &mut [u32],
+    f: &mut dyn FnMut(&mut [u32]),
+) {
+    match vs.split_first() {
+        None => f(binding),
+        Some((first, rest)) => {
+            for &object in &slots[first.0 as usize].objects {
+                binding[first.0 as usize] = object;
+                each_binding(rest, slots, binding, f);
+            }
+        }
+    }
+}

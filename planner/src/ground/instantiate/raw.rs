@@ -1,0 +1,124 @@
+//! The raw task: every instance of every schema, over atoms of the table, before pruning.
+
+use super::numbers::Numbers;
+use crate::ground::literal::Lit;
+use crate::ground::normalise::Formula;
+use crate::ids::id32;
+use crate::number::{Change, Expression};
+use crate::task::Rows;
+use pddl::model::{ActionId, Objective};
+
+/// Atoms that become true and false.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct RawEffects {
+    pub(crate) adds: Vec<u32>,
+    pub(crate) deletes: Vec<u32>,
+}
+
+/// An operator over atoms of the table.
+#[derive(Clone, Copy)]
+pub(crate) struct RawOperator<'r> {
+    pub(crate) action: ActionId,
+    pub(crate) arguments: &'r [u32],
+    pub(crate) precondition: &'r [Lit],
+    pub(crate) adds: &'r [u32],
+    pub(crate) deletes: &'r [u32],
+    /// Which of all conditional effects are its own.
+    pub(crate) conditional: (u32, u32),
+    pub(crate) cost: f64,
+    pub(crate) numbers: &'r [RawChange],
+}
+
+/// All operators, their parts behind each other: see `Operators`, which they become.
+#[derive(Default)]
+pub(crate) struct RawOperators {
+    pub(super) actions: Vec<ActionId>,
+    pub(super) arguments: Rows,
+    pub(crate) preconditions: Rows,
+    pub(super) adds: Rows,
+    pub(super) deletes: Rows,
+    pub(super) conditional_ends: Vec<u32>,
+    pub(super) conditions: Rows,
+    pub(super) conditional_adds: Rows,
+    pub(super) conditional_deletes: Rows,
+    pub(super) costs: Vec<f64>,
+    pub(super) number_ends: Vec<u32>,
+    pub(super) numbers: Vec<RawChange>,
+}
+
+/// An effect under a condition: that, what it adds and what it deletes.
+type RawConditional<'r> = (&'r [Lit], &'r [u32], &'r [u32]);
+
+impl RawOperators {
+    pub(crate) fn len(&self) -> usize {
+        self.actions.len()
+    }
+
+    pub(crate) fn get(&self, operator: u32) -> RawOperator<'_> {
+        let i = operator as usize;
+        let range = |ends: &[u32]| (if i == 0 { 0 } else { ends[i - 1] }, ends[i]);
+        let numbers = range(&self.number_ends);
+        RawOperator {
+            action: self.actions[i],
+            arguments: self.arguments.row(operator),
+            precondition: self.preconditions.row(operator),
+            adds: self.adds.row(operator),
+            deletes: self.deletes.row(operator),
+            conditional: range(&self.conditional_ends),
+            cost: self.costs[i],
+            numbers: &self.numbers[numbers.0 as usize..numbers.1 as usize],
+        }
+    }
+
+    pub(crate) fn iter(&self) -> impl Iterator<Item = RawOperator<'_>> {
+        (0..id32(self.len())).map(|i| self.get(i))
+    }
+
+    pub(crate) fn conditional<'r>(
+        &'r self,
+        of: &RawOperator<'_>,
+    ) -> impl ExactSizeIterator<Item = RawConditional<'r>> + Clone {
+        let (first, end) = of.conditional;
+        (first as usize..end as usize)
+            .map(id32)
+            .map(|i| (self.conditions.row(i), self.conditional_adds.row(i), self.conditional_deletes.row(i)))
+    }
+
+    /// Literals and changes of an operator, those under conditions with them.
+    pub(crate) fn size(&self, of: &RawOperator<'_>) -> usize {
+        let conditional: usize = self.conditional(of).map(|(c, a, d)| 4 + c.len() + a.len() + d.len()).sum();
+        of.precondition.len() + of.adds.len() + of.deletes.len() + conditional
+    }
+
+    /// Units of work to look at all of an operator once.
+    pub(crate) fn work(&self, of: &RawOperator<'_>) -> usize {
+        128 + 8 * self.size(of) + 256 * of.numbers.len()
+    }
+}
+
+/// The task before pruning.
+pub(crate) struct RawTask {
+    pub(crate) operators: RawOperators,
+    pub(crate) rules: Vec<(u32, Vec<Lit>)>,
+    pub(crate) goal: Vec<Lit>,
+    /// Whether some part of the goal folded to false.
+    pub(crate) refuted: Vec<Formula>,
+    /// Two atoms of the goal that never hold together.
+    pub(crate) exclusive: Option<(u32, u32)>,
+    /// Atoms of the table, then auxiliary ones.
+    pub(crate) atoms: u32,
+    /// Numeric fluents, and comparisons of them among the auxiliary atoms.
+    pub(crate) numbers: Numbers,
+    /// What plans are measured by, if that is no sum of costs.
+    pub(crate) metric: Option<(Objective, Expression<u32>)>,
+}
+
+/// A change of a numeric fluent.
+#[derive(Clone, Debug)]
+pub(crate) struct RawChange {
+    pub(crate) condition: Vec<Lit>,
+    pub(crate) fluent: u32,
+    pub(crate) change: Change,
+    /// `None` takes the value away.
+    pub(crate) value: Option<Expression<u32>>,
+}

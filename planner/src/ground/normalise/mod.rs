@@ -1,0 +1,89 @@
+//! The model in the form that the later stages read.
+//!
+//! Object fluents become predicates (`values`), conditions negation normal form (`formula`), actions and axioms
+//! schemas (`schema`), numeric fluents a table of what is constant (`fluents`), the metric costs of operators
+//! (`cost`). In: a domain and a problem that forward search supports. Out: [`Normalised`].
+
+mod cost;
+mod fluents;
+mod formula;
+mod schema;
+mod universe;
+mod values;
+
+pub(crate) use cost::{CostModel, Measure, NoCost, metric_span};
+pub(crate) use fluents::{Fluents, Key, STEPS};
+pub(crate) use formula::{Formula, Literal};
+pub(crate) use schema::{NumericEffects, Product, Schema, SchemaEffect};
+pub(crate) use universe::{Range, Universe};
+pub(crate) use values::compile;
+
+use super::error::{GroundError, Origin};
+use crate::task::ValuePredicates;
+use pddl::model::{Domain, EffectKind, Idx, PredicateId, Problem};
+use std::sync::Arc;
+
+/// A model without object fluents, in normal form.
+pub(crate) struct Normalised<'m> {
+    pub(crate) domain: &'m Domain,
+    pub(crate) problem: &'m Problem,
+    /// Predicates that the outside changes.
+    pub(crate) exogenous: &'m [PredicateId],
+    /// Which predicates stand for object fluents.
+    pub(crate) values: ValuePredicates,
+    /// By predicate: whether neither an action, an axiom nor the outside changes it.
+    pub(crate) is_static: Vec<bool>,
+    pub(crate) fluents: Fluents,
+    pub(crate) costs: CostModel,
+    /// Actions in their order, then rules of axioms.
+    pub(crate) schemas: Vec<Schema>,
+    pub(crate) goal: Formula,
+    pub(crate) goal_slots: Vec<Arc<Range>>,
+}
+
+/// Normalises a model without object fluents. `additive` says whether to try costs that are summed up.
+pub(crate) fn normalise<'m>(
+    domain: &'m Domain,
+    problem: &'m Problem,
+    exogenous: &'m [PredicateId],
+    values: ValuePredicates,
+    additive: bool,
+) -> Result<Normalised<'m>, GroundError> {
+    let mut fluents = Fluents::new(domain, problem)?;
+    let costs = CostModel::new(domain, problem, &fluents, additive);
+    if let Measure::Value(metric) = &costs.measure {
+        fluents.reads(&metric.expression, Origin::Problem)?;
+    }
+    let mut universe = Universe::new(domain, problem);
+    let schemas = schema::schemas(domain, &mut universe, &costs, &fluents)?;
+    let goal = Formula::of(&problem.goal, true, Origin::Problem, &mut universe)?;
+    let goal_slots = universe.slots(&problem.goal_variables);
+    let is_static = static_predicates(domain, exogenous);
+    Ok(Normalised {
+        domain,
+        problem,
+        exogenous,
+        values,
+        is_static,
+        fluents,
+        costs,
+        schemas,
+        goal,
+        goal_slots,
+    })
+}
+
+/// By predicate: whether nothing changes it.
+fn static_predicates(domain: &Domain, exogenous: &[PredicateId]) -> Vec<bool> {
+    let mut is_static = vec![true; domain.predicates.len()];
+    for action in &domain.actions {
+        action.effect.each(&mut |part| {
+            if let EffectKind::Add(atom) | EffectKind::Delete(atom) = &part.kind {
+                is_static[atom.predicate.index()] = false;
+            }
+        });
+    }
+    domain.axioms.iter().for_each(|a| is_static[a.predicate.index()] = false);
+    exogenous.iter().for_each(|p| is_static[p.index()] = false);
+    is_static
+}
