@@ -61,7 +61,7 @@ pub use search::{
     SearchConfiguration, Statistics, Threads, UnsolvableReason, Way, Width, improve, repair, solve,
 };
 pub use task::{
-    AtomStatus, AxiomRule, ConditionalEffect, ConditionalEffects, Fact, Goal, GroundAtom, Impossible,
+    AtomStatus, AxiomRule, ConditionalEffect, ConditionalEffects, Fact, Goal, GroundAtom, Impossible, Kernel,
     Literals, LiteralsRef, Mutexes, ObjectValue, Operator, Operators, State, Task, Variable,
 };
 pub use unsolvability::{

@@ -7,9 +7,8 @@
 //! Exact for operators without conditional or numeric effects and tasks without axioms; [`Monitor`](super::Monitor)
 //! simulates the others.
 
-use planner::{FactId, Goal, OperatorId, State, Task};
+use planner::{FactId, Goal, Kernel, OperatorId, State, Task};
 use rustc_hash::FxHashMap;
-use std::collections::BTreeMap;
 
 /// A fact with its sign.
 pub(super) type Literal = (FactId, bool);
@@ -23,34 +22,13 @@ pub(super) struct Kernels {
 }
 
 impl Kernels {
-    /// Whether regression is exact for this plan.
-    pub(super) fn can_regress(task: &Task, plan: &[OperatorId]) -> bool {
-        let regresses = |&o: &OperatorId| {
-            let operator = task.operator(o);
-            operator.conditional.is_empty() && !operator.changes_numbers()
-        };
-        task.axioms().is_empty() && plan.iter().all(regresses)
-    }
-
     /// Regresses `goal` through `plan`, and counts against `state`.
     pub(super) fn new(task: &Task, plan: &[OperatorId], goal: &Goal, state: &State) -> Self {
-        let mut kernel: BTreeMap<FactId, bool> = BTreeMap::new();
-        require(&mut kernel, goal.literals.as_ref());
-        let mut conditions = vec![kernel.iter().map(|(&f, &b)| (f, b)).collect::<Vec<_>>()];
-        for &operator in plan.iter().rev() {
-            let operator = task.operator(operator);
-            for fact in operator.adds {
-                if kernel.get(fact) == Some(&true) {
-                    kernel.remove(fact);
-                }
-            }
-            for fact in operator.deletes {
-                if kernel.get(fact) == Some(&false) {
-                    kernel.remove(fact);
-                }
-            }
-            require(&mut kernel, operator.precondition);
-            conditions.push(kernel.iter().map(|(&f, &b)| (f, b)).collect());
+        let mut kernel = Kernel::new(task, &goal.literals);
+        let mut conditions = vec![kernel.iter().collect::<Vec<_>>()];
+        for &step in plan.iter().rev() {
+            kernel.before(step);
+            conditions.push(kernel.iter().collect());
         }
         conditions.reverse();
         let mut mentions: FxHashMap<FactId, Vec<(usize, bool)>> = FxHashMap::default();
@@ -84,9 +62,4 @@ impl Kernels {
     pub(super) fn condition(&self, suffix: usize) -> &[Literal] {
         &self.conditions[suffix]
     }
-}
-
-fn require(kernel: &mut BTreeMap<FactId, bool>, literals: planner::LiteralsRef<'_>) {
-    kernel.extend(literals.positive.iter().map(|&f| (f, true)));
-    kernel.extend(literals.negative.iter().map(|&f| (f, false)));
 }

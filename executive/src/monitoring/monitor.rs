@@ -3,7 +3,7 @@
 use super::deviation::{BrokenLiteral, Deviation};
 use super::kernels::{Kernels, Literal};
 use crate::Model;
-use planner::{FactId, Goal, OperatorId, State, Task};
+use planner::{FactId, Goal, Kernel, OperatorId, State, Task};
 
 /// A plan, what of it still holds, and why not.
 #[derive(Clone, Debug)]
@@ -24,7 +24,7 @@ enum Method {
 impl Monitor {
     /// Watches `plan` for `goal`, starting from `state`.
     pub fn new(task: &Task, plan: Vec<OperatorId>, goal: Goal, state: &State) -> Self {
-        let method = if Kernels::can_regress(task, &plan) {
+        let method = if Kernel::is_exact(task, &plan) {
             Method::Regressed(Kernels::new(task, &plan, &goal, state))
         } else {
             Method::Simulated

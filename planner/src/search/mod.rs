@@ -24,7 +24,6 @@ mod order;
 mod outcome;
 mod portfolio;
 mod registry;
-mod regression;
 mod reordering;
 mod repair;
 mod searcher;

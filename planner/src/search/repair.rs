@@ -15,10 +15,9 @@
 
 use super::distance::Distance;
 use super::elimination::without_needless;
-use super::regression::Kernel;
 use super::{Limit, Outcome, Plan, Query, Report, SearchConfiguration, Statistics, solve};
 use crate::ids::OperatorId;
-use crate::task::{Goal, Literals, State, Task};
+use crate::task::{Goal, Kernel, Literals, State, Task};
 use budget::Budget;
 
 /// What decides between a repaired plan and a new one.

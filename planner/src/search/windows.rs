@@ -12,14 +12,13 @@
 
 use super::improving::counted;
 use super::lazy::{Lazy, LazySettings, Pruning};
-use super::regression::Kernel;
 use super::reordering::{Arrangement, arranged};
 use super::{
     Barred, Bound, Job, Order, Outcome, Plan, Query, SearchMeter, Searcher, Shared, Statistics, Turn,
 };
 use crate::heuristics::{Costs, HeuristicKind};
 use crate::ids::OperatorId;
-use crate::task::{Goal, Literals, State, Task};
+use crate::task::{Goal, Kernel, Literals, State, Task};
 use rustc_hash::{FxHashSet, FxHasher};
 use std::hash::{Hash, Hasher};
 
