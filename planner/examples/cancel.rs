@@ -9,6 +9,8 @@ mod files;
 use planner::{
     Budget, GroundOptions, Outcome, Preference, Query, SearchConfiguration, ground, improve, repair, solve,
 };
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::{Rng, SeedableRng};
 use rustix::time::{ClockId, clock_gettime};
 use std::time::Duration;
 
@@ -22,16 +24,15 @@ fn budget(interrupted: &(dyn Fn() -> bool + Sync)) -> Budget<'_> {
     Budget { interrupted, memory_bytes: Some(4 << 30), ..Budget::default() }
 }
 
-/// Random enough: a linear congruence.
+/// Random instants.
 struct Instants {
-    seed: u64,
+    random: Pcg64Mcg,
     clock: ClockId,
 }
 
 impl Instants {
     fn below(&mut self, most: Duration) -> Duration {
-        self.seed = self.seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        most.mul_f64(f64::from(u32::try_from(self.seed >> 32).unwrap_or(0)) / f64::from(u32::MAX))
+        most.mul_f64(f64::from(self.random.next_u32()) / f64::from(u32::MAX))
     }
 }
 
@@ -84,7 +85,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let task = ground(&domain, &problem, &GroundOptions::default())?;
     let whole = now(clock) - start;
     println!("{} facts, {} operators", task.facts().len(), task.operators().len());
-    let mut instants = Instants { seed: 2009, clock };
+    let mut instants = Instants { random: Pcg64Mcg::seed_from_u64(2009), clock };
     measure("ground", rounds, whole, &mut instants, |interrupted| {
         ground(
             &domain,

@@ -12,21 +12,19 @@ use planner::{
     Attempt, Budget, FactId, GroundOptions, Outcome, Query, Repair, SearchConfiguration, State, Task, ground,
     solve,
 };
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::{Rng, SeedableRng};
 use std::time::{Duration, Instant};
 
 /// A new plan is given up after so long.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// Steele, Lea & Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014.
-struct Dice(u64);
+/// Random numbers; the seed alone decides them.
+struct Dice(Pcg64Mcg);
 
 impl Dice {
     fn below(&mut self, sides: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        usize::try_from((z ^ (z >> 31)) % sides.max(1) as u64).unwrap_or(0)
+        usize::try_from(self.0.next_u64() % sides.max(1) as u64).unwrap_or(0)
     }
 }
 
@@ -91,7 +89,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         return Err("DOMAIN PROBLEM [ROUNDS] [SEED] [PREDICATE,...]".into());
     };
     let rounds: usize = rest.first().map_or(Ok(100), |text| text.parse())?;
-    let mut dice = Dice(rest.get(1).map_or(Ok(1), |text| text.parse())?);
+    let seed = rest.get(1).map_or(Ok(1), |text| text.parse())?;
+    let mut dice = Dice(Pcg64Mcg::seed_from_u64(seed));
     let (domain, problem) = files::read(domain, problem)?;
     let names =
         rest.get(2).map_or_else(Vec::new, |list| list.split(',').map(pddl::model::Name::new).collect());

@@ -6,11 +6,13 @@
 use hal::sim::{By, ClinicianScript, PatientScript, Reply, ReplyRule};
 use mission::{Mission, scenario};
 use pddl::model::{Name, ObjectId};
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::{Rng, SeedableRng};
 use std::time::Duration;
 
 /// The person's script.
 pub(super) fn patient(mission: &Mission, patient: &scenario::Patient, seed: u64) -> PatientScript {
-    let mut jitter = Jitter(seed);
+    let mut jitter = Jitter::new(seed);
     let (layers, questions) = (&mission.layers, questions(mission));
     let mut replies = Vec::new();
     for item in layers.items() {
@@ -65,22 +67,18 @@ fn reply(reply: &scenario::Reply, jitter: &mut Jitter) -> Reply {
     }
 }
 
-/// A small generator (splitmix64): Steele, Lea & Flood, "Fast splittable pseudorandom number generators",
-/// OOPSLA 2014.
-struct Jitter(u64);
+/// Varies delays by a seed; seed 0 changes nothing.
+struct Jitter(Option<Pcg64Mcg>);
 
 impl Jitter {
-    /// `delay` times a factor in 0.5..1.5; unchanged for seed 0.
+    fn new(seed: u64) -> Self {
+        Self((seed != 0).then(|| Pcg64Mcg::seed_from_u64(seed)))
+    }
+
+    /// `delay` times a factor in 0.5..1.5.
     fn vary(&mut self, delay: Duration) -> Duration {
-        if self.0 == 0 {
-            return delay;
-        }
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^= z >> 31;
-        let percent = u32::try_from(z % 101).expect("below 101") + 50;
+        let Some(random) = &mut self.0 else { return delay };
+        let percent = u32::try_from(random.next_u64() % 101).expect("below 101") + 50;
         delay * percent / 100
     }
 }
@@ -92,9 +90,9 @@ mod tests {
     #[test]
     fn seed_zero_changes_nothing_and_a_seed_repeats() {
         let delay = Duration::from_secs(2);
-        assert_eq!(Jitter(0).vary(delay), delay);
-        assert_eq!(Jitter(7).vary(delay), Jitter(7).vary(delay));
-        let varied = Jitter(7).vary(delay);
+        assert_eq!(Jitter::new(0).vary(delay), delay);
+        assert_eq!(Jitter::new(7).vary(delay), Jitter::new(7).vary(delay));
+        let varied = Jitter::new(7).vary(delay);
         assert!(varied >= delay / 2 && varied <= delay * 3 / 2);
     }
 }

@@ -1,21 +1,18 @@
 //! Dice that fall the same way for the same seed.
-//!
-//! Source: Steele, Lea & Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014.
 
-pub(crate) struct Dice(u64);
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::{Rng, SeedableRng};
+
+pub(crate) struct Dice(Pcg64Mcg);
 
 impl Dice {
     pub(crate) fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x5eed)
+        Self(Pcg64Mcg::seed_from_u64(seed))
     }
 
     /// A number below `sides`.
     pub(crate) fn roll(&mut self, sides: u64) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (z ^ (z >> 31)) % sides
+        self.0.next_u64() % sides
     }
 
     pub(crate) fn chance(&mut self, percent: u64) -> bool {

@@ -1,23 +1,21 @@
 //! Small task networks made at random, as data and as text, and what the definition says of them.
 
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::{Rng, SeedableRng};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-/// A source of numbers (SplitMix64), so that a seed says everything.
-pub(crate) struct Chance(u64);
+/// Random numbers; the seed alone decides them.
+pub(crate) struct Chance(Pcg64Mcg);
 
 impl Chance {
     pub(crate) fn new(seed: u64) -> Self {
-        Self(seed)
+        Self(Pcg64Mcg::seed_from_u64(seed))
     }
 
     /// A number below `n`.
     pub(crate) fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        usize::try_from((z ^ (z >> 31)) % (n as u64)).unwrap()
+        usize::try_from(self.0.next_u64() % (n as u64)).unwrap()
     }
 }
 
