@@ -4,13 +4,12 @@ use crate::Operation;
 
 /// The clinician's console.
 pub trait Clinic: Send + Sync {
-    /// Calls a clinician; done when one has come and seen to it. Dropped, the call is withdrawn.
+    /// Calls a clinician; done when one has come and attended to the need. Dropping the operation withdraws the call.
     fn call<'a>(&'a self, need: &'a str) -> Operation<'a, ()>;
 
-    /// Waits for a command. The last command counts: pressing another one before the first was taken replaces
-    /// it.
+    /// Waits for a command. Only the last command counts: another one replaces a command that no operation has taken.
     fn next_command<'a>(&'a self, name: &'a str) -> Operation<'a, ()>;
 
-    /// Hands a report over; done when it was acknowledged.
+    /// Delivers a report; done when the console has acknowledged it.
     fn deliver<'a>(&'a self, report: &'a serde_json::Value) -> Operation<'a, ()>;
 }

@@ -1,8 +1,8 @@
-//! What every back end must do, as one suite that all of them run.
+//! The suite that every back end must pass.
 //!
-//! A [`Rig`] is a back end with somebody, or something, that plays the person and the clinician; on real
-//! hardware that is a test bench or a patient engineer. Each [`Case`] is independent of the others and leaves
-//! the rig as it found it. A test of a back end is a loop over [`CASES`], each on a fresh rig.
+//! A [`Rig`] is a back end together with a player of the person and the clinician. On real hardware the player is a test
+//! bench or a patient engineer. Each [`Case`] is independent of the others and leaves the rig as it found it. The test of
+//! a back end is a loop over [`CASES`], each on a fresh rig.
 //!
 //! ```
 //! # async fn check() {
@@ -26,14 +26,14 @@ pub trait Rig: Send + Sync {
     /// Its devices.
     fn devices(&self) -> Devices;
 
-    /// After how long an operation that should end counts as stuck.
+    /// How long the suite waits for an operation that should end.
     fn patience(&self) -> Duration;
 
     /// Makes something happen around the robot.
     fn stimulate(&self, stimulus: Stimulus<'_>);
 }
 
-/// Something that happens around the robot.
+/// An event around the robot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the variants say it")]
 pub enum Stimulus<'a> {
@@ -49,7 +49,7 @@ pub enum Stimulus<'a> {
     PlugIn(Device),
 }
 
-/// What a back end did wrong.
+/// A mistake of a back end.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Violation {
     /// An operation did not end.
@@ -57,10 +57,10 @@ pub enum Violation {
     Stuck {
         /// Which.
         operation: &'static str,
-        /// How long it was waited for.
+        /// How long the suite waited.
         after: Duration,
     },
-    /// An operation ended where it should wait.
+    /// An operation ended that should have waited.
     #[error("{operation} ended before its cause")]
     Hasty {
         /// Which.
@@ -94,7 +94,7 @@ pub enum Violation {
 
 type Verdict<'a> = Pin<Box<dyn Future<Output = Result<(), Violation>> + Send + 'a>>;
 
-/// One thing that every back end must do.
+/// One requirement on every back end.
 #[derive(Clone, Copy)]
 pub struct Case {
     /// Its name.
@@ -103,7 +103,7 @@ pub struct Case {
 }
 
 impl Case {
-    /// Runs it. The person must be in view, and nothing else going on.
+    /// Runs it. The person must be in view, and no operation may be under way.
     pub async fn run(&self, rig: &dyn Rig) -> Result<(), Violation> {
         (self.run)(rig).await
     }
@@ -148,7 +148,7 @@ async fn fails<T>(rig: &dyn Rig, operation: &'static str, work: Operation<'_, T>
     }
 }
 
-/// Not over within a tenth of the rig's patience.
+/// Checks that the operation does not end within a tenth of the rig's patience.
 async fn waits<T>(
     rig: &dyn Rig,
     operation: &'static str,
@@ -286,15 +286,15 @@ async fn a_report_is_acknowledged(rig: &dyn Rig) -> Result<(), Violation> {
 async fn an_unplugged_device_fails_and_recovers(rig: &dyn Rig) -> Result<(), Violation> {
     let out = rig.devices().speech_out;
     rig.stimulate(Stimulus::Unplug(Device::SpeechOut));
-    fails(rig, "say", out.say("Nobody hears this.", "en")).await?;
+    fails(rig, "say", out.say("This is not heard.", "en")).await?;
     rig.stimulate(Stimulus::PlugIn(Device::SpeechOut));
-    ends(rig, "say", out.say("Now you do.", "en")).await
+    ends(rig, "say", out.say("This is heard.", "en")).await
 }
 
 async fn unplugging_fails_what_is_under_way(rig: &dyn Rig) -> Result<(), Violation> {
     let devices = rig.devices();
     let (asked, report) = (question(), serde_json::Value::Null);
-    // Each device at something that would not end by itself.
+    // An operation of each device that would not end by itself.
     let mut operations: Vec<(Device, &'static str, Operation<'_, ()>)> = vec![
         (Device::SpeechIn, "spot", devices.speech_in.spot(&asked)),
         (Device::Screen, "next_shown", drop_result(devices.screen.next_shown())),

@@ -1,4 +1,4 @@
-//! Which devices there are, and how they fail.
+//! The devices of a robot, and how they fail.
 
 use std::fmt;
 use std::time::Duration;
@@ -13,11 +13,11 @@ pub enum Device {
     SpeechOut,
     /// Speech recognition.
     SpeechIn,
-    /// What shows pages.
+    /// The touchscreen's display.
     Screen,
-    /// What is touched.
+    /// The touchscreen's touch input.
     Buttons,
-    /// Who is in view.
+    /// The tracker of upper bodies.
     Skeleton,
     /// The clinician's console.
     Clinic,
@@ -42,24 +42,24 @@ impl fmt::Display for Device {
     }
 }
 
-/// Why a device did not do what it was asked.
+/// Why an operation of a device failed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum DeviceError {
-    /// It is not there, or no longer.
+    /// The device is not connected, or no longer.
     #[error("{device} is disconnected")]
     Disconnected {
         /// Which one.
         device: Device,
     },
-    /// It did not answer in time.
+    /// The device did not answer in time.
     #[error("{device} did not answer within {after:?}")]
     Timeout {
         /// Which one.
         device: Device,
-        /// How long it was waited for.
+        /// How long the caller waited.
         after: Duration,
     },
-    /// It answered that it cannot do this.
+    /// The device rejected the request.
     #[error("{device} refused: {reason}")]
     Refused {
         /// Which one.

@@ -1,9 +1,8 @@
 //! Hardware abstraction: one trait per capability, and simulated devices.
 //!
-//! Problem: what a robot does must not depend on whose loudspeaker, ear or screen it has. Idea: a capability
-//! is a trait of asynchronous [`Operation`]s; a back end implements it; [`conformance`] is the one suite that
-//! every back end must pass. The first back end is [`sim`]: a room with a simulated person, clinician and
-//! devices.
+//! Problem: what a robot does must not depend on the make of its loudspeaker, microphone or screen. Idea: a capability is
+//! a trait of asynchronous [`Operation`]s, and a back end implements it. Every back end must pass one suite,
+//! [`conformance`]. The first back end is [`sim`]: a room with a simulated person, clinician and devices.
 //!
 //! ```
 //! use hal::sim::{ClinicianScript, PatientScript, SimRoom};
@@ -18,8 +17,8 @@
 //! });
 //! ```
 //!
-//! **Invariant:** this crate creates no runtime, spawns no task and reads no clock but tokio's; with that
-//! clock paused, simulated time runs as fast as the machine and the same script gives the same events.
+//! **Invariant:** this crate creates no runtime, spawns no task and reads no clock but tokio's. While that clock is
+//! paused, simulated time runs as fast as the machine, and the same script gives the same events.
 //!
 //! | module | holds |
 //! |---|---|

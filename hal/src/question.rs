@@ -1,28 +1,28 @@
-//! What a person is asked: the grammar of an ear, the buttons of a touchscreen.
+//! Questions to a person: the grammar of speech recognition, the buttons of a touchscreen.
 
 use serde::{Deserialize, Serialize};
 
-/// One of the things that a person may say or touch.
+/// An answer that a person may say or touch.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Phrase {
-    /// How the device reports it.
+    /// The name under which the device reports it.
     pub id: String,
-    /// How it sounds or reads.
+    /// The spoken or written words.
     pub words: String,
 }
 
-/// A question with the answers that a device shall recognise.
+/// A question with the answers that a device must recognise.
 ///
-/// `topic` and `name` mean nothing to a device; they let a log, or a simulated person, tell one question from
-/// another. A question that is put again after an interruption has the same topic and name.
+/// A device ignores `topic` and `name`. A log and the simulated person use them to distinguish questions. A question that
+/// is asked again after an interruption has the same topic and name.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Question {
-    /// What it is about.
+    /// Its topic.
     pub topic: String,
-    /// Which of the questions about it; empty where there is one only.
+    /// Its name among the questions about the topic; empty if the topic has one question.
     pub name: String,
     /// The language of the phrases, as in `en`.
     pub language: String,
-    /// What may be answered.
+    /// The possible answers.
     pub options: Vec<Phrase>,
 }

@@ -1,22 +1,22 @@
-//! The touchscreen: what it shows, what it reports to be showing, what is touched.
+//! The touchscreen: the pages that it shows, its own reports of them, and touches.
 //!
-//! That a page was sent is not that it stands on the screen: [`Screen::next_shown`] is the screen's own
-//! report, independent of what [`Screen::show`] claims.
+//! A page that was sent need not be on the screen. [`Screen::next_shown`] is the screen's own report, independent of the
+//! result of [`Screen::show`].
 
 use serde::{Deserialize, Serialize};
 
 use crate::{Operation, Phrase, Question};
 
-/// Identifies a page. Means nothing to the screen, which reports it back.
+/// The identity of a page. The screen does not interpret it, and reports it back.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct PageId {
-    /// What it is about.
+    /// Its topic.
     pub topic: String,
-    /// Which of the pages about it.
+    /// Its name among the pages about the topic.
     pub name: String,
 }
 
-/// What a screen shows.
+/// A page on the screen.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Page {
     /// Its identity.
@@ -25,25 +25,25 @@ pub struct Page {
     pub title: String,
     /// The text.
     pub text: String,
-    /// What may be touched.
+    /// The options that the person can touch.
     pub options: Vec<Phrase>,
 }
 
 /// A screen.
 pub trait Screen: Send + Sync {
-    /// Replaces what is shown; done when the screen has taken it.
+    /// Replaces the page; done when the screen has accepted the new one.
     fn show<'a>(&'a self, page: &'a Page) -> Operation<'a, ()>;
 
-    /// Shows nothing.
+    /// Clears the screen.
     fn clear(&self) -> Operation<'_, ()>;
 
-    /// The next page that the screen reports as standing there. Reports wait for their reader, so that none
-    /// is lost between two calls; one reader at a time.
+    /// The next page that the screen reports to show. Reports are queued, so that none is lost between two calls. Only
+    /// one caller may wait at a time.
     fn next_shown(&self) -> Operation<'_, PageId>;
 }
 
-/// What is touched.
+/// The touch input of a screen.
 pub trait Buttons: Send + Sync {
-    /// Waits until one of the question's options is touched; its id.
+    /// Waits until the person touches one of the question's options. Returns its id.
     fn next_touch<'a>(&'a self, question: &'a Question) -> Operation<'a, String>;
 }

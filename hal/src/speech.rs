@@ -1,4 +1,4 @@
-//! Speech: a loudspeaker that says text, an ear that recognises phrases.
+//! Speech: a loudspeaker that says text, and a microphone whose recogniser knows phrases.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,26 +6,26 @@ use crate::{Operation, Question};
 
 /// Text to speech.
 pub trait SpeechOut: Send + Sync {
-    /// Says `text`; done when the last word has been said. Dropped, it falls silent at once.
+    /// Says `text`; done when the last word has been said. Dropping the operation silences the loudspeaker at once.
     fn say<'a>(&'a self, text: &'a str, language: &'a str) -> Operation<'a, ()>;
 }
 
-/// What an ear made of what was said.
+/// The result of speech recognition.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Heard {
-    /// The phrase of this id.
+    /// A phrase, by its id.
     Phrase(String),
-    /// Something that is none of the phrases, as far as it was understood.
+    /// Other words, as far as the recogniser understood them.
     NotUnderstood(String),
 }
 
 /// Speech recognition. Several operations may listen at once.
 pub trait SpeechIn: Send + Sync {
-    /// Waits until somebody says something, and holds it against the question's phrases.
+    /// Waits until the person speaks, and compares their words with the question's phrases.
     fn listen<'a>(&'a self, question: &'a Question) -> Operation<'a, Heard>;
 
-    /// Waits until somebody says one of the phrases, whatever else is said. The question's topic names what
-    /// is wanted.
+    /// Waits until the person says one of the phrases, and ignores all other words. The question's topic names the
+    /// request.
     fn spot<'a>(&'a self, request: &'a Question) -> Operation<'a, ()>;
 }

@@ -1,4 +1,4 @@
-//! What happens in the simulated room, by its own record.
+//! Events of the simulated room, by its own record.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use std::time::Duration;
@@ -111,7 +111,7 @@ async fn a_touch_needs_the_option_on_the_screen() {
 }
 
 #[tokio::test(start_paused = true)]
-async fn nobody_answers_out_of_view() {
+async fn a_person_out_of_view_does_not_answer() {
     let room = room("");
     let devices = room.devices();
     devices.speech_out.say("Well?", "en").await.unwrap();

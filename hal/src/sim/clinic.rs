@@ -1,4 +1,4 @@
-//! The clinician: comes when called, or not; presses commands; takes the report.
+//! The clinician: comes when called, or does not come; presses commands; receives the report.
 
 use std::time::Duration;
 

@@ -1,4 +1,4 @@
-//! Speech in: what the person says, while they are in view and a device listens.
+//! Speech in: the person speaks while they are in view and a device listens.
 
 use tokio::time::Instant;
 
@@ -65,7 +65,7 @@ impl Activity<Heard> for Listening<'_> {
     }
 }
 
-/// What is said aloud, and what an ear makes of it; `None` for a reply that is not spoken.
+/// The words of a spoken reply, and what the recogniser reports; `None` for a reply that is not spoken.
 fn spoken(state: &State, reply: &Reply, options: &[Phrase]) -> Option<(String, Heard)> {
     match reply {
         Reply::Silent => None,

@@ -1,4 +1,4 @@
-//! What can be heard and seen in the room: the record of a simulation, and the dialogue on a terminal.
+//! What a witness can hear and see in the room: the record of a simulation, and the dialogue on a terminal.
 
 use std::time::Duration;
 
@@ -6,16 +6,16 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Device, Page};
 
-/// Something that can be heard or seen.
+/// An event that a witness can hear or see.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "event", rename_all = "snake_case")]
 #[expect(missing_docs, reason = "the fields are the terms of the variant")]
 pub enum RoomEvent {
     /// The robot begins a sentence.
     RobotSays { text: String },
-    /// The robot falls silent within a sentence.
+    /// The robot stops within a sentence.
     RobotStops { said: String },
-    /// A page stands on the screen.
+    /// The screen shows a page.
     ScreenShows { page: Page },
     /// The screen is empty.
     ScreenClears,
@@ -33,15 +33,15 @@ pub enum RoomEvent {
     PersonReturns,
     /// The robot calls the clinician.
     ClinicianCalled { need: String },
-    /// The robot takes its call back.
+    /// The robot withdraws its call.
     CallWithdrawn { need: String },
     /// The clinician enters.
     ClinicianArrives { need: String },
-    /// The clinician has seen to it, and goes.
+    /// The clinician has attended to the need, and goes.
     ClinicianGoes { need: String },
     /// The clinician presses a command.
     ClinicianCommands { command: String },
-    /// The clinician has the report.
+    /// The clinician receives the report.
     ReportDelivered { report: serde_json::Value },
     /// A device fails from now on.
     DeviceFails { device: Device },
@@ -56,7 +56,7 @@ pub enum RoomEvent {
 pub struct Moment {
     /// Since the simulation started.
     pub at: Duration,
-    /// What happened.
+    /// The event.
     #[serde(flatten)]
     pub event: RoomEvent,
 }

@@ -11,7 +11,7 @@ use super::waiting::{Activity, Step};
 use crate::{Device, DeviceError, Operation, SpeechOut};
 
 /// Two and a half words a second: slow, for old ears.
-pub const SECONDS_PER_WORD: f64 = 0.4;
+const SECONDS_PER_WORD: f64 = 0.4;
 
 impl SpeechOut for SimRoom {
     fn say<'a>(&'a self, text: &'a str, _language: &'a str) -> Operation<'a, ()> {
@@ -21,9 +21,9 @@ impl SpeechOut for SimRoom {
 
 struct Saying<'a> {
     text: &'a str,
-    /// When it began; `None` while another sentence is being said.
+    /// When it began; `None` while the robot says another sentence.
     since: Option<Instant>,
-    /// Whether it can be heard.
+    /// Whether the person can hear it.
     aloud: bool,
 }
 

@@ -1,16 +1,16 @@
 //! The simulated room: a person, a clinician and devices on tokio's clock.
 //!
-//! Problem: a mission must be played, thousands of times and in every disruption, without a patient. Idea: one
-//! state behind a shared handle; each device operation is a small step function over that state which is done,
-//! or waits for an instant, or for the room to change. Nothing is spawned: what happens in the room happens
-//! when a device operation is polled, and what nobody can perceive does not happen.
+//! Problem: a mission must be run thousands of times, with every disruption, without a patient. Idea: one state behind a
+//! shared handle. Each device operation is a small step function over that state; it is done, or waits for an instant, or
+//! waits for the room to change. The room spawns no task: it advances only when a device operation is polled, so that an
+//! event happens only if an operation can perceive it.
 //!
-//! The person knows only what a person would: they answer what they have been asked (a sentence heard to its
-//! end, or a page seen, since the last question), while they are in view, by voice, or by touch if the screen
-//! offers the option.
+//! The person knows only what a real person would know. They answer a question after they have heard a sentence to its
+//! end or seen a page since the previous question, and only while they are in view. They answer by voice, or by touch if
+//! the screen offers the option.
 //!
-//! Invariant: the same scripts and the same calls at the same times give the same [`Moment`]s; wakers are
-//! kept in the order of registration, and nothing is random.
+//! Invariant: the same scripts and the same calls at the same times give the same [`Moment`]s. Wakers are kept in the
+//! order of registration, and nothing is random.
 
 mod clinic;
 mod ear;
@@ -25,7 +25,5 @@ mod touchscreen;
 mod waiting;
 
 pub use event::{Moment, RoomEvent};
-pub use loudspeaker::SECONDS_PER_WORD;
-pub use presence::{SECONDS_TO_LOSE, SECONDS_TO_SEE};
 pub use room::SimRoom;
 pub use script::{By, ClinicianScript, PatientScript, Reply, ReplyRule};

@@ -1,4 +1,4 @@
-//! The skeleton tracker: sure of a person after some frames, sure of a loss after some more.
+//! The skeleton tracker, with hysteresis: it reports a person, or their loss, after some frames.
 
 use tokio::time::Instant;
 
@@ -8,9 +8,9 @@ use super::waiting::Step;
 use crate::{Device, DeviceError, Operation, Pose, Skeleton};
 
 /// How long a person must be in view to count as seen.
-pub const SECONDS_TO_SEE: f64 = 0.3;
+const SECONDS_TO_SEE: f64 = 0.3;
 /// How long a person must be out of view to count as lost.
-pub const SECONDS_TO_LOSE: f64 = 0.3;
+const SECONDS_TO_LOSE: f64 = 0.3;
 
 impl Skeleton for SimRoom {
     fn await_person(&self) -> Operation<'_, Pose> {
@@ -25,7 +25,7 @@ impl Skeleton for SimRoom {
     }
 }
 
-/// Done once the view has been so for long enough.
+/// Done once the person has been in view, or out of view, for long enough.
 fn sure<T>(
     state: &State,
     now: Instant,

@@ -1,4 +1,4 @@
-//! The handle of a simulated room: what a scenario's director may do to it.
+//! The handle of a simulated room, with the actions of a scenario's director.
 
 use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -20,7 +20,7 @@ pub struct SimRoom {
 
 struct Inner {
     state: Mutex<State>,
-    /// Whoever watches, and how many moments they have been told.
+    /// The observers, and the number of moments that they have received.
     observers: Mutex<(Vec<Observer>, usize)>,
 }
 
@@ -55,7 +55,7 @@ impl SimRoom {
         lock(&self.inner.observers).0.push(Box::new(observer));
     }
 
-    /// Everything that has happened.
+    /// Every moment so far.
     pub fn moments(&self) -> Vec<Moment> {
         lock(&self.inner.state).moments.clone()
     }
@@ -80,8 +80,8 @@ impl SimRoom {
         self.change(|state, now| state.set_view(true, now, RoomEvent::PersonReturns));
     }
 
-    /// The person asks for something, again and again until an ear that waits for it hears it while they are
-    /// in view.
+    /// The person asks for something, again and again, until a device that listens for it hears it while they are in
+    /// view.
     pub fn ask(&self, request: &str) {
         self.change(|state, _| {
             state.requests.push_back(request.to_owned());
@@ -97,26 +97,26 @@ impl SimRoom {
         });
     }
 
-    /// The clinician comes to the call that is open, or to the next one, at once.
-    pub fn clinician_comes(&self) {
+    /// The clinician comes at once, to the open call or to the next one.
+    pub(super) fn clinician_comes(&self) {
         self.change(|state, _| {
             state.clinician_comes_now = true;
             state.changed = true;
         });
     }
 
-    /// From now on the person replies so to the questions about a topic.
-    pub fn will_reply(&self, topic: &str, reply: Reply) {
+    /// From now on the person gives this reply to every question about the topic.
+    pub(super) fn will_reply(&self, topic: &str, reply: Reply) {
         let rule = ReplyRule { topic: topic.to_owned(), question: None, reply };
         self.change(|state, _| state.patient.replies.insert(0, rule));
     }
 
-    /// From now on the device fails; what it is doing fails at once.
+    /// From now on the device fails. Its present operations fail at once.
     pub fn fail(&self, device: Device) {
         self.behave(device, Behaviour::Fails, RoomEvent::DeviceFails { device });
     }
 
-    /// From now on the device claims success and does nothing. A sensor senses nothing.
+    /// From now on the device reports success and does nothing. A sensor senses nothing.
     pub fn lie(&self, device: Device) {
         self.behave(device, Behaviour::Lies, RoomEvent::DeviceLies { device });
     }
@@ -133,7 +133,7 @@ impl SimRoom {
         });
     }
 
-    /// Runs `edit` on the state; then, without the lock, wakes who waits and tells who watches.
+    /// Runs `edit` on the state. Then, without the lock, notifies the observers and wakes the waiting operations.
     pub(super) fn change<R>(&self, edit: impl FnOnce(&mut State, Instant) -> R) -> R {
         let (result, wakers, grown) = {
             let mut state = lock(&self.inner.state);
@@ -147,7 +147,7 @@ impl SimRoom {
             (result, wakers, state.moments.len() > before)
         };
         if grown {
-            self.tell();
+            self.notify();
         }
         for waker in wakers.into_values() {
             waker.wake();
@@ -155,11 +155,11 @@ impl SimRoom {
         result
     }
 
-    fn tell(&self) {
-        let mut watching = lock(&self.inner.observers);
-        let (observers, told) = &mut *watching;
-        let news = lock(&self.inner.state).moments[*told..].to_vec();
-        *told += news.len();
+    fn notify(&self) {
+        let mut guard = lock(&self.inner.observers);
+        let (observers, received) = &mut *guard;
+        let news = lock(&self.inner.state).moments[*received..].to_vec();
+        *received += news.len();
         for moment in &news {
             for observer in &mut *observers {
                 observer(moment);
@@ -168,7 +168,7 @@ impl SimRoom {
     }
 }
 
-/// A panic elsewhere does not make the room's state worse than it is.
+/// Locks a mutex. A panic of another holder leaves the state consistent, so poisoning is ignored.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,4 +1,4 @@
-//! What the simulated person and clinician will do: plain data, as a scenario file gives it.
+//! The scripts of the simulated person and clinician: plain data, from a scenario file.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,20 +6,20 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum By {
-    /// Said aloud; touched where only the screen takes the answer and offers it.
+    /// Said aloud; touched if only the screen accepts the answer and offers the option.
     #[default]
     Voice,
-    /// Touched where the screen offers it, otherwise said aloud.
+    /// Touched if the screen offers the option, otherwise said aloud.
     Touch,
 }
 
-/// What the person does when asked.
+/// The person's reply to a question.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Reply {
     /// Chooses an option.
     Answer {
-        /// Which, counted from 0 in the order in which the question lists them; past the end: the last.
+        /// Its number, from 0, in the order of the question's options. A number past the end is the last option.
         option: usize,
         /// Seconds from when a device begins to wait for the answer.
         #[serde(default = "two_seconds")]
@@ -28,7 +28,7 @@ pub enum Reply {
         #[serde(default)]
         by: By,
     },
-    /// Says something that is no option.
+    /// Says words that are not an option.
     Misheard {
         /// What.
         words: String,
@@ -59,13 +59,13 @@ fn two_seconds() -> f64 {
     2.0
 }
 
-/// An exception to what the person does otherwise.
+/// An exception to the person's usual reply.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReplyRule {
     /// For questions about this topic.
     pub topic: String,
-    /// For the question of this name; `None`: for every question about the topic.
+    /// For the question of this name; `None` for every question about the topic.
     #[serde(default)]
     pub question: Option<String>,
     /// The reply.
@@ -78,11 +78,11 @@ pub struct ReplyRule {
 pub struct PatientScript {
     /// Whether they are in view when the simulation starts.
     pub in_view: bool,
-    /// Where they are then and whenever they are in view: metres in the frame of the world.
+    /// Their position whenever they are in view: metres in the frame of the world.
     pub position: [f64; 3],
-    /// The exceptions; one for the very question goes before one for its topic, then the first goes.
+    /// The exceptions. One for a question precedes one for its topic; among several, the first applies.
     pub replies: Vec<ReplyRule>,
-    /// The reply where there is no exception.
+    /// The reply without an exception.
     pub otherwise: Reply,
 }
 
@@ -109,9 +109,9 @@ impl Default for PatientScript {
 pub struct ClinicianScript {
     /// Whether they come when called.
     pub comes: bool,
-    /// How many seconds after the call.
+    /// How many seconds after the call they come.
     pub after: f64,
-    /// For how many seconds they stay; then the call is over.
+    /// How many seconds they stay; then the call is finished.
     pub stays: f64,
     /// Whether they bring a person who is out of view back in front of the robot.
     pub fetches: bool,

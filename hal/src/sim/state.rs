@@ -19,21 +19,21 @@ pub(super) enum Behaviour {
     Lies,
 }
 
-/// A question that the person may answer now: at least one device waits for the answer.
+/// A question that the person can answer now: at least one device waits for the answer.
 #[derive(Debug)]
 pub(super) struct Window {
     pub(super) topic: String,
     pub(super) name: String,
     pub(super) opened: Instant,
     pub(super) reply: Reply,
-    /// The reply was given; there is no second one.
+    /// Whether the person has replied; they reply once.
     pub(super) answered: bool,
-    /// Whether the person was asked this before, as in a question put again after an interruption.
+    /// Whether the person was asked this question before, as after an interruption.
     asked_before: bool,
-    /// What the person had perceived when the last window opened.
+    /// The number of percepts when the previous window closed.
     perceived_before: u64,
     devices: usize,
-    /// How many of the devices are ears.
+    /// How many of the devices are microphones.
     ears: usize,
 }
 
@@ -42,7 +42,7 @@ impl Window {
         self.topic == question.topic && (self.name == question.name || question.name.is_empty())
     }
 
-    /// Whether the person knows that they are being asked.
+    /// Whether the person knows of the question.
     fn asked(&self, perceived: u64) -> bool {
         self.asked_before || perceived > self.perceived_before
     }
@@ -57,24 +57,24 @@ pub(super) struct State {
     /// When `in_view` last changed.
     pub(super) view_changed: Instant,
     pub(super) behaviour: BTreeMap<Device, Behaviour>,
-    /// Whether a sentence is being said.
+    /// Whether the robot is speaking.
     pub(super) speaking: bool,
     pub(super) displayed: Option<Page>,
-    /// Pages that the screen has shown and not yet reported.
+    /// Pages that the screen has shown and has not yet reported.
     pub(super) unreported: VecDeque<PageId>,
-    /// How many sentences and pages have reached the person.
+    /// How many sentences and pages the person has perceived.
     perceived: u64,
     perceived_at_last_window: u64,
     pub(super) window: Option<Window>,
     asked: BTreeSet<(String, String)>,
-    /// What the person is asking for and no ear has caught yet.
+    /// Requests of the person that no device has heard yet.
     pub(super) requests: VecDeque<String>,
-    /// The last command that was pressed and not yet taken.
+    /// The last command, if no operation has taken it.
     pub(super) pressed: Option<String>,
-    /// Calls that shall be attended to at once.
+    /// Whether the clinician comes to the next call at once.
     pub(super) clinician_comes_now: bool,
     pub(super) moments: Vec<Moment>,
-    /// Something changed that a waiting operation may be waiting for.
+    /// Whether a change may concern a waiting operation.
     pub(super) changed: bool,
     pub(super) wakers: BTreeMap<u64, Waker>,
     next_waker: u64,
@@ -111,7 +111,7 @@ impl State {
         self.changed = true;
     }
 
-    /// Keeps a waker under the number that its operation holds, or under a new one.
+    /// Stores a waker under the number of its operation, or under a new number.
     pub(super) fn keep_waker(&mut self, held: Option<u64>, waker: Waker) -> u64 {
         let id = held.unwrap_or(self.next_waker);
         self.next_waker = self.next_waker.max(id + 1);
@@ -135,7 +135,7 @@ impl State {
         self.behaviour(device) == Behaviour::Works
     }
 
-    /// A sentence was said to its end, or a page came up.
+    /// The person perceives a finished sentence or a new page, if they are in view.
     pub(super) fn perceive(&mut self) {
         if self.in_view {
             self.perceived += 1;
@@ -147,7 +147,7 @@ impl State {
         if self.in_view != in_view {
             self.in_view = in_view;
             self.view_changed = now;
-            // What stands on the screen is seen by whoever comes back to it.
+            // A person who comes back sees the page on the screen.
             if in_view && self.displayed.is_some() {
                 self.perceive();
             }
@@ -155,7 +155,7 @@ impl State {
         self.happens(now, event);
     }
 
-    /// A device begins to wait for an answer: to the question that is open, if it is the same, or to another.
+    /// A device begins to wait for an answer. Another question than the open one replaces it.
     pub(super) fn open(&mut self, question: &Question, by: By, now: Instant) {
         let ears = usize::from(by == By::Voice);
         if let Some(window) = self.window_of(question) {
@@ -177,12 +177,12 @@ impl State {
         });
     }
 
-    /// The open window, if it is this question's. A question without a name is any about its topic.
+    /// The open window, if it belongs to this question. A question without a name matches every question of its topic.
     fn window_of(&mut self, question: &Question) -> Option<&mut Window> {
         self.window.as_mut().filter(|window| window.is_of(question))
     }
 
-    /// A device no longer waits for an answer.
+    /// A device stops waiting for an answer.
     pub(super) fn close(&mut self, question: &Question, by: By) {
         let perceived = self.perceived;
         let Some(window) = self.window_of(question) else { return };
@@ -197,7 +197,7 @@ impl State {
         self.window = None;
     }
 
-    /// When the person replies to the open question, and how; `None` while they do not.
+    /// When and how the person replies to the open question; `None` if they do not reply now.
     pub(super) fn reply(&self, question: &Question) -> Option<(Instant, Reply)> {
         let window = self.window.as_ref().filter(|window| window.is_of(question))?;
         if window.answered || !self.in_view || !window.asked(self.perceived) {
@@ -207,7 +207,7 @@ impl State {
         Some((from + seconds(window.reply.delay()?), window.reply.clone()))
     }
 
-    /// Whether somebody listens for the answer.
+    /// Whether a device listens for the answer.
     pub(super) fn is_listened_for(&self, question: &Question) -> bool {
         self.window.as_ref().is_some_and(|window| window.is_of(question) && window.ears > 0)
     }
@@ -218,7 +218,7 @@ impl State {
         }
     }
 
-    /// Whether the screen offers this option for a touch.
+    /// Whether the person can touch this option on the screen.
     pub(super) fn offers(&self, option: &str) -> bool {
         self.works(Device::Buttons)
             && self.behaviour(Device::Screen) != Behaviour::Fails
@@ -226,7 +226,7 @@ impl State {
     }
 }
 
-/// A scripted number of seconds; what is no duration counts as none.
+/// A scripted number of seconds; an invalid duration counts as zero.
 pub(super) fn seconds(seconds: f64) -> Duration {
     Duration::try_from_secs_f64(seconds).unwrap_or_default()
 }

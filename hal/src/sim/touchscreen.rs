@@ -1,4 +1,4 @@
-//! The touchscreen: pages, the screen's own report of them, touches.
+//! The touchscreen: pages, the screen's own reports of them, and touches.
 
 use std::time::Duration;
 
@@ -12,7 +12,7 @@ use super::state::State;
 use super::waiting::{Activity, Step};
 use crate::{Buttons, Device, DeviceError, Operation, Page, PageId, Question, Screen};
 
-/// How long the screen takes to put up a page.
+/// How long the screen takes to show a page.
 const TO_SHOW: Duration = Duration::from_millis(200);
 
 impl Screen for SimRoom {

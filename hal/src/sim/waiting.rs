@@ -1,8 +1,8 @@
 //! A device operation as a step function over the room.
 //!
-//! Idea: `poll` takes the lock, asks the step, and goes to sleep until the instant that it names, or until
-//! somebody changes the room. Dropped before it was done, it runs its `stop`, which is how a device is
-//! stopped. Wakers are called after the lock is given back, in the order of their registration.
+//! Idea: `poll` takes the lock, runs the step, and sleeps until the instant that the step names or until the room
+//! changes. An operation that is dropped before it is done runs its `stop`, which stops the device. Wakers are called
+//! without the lock, in the order of their registration.
 
 use std::future::Future;
 use std::marker::PhantomData;
@@ -15,22 +15,22 @@ use super::room::SimRoom;
 use super::state::State;
 use crate::{DeviceError, Operation};
 
-/// What a step found.
+/// The result of a step.
 pub(super) enum Step<T> {
     /// It is done.
     Done(T),
-    /// Nothing before this instant, unless the room changes.
+    /// Nothing to do before this instant, unless the room changes.
     Until(Instant),
-    /// Nothing unless the room changes.
+    /// Nothing to do until the room changes.
     Idle,
 }
 
-/// What a device does.
+/// The work of a device operation.
 pub(super) trait Activity<T> {
-    /// Does what can be done now.
+    /// Advances as far as possible now.
     fn step(&mut self, state: &mut State, now: Instant) -> Step<Result<T, DeviceError>>;
 
-    /// Stops at once. Called if the operation is dropped after its first step and before its end.
+    /// Stops at once. It runs if the operation is dropped after its first step and before its end.
     fn stop(&mut self, _state: &mut State, _now: Instant) {}
 }
 
