@@ -1,21 +1,21 @@
-; The Barthel test as a planning problem: plain PDDL that any planner reads.
+; The Barthel test as a planning problem: plain PDDL that every planner can read.
 ;
-; Nothing here says how something is said or shown: each action has a task of the same name in
-; methods.hddl, and each predicate that an action changes is sensed, by perception.pddl.
+; How the robot speaks and shows is not modelled here: each action has a task of the same name in
+; methods.hddl, and perception.pddl derives each predicate that an action changes.
 (define (domain barthel)
   (:requirements :strips :typing :negative-preconditions)
   (:types
     person part - object
     item - part)
   (:predicates
-    ; how the person and the session are; what no action brings about is perceived
+    ; the person and the session; perception alone changes the predicates that no action changes
     (present ?p - person)             ; in view, in front of the robot
-    (away ?p - person)                ; allow(never-true-predicate): out of view for so long that calling is of no use
+    (away ?p - person)                ; allow(never-true-predicate): out of view for so long that calling does not help
     (wants-help ?p - person)          ; allow(never-true-predicate)
-    (clinician-needed ?p - person)    ; allow(never-true-predicate): two items stayed without an answer
+    (clinician-needed ?p - person)    ; allow(never-true-predicate): two items are without an answer
     (paused ?p - person)              ; allow(never-true-predicate)
     (aborted ?p - person)
-    ; how far the test is
+    ; the progress of the test
     (next ?i ?j - part)
     (opens-with ?i - part)
     (closes-with ?i - part)
@@ -24,7 +24,7 @@
     (described ?i - item)
     (unanswered-once ?i - item)       ; allow(never-true-predicate)
     (unanswered-twice ?i - item)      ; allow(never-true-predicate)
-    (done ?i - part)                  ; answered, or passed over after two silences
+    (done ?i - part)                  ; answered, or skipped after two silences
     (thanked ?p - person)
     (reported ?p - person))
 
@@ -71,7 +71,7 @@
                        (unanswered-once ?i) (not (unanswered-twice ?i)))
     :effect (done ?i))
 
-  ; None again: the next item.
+  ; No answer again: the next item.
   (:action pass-over
     :parameters (?p - person ?i - item)
     :precondition (and (present ?p) (not (wants-help ?p)) (not (clinician-needed ?p))
@@ -91,8 +91,8 @@
     :precondition (and (thanked ?p) (not (aborted ?p)))
     :effect (reported ?p))
 
-  ; ---- what may happen at any moment -------------------------------------------------------
-  ; Whoever asks for help gets it first: before they are called back, fetched or asked about a silence,
+  ; ---- events that may occur at any moment -------------------------------------------------
+  ; A request for help comes first: before the person is called back, fetched or asked about a silence,
   ; and even while the test is paused.
   (:action get-help
     :parameters (?p - person)

@@ -1,6 +1,6 @@
-; The Barthel index as nodes and edges: its parts in order, the options that each item offers, and
-; what each option scores (Mahoney & Barthel, "Functional evaluation: the Barthel index", 1965).
-; The best option comes first; 100 in all.
+; The Barthel index as nodes and edges: its parts in order, the options of each item, and the score
+; of each option (Mahoney & Barthel, "Functional evaluation: the Barthel index", 1965).
+; The best option comes first; the scores add up to at most 100.
 (define (problem barthel-graph)
   (:domain clarc)
   (:objects

@@ -1,7 +1,7 @@
-; LowToHigh: what the tokens of the graph mean for the plan.
+; LowToHigh: the plan's predicates, derived from the tokens of the graph.
 ;
-; `told` needs the voice and the screen, and makes do with one where the other does not work: a
-; sentence that has been shown is not told before it has also been said.
+; `told` requires both voice and screen, or one of them if the other does not work: a sentence that
+; has been shown is not told until it has also been said.
 (define (domain barthel-perception)
   (:requirements :typing :equality :negative-preconditions :disjunctive-preconditions
                  :quantified-preconditions :derived-predicates)
@@ -42,7 +42,7 @@
   (:derived (aborted ?p - person)
     (exists (?t - test) (is ?t aborted)))
 
-  ; how far the test is
+  ; the progress of the test
   (:derived (greeted ?p - person)
     (told greeting opening))
   (:derived (introduced ?i - item)

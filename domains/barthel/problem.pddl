@@ -1,4 +1,4 @@
-; The mission: a report that is complete, delivered, after a proper goodbye, and nobody left calling.
+; The mission: a complete report, delivered after a goodbye, and no call for help left open.
 (define (problem barthel-test)
   (:domain barthel)
   (:objects

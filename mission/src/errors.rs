@@ -4,12 +4,12 @@
 
 use diagnostics::{Finding, Sources};
 
-/// Why there is no mission (or scenario): at least one finding is an error.
+/// Why a mission or a scenario could not be read: at least one finding is an error.
 #[derive(Clone, Debug, thiserror::Error)]
 #[error("{}", self.findings.iter().map(|f| self.sources.describe(f)).collect::<String>())]
 pub struct MissionErrors {
-    /// The texts that the findings speak of.
+    /// The texts of the findings.
     pub sources: Sources,
-    /// All that was found, by file and place.
+    /// All findings, by file and place.
     pub findings: Vec<Finding>,
 }

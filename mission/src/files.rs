@@ -1,21 +1,21 @@
-//! Where texts come from.
+//! The source of a mission's texts.
 //!
-//! Problem: a mission is a folder, but this crate touches no disk, so that tests, an editor's unsaved
-//! buffers and an archive can all be missions. Idea: a trait of two functions over `/`-separated
-//! paths. Invariant: paths that reach [`Files`] are normal: no `.`, and `..` at the front only.
+//! Problem: a mission is a folder, but tests, an editor's unsaved buffers and an archive must also be able to hold one.
+//! Idea: this crate touches no disk; it reads through a trait of two functions over `/`-separated paths. Invariant: the
+//! paths that reach [`Files`] are normal: without `.`, and with `..` only at the front.
 
 use std::collections::BTreeMap;
 
-/// Why a text could not be had.
+/// Why a text could not be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FileError {
-    /// There is no such file or folder.
+    /// The file or folder does not exist.
     #[error("no such file or folder")]
     NotFound,
-    /// It is there, and cannot be read as UTF-8 text.
+    /// It exists, but cannot be read as UTF-8 text.
     #[error("{reason}")]
     Unreadable {
-        /// What the file system said.
+        /// The error of the file system.
         reason: String,
     },
 }
@@ -25,8 +25,7 @@ pub trait Files {
     /// The text of a file.
     fn read(&self, path: &str) -> Result<String, FileError>;
 
-    /// The names (not the paths) of the files in a folder, in any order. A folder that does not
-    /// exist is [`FileError::NotFound`].
+    /// The names (not the paths) of the files in a folder, in any order. A missing folder is [`FileError::NotFound`].
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError>;
 }
 
@@ -64,7 +63,7 @@ pub(crate) fn join(folder: &str, relative: &str) -> String {
     for part in folder.split('/').chain(relative.split('/')) {
         match part {
             "." => {}
-            // An empty part is the root at the front, and nothing elsewhere.
+            // An empty part at the front is the root; elsewhere it has no meaning.
             "" if !parts.is_empty() => {}
             ".." if parts.last().is_some_and(|&last| last != ".." && !last.is_empty()) => {
                 parts.pop();

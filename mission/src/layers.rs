@@ -1,9 +1,8 @@
 //! The PDDL layers of a mission, each with its source, and the tokens that `mission.toml` names.
 //!
-//! The nodes of the initial graph are declared in three files (constants of the vocabulary, objects of
-//! the world, objects of the graph), and perception, methods and scenarios may name any of them. So
-//! there is one more domain, [`Layers::nodes`]: the vocabulary with all of them as constants, under the
-//! ids that they have in `graph.pddl`.
+//! Three files declare the nodes of the initial graph: the vocabulary (its constants), the world and the graph (their
+//! objects). Perception, methods and scenarios may name any of them. [`Layers::nodes`] is therefore one more domain: the
+//! vocabulary with all nodes as constants, under the ids that they have in `graph.pddl`.
 
 use pddl::model::{Domain, FunctionId, Idx, ObjectId, PredicateId, Problem, TypeId};
 
@@ -12,7 +11,7 @@ use diagnostics::{Place, SourceId};
 /// A model and the source it came from.
 #[derive(Clone, Debug)]
 pub struct Layer<M> {
-    /// What its spans refer to.
+    /// The source of its spans.
     pub source: SourceId,
     /// The model.
     pub model: M,
@@ -33,11 +32,11 @@ pub struct Tokens {
     pub unanswered: PredicateId,
     /// Of item and option.
     pub score: FunctionId,
-    /// Type of what is said.
+    /// Type of the utterances.
     pub utterances: TypeId,
-    /// Type of where it is said.
+    /// Type of the parts of a test, in which utterances are said.
     pub parts: TypeId,
-    /// Type of what a person may ask for.
+    /// Type of a person's requests.
     pub requests: TypeId,
 }
 
@@ -46,7 +45,7 @@ pub struct Tokens {
 pub struct Layers {
     /// The robot's vocabulary.
     pub vocabulary: Layer<Domain>,
-    /// The world before anybody is seen.
+    /// The world before a person is seen.
     pub world: Layer<Problem>,
     /// The agents' rules, by file name.
     pub agents: Vec<Layer<Domain>>,
@@ -67,8 +66,8 @@ pub struct Layers {
 }
 
 impl Layers {
-    /// Where a node of the initial graph is declared.
-    pub fn node_place(&self, node: ObjectId) -> Place {
+    /// The place of the declaration of a node of the initial graph.
+    pub(crate) fn node_place(&self, node: ObjectId) -> Place {
         let constants = self.vocabulary.model.constants.len();
         let source = if node.index() < constants {
             self.vocabulary.source
@@ -80,7 +79,7 @@ impl Layers {
         Place { source, span: self.graph.model.objects[node].span }
     }
 
-    /// Whether a node of the initial graph is of a type.
+    /// Whether a node of the initial graph has a type.
     pub fn is_a(&self, node: ObjectId, ty: TypeId) -> bool {
         let types = &self.graph.model.objects[node].types;
         types.0.iter().all(|&t| self.nodes.types.is_subtype(t, ty))
@@ -91,7 +90,7 @@ impl Layers {
         self.graph.model.objects.ids().filter(|&id| self.is_a(id, self.tokens.items)).collect()
     }
 
-    /// What an item offers, in the order of declaration.
+    /// The options that an item offers, in the order of declaration.
     pub fn options(&self, item: ObjectId) -> Vec<ObjectId> {
         let facts = self.graph.model.init.iter().filter(|f| f.predicate == self.tokens.offers);
         let mut options: Vec<ObjectId> = facts

@@ -1,11 +1,10 @@
 //! Mission folders, contents and scenarios as typed models, checked as a whole.
 //!
-//! A mission is text: PDDL in layers, sentences per language, scenarios. [`Mission::load`] reads all of
-//! it through [`Files`], so that nothing here touches a disk, and says everything that is wrong, each
-//! with its file, line and column. [`Mission::check`] then looks at what the layers do to each other.
-//! [`Words`] answers what to say; a [`Scenario`](scenario::Scenario) is a simulated patient with
-//! expectations; a [`Report`](report::Report) is the result over a snapshot of the graph. No line of
-//! this crate knows a test.
+//! A mission is text: PDDL in layers, sentences in each language, scenarios. [`Mission::load`] reads all of it through
+//! [`Files`], so that this crate touches no disk, and reports every mistake with its file, line and column.
+//! [`Mission::check`] then checks the layers against each other. [`Words`] has the sentences of one language. A
+//! [`Scenario`](scenario::Scenario) is a simulated patient with expectations. A [`Report`](report::Report) is the result
+//! of a test, read from a snapshot of the graph. No line of this crate knows a particular test.
 //!
 //! ```
 //! use mission::{MemoryFiles, Mission};
@@ -18,9 +17,9 @@
 //! assert!(lines.contains("tea/mission.toml:1:8: error[E0703]: `name` is an integer"));
 //! ```
 //!
-//! Map, from the ground up: `files` (paths), `errors` (why there is none; findings are [`diagnostics::Finding`])) →
-//! `manifest` (`mission.toml`), `layers` (the PDDL) → `content` (words) → `load` → `mission` →
-//! [`scenario`], [`report`], `check` (between the layers).
+//! Map, from the ground up: `files` (paths), `errors` (findings are [`diagnostics::Finding`]) → `manifest`
+//! (`mission.toml`), `layers` (the PDDL) → `content` (words) → `mission` → `load`, `check` (between the layers),
+//! [`report`] → [`scenario`].
 
 mod check;
 mod content;

@@ -1,8 +1,7 @@
 //! Reading a mission folder: one pass over its files, all mistakes collected.
 //!
-//! The order is that of what needs what: manifest → vocabulary → world, agents, graph → planning
-//! domain and problem → perception, methods → words. A file that cannot be read stops only what
-//! needs it.
+//! The order follows the dependencies: manifest → vocabulary → world, agents, graph → planning domain and problem →
+//! perception, methods → words. A file that cannot be read stops only the files that need it.
 
 mod layers;
 mod words;
@@ -20,7 +19,7 @@ use crate::mission::{Fallback, Mission};
 use diagnostics::toml::Reader;
 use diagnostics::{Finding, Place, SourceId, Sources};
 
-/// What a loader carries from file to file.
+/// The state of a loader: the texts and the findings so far.
 pub(crate) struct Loader<'f> {
     pub(crate) files: &'f dyn Files,
     pub(crate) sources: Sources,
@@ -28,7 +27,7 @@ pub(crate) struct Loader<'f> {
 }
 
 impl Loader<'_> {
-    /// Reads a file; if that fails, says so at the place that asked for it.
+    /// Reads a file. A failure is reported at the place that names the file.
     pub(crate) fn source(&mut self, path: &str, asked_at: Place) -> Option<SourceId> {
         match self.files.read(path) {
             Ok(text) if text.len() <= Source::MAX_BYTES => Some(self.sources.push(Source::new(path, text))),
@@ -56,8 +55,10 @@ impl Loader<'_> {
 }
 
 impl Mission {
-    /// Reads the mission in the folder `path` (or of the `mission.toml` of that path). Every problem of
-    /// every file is in the error.
+    /// Reads the mission in the folder `path`, or the mission whose `mission.toml` has that path.
+    ///
+    /// # Errors
+    /// Every mistake in every file.
     pub fn load(files: &dyn Files, path: &str) -> Result<Self, MissionErrors> {
         let mut loader = Loader { files, sources: Sources::new(), findings: Vec::new() };
         let mission = load_into(&mut loader, path);
@@ -104,7 +105,7 @@ fn load_into(loader: &mut Loader<'_>, path: &str) -> Option<Mission> {
     let words = words::read(loader, manifest_source, &manifest, &layers);
     let fallback = fallback(loader, manifest_source, &manifest, &layers)?;
     let words: BTreeMap<String, Words> = words.into_iter().map(|w| (w.tag().to_owned(), w)).collect();
-    // A mission without scenarios is a mission.
+    // Scenarios are optional.
     let scenarios = match loader.files.list(&manifest.paths.scenarios) {
         Ok(names) => names.iter().filter_map(|n| n.strip_suffix(".toml")).map(str::to_owned).collect(),
         Err(_) => Default::default(),
@@ -122,8 +123,8 @@ fn load_into(loader: &mut Loader<'_>, path: &str) -> Option<Mission> {
     })
 }
 
-/// Resolves `fallback = "(task argument …)"`; arguments that are not written are the only objects of
-/// their types in the problem.
+/// Resolves `fallback = "(task argument …)"`. If the arguments are left out, each is the only object of its type in the
+/// problem.
 fn fallback(
     loader: &mut Loader<'_>,
     source: SourceId,
@@ -138,7 +139,7 @@ fn fallback(
         None
     };
     let Some(task) = methods.task(&wanted.name) else {
-        return report(wanted.span, format!("no method carries out a task `{}`", wanted.name));
+        return report(wanted.span, format!("the methods have no task `{}`", wanted.name));
     };
     let parameters = methods.tasks[task].variables.parameters();
     let fits = |object: ObjectId, parameter: &pddl::model::Variable| {
@@ -156,7 +157,7 @@ fn fallback(
                 (Some(object), None) => arguments.push(object),
                 _ => {
                     let message = format!(
-                        "`?{}` of `{}` is not one object of the problem; write it: \"({} …)\"",
+                        "the problem does not have exactly one object for `?{}` of `{}`; name it: \"({} …)\"",
                         parameter.name, wanted.name, wanted.name
                     );
                     return report(wanted.span, message);
@@ -171,7 +172,7 @@ fn fallback(
             match problem.object(&mention.name) {
                 Some(object) if fits(object, parameter) => arguments.push(object),
                 _ => {
-                    let message = format!("`{}` is no object that fits `?{}`", mention.name, parameter.name);
+                    let message = format!("`{}` is not an object that fits `?{}`", mention.name, parameter.name);
                     return report(mention.span, message);
                 }
             }

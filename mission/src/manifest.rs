@@ -1,7 +1,7 @@
-//! `mission.toml`: which texts make a mission, and which tokens the outside needs to know.
+//! `mission.toml`: the texts of a mission, and the tokens that Rust code needs to know.
 //!
-//! Rust knows no mission. What the report counts, what is said, and what happens when there is no plan
-//! are therefore named here, as tokens of the graph and tasks of the methods.
+//! No mission appears in Rust source. The manifest therefore names what the report counts, what is said, and what happens
+//! without a plan, as tokens of the graph and tasks of the methods.
 
 use pddl::Span;
 use pddl::model::Name;
@@ -14,16 +14,16 @@ use diagnostics::toml::{Reader, Table, Text};
 pub struct Mention {
     /// The name.
     pub name: Name,
-    /// Where it is written in `mission.toml`.
+    /// Its place in `mission.toml`.
     pub span: Span,
 }
 
-/// Where the files of a mission are, as paths that [`crate::Files`] understands.
+/// The files of a mission, as paths for [`crate::Files`].
 #[derive(Clone, Debug)]
 pub struct Paths {
     /// The robot's vocabulary.
     pub vocabulary: String,
-    /// The world before anybody is seen.
+    /// The world before a person is seen.
     pub world: String,
     /// The folder of the agents' rules.
     pub agents: String,
@@ -43,12 +43,12 @@ pub struct Paths {
     pub scenarios: String,
 }
 
-/// How hard to try.
+/// The limits of planning and of retries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
     /// States that one replan may expand.
     pub replan_expansions: u32,
-    /// How often one action may be started before it counts as failed.
+    /// How often one action may start before it counts as failed.
     pub attempts: u32,
 }
 
@@ -61,22 +61,22 @@ pub struct ReportTokens {
     pub items: Mention,
     /// Label from an item to an option that it offers.
     pub offers: Mention,
-    /// Label from the option that was chosen to its item.
+    /// Label from the chosen option to its item.
     pub answer: Mention,
-    /// Label from a question that got no answer to its item.
+    /// Label from an unanswered question to its item.
     pub unanswered: Mention,
-    /// Attribute of the pair (item, option): what the option is worth.
+    /// Attribute of the pair (item, option): the score of the option.
     pub score: Mention,
 }
 
-/// The types that the languages put into words.
+/// The types that have words in every language.
 #[derive(Clone, Debug)]
 pub struct WordTypes {
-    /// What is said or shown.
+    /// Utterances, which are said or shown.
     pub utterances: Mention,
-    /// Where it is said or shown.
+    /// Parts of a test, in which utterances are said or shown.
     pub parts: Mention,
-    /// What a person may ask for at any moment.
+    /// A person's requests, possible at any moment.
     pub requests: Mention,
 }
 
@@ -87,19 +87,19 @@ pub struct Manifest {
     pub name: String,
     /// Name for people.
     pub title: String,
-    /// Tag of the language that is spoken unless another is asked for.
+    /// Tag of the default language.
     pub language: String,
-    /// Where that tag is written.
+    /// The place of that tag.
     pub language_span: Span,
-    /// Where the robot's folder is named.
+    /// The place of the robot's folder.
     pub robot_span: Span,
-    /// The task for when there is no plan: `fall-back` or `(fall-back person)`.
+    /// The task to execute without a plan: `fall-back` or `(fall-back person)`.
     pub fallback: Mention,
-    /// Its arguments, if written.
+    /// Its arguments, if the manifest gives them.
     pub fallback_arguments: Vec<Mention>,
-    /// Where the files are.
+    /// The files.
     pub paths: Paths,
-    /// How hard to try.
+    /// The limits of planning and of retries.
     pub budget: Budget,
     /// The tokens of the report.
     pub report: ReportTokens,
@@ -109,7 +109,7 @@ pub struct Manifest {
 
 const DEFAULT_BUDGET: Budget = Budget { replan_expansions: 20_000, attempts: 3 };
 
-/// Reads a manifest that lies in `folder`; `None` if a key that has no default is missing.
+/// Reads the manifest in `folder`; `None` if a key without a default is missing.
 pub(crate) fn read(reader: &mut Reader<'_>, mut root: Table<'_>, folder: &str) -> Option<Manifest> {
     let name = root.required_text(reader, "name");
     let title = root.text(reader, "title");

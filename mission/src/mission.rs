@@ -1,4 +1,4 @@
-//! A mission: its layers, its words, and where its scenarios are.
+//! A mission: its layers, its words, and the names of its scenarios.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,52 +9,52 @@ use crate::layers::Layers;
 use crate::manifest::Manifest;
 use diagnostics::{Finding, Place, SourceId, Sources};
 
-/// What to do when there is no plan.
+/// The task to execute when there is no plan.
 #[derive(Clone, Debug)]
 pub struct Fallback {
     /// The task, of the methods.
     pub task: TaskId,
     /// Its name.
     pub name: Name,
-    /// Its arguments: objects of the problem, which are nodes of the same names.
+    /// Its arguments: objects of the problem, which are also nodes of the same names.
     pub arguments: Vec<Name>,
 }
 
 /// A mission folder, read and resolved.
 #[derive(Clone, Debug)]
 pub struct Mission {
-    /// The folder that it came from.
+    /// Its folder.
     pub folder: String,
     /// `mission.toml`.
     pub manifest: Manifest,
     /// The source of the manifest.
     pub manifest_source: SourceId,
-    /// All that is PDDL.
+    /// Its PDDL.
     pub layers: Layers,
-    /// What to do when there is no plan.
+    /// The task to execute when there is no plan.
     pub fallback: Fallback,
-    /// What is worth telling and no error.
+    /// The findings that are not errors.
     pub warnings: Vec<Finding>,
-    /// Every text that was read.
+    /// Every text of the mission.
     pub sources: Sources,
     pub(crate) words: BTreeMap<String, Words>,
     pub(crate) scenarios: BTreeSet<String>,
 }
 
 impl Mission {
-    /// The words of a language, by its tag; `None` if it has none.
+    /// The words of a language, by its tag; `None` if the mission does not have the language.
     pub fn words(&self, tag: &str) -> Option<&Words> {
         self.words.get(tag)
     }
 
-    /// The words of the language that is spoken unless another is asked for.
+    /// The words of the default language.
     pub fn default_words(&self) -> &Words {
         let tag = &self.manifest.language;
         self.words.get(tag).expect("a mission without its default language is not loaded")
     }
 
     /// The words of every language, by tag.
-    pub fn all_words(&self) -> impl Iterator<Item = &Words> {
+    pub(crate) fn all_words(&self) -> impl Iterator<Item = &Words> {
         self.words.values()
     }
 

@@ -1,9 +1,9 @@
-; The vocabulary: every token that may stand in CLARC's Deep State Representation.
+; The vocabulary: every token that CLARC's Deep State Representation can contain.
 ;
-; A type is a kind of node (below `frame`: a node with a pose), a binary predicate the label of an
-; edge, a function an attribute: unary of a node, binary of a pair of nodes. `:writes` says which
-; agent may write which token; `_` and variables stand for any node. Whatever is not written here
-; cannot be written into the graph.
+; A type is a type of nodes; below `frame`, the nodes have a pose. A binary predicate is the label of
+; edges. A function is an attribute: a unary one of a node, a binary one of a pair of nodes. `:writes`
+; lists the tokens that each agent may write; `_` and variables stand for any node. The graph accepts
+; no token that is not declared here.
 (define (domain clarc)
   (:requirements :typing :equality :fluents :vocabulary)
   (:types
@@ -13,7 +13,7 @@
     robot person - body
     clinician room test part utterance answer state command request need document - symbol
     item phase - part
-    remark summons - utterance    ; a summons is also spoken to somebody who is not in view
+    remark summons - utterance    ; a summons is also spoken to a person who is not in view
     option question - remark)
   (:constants
     pelea speech panel person-agent cgamed - agent
@@ -26,11 +26,11 @@
     report - document
     unanswered assistance absence trouble - need)
   (:predicates
-    ; what the robot, its devices and the test are doing
+    ; the states of the robot, its devices and the test
     (is ?x - (either robot device test) ?s - state)
     (is_not ?r - robot ?s - state)
     (finish ?r - robot ?s - state)
-    ; where the test is, and what was said and shown there
+    ; the present part of the test, and what was said and shown in each part
     (is_in ?t - test ?p - part)
     (precedes ?x ?y - (either part option))
     (offers ?i - item ?o - option)
@@ -54,7 +54,7 @@
     (was_delivered_to ?d - document ?c - clinician))
   (:functions
     (rt ?parent ?child - frame) - pose
-    (rt_x ?parent ?child - frame) - number      ; how a world file gives an RT edge: metres, radians
+    (rt_x ?parent ?child - frame) - number      ; an RT edge in a world file: metres, radians
     (rt_y ?parent ?child - frame) - number
     (rt_z ?parent ?child - frame) - number
     (rt_yaw ?parent ?child - frame) - number

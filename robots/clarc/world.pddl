@@ -1,5 +1,5 @@
-; Where CLARC stands before anybody is seen.
-; Poses are in metres and radians, of the second frame in the first.
+; The pose of CLARC before a person is seen.
+; Each pose is that of the second frame in the first, in metres and radians.
 (define (problem consulting-room)
   (:domain clarc)
   (:objects

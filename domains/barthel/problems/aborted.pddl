@@ -1,4 +1,4 @@
-; Who has ended the test is not asked anything any more: there is no plan, and the mission falls back.
+; After an abort no question is asked: there is no plan, and the mission falls back.
 (define (problem aborted)
   (:domain barthel)
   (:objects

@@ -1,9 +1,8 @@
-//! C0701: two rules that may claim one resource and have the same priority.
+//! C0701: two rules that claim the same resource and have the same priority.
 //!
-//! **What** Rules (of any agents) that claim the same resource differ in priority, unless they are
-//! bindings of one rule.
-//! **Why** Who speaks first would depend on the order of commits, and the second would wait for a
-//! sentence that may never end.
+//! **What** Different rules, of any agents, that claim the same resource differ in priority.
+//! **Why** Otherwise the order of commits would decide which rule speaks first, and the other would wait for
+//! a sentence that may never end.
 //! **Example** `say` and `call-out` both `:claims (loudspeaker) :priority 50`.
 
 use std::collections::BTreeMap;

@@ -1,8 +1,8 @@
 //! C0601: a rule that writes what its agent may not write.
 //!
-//! **What** Each effect of a rule is covered by the `:writes` of the agent that its domain is named
-//! after; so is each effect of an intention by those of some agent.
-//! **Why** The graph refuses the whole commit: the rule's skill runs, and nobody ever sees that it did.
+//! **What** Each effect of a rule is permitted by the `:writes` of its agent, whose name is that of the
+//! rule's domain. Each effect of an intention is permitted by the `:writes` of some agent.
+//! **Why** The graph refuses the whole commit: the rule's skill runs, and its result never appears.
 //! **Example** `(at end (is_with ?p ?r))` in `speech.pddl`.
 
 use pddl::Span;
@@ -14,7 +14,7 @@ use crate::layers::Layers;
 use crate::mission::Mission;
 use diagnostics::{Finding, Place};
 
-/// A token with the nodes that each of its arguments may be.
+/// A written token, with the possible nodes of each argument.
 struct Written {
     token: Name,
     arguments: Vec<Vec<Name>>,
@@ -33,8 +33,8 @@ pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
                 }
                 let place = Place { source: agent.source, span: written.span };
                 let message = format!(
-                    "`{}` of `{}` writes `{}`, and may not",
-                    rule.name, agent.model.name, written.token
+                    "`{}` writes `{}`, which the agent `{}` may not write",
+                    rule.name, written.token, agent.model.name
                 );
                 let help = format!("add it to (:writes {} …) in the vocabulary", agent.model.name);
                 findings.push(Finding::error("C0601", place, message).help(help));
@@ -50,13 +50,13 @@ pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
             .map(|e| e.effect.span)
             .collect();
         for written in effects(&mission.layers, &methods.model, intention) {
-            // At its end an intention does not write; it looks.
+            // The effects at the end of an intention are expectations, not edits.
             let expected = ends.iter().any(|s| s.start <= written.span.start && written.span.end <= s.end);
             if expected || vocabulary.permissions.iter().any(|p| permits(vocabulary, p, &written)) {
                 continue;
             }
             let place = Place { source: methods.source, span: written.span };
-            let message = format!("`{}` writes `{}`, which nobody may", intention.name, written.token);
+            let message = format!("`{}` writes `{}`, which no agent may write", intention.name, written.token);
             findings.push(Finding::error("C0601", place, message));
         }
     }
@@ -97,7 +97,7 @@ fn collect(domain: &Domain, effect: &Effect, add: &mut impl FnMut(Name, &[Term],
     });
 }
 
-/// Whether a permission covers a token whatever its variables are bound to.
+/// Whether a permission covers a token under every binding of its variables.
 fn permits(vocabulary: &Domain, permission: &Permission, written: &Written) -> bool {
     permission.tokens.iter().any(|pattern| {
         let symbol = match pattern.symbol {

@@ -1,8 +1,8 @@
-//! C0201: an effect that nobody can see.
+//! C0201: an effect that perception cannot see.
 //!
-//! **What** Every predicate that an action of the plan changes is derived in `perception.pddl`.
-//! **Why** Effects are sensed, not asserted: without a rule of perception the executive waits for the
-//! effect until its deadline, every time.
+//! **What** `perception.pddl` derives every predicate that an action of the plan changes.
+//! **Why** Effects are sensed, not asserted: without an axiom the executive waits for the effect until its
+//! deadline, every time.
 //! **Example** `:effect (greeted ?p)` with no `(:derived (greeted ?p - person) …)`.
 
 use std::collections::BTreeSet;

@@ -1,8 +1,8 @@
-//! C0301, C0302: an intention that no agent hears, or whose end nobody can bring about.
+//! C0301, C0302: an intention to which no agent reacts, or whose end no rule can bring about.
 //!
-//! **What** What an intention writes at its start is looked at by some rule of some agent (at its start
-//! or over all), by a method, or by perception; and what it waits for at its end is written by some rule.
-//! **Why** Nobody sends commands: a token that no agent watches moves nobody.
+//! **What** Some rule of an agent (at its start or over all), a method or perception reads what an intention
+//! writes at its start. Some rule writes what the intention waits for at its end.
+//! **Why** The executive sends no commands: a token that no agent reads has no effect.
 //! **Example** `(at start (assign (view ?t ?i) ?u))` when no rule mentions `view`.
 
 use std::collections::BTreeSet;
@@ -23,7 +23,7 @@ pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
         let ends = Tokens::of(&methods.model).effects(intention, |w| *w == TimeSpecifier::End);
         if !starts.is_empty() && starts.is_disjoint(&heard) {
             let names: Vec<&str> = starts.iter().map(Name::as_str).collect();
-            let message = format!("nobody watches what `{}` writes: {}", intention.name, names.join(", "));
+            let message = format!("no agent reads what `{}` writes: {}", intention.name, names.join(", "));
             findings.push(Finding::error("C0301", place, message));
         }
         for name in ends.difference(&written) {
@@ -33,7 +33,7 @@ pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
     }
 }
 
-/// What rules, methods and perception look at.
+/// The tokens that rules, methods and perception read.
 fn heard(mission: &Mission) -> BTreeSet<Name> {
     let layers = &mission.layers;
     let mut heard = BTreeSet::new();

@@ -1,9 +1,8 @@
-//! What the layers do to each other: each check is a file with what it finds, why, and an example.
+//! Checks between the layers. Each check is a file with its finding, its reason and an example.
 //!
-//! `pddl` has already proved that every name of every layer is declared with fitting types, and loading
-//! that everything can be said. What remains lies between the layers: a plan that nobody can carry out,
-//! an effect that nobody can see, an intention that no agent hears. Adding a check is adding a file and
-//! a line here.
+//! `pddl` has proved that every name of every layer is declared with the right types; loading has proved that every
+//! sentence exists. The checks find the mistakes between the layers: a plan without methods, an effect that perception
+//! cannot see, an intention to which no agent reacts. Adding a check is adding a file and a line here.
 
 mod claims_are_ordered;
 mod effects_are_permitted;
@@ -17,7 +16,7 @@ mod tokens;
 use crate::mission::Mission;
 use diagnostics::Finding;
 
-/// A check: looks at a mission and adds what it finds.
+/// A check of a mission: adds its findings to the list.
 type Check = fn(&Mission, &mut Vec<Finding>);
 
 /// All checks, by code.
@@ -32,7 +31,7 @@ const ALL: [Check; 7] = [
 ];
 
 impl Mission {
-    /// What the layers do to each other: everything that the checks find.
+    /// The findings of all checks between the layers.
     pub fn check(&self) -> Vec<Finding> {
         let mut findings = Vec::new();
         for check in ALL {

@@ -1,8 +1,8 @@
-//! C0501, C0502: a name of another layer that is no node of the graph.
+//! C0501, C0502: a name of another layer that is not a node of the graph.
 //!
-//! **What** Each object of `problem.pddl` whose type the vocabulary has is a node of the initial graph,
-//! of that type; so is each constant of `perception.pddl` and `methods.hddl`.
-//! **Why** Perception speaks of nodes; about an object that is none, nothing is ever perceived.
+//! **What** Each object of `problem.pddl` whose type is in the vocabulary is a node of the initial graph, of
+//! that type; so is each constant of `perception.pddl` and `methods.hddl`.
+//! **Why** Perception derives facts about nodes only; it never perceives a fact about another object.
 //! **Example** `drinks - item` in the problem, `drink - item` in the graph.
 
 use pddl::model::{Domain, Object};
@@ -41,7 +41,7 @@ fn check_name(
         return;
     }
     let place = Place { source, span: object.span };
-    let message = format!("`{}` is no node of the graph of type `{}`", object.name, types[ty].name);
+    let message = format!("the graph has no node `{}` of type `{}`", object.name, types[ty].name);
     let nodes = layers.graph.model.objects.ids().filter(|&id| layers.is_a(id, ty));
     let help = did_you_mean(&object.name, nodes.map(|id| layers.name(id)));
     findings.push(Finding::error(code, place, message).help_if(help));

@@ -1,9 +1,8 @@
-//! C0401: a derived predicate that looks at a token which nothing ever writes.
+//! C0401: a derived predicate that depends on a token that is never written.
 //!
-//! **What** Each token in a body of `perception.pddl` is written by a rule of an agent or by an
-//! intention, stands in the initial graph, is measured by the graph, or is derived itself.
-//! **Why** Such a predicate has the same value for ever: a plan waits for it in vain, or counts on it
-//! wrongly.
+//! **What** Each token in a body of `perception.pddl` is written by a rule of an agent or by an intention,
+//! holds in the initial graph, is computed by the graph, or is derived itself.
+//! **Why** The value of such a predicate never changes: a plan waits for it in vain, or relies on it wrongly.
 //! **Example** `(:derived (present ?p) (exists (?r - robot) (is_wth ?p ?r)))` after renaming a token.
 
 use super::tokens::{Tokens, written_by_intentions, written_by_rules};
@@ -22,7 +21,7 @@ pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
     }
     let axioms = &perception.model.axioms;
     written.extend(axioms.iter().map(|a| perception.model.predicates[a.predicate].name.clone()));
-    // What the planning problem says initially holds for good unless perception derives it.
+    // An initial fact of the planning problem holds for ever unless perception derives its predicate.
     let (domain, problem) = (&layers.domain.model, &layers.problem.model);
     written.extend(problem.init.iter().map(|f| domain.predicates[f.predicate].name.clone()));
     for axiom in axioms {
@@ -35,7 +34,7 @@ pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
             }
             let head = &perception.model.predicates[axiom.predicate].name;
             let place = Place { source: perception.source, span: axiom.span };
-            let message = format!("`{head}` looks at `{name}`, which nothing writes");
+            let message = format!("`{head}` depends on `{name}`, which is never written");
             findings.push(Finding::warning("C0401", place, message));
         }
     }

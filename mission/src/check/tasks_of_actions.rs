@@ -1,8 +1,8 @@
-//! C0101, C0102: an action of the plan that nothing carries out.
+//! C0101, C0102: an action of the plan without a task or a method.
 //!
-//! **What** Every action of `domain.pddl` has a task of its name in `methods.hddl`, with parameters of
-//! the same types, and at least one method for it.
-//! **Why** The planner puts the action into a plan; the executive finds no way to do it, in front of the
+//! **What** Every action of `domain.pddl` has a task of its name in `methods.hddl`, with parameters of the
+//! same types, and the task has at least one method.
+//! **Why** The planner puts the action into a plan, and the executive cannot execute it in front of the
 //! patient.
 //! **Example** `(:action greet :parameters (?p - person) …)` with no `(:task greet …)`.
 

@@ -1,4 +1,4 @@
-//! Which tokens conditions and effects mention. Ids differ from file to file, so tokens are names.
+//! The tokens in conditions and effects. Ids differ from file to file, so tokens are names.
 
 use std::collections::BTreeSet;
 
@@ -36,7 +36,7 @@ impl<'d> Tokens<'d> {
         });
     }
 
-    /// Everything that the condition looks at.
+    /// Adds the tokens that the condition reads.
     pub(super) fn condition(&mut self, condition: &Condition) {
         condition.each(&mut |part| match &part.kind {
             ConditionKind::Atom(atom) => self.atom(atom),
@@ -49,7 +49,7 @@ impl<'d> Tokens<'d> {
         });
     }
 
-    /// Everything that the effect writes (not what its guards look at).
+    /// Adds the tokens that the effect writes, but not those that its guards read.
     pub(super) fn effect(&mut self, effect: &Effect) {
         effect.each(&mut |part| match &part.kind {
             EffectKind::Add(atom) | EffectKind::Delete(atom) => self.atom(atom),
@@ -58,7 +58,7 @@ impl<'d> Tokens<'d> {
         });
     }
 
-    /// What a rule's conditions at the times that `when` accepts look at.
+    /// The tokens that a rule reads in the conditions that `when` selects.
     pub(super) fn conditions(
         mut self,
         action: &DurativeAction,
@@ -68,7 +68,7 @@ impl<'d> Tokens<'d> {
         self.names
     }
 
-    /// What its effects at those times write.
+    /// The tokens that a rule writes in the effects that `when` selects.
     pub(super) fn effects(
         mut self,
         action: &DurativeAction,
@@ -79,7 +79,7 @@ impl<'d> Tokens<'d> {
     }
 }
 
-/// Everything that a rule of some agent writes, at any time.
+/// The tokens that rules of agents write, at any time.
 pub(super) fn written_by_rules(mission: &Mission) -> BTreeSet<Name> {
     let mut all = BTreeSet::new();
     for agent in &mission.layers.agents {
@@ -90,7 +90,7 @@ pub(super) fn written_by_rules(mission: &Mission) -> BTreeSet<Name> {
     all
 }
 
-/// Everything that an intention writes when it starts or is given up.
+/// The tokens that intentions write when they start or fail.
 pub(super) fn written_by_intentions(mission: &Mission) -> BTreeSet<Name> {
     let methods = &mission.layers.methods.model;
     let mut all = BTreeSet::new();

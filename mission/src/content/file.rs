@@ -1,4 +1,4 @@
-//! `content/LANG.toml` as it is written: keys, sentences, places.
+//! `content/LANG.toml` as written: keys, sentences, places.
 
 use indexmap::IndexMap;
 use pddl::Span;
@@ -38,7 +38,7 @@ pub(crate) struct LanguageFile {
     /// The file's name without extension: `en`.
     pub(crate) tag: String,
     pub(crate) source: SourceId,
-    /// What the language calls itself.
+    /// The name of the language, in the language.
     pub(crate) language: Option<Text>,
     pub(crate) say: IndexMap<Name, Sentence>,
     pub(crate) requests: IndexMap<Name, Phrases>,
@@ -101,7 +101,7 @@ fn sentences_at(reader: &mut Reader<'_>, table: &mut Table<'_>, key: &str) -> In
     inner.map(|t| sentences(reader, t)).unwrap_or_default()
 }
 
-/// Every key that is left in the table, as sentences.
+/// Every remaining key of the table, as a sentence.
 fn sentences(reader: &mut Reader<'_>, mut table: Table<'_>) -> IndexMap<Name, Sentence> {
     let mut sentences = IndexMap::new();
     for (key, key_span) in table.rest() {

@@ -1,11 +1,11 @@
-//! What was heard, compared with what may be said.
+//! Comparing heard words with phrases.
 //!
-//! Problem: a recogniser writes "Option two." where the file says "option two", and Spanish and French
-//! writers differ over accents. Idea: compare words in lower case, without punctuation or accents.
-//! Invariant: an answer is the whole of what was heard; only requests are looked for inside it, because
-//! "the blue one" must not choose option one, while "oh please help me" must call somebody.
+//! Problem: a recogniser writes "Option two." where the file has "option two", and writers of Spanish and French place
+//! accents differently. Idea: compare words in lower case, without punctuation or accents. Invariant: an answer must be
+//! everything that was heard, but a request may stand among other words: "the blue one" must not choose option one, and
+//! "oh please help me" must call the clinician.
 
-/// Words in a comparable form.
+/// Words in normal form.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Phrase(Vec<String>);
 
@@ -14,12 +14,12 @@ impl Phrase {
         Self(normalise(text))
     }
 
-    /// Whether exactly this was heard.
+    /// Whether exactly these words were heard.
     pub(super) fn is(&self, heard: &[String]) -> bool {
         !self.0.is_empty() && self.0 == heard
     }
 
-    /// Whether this was heard among other words.
+    /// Whether these words were heard among others.
     pub(super) fn is_within(&self, heard: &[String]) -> bool {
         !self.0.is_empty() && heard.windows(self.0.len()).any(|w| w == self.0)
     }

@@ -15,7 +15,7 @@ pub struct ReportLabels {
     pub score: String,
     /// The sum.
     pub total: String,
-    /// Mark of an item that got no answer.
+    /// Mark of an item without an answer.
     pub unanswered: String,
     /// Mark of an item that was not asked.
     pub not_reached: String,

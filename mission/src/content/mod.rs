@@ -1,10 +1,10 @@
-//! Words: what the robot says and shows, and what it understands, per language.
+//! Words: what the robot says, shows and understands, in each language.
 //!
-//! Problem: three languages times many sentences drift apart silently, and a sentence that is missing
-//! is noticed when a patient is waiting for it. Idea: a language is read ([`file`]), held against the
-//! graph and the methods, which say what can be said where ([`said`], [`mod@required`], [`names`]), and only then
-//! becomes [`Words`], in which every sentence is already filled in. Invariant: in a loaded mission every
-//! (part, utterance) that a method can say has a sentence in every language.
+//! Problem: three languages with many sentences drift apart silently, and a missing sentence is noticed only when a
+//! patient waits for it. Idea: read a language ([`file`]) and check it against the graph and the methods, which determine
+//! what can be said where ([`said`], [`mod@required`], [`names`]). Only a checked language becomes [`Words`], in which all
+//! templates are filled in. Invariant: in a loaded mission every (part, utterance) that a method can say has a sentence in
+//! every language.
 
 pub(crate) mod file;
 mod grammar;

@@ -1,5 +1,4 @@
-//! Keys of a language that name nothing, templates that nothing fills, phrases that mean two things,
-//! and keys that one language has and another lacks.
+//! Unknown keys of a language, unknown placeholders, ambiguous phrases, and keys that one language has and another lacks.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,7 +12,7 @@ use super::words::unknown_placeholders;
 use diagnostics::did_you_mean;
 use diagnostics::{Finding, Place, Sources};
 
-/// Reports every key that does not name a node of the right kind.
+/// Reports every key that is not the name of a node of the right kind.
 pub(crate) fn check(file: &LanguageFile, said: &Said, findings: &mut Vec<Finding>) {
     let known_parts = || said.parts.keys().map(Name::as_str);
     for (part, words) in &file.parts {
@@ -85,14 +84,14 @@ fn placeholders(file: &LanguageFile, findings: &mut Vec<Finding>) {
             let at = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);
             let span = sentence.text.within(Span::new(at(range.start), at(range.end)));
             findings.push(
-                Finding::error("E0810", file.place(span), format!("nothing fills in `{placeholder}`"))
+                Finding::error("E0810", file.place(span), format!("unknown placeholder `{placeholder}`"))
                     .help("a sentence may use {name} and {option}"),
             );
         }
     }
 }
 
-/// Phrases that choose two options of one part.
+/// Reports phrases that choose two options of one part.
 fn ambiguous(file: &LanguageFile, part: &Name, options: &[Name], findings: &mut Vec<Finding>) {
     let mut meaning: BTreeMap<Vec<String>, (&Name, Span)> = BTreeMap::new();
     for option in options {
@@ -112,9 +111,9 @@ fn ambiguous(file: &LanguageFile, part: &Name, options: &[Name], findings: &mut 
     }
 }
 
-/// Reports sentences that some languages have and others lack. `lacking` says, per file, which keys
-/// have been reported already, with their reasons. Names, requests and general grammar are required of
-/// every language anyway; a part's own grammar is idiom.
+/// Reports sentences that some languages have and others lack. `lacking` has, for each file, the keys that were reported
+/// already. Names, requests and the general grammar are required of every language anyway; the grammar of a single part
+/// is idiom.
 pub(crate) fn compare(
     files: &[LanguageFile],
     said: &Said,
@@ -135,7 +134,7 @@ pub(crate) fn compare(
     }
 }
 
-/// Every key of a file that names something, dotted, with its place.
+/// Every valid key of a file, dotted, with its place.
 fn keys_of(file: &LanguageFile, said: &Said) -> BTreeMap<String, Place> {
     let mut keys = BTreeMap::new();
     let mut add = |key: String, span: Span| {

@@ -1,4 +1,4 @@
-//! What of everything that can be said a language lacks.
+//! The sentences and phrases that a language lacks.
 //!
 //! A sentence is required for every (part, utterance) that a method says. An offered option requires
 //! its text, its sentence and the ways to answer it. An utterance that no method names (only the
@@ -12,7 +12,7 @@ use super::file::LanguageFile;
 use super::said::{PartSaid, Said};
 use diagnostics::{Finding, Sources};
 
-/// Reports everything that `file` lacks; answers the dotted keys that would mend it.
+/// Reports everything that `file` lacks. Returns the dotted keys that would repair it.
 pub(crate) fn check(file: &LanguageFile, said: &Said, findings: &mut Vec<Finding>) -> BTreeSet<String> {
     let mut lacks = BTreeSet::new();
     for (part, what) in &said.parts {
@@ -71,7 +71,7 @@ pub(crate) fn check(file: &LanguageFile, said: &Said, findings: &mut Vec<Finding
     lacks
 }
 
-/// Options and requests that cannot be spoken.
+/// Options and requests without a phrase.
 fn check_phrases(
     file: &LanguageFile,
     said: &Said,
@@ -89,7 +89,7 @@ fn check_phrases(
                 Finding::error(
                     "E0804",
                     Sources::start_of(file.source),
-                    format!("nothing says how `{option}` may be answered"),
+                    format!("no phrase chooses `{option}`"),
                 )
                 .related(*offered, "it is offered here")
                 .help(format!("add `{option} = [\"…\"]` to [grammar]")),
@@ -103,7 +103,7 @@ fn check_phrases(
                 Finding::error(
                     "E0804",
                     Sources::start_of(file.source),
-                    format!("nothing says how to ask for `{request}`"),
+                    format!("no phrase asks for `{request}`"),
                 )
                 .related(*declared, "it is declared here")
                 .help(format!("add `{request} = [\"…\"]` to [request]")),

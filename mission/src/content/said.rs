@@ -1,8 +1,7 @@
 //! What can be said where.
 //!
-//! Idea: a method that tells a constant utterance in a part (`(tell ?t ?j introduction)` with
-//! `?j - item`) says it in every part that fits the variable. This errs on the side of asking for more
-//! than will be said.
+//! Idea: a method that tells a constant utterance in a part (`(tell ?t ?j introduction)` with `?j - item`) says it in
+//! every part that has the type of the variable. The result may contain more pairs than a run will say, and never fewer.
 
 use indexmap::IndexMap;
 use pddl::Span;
@@ -11,20 +10,20 @@ use pddl::model::{Name, ObjectId, Term};
 use crate::layers::Layers;
 use diagnostics::Place;
 
-/// What is said in one part.
+/// What can be said in one part.
 #[derive(Clone, Debug)]
 pub(crate) struct PartSaid {
-    /// Where the part is declared.
+    /// The place of the part's declaration.
     pub(crate) place: Place,
     /// Whether it is an item, which has answers.
     pub(crate) item: bool,
-    /// What could be said here: every utterance but the options that it does not offer.
+    /// What could be said here: every utterance except the options that the part does not offer.
     pub(crate) utterances: Vec<Name>,
-    /// What it offers, by declaration.
+    /// Its options, in the order of declaration.
     pub(crate) options: Vec<Name>,
 }
 
-/// What is said in a mission.
+/// What can be said in a mission.
 #[derive(Clone, Debug)]
 pub(crate) struct Said {
     /// By part, in the order of declaration.
@@ -35,7 +34,7 @@ pub(crate) struct Said {
     pub(crate) requests: IndexMap<Name, Place>,
     /// Every option that some item offers, with the place of its first offer.
     pub(crate) options: IndexMap<Name, Place>,
-    /// (part, utterance) pairs that a method says, with the place of the first subtask that does.
+    /// The (part, utterance) pairs that a method says, each with the place of its first subtask.
     pub(crate) pairs: IndexMap<(Name, Name), Place>,
 }
 
@@ -88,7 +87,7 @@ impl Said {
         said
     }
 
-    /// Constant utterances of all subtasks, with the parts that may stand beside them.
+    /// The constant utterances of all subtasks, each with the parts that may be its fellow arguments.
     fn pairs_of_methods(&self, layers: &Layers) -> IndexMap<(Name, Name), Place> {
         let methods = &layers.methods.model;
         let mut pairs = IndexMap::new();

@@ -1,8 +1,8 @@
 //! One language of one mission, ready to be said.
 //!
-//! Look-up order: the sentence that the part has for the utterance, then the general one. Both are
-//! templates: `{name}` is the part's name, `{option}` the text of the part's option of the utterance's
-//! name. All of it is filled in when the mission is loaded, so a look-up is two steps in a map.
+//! The sentence of an utterance in a part is the part's own, or else the general one. Both are templates: `{name}` is the
+//! part's name, `{option}` the text of the part's option that has the name of the utterance. Templates are filled in when
+//! the mission is loaded, so that a look-up is two steps in a map.
 
 use std::collections::BTreeMap;
 
@@ -19,9 +19,9 @@ use super::said::Said;
 pub struct OptionWords {
     /// Its node.
     pub option: Name,
-    /// What it says, without its number.
+    /// Its text, without its number.
     pub text: String,
-    /// How it may be answered; the first form is the plainest.
+    /// The phrases that choose it; the first is the plainest.
     pub spoken: Vec<String>,
     phrases: Vec<Phrase>,
 }
@@ -49,7 +49,7 @@ impl Words {
         &self.tag
     }
 
-    /// What the language calls itself.
+    /// The name of the language, in the language.
     pub fn language(&self) -> &str {
         &self.language
     }
@@ -59,12 +59,12 @@ impl Words {
         &self.labels
     }
 
-    /// What a part is called.
+    /// The name of a part.
     pub fn name(&self, part: &str) -> Option<&str> {
         self.parts.get(part).map(|p| p.name.as_str())
     }
 
-    /// What to say (or show) for an utterance in a part. `None` only for a pair that no method says.
+    /// The sentence to say or show for an utterance in a part. `None` only for a pair that no method says.
     pub fn sentence(&self, part: &str, utterance: &str) -> Option<&str> {
         self.parts.get(part)?.sentences.get(utterance).map(String::as_str)
     }
@@ -74,26 +74,26 @@ impl Words {
         self.parts.get(part).map_or(&[], |p| &p.options)
     }
 
-    /// Which option of the part an utterance of the patient means. The whole utterance must be one of
-    /// the option's forms: "the blue one" is not "one".
+    /// The option of the part that the patient's words choose. All the words together must be one of the option's phrases:
+    /// "the blue one" is not "one".
     pub fn understand(&self, part: &str, heard: &str) -> Option<&Name> {
         let heard = normalise(heard);
         let options = self.options(part).iter();
         options.filter(|o| o.phrases.iter().any(|p| p.is(&heard))).map(|o| &o.option).next()
     }
 
-    /// Which request can be spotted within what was heard.
+    /// The first request with a phrase among the heard words.
     pub fn spot(&self, heard: &str) -> Option<&Name> {
         let heard = normalise(heard);
         self.requests.iter().find(|(_, _, phrases)| phrases.iter().any(|p| p.is_within(&heard))).map(|r| &r.0)
     }
 
-    /// How a request may be spoken; the first form is the plainest.
+    /// The phrases of a request; the first is the plainest.
     pub fn request(&self, request: &str) -> &[String] {
         self.requests.iter().find(|r| &*r.0 == request).map_or(&[], |r| &r.1)
     }
 
-    /// Fills in all templates. What the checks of the mission have reported is left out here.
+    /// Fills in all templates. Entries that the checks have reported are left out.
     pub(crate) fn new(file: &LanguageFile, said: &Said) -> Self {
         let texts =
             |phrases: &Phrases| -> Vec<String> { phrases.phrases.iter().map(|t| t.value.clone()).collect() };

@@ -10,7 +10,7 @@ use crate::manifest::{Manifest, Mention};
 use diagnostics::did_you_mean;
 use diagnostics::{Finding, Place, SourceId};
 
-/// All layers; `None` if one is not there, and then the loader knows why.
+/// All layers; `None` if one is missing, which the loader has reported.
 pub(super) fn read(loader: &mut Loader<'_>, from: SourceId, manifest: &Manifest) -> Option<Layers> {
     let paths = &manifest.paths;
     let robot = Place { source: from, span: manifest.robot_span };
@@ -49,7 +49,7 @@ pub(super) fn read(loader: &mut Loader<'_>, from: SourceId, manifest: &Manifest)
     })
 }
 
-/// What a layer is read as.
+/// The model of a layer.
 trait Model {
     fn features(&self) -> Vec<(Feature, Span)>;
 }
@@ -76,10 +76,10 @@ fn parse<M: Model>(
     let parsed = parse(&loader.sources[source]);
     loader.findings.extend(parsed.diagnostics.iter().map(|d| d.finding(source)));
     let features = parsed.model.iter().flat_map(Model::features);
-    // HighToLow looks at the constraints of methods.
+    // HighToLow evaluates the constraints of methods.
     let features = features.filter(|(feature, _)| *feature != Feature::NetworkConstraints);
     loader.findings.extend(features.map(|(feature, span)| {
-        let message = format!("no part of a mission looks at {feature}");
+        let message = format!("a mission does not support {feature}");
         Finding::error("E0709", Place { source, span }, message)
     }));
     parsed.model.map(|model| Layer { source, model })
@@ -99,7 +99,7 @@ fn agents(
     parsed.into_iter().collect()
 }
 
-/// The vocabulary with the objects of `problem` (its own constants come first there) as constants.
+/// The vocabulary with the objects of `problem` as constants. The vocabulary's own constants come first among them.
 fn with_nodes(vocabulary: &Domain, problem: &Problem) -> Domain {
     Domain { constants: problem.objects.clone(), ..vocabulary.clone() }
 }
@@ -133,7 +133,7 @@ fn tokens(loader: &mut Loader<'_>, from: SourceId, manifest: &Manifest, nodes: &
     })
 }
 
-/// Looks names of the manifest up, and reports what is not there.
+/// Looks up names of the manifest, and reports those that are missing.
 struct Resolve<'l, 'f> {
     loader: &'l mut Loader<'f>,
     from: SourceId,
@@ -144,7 +144,7 @@ impl Resolve<'_, '_> {
         if found.is_none() {
             let place = Place { source: self.from, span: mention.span };
             let help = did_you_mean(&mention.name, known.iter().copied());
-            let message = format!("the graph knows no {kind} `{}`", mention.name);
+            let message = format!("the graph has no {kind} `{}`", mention.name);
             self.loader.findings.push(Finding::error("E0706", place, message).help_if(help));
         }
         found

@@ -1,4 +1,4 @@
-//! Reading the languages and holding them against the graph and each other.
+//! Reading the languages, and comparing them with the graph and with each other.
 
 use pddl::Span;
 
@@ -30,7 +30,7 @@ pub(super) fn read(
         let broken = findings.iter().any(|f| f.code == Some("E0701"));
         loader.findings.extend(findings);
         if broken {
-            // A file that is not TOML lacks everything below the mistake; that is not worth saying.
+            // A file that is not TOML lacks everything after the mistake; reporting that would not help.
             continue;
         }
         names::check(&file, &said, &mut loader.findings);

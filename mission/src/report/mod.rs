@@ -1,9 +1,8 @@
-//! The report: per item what was answered and what it scores, and the sum.
+//! The report: the answer and the score of each item, and the sum.
 //!
-//! Problem: the report belongs to the test, and Rust must not know the test. Idea: `mission.toml` names
-//! five tokens (items, what they offer, what was answered, which question was not, what an option
-//! scores), and the report is a query over one snapshot of the graph. Invariant: the same snapshot and
-//! language give the same bytes; an item without an answer never scores.
+//! Problem: the report belongs to the test, and Rust must not know the test. Idea: `mission.toml` names five tokens (the
+//! items, their options, the answers, the unanswered questions, the scores), and the report is a query over one snapshot
+//! of the graph. Invariant: the same snapshot and language give the same bytes; an item without an answer has no score.
 
 mod table;
 
@@ -17,12 +16,12 @@ use serde::{Serialize, Serializer};
 use crate::content::{ReportLabels, Words};
 use crate::mission::Mission;
 
-/// A score or a sum of scores. Whole numbers show without decimals.
+/// A score or a sum of scores. Whole numbers are printed without decimals.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 pub struct Score(pub f64);
 
 impl Score {
-    /// Whether it is that whole number.
+    /// Whether it equals a whole number.
     pub fn is(self, number: u32) -> bool {
         (self.0 - f64::from(number)).abs() < 1e-9
     }
@@ -47,20 +46,20 @@ impl Serialize for Score {
 
 impl std::iter::Sum for Score {
     fn sum<I: Iterator<Item = Self>>(scores: I) -> Self {
-        // `f64`'s own sum of nothing is -0.
+        // The sum of an empty `f64` iterator is -0.
         Self(scores.fold(0.0, |sum, s| sum + s.0))
     }
 }
 
-/// How far an item came.
+/// The state of an item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
     /// It has an answer.
     Answered,
-    /// It was asked, and has no answer.
+    /// It was asked and has no answer.
     Unanswered,
-    /// It was not asked, or not to the end.
+    /// It was not asked, or not completely.
     NotReached,
 }
 
@@ -71,13 +70,13 @@ pub struct ItemReport {
     pub item: Name,
     /// Its name in the report's language.
     pub name: String,
-    /// How far it came.
+    /// Its state.
     pub status: Status,
-    /// The option that was chosen.
+    /// The chosen option.
     pub option: Option<Name>,
-    /// What that option says.
+    /// The text of that option.
     pub answer: Option<String>,
-    /// What it scores.
+    /// Its score.
     pub score: Option<Score>,
     /// The most that the item can score.
     pub maximum: Score,
@@ -89,7 +88,7 @@ pub struct Times {
     /// The first commit of the mission.
     #[serde(rename = "started_s", serialize_with = "seconds")]
     pub started: Duration,
-    /// The commit that the report is of.
+    /// The commit of the report.
     #[serde(rename = "finished_s", serialize_with = "seconds")]
     pub finished: Duration,
 }
@@ -107,7 +106,7 @@ pub struct Report {
     pub title: String,
     /// The tag of the language.
     pub language: String,
-    /// When.
+    /// When the test began and ended.
     #[serde(flatten)]
     pub times: Times,
     /// All items, in the order of the test.
@@ -177,7 +176,7 @@ impl Report {
     }
 }
 
-/// The five tokens, looked up in one snapshot.
+/// Look-ups of the five tokens in one snapshot.
 struct Graph<'a> {
     mission: &'a Mission,
     snapshot: &'a Snapshot,
@@ -205,7 +204,7 @@ impl<'a> Graph<'a> {
         !self.incoming(item, &self.mission.manifest.report.unanswered.name).is_empty()
     }
 
-    /// A binary function is a label whose edges carry the attribute of the same name.
+    /// The score of an option: a binary function is a label whose edges carry the attribute of the same name.
     fn score(&self, item: &str, option: &str) -> Option<f64> {
         let name = &self.mission.manifest.report.score.name;
         let vocabulary = self.snapshot.vocabulary();

@@ -1,9 +1,8 @@
 //! A PDDL condition inside a TOML string.
 //!
-//! `pddl` reads files, not fragments. So the fragment becomes the goal of a small problem over the
-//! vocabulary, and the spans of what is found are moved back: first off the text around it, then into
-//! the TOML literal. Invariant: a condition that was read names only tokens that the vocabulary has and
-//! nodes that the initial graph has.
+//! Problem: `pddl` reads files, not fragments. Idea: the fragment becomes the goal of a small problem over the vocabulary;
+//! the spans of the findings are then moved back from the surrounding text to the TOML literal. Invariant: a condition
+//! that was read names only tokens of the vocabulary and nodes of the initial graph.
 
 use pddl::model::{Condition, Variables};
 use pddl::{Source, Span};
@@ -16,12 +15,11 @@ use diagnostics::toml::{Reader, Text};
 pub struct GraphCondition {
     /// As written.
     pub text: String,
-    /// In terms of [`Layers::nodes`]. Its inner spans refer to no file; report
-    /// [`GraphCondition::span`].
+    /// In terms of [`Layers::nodes`]. Its inner spans belong to no file; report [`GraphCondition::span`].
     pub condition: Condition,
     /// Its quantified variables.
     pub variables: Variables,
-    /// Where it stands in the scenario.
+    /// Its place in the scenario.
     pub span: Span,
 }
 
@@ -46,7 +44,7 @@ pub(super) fn read(reader: &mut Reader<'_>, layers: &Layers, text: &Text) -> Opt
     for diagnostic in parsed.diagnostics {
         let mut finding = diagnostic.finding(reader.source);
         finding.place.span = moved(finding.place.span);
-        // Other places are in the vocabulary or in the text around the condition.
+        // Related places are in the vocabulary or in the text around the condition.
         finding.related.clear();
         reader.findings.push(finding);
     }
@@ -59,7 +57,7 @@ pub(super) fn read(reader: &mut Reader<'_>, layers: &Layers, text: &Text) -> Opt
     })
 }
 
-/// The first place where the fragment is not one list: it would escape from the goal around it.
+/// The first place where the fragment is not one list, so that it would escape from the goal around it.
 fn unbalanced(text: &str) -> Option<Span> {
     let mut depth = 0_u32;
     let mut closed = false;

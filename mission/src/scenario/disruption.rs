@@ -1,4 +1,4 @@
-//! What happens to the patient, at the clinician's console and to the devices, and when.
+//! Disruptions: events of the patient, of the clinician's console and of the devices, and their times.
 
 mod step;
 
@@ -20,7 +20,7 @@ use diagnostics::toml::{Reader, Table};
 pub enum Device {
     /// Text to speech.
     Speaker,
-    /// The touchscreen, as something that shows.
+    /// The touchscreen's display.
     Screen,
     /// Speech recognition.
     Microphone,
@@ -29,25 +29,25 @@ pub enum Device {
 /// When a disruption is due.
 #[derive(Clone, Debug)]
 pub enum Trigger {
-    /// That long after the start.
+    /// At this time after the start.
     At(Duration),
-    /// When a condition comes to hold.
+    /// When a condition becomes true.
     When {
         /// The condition.
         condition: GraphCondition,
-        /// The how many-th time, from 1.
+        /// Which occurrence, counted from 1.
         occurrence: u32,
     },
     /// When PELEA starts an action.
     Step {
         /// The action.
         step: Step,
-        /// The how many-th time, from 1.
+        /// Which occurrence, counted from 1.
         occurrence: u32,
     },
 }
 
-/// What happens.
+/// The event of a disruption.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Act {
     /// The person goes out of view.
@@ -56,7 +56,7 @@ pub enum Act {
     ReturnPerson,
     /// The person asks for something.
     Ask {
-        /// What.
+        /// The request.
         request: Name,
     },
     /// The clinician pauses the test.
@@ -67,7 +67,7 @@ pub enum Act {
     Abort,
     /// A device fails from now on.
     Fail(Device),
-    /// A device claims success and does nothing from now on.
+    /// A device reports success and does nothing from now on.
     Lie(Device),
     /// A device works again.
     Recover(Device),
@@ -78,11 +78,11 @@ pub enum Act {
 pub struct Disruption {
     /// When it is due.
     pub trigger: Trigger,
-    /// How long after that it happens.
+    /// The delay from the trigger to the event.
     pub after: Duration,
-    /// What happens.
+    /// The event of a disruption.
     pub act: Act,
-    /// Where it stands in the scenario.
+    /// Its place in the scenario.
     pub span: Span,
 }
 
@@ -116,12 +116,12 @@ fn read_trigger(reader: &mut Reader<'_>, layers: &Layers, table: &mut Table<'_>)
             let other = reader.place(table.key_span(first));
             let message = format!("a disruption has one trigger, and this one has `{first}` and `{second}`");
             let finding = Finding::error("E0906", place, message);
-            reader.findings.push(finding.related(other, format!("`{first}` stands here")));
+            reader.findings.push(finding.related(other, format!("`{first}` is here")));
             return None;
         }
     }
     if let Some((_, span)) = occurrence.filter(|_| table.has("at")) {
-        reader.error("E0906", span, "`occurrence` counts a `when` or a `step`; a time comes once");
+        reader.error("E0906", span, "`occurrence` counts a `when` or a `step`; a time occurs once");
     }
     let occurrence = occurrence.map_or(1, |(n, _)| n);
     if let Some(text) = when {
@@ -153,10 +153,10 @@ fn read_act(reader: &mut Reader<'_>, layers: &Layers, table: &mut Table<'_>) -> 
         "recover" => read_device(reader, table).map(Act::Recover),
         unknown => {
             let help = did_you_mean(unknown, ACTS).unwrap_or_else(|| format!("one of: {}", ACTS.join(", ")));
-            let message = format!("`{unknown}` is nothing that a scenario can do");
+            let message = format!("a scenario cannot do `{unknown}`");
             let finding = Finding::error("E0908", reader.place(act.span), message);
             reader.findings.push(finding.help(help));
-            // The keys that the right act would have read are not the mistake.
+            // Do not report the keys that the intended act would have read.
             let _ = (table.text(reader, "request"), table.text(reader, "device"));
             None
         }

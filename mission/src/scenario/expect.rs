@@ -1,4 +1,4 @@
-//! `[expect]`: what must come out of a scenario. Each expectation is optional.
+//! `[expect]`: the required results of a scenario. Each expectation is optional.
 
 use pddl::Span;
 use pddl::model::Name;
@@ -10,12 +10,12 @@ use diagnostics::Finding;
 use diagnostics::did_you_mean;
 use diagnostics::toml::{Reader, Table, Text};
 
-/// An expected value and where it is written.
+/// An expected value and its place.
 #[derive(Clone, Debug)]
 pub struct Expected<T> {
     /// The value.
     pub value: T,
-    /// Where it is written.
+    /// Its place.
     pub span: Span,
 }
 
@@ -24,37 +24,37 @@ pub struct Expected<T> {
 pub struct Naming {
     /// A predicate or function of the graph, of perception or of the planning domain.
     pub token: Name,
-    /// Where it is written.
+    /// Its place.
     pub span: Span,
 }
 
-/// What is expected of the replans.
+/// The expectations on the replans.
 #[derive(Clone, Debug, Default)]
 pub struct ReplanExpectation {
-    /// At least so many.
+    /// The least number.
     pub at_least: Option<Expected<u32>>,
-    /// At most so many.
+    /// The greatest number.
     pub at_most: Option<Expected<u32>>,
-    /// Each of these tokens is named by some replan.
+    /// Some replan names each of these tokens.
     pub naming: Vec<Naming>,
 }
 
-/// What must come out.
+/// The required results.
 #[derive(Clone, Debug, Default)]
 pub struct Expectation {
     /// Whether the mission reaches its goal.
     pub accomplished: Option<Expected<bool>>,
     /// Conditions over the final graph.
     pub holds: Vec<GraphCondition>,
-    /// How many items are answered.
+    /// The number of answered items.
     pub answered: Option<Expected<u32>>,
     /// The sum of the scores.
     pub total: Option<Expected<u32>>,
-    /// Exactly these items were asked and not answered.
+    /// The items that were asked and not answered, exactly.
     pub unanswered: Option<Expected<Vec<Name>>>,
-    /// What is expected of the replans.
+    /// The expectations on the replans.
     pub replans: ReplanExpectation,
-    /// No answered item but these may be asked again.
+    /// The only answered items that may be asked again.
     pub asked_again: Option<Expected<Vec<Name>>>,
 }
 

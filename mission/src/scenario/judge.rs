@@ -1,4 +1,4 @@
-//! Holding what came out against what must come out. Pure: facts in, violations out.
+//! Comparing the outcome of a run with the expectations. Pure: facts in, violations out.
 
 use pddl::Span;
 use pddl::model::Name;
@@ -6,14 +6,14 @@ use pddl::model::Name;
 use super::{Expectation, GraphCondition};
 use crate::report::Report;
 
-/// A replan, as far as a scenario judges it.
+/// The part of a replan that a scenario judges.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Replan {
-    /// The tokens that its reason names.
+    /// The tokens in its reason.
     pub names: Vec<Name>,
 }
 
-/// What came out of a run.
+/// The outcome of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Outcome<'a> {
     /// Whether the mission reached its goal.
@@ -22,7 +22,7 @@ pub struct Outcome<'a> {
     pub report: &'a Report,
     /// All replans.
     pub replans: &'a [Replan],
-    /// Items that were asked again after they had been answered.
+    /// Answered items that were asked again.
     pub asked_again: &'a [Name],
 }
 
@@ -30,7 +30,7 @@ pub struct Outcome<'a> {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[expect(missing_docs, reason = "the fields are the terms of the message")]
 pub enum Violation {
-    /// The mission should have reached its goal and did not, or the other way round.
+    /// The mission missed its goal, or reached it against the expectation.
     #[error("the mission was {}accomplished", if *expected { "not " } else { "" })]
     Accomplished { expected: bool, span: Span },
     /// A condition does not hold in the final graph.
@@ -42,7 +42,7 @@ pub enum Violation {
     /// Another total.
     #[error("the total is {found}, {expected} expected")]
     Total { expected: u32, found: String, span: Span },
-    /// Other items stayed without an answer.
+    /// Other items are unanswered.
     #[error("unanswered: [{}], expected: [{}]", found.join(", "), expected.join(", "))]
     Unanswered { expected: Vec<String>, found: Vec<String>, span: Span },
     /// Too few replans.
@@ -60,7 +60,7 @@ pub enum Violation {
 }
 
 impl Violation {
-    /// Where the expectation is written.
+    /// The place of the expectation.
     pub fn span(&self) -> Span {
         match self {
             Self::Accomplished { span, .. }
@@ -77,7 +77,7 @@ impl Violation {
 }
 
 impl Expectation {
-    /// What of this was not met. `holds` answers whether a condition holds in the final graph.
+    /// The expectations that were not met. `holds` evaluates a condition in the final graph.
     pub fn judge(
         &self,
         outcome: &Outcome<'_>,

@@ -1,11 +1,11 @@
-//! Scenarios: a simulated patient, a simulated clinician, what happens to them, and what must come out.
+//! Scenarios: a simulated patient, a simulated clinician, disruptions, and expectations.
 //!
-//! A scenario is TOML with PDDL inside: conditions over the graph, and steps of the plan. Names are
-//! resolved when it is read, each mistake at its own line and column, so that a scenario which runs
-//! cannot wait for a token that nobody can write.
+//! A scenario is TOML with PDDL inside: conditions over the graph, and steps of the plan. Its names are resolved when it
+//! is read, and each mistake is reported at its line and column, so that a running scenario cannot wait for an unknown
+//! token.
 //!
-//! This is data. Whoever has a simulated room and a clock turns it into a script for the room; the
-//! verdict is [`Expectation::judge`].
+//! This module is data. The command line turns a scenario into scripts for the simulated room; [`Expectation::judge`]
+//! gives the verdict.
 
 mod condition;
 mod disruption;
@@ -33,13 +33,13 @@ pub struct Scenario {
     pub name: String,
     /// One line for people.
     pub title: String,
-    /// Who is tested.
+    /// The simulated patient.
     pub patient: Patient,
-    /// Who may be called.
+    /// The simulated clinician.
     pub clinician: Clinician,
-    /// What happens.
+    /// The disruptions.
     pub disruptions: Vec<Disruption>,
-    /// What must come out.
+    /// The expectations.
     pub expect: Expectation,
     /// Its text; all its spans refer to it.
     pub source: Arc<Source>,
@@ -48,9 +48,9 @@ pub struct Scenario {
 /// The simulated clinician.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clinician {
-    /// How long after a call they come; `None`: never.
+    /// How long after a call they come; `None` if they never come.
     pub comes_after: Option<Duration>,
-    /// How long they stay; the call is over then.
+    /// How long they stay; then the call is finished.
     pub stays: Duration,
     /// Whether they bring back a person who is out of view.
     pub fetches: bool,

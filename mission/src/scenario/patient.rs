@@ -1,4 +1,4 @@
-//! The simulated patient: what they answer, when, and how.
+//! The simulated patient: their answers, with time and manner.
 
 use std::time::Duration;
 
@@ -18,25 +18,25 @@ pub enum By {
     Touch,
 }
 
-/// What is answered.
+/// The content of a reply.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// The item's option of that number, from 1.
+    /// An option of the item, by its number, from 1.
     Option(u32),
-    /// Nothing.
+    /// No answer.
     Silent,
-    /// Something that the recogniser takes for these words, which are no option.
+    /// Words, as the recogniser hears them, that are not an option.
     Misheard(String),
 }
 
-/// An answer, when, and how.
+/// An answer, with its time and manner.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Reply {
-    /// What.
+    /// The answer.
     pub answer: Answer,
-    /// How long after the robot begins to listen.
+    /// The delay after the robot begins to listen.
     pub delay: Duration,
-    /// How.
+    /// The manner.
     pub by: By,
 }
 
@@ -45,7 +45,7 @@ pub struct Reply {
 pub struct ReplyRule {
     /// For this item.
     pub item: Name,
-    /// For this question; `None`: for all questions about the item.
+    /// For this question; `None` for all questions about the item.
     pub question: Option<Name>,
     /// The reply.
     pub reply: Reply,
@@ -54,9 +54,9 @@ pub struct ReplyRule {
 /// The simulated patient.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Patient {
-    /// Whether they sit in front of the robot when it starts.
+    /// Whether they are in view at the start.
     pub in_view: bool,
-    /// What they reply unless an exception says otherwise.
+    /// The reply without an exception.
     pub default: Reply,
     /// The exceptions.
     pub replies: Vec<ReplyRule>,
@@ -65,8 +65,8 @@ pub struct Patient {
 const DELAY: Duration = Duration::from_secs(2);
 
 impl Patient {
-    /// What the patient replies to a question about an item: the exception for both, else the exception
-    /// for the item, else the default.
+    /// The patient's reply to a question about an item: the exception for both, else the exception for the item, else the
+    /// default.
     pub fn reply(&self, item: &str, question: &str) -> &Reply {
         let of_item = || self.replies.iter().filter(|r| &*r.item == item);
         let exact = of_item().find(|r| r.question.as_deref() == Some(question));
@@ -117,8 +117,7 @@ fn read_rule(reader: &mut Reader<'_>, mission: &Mission, mut table: Table<'_>) -
     Some(ReplyRule { item: name(item?), question, reply: reply? })
 }
 
-/// Exactly one of `option`, `silent`, `misheard`; `delay` and `by`. The option must be one that each of
-/// `items` offers.
+/// Reads exactly one of `option`, `silent`, `misheard`, and `delay` and `by`. Each of `items` must offer the option.
 fn read_reply(
     reader: &mut Reader<'_>,
     mission: &Mission,
@@ -149,14 +148,14 @@ fn read_reply(
             if let Some(option) = words.understand(layers.name(item), &text.value) {
                 let (language, item) = (words.tag(), layers.name(item));
                 let message =
-                    format!("in `{language}` this is understood: it chooses `{option}` of `{item}`");
+                    format!("in `{language}` these words are understood: they choose `{option}` of `{item}`");
                 reader.error("E0911", text.span, message);
             }
         }
         return Some(Reply { answer: Answer::Misheard(text.value), delay, by });
     }
     if !silent? {
-        reader.error("E0904", table.key_span("silent"), "`silent` is true, or is not written");
+        reader.error("E0904", table.key_span("silent"), "`silent` must be true; leave it out for an answer");
         return None;
     }
     Some(Reply { answer: Answer::Silent, delay, by })

@@ -31,7 +31,7 @@ impl Mission {
         }
     }
 
-    /// Reads a scenario from anywhere.
+    /// Reads a scenario from any source.
     pub fn read_scenario(&self, source: Source) -> Result<Scenario, MissionErrors> {
         let mut sources = self.sources.clone();
         let id = sources.push(source);

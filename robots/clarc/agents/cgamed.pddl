@@ -1,4 +1,4 @@
-; CGAmed: the clinician's side. Commands from the clinician's console, calls to the clinician, and
+; CGAmed: the clinician's side: commands from the clinician's console, calls to the clinician, and
 ; the report.
 (define (domain cgamed)
   (:requirements :typing :negative-preconditions :durative-actions :agent-rules)
@@ -22,7 +22,7 @@
     :effect (and (at end (is ?t aborted)) (at end (not (is ?t paused))))
     :skill (await-command abort))
 
-  ; Ends when the clinician has seen to it.
+  ; Ends when the clinician has attended to the need.
   (:durative-action call
     :parameters (?c - clinician ?n - need ?p - person)
     :condition (over all (is_needed_for ?c ?n))

@@ -1,4 +1,4 @@
-; Panel: the touchscreen, what it shows and what is touched.
+; Panel: the touchscreen, with its pages and touches.
 (define (domain panel)
   (:requirements :typing :equality :negative-preconditions :existential-preconditions
                  :fluents :durative-actions :agent-rules)
@@ -59,7 +59,7 @@
     :claims (display)
     :priority 70)
 
-  ; That a page was sent is not that it was shown: the screen itself reports what stands on it.
+  ; A page that was sent need not be on the screen; the screen itself reports the page that it shows.
   (:durative-action see-page
     :parameters (?r - robot) ; allow(unused-parameter): it runs once for each robot
     :condition (at start (not (is screen broken)))
@@ -82,7 +82,7 @@
       (at end (was_chosen_in ?o ?i)))
     :skill (await-touch ?i ?q))
 
-  ; With a broken ear the screen takes the answer alone, and tells a silence.
+  ; With a broken microphone, only the screen takes the answer, and this rule reports a silence.
   (:durative-action touch-alone
     :parameters (?r - robot ?p - person ?t - test ?i - item ?a - answer ?q - question)
     :duration (<= ?duration 20)

@@ -1,4 +1,4 @@
-; Person: who is in front of the robot, from the upper body's skeleton.
+; Person: the person in front of the robot, from the skeleton of the upper body.
 (define (domain person-agent)
   (:requirements :typing :negative-preconditions :fluents :durative-actions :agent-rules)
   (:import clarc)

@@ -1,9 +1,9 @@
-; Speech: text to speech, and the answers that are spoken.
+; Speech: text to speech, and spoken answers.
 ;
-; A rule is the graph before (at start), what stands in it meanwhile (effects at start), what must
-; keep holding or the skill is stopped in the same commit (over all), and the graph after, by
-; outcome: `end` when the skill succeeds, `abort` when a reflex stops it, `timeout` when the
-; duration is over, and whatever else the skill can report.
+; A rule gives the graph before (conditions at start), the graph during (effects at start), and the
+; condition that must hold meanwhile (over all), or the skill is stopped in the same commit. Then it
+; gives the graph after, for each outcome: `end` when the skill succeeds, `abort` when a reflex stops
+; it, `timeout` when the duration is over, and the skill's own outcomes.
 (define (domain speech)
   (:requirements :typing :equality :negative-preconditions :existential-preconditions
                  :fluents :durative-actions :agent-rules)
@@ -68,9 +68,9 @@
     :claims (loudspeaker)
     :priority 70)
 
-  ; An answer may be spoken or touched: this rule opens the ear, the panel's rule `touch` follows
-  ; the same `waiting`; whoever ends it first stops the other. An ear that breaks says so, and not that
-  ; the person was silent.
+  ; An answer may be spoken or touched. This rule starts to listen, and the panel's rule `touch` waits
+  ; for the same `waiting`; the first to end stops the other. A broken microphone is reported as broken,
+  ; not as a silence of the person.
   (:durative-action hear
     :parameters (?r - robot ?p - person ?t - test ?i - item ?a - answer ?q - question)
     :duration (<= ?duration 15)
