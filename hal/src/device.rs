@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// A capability, by name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[serde(rename_all = "snake_case")]
 pub enum Device {
     /// Text to speech.
     SpeechOut,

@@ -147,8 +147,8 @@ async fn a_lying_loudspeaker_takes_its_time_and_is_not_heard() {
     check(
         &room,
         &expect![[r#"
-        0.0 {"device":"speech-out","event":"device_lies"}
-        61.6 {"device":"speech-out","event":"device_recovers"}
+        0.0 {"device":"speech_out","event":"device_lies"}
+        61.6 {"device":"speech_out","event":"device_recovers"}
         61.6 {"event":"robot_says","text":"And now?"}
     "#]],
     );

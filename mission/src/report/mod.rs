@@ -53,7 +53,7 @@ impl std::iter::Sum for Score {
 
 /// The state of an item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[serde(rename_all = "snake_case")]
 pub enum Status {
     /// It has an answer.
     Answered,

@@ -118,8 +118,8 @@ impl Run {
             "person_says" if self.microphone && record["words"] != "the blue one" => self.given(record),
             "person_touches" => self.given(record),
             "report_delivered" => self.delivered = Some(record["report"].clone()),
-            "device_fails" | "device_lies" if record["device"] == "speech-in" => self.microphone = false,
-            "device_recovers" if record["device"] == "speech-in" => self.microphone = true,
+            "device_fails" | "device_lies" if record["device"] == "speech_in" => self.microphone = false,
+            "device_recovers" if record["device"] == "speech_in" => self.microphone = true,
             _ => {}
         }
     }
