@@ -19,7 +19,7 @@ pub struct Layer<M> {
 
 /// The tokens of `mission.toml`, as ids of the vocabulary.
 #[derive(Clone, Copy, Debug)]
-pub struct Tokens {
+pub struct NamedTokens {
     /// The node of the report.
     pub document: ObjectId,
     /// Type of the items.
@@ -62,7 +62,7 @@ pub struct Layers {
     /// HighToLow; imports [`Layers::nodes`].
     pub methods: Layer<Domain>,
     /// The tokens of `mission.toml`.
-    pub tokens: Tokens,
+    pub tokens: NamedTokens,
 }
 
 impl Layers {

@@ -35,6 +35,6 @@ pub mod scenario;
 pub use content::{OptionWords, ReportLabels, Words};
 pub use errors::MissionErrors;
 pub use files::{FileError, Files, MemoryFiles};
-pub use layers::{Layer, Layers, Tokens};
-pub use manifest::{Budget, Manifest, Mention, Paths, ReportTokens, WordTypes};
+pub use layers::{Layer, Layers, NamedTokens};
+pub use manifest::{Budget, Manifest, Mention, ReportTokens};
 pub use mission::{Fallback, Mission};

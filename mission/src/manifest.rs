@@ -20,27 +20,27 @@ pub struct Mention {
 
 /// The files of a mission, as paths for [`crate::Files`].
 #[derive(Clone, Debug)]
-pub struct Paths {
+pub(crate) struct Paths {
     /// The robot's vocabulary.
-    pub vocabulary: String,
+    pub(crate) vocabulary: String,
     /// The world before a person is seen.
-    pub world: String,
+    pub(crate) world: String,
     /// The folder of the agents' rules.
-    pub agents: String,
+    pub(crate) agents: String,
     /// The test as nodes and edges.
-    pub graph: String,
+    pub(crate) graph: String,
     /// The planning domain.
-    pub domain: String,
+    pub(crate) domain: String,
     /// The planning problem.
-    pub problem: String,
+    pub(crate) problem: String,
     /// LowToHigh.
-    pub perception: String,
+    pub(crate) perception: String,
     /// HighToLow.
-    pub methods: String,
+    pub(crate) methods: String,
     /// The folder of the languages.
-    pub content: String,
+    pub(crate) content: String,
     /// The folder of the scenarios.
-    pub scenarios: String,
+    pub(crate) scenarios: String,
 }
 
 /// The limits of planning and of retries.
@@ -71,13 +71,13 @@ pub struct ReportTokens {
 
 /// The types that have words in every language.
 #[derive(Clone, Debug)]
-pub struct WordTypes {
+pub(crate) struct WordTypes {
     /// Utterances, which are said or shown.
-    pub utterances: Mention,
+    pub(crate) utterances: Mention,
     /// Parts of a test, in which utterances are said or shown.
-    pub parts: Mention,
+    pub(crate) parts: Mention,
     /// A person's requests, possible at any moment.
-    pub requests: Mention,
+    pub(crate) requests: Mention,
 }
 
 /// `mission.toml`, its names not yet resolved.
@@ -90,21 +90,21 @@ pub struct Manifest {
     /// Tag of the default language.
     pub language: String,
     /// The place of that tag.
-    pub language_span: Span,
+    pub(crate) language_span: Span,
     /// The place of the robot's folder.
-    pub robot_span: Span,
+    pub(crate) robot_span: Span,
     /// The task to execute without a plan: `fall-back` or `(fall-back person)`.
-    pub fallback: Mention,
+    pub(crate) fallback: Mention,
     /// Its arguments, if the manifest gives them.
-    pub fallback_arguments: Vec<Mention>,
+    pub(crate) fallback_arguments: Vec<Mention>,
     /// The files.
-    pub paths: Paths,
+    pub(crate) paths: Paths,
     /// The limits of planning and of retries.
     pub budget: Budget,
     /// The tokens of the report.
     pub report: ReportTokens,
     /// The types of the words.
-    pub words: WordTypes,
+    pub(crate) words: WordTypes,
 }
 
 const DEFAULT_BUDGET: Budget = Budget { replan_expansions: 20_000, attempts: 3 };

@@ -28,7 +28,7 @@ pub struct Mission {
     /// `mission.toml`.
     pub manifest: Manifest,
     /// The source of the manifest.
-    pub manifest_source: SourceId,
+    pub(crate) manifest_source: SourceId,
     /// Its PDDL.
     pub layers: Layers,
     /// The task to execute when there is no plan.

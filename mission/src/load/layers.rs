@@ -5,7 +5,7 @@ use pddl::{Parsed, Source, Span};
 
 use super::Loader;
 use crate::files::join;
-use crate::layers::{Layer, Layers, Tokens};
+use crate::layers::{Layer, Layers, NamedTokens};
 use crate::manifest::{Manifest, Mention};
 use diagnostics::did_you_mean;
 use diagnostics::{Finding, Place, SourceId};
@@ -104,7 +104,7 @@ fn with_nodes(vocabulary: &Domain, problem: &Problem) -> Domain {
     Domain { constants: problem.objects.clone(), ..vocabulary.clone() }
 }
 
-fn tokens(loader: &mut Loader<'_>, from: SourceId, manifest: &Manifest, nodes: &Domain) -> Option<Tokens> {
+fn tokens(loader: &mut Loader<'_>, from: SourceId, manifest: &Manifest, nodes: &Domain) -> Option<NamedTokens> {
     let mut resolve = Resolve { loader, from };
     let types: Vec<&str> = nodes.types.enumerate().map(|(_, t)| t.name.as_str()).collect();
     let predicates: Vec<&str> = nodes.predicates.enumerate().map(|(_, p)| p.name.as_str()).collect();
@@ -120,7 +120,7 @@ fn tokens(loader: &mut Loader<'_>, from: SourceId, manifest: &Manifest, nodes: &
     let (offers, answer, unanswered) =
         (predicate(&report.offers), predicate(&report.answer), predicate(&report.unanswered));
     let score = resolve.name("function", &report.score, &functions, nodes.function(&report.score.name));
-    Some(Tokens {
+    Some(NamedTokens {
         document: document?,
         items: items?,
         offers: offers?,
