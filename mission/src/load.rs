@@ -172,7 +172,8 @@ fn fallback(
             match problem.object(&mention.name) {
                 Some(object) if fits(object, parameter) => arguments.push(object),
                 _ => {
-                    let message = format!("`{}` is not an object that fits `?{}`", mention.name, parameter.name);
+                    let message =
+                        format!("`{}` is not an object that fits `?{}`", mention.name, parameter.name);
                     return report(mention.span, message);
                 }
             }

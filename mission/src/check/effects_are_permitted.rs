@@ -56,7 +56,8 @@ pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
                 continue;
             }
             let place = Place { source: methods.source, span: written.span };
-            let message = format!("`{}` writes `{}`, which no agent may write", intention.name, written.token);
+            let message =
+                format!("`{}` writes `{}`, which no agent may write", intention.name, written.token);
             findings.push(Finding::error("C0601", place, message));
         }
     }

@@ -104,7 +104,12 @@ fn with_nodes(vocabulary: &Domain, problem: &Problem) -> Domain {
     Domain { constants: problem.objects.clone(), ..vocabulary.clone() }
 }
 
-fn tokens(loader: &mut Loader<'_>, from: SourceId, manifest: &Manifest, nodes: &Domain) -> Option<NamedTokens> {
+fn tokens(
+    loader: &mut Loader<'_>,
+    from: SourceId,
+    manifest: &Manifest,
+    nodes: &Domain,
+) -> Option<NamedTokens> {
     let mut resolve = Resolve { loader, from };
     let types: Vec<&str> = nodes.types.enumerate().map(|(_, t)| t.name.as_str()).collect();
     let predicates: Vec<&str> = nodes.predicates.enumerate().map(|(_, p)| p.name.as_str()).collect();
