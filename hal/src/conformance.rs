@@ -85,9 +85,9 @@ pub enum Violation {
     Wrong {
         /// Which.
         operation: &'static str,
-        /// What it gave.
+        /// The result.
         found: String,
-        /// What it should have given.
+        /// The expected result.
         expected: String,
     },
 }
@@ -130,7 +130,7 @@ cases! {
     a_call_is_attended
     a_report_is_acknowledged
     an_unplugged_device_fails_and_recovers
-    unplugging_fails_what_is_under_way
+    unplugging_fails_operations_under_way
 }
 
 async fn ends<T>(rig: &dyn Rig, operation: &'static str, work: Operation<'_, T>) -> Result<T, Violation> {
@@ -291,7 +291,7 @@ async fn an_unplugged_device_fails_and_recovers(rig: &dyn Rig) -> Result<(), Vio
     ends(rig, "say", out.say("This is heard.", "en")).await
 }
 
-async fn unplugging_fails_what_is_under_way(rig: &dyn Rig) -> Result<(), Violation> {
+async fn unplugging_fails_operations_under_way(rig: &dyn Rig) -> Result<(), Violation> {
     let devices = rig.devices();
     let (asked, report) = (question(), serde_json::Value::Null);
     // An operation of each device that would not end by itself.

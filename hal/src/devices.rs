@@ -1,11 +1,11 @@
-//! What a robot consists of, seen from its agents.
+//! The devices of a robot, as its agents see them.
 
 use std::fmt;
 use std::sync::Arc;
 
 use crate::{Buttons, Clinic, Screen, Skeleton, SpeechIn, SpeechOut};
 
-/// One back end of each capability: what a robot consists of, seen from its agents.
+/// The devices of a robot: one back end of each capability.
 #[derive(Clone)]
 #[expect(missing_docs, reason = "the types say what they are")]
 pub struct Devices {

@@ -26,7 +26,7 @@
 //! | `speech`, `screen`, `skeleton`, `clinic` | the capabilities |
 //! | `devices` | one back end of each |
 //! | [`sim`] | the simulated room |
-//! | [`conformance`] | what every back end must do |
+//! | [`conformance`] | the suite for back ends |
 
 pub mod conformance;
 pub mod sim;

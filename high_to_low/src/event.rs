@@ -1,11 +1,11 @@
-//! What a refinement did, step by step. `wording` makes sentences of it.
+//! The events of a refinement, as data. `wording` makes sentences of them.
 
 use pddl::model::Name;
 
 use crate::failure::Reason;
 use crate::ground::GroundTask;
 
-/// One thing that HighToLow did or saw.
+/// An event of a refinement.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RefinementEvent {
     /// A method was chosen for a task.

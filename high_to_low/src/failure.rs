@@ -22,7 +22,7 @@ pub enum Failure {
 /// Why one method failed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reason {
-    /// Its head names other arguments than the task has.
+    /// Its head does not match the task's arguments.
     OtherArguments,
     /// Its precondition does not hold; the first part that fails.
     NotApplicable(Unmet),
@@ -64,7 +64,7 @@ pub enum Reason {
     NoEdits {
         /// The intention.
         intention: GroundTask,
-        /// What its effect lacks.
+        /// The reason.
         error: EffectError,
     },
 }

@@ -32,7 +32,7 @@ enum State {
     Written { on: Option<Version>, edits: Vec<Edit> },
 }
 
-/// How an intention stands after a turn.
+/// The state of an intention after a turn.
 pub(crate) enum Standing {
     Running,
     Seen,

@@ -30,7 +30,7 @@ pub struct Refinement {
 pub struct Step {
     /// The edits that PELEA must write now, in one transaction.
     pub edits: Vec<Edit>,
-    /// What the step did and saw.
+    /// The events of the step.
     pub events: Vec<RefinementEvent>,
     /// The state of the refinement.
     pub status: Status,

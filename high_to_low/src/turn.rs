@@ -1,10 +1,10 @@
-//! One turn of a refinement: what it sees, and what it asks for.
+//! One turn of a refinement: the snapshot that it reads, and the edits and events that it collects.
 
 use dsr::{Edit, Snapshot, Time};
 
 use crate::event::RefinementEvent;
 
-/// What the tree of tasks reads and writes while it is stepped.
+/// The input and the output of a step, shared by the whole tree of tasks.
 pub(crate) struct Turn<'a> {
     pub(crate) snapshot: &'a Snapshot,
     pub(crate) now: Time,

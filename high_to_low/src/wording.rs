@@ -1,4 +1,4 @@
-//! Events and failures as sentences. Nothing imports this file: the core of the crate is data.
+//! Events and failures as sentences. No file imports this one: the core of the crate is data.
 
 use std::fmt::{Display, Formatter, Result};
 

@@ -26,7 +26,7 @@ const FRONTIER: usize = 64;
 pub enum Explanation {
     /// It holds; the tokens that support it.
     Holds(Vec<Sentence>),
-    /// It does not hold; what the graph shows instead.
+    /// It does not hold; the state of the graph that prevents it.
     Absent(Vec<Sentence>),
     /// No axiom derives it, or an argument is not a node.
     NotPerceived,

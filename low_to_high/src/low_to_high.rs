@@ -192,7 +192,7 @@ impl LowToHigh {
         }
     }
 
-    /// Asks an axiom again for the heads that agree with what is fixed.
+    /// Evaluates an axiom again for the heads that agree with a partial head.
     fn derive(&mut self, at: usize, snapshot: &Snapshot, partial: &Partial, before: &mut Before) {
         let perception = Arc::clone(&self.perception);
         let axiom = &perception.axioms[at];
@@ -211,7 +211,7 @@ impl LowToHigh {
         }
     }
 
-    /// Remembers whether a tuple held before anything of its component changed.
+    /// Records whether a tuple held before its component changed.
     fn note(&self, predicate: PredicateId, tuple: &Tuple, before: &mut Before) {
         let held = self.relations.contains(predicate, tuple);
         before.entry((predicate, tuple.clone())).or_insert(held);

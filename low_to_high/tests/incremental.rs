@@ -138,7 +138,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn incremental_is_from_scratch(commits in prop::collection::vec(prop::collection::vec(random(), 1..4), 1..25)) {
+    fn an_update_equals_a_derivation_from_scratch(commits in prop::collection::vec(prop::collection::vec(random(), 1..4), 1..25)) {
         let world = world();
         let mut seen = LowToHigh::new(Arc::clone(&world.perception), &world.graph.snapshot());
         for commit in &commits {

@@ -55,7 +55,7 @@ pub struct Budget {
 /// The tokens that make the report.
 #[derive(Clone, Debug)]
 pub struct ReportTokens {
-    /// The node that stands for the report when it is delivered.
+    /// The node of the report, for its delivery.
     pub document: Mention,
     /// The type of the items.
     pub items: Mention,

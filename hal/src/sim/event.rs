@@ -45,7 +45,7 @@ pub enum RoomEvent {
     ReportDelivered { report: serde_json::Value },
     /// A device fails from now on.
     DeviceFails { device: Device },
-    /// A device claims success from now on, and does nothing.
+    /// A device reports success from now on, and does nothing.
     DeviceLies { device: Device },
     /// A device works again.
     DeviceRecovers { device: Device },

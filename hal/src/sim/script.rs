@@ -19,18 +19,18 @@ pub enum By {
 pub enum Reply {
     /// Chooses an option.
     Answer {
-        /// Its number, from 0, in the order of the question's options. A number past the end is the last option.
+        /// The option's number, from 0, in the order of the question's options. A number past the end is the last option.
         option: usize,
         /// Seconds from when a device begins to wait for the answer.
         #[serde(default = "two_seconds")]
         delay: f64,
-        /// How.
+        /// By voice or by touch.
         #[serde(default)]
         by: By,
     },
     /// Says words that are not an option.
     Misheard {
-        /// What.
+        /// The words.
         words: String,
         /// Seconds from when a device begins to wait for the answer.
         #[serde(default = "two_seconds")]
@@ -87,7 +87,7 @@ pub struct PatientScript {
 }
 
 impl PatientScript {
-    /// What the person replies to a question.
+    /// The person's reply to a question.
     pub fn reply(&self, topic: &str, question: &str) -> &Reply {
         let of_topic = || self.replies.iter().filter(|rule| rule.topic == topic);
         let exact = of_topic().find(|rule| rule.question.as_deref() == Some(question));

@@ -52,7 +52,7 @@ mod tests {
     use super::{Phrase, normalise};
 
     #[test]
-    fn an_answer_is_the_whole_of_what_was_heard() {
+    fn an_answer_is_everything_that_was_heard() {
         let one = Phrase::new("one");
         assert!(one.is(&normalise("One.")));
         assert!(!one.is(&normalise("the blue one")));

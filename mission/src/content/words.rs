@@ -1,4 +1,4 @@
-//! One language of one mission, ready to be said.
+//! The words of one language of a mission, with all templates filled in.
 //!
 //! The sentence of an utterance in a part is the part's own, or else the general one. Both are templates: `{name}` is the
 //! part's name, `{option}` the text of the part's option that has the name of the utterance. Templates are filled in when

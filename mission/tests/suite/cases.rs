@@ -1,4 +1,4 @@
-//! Every `cases/*.case` edits the mission in `tea/`; what is then found stands beside it.
+//! Every `cases/*.case` edits the mission in `tea/`; the expected findings are in a file beside it.
 //!
 //! A case is a comment and blocks: `edit PATH` replaces the one occurrence of the text between `<<<<`
 //! and `====` by the text between `====` and `>>>>`; `write PATH` writes a file. A scenario `bad.toml`
@@ -32,7 +32,7 @@ fn apply(case: &str, files: &mut MemoryFiles) {
     }
 }
 
-/// Everything that is found: by loading, or else by the scenario, or else by the checks.
+/// The findings of loading, or else of the scenario, or else of the checks.
 fn findings(files: &MemoryFiles) -> String {
     let mission = match Mission::load(files, "tea") {
         Ok(mission) => mission,
@@ -72,7 +72,7 @@ fn the_mission_that_the_cases_edit_is_good() {
     assert!(unknown.to_string().contains("did you mean `plain`?"), "{unknown}");
 }
 
-/// Half a file is what an editor saves now and then: it must be reported, never break the reader.
+/// An editor may save half a file: the reader must report it, and must not panic.
 #[test]
 fn no_truncated_file_panics() {
     let whole = tea::files();

@@ -1,4 +1,4 @@
-//! The crate as its users see it: the missions of this repository, a small one of its own, bad input.
+//! The public interface: the missions of this repository, a small one of its own, and invalid input.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod cases;

@@ -5,7 +5,7 @@ use mission::Mission;
 use crate::tea;
 
 #[test]
-fn the_part_speaks_before_the_general() {
+fn a_parts_own_sentence_precedes_the_general_one() {
     let mut files = tea::files();
     for language in ["en", "fr"] {
         let text = files.texts.get_mut(&format!("tea/content/{language}.toml")).unwrap();
