@@ -89,20 +89,6 @@ impl LowToHigh {
         predicates.flat_map(move |(id, _)| self.relations.tuples(id).map(move |tuple| self.fact(id, tuple)))
     }
 
-    /// Whether a fact holds; it may be auxiliary.
-    pub fn holds(&self, snapshot: &Snapshot, fact: &Fact) -> bool {
-        let tuple: Option<Tuple> = fact.arguments.iter().map(|name| snapshot.node(name)).collect();
-        match (self.perception.find(&fact.predicate), tuple) {
-            (Some(predicate), Some(tuple)) => self.relations.contains(predicate, &tuple),
-            _ => false,
-        }
-    }
-
-    /// The perception.
-    pub fn perception(&self) -> &Arc<Perception> {
-        &self.perception
-    }
-
     fn fact(&self, predicate: PredicateId, tuple: &[NodeId]) -> Fact {
         let name = |id: &NodeId| self.names.get(id).cloned().unwrap_or_else(|| Name::new(&id.to_string()));
         Fact {

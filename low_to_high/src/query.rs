@@ -23,8 +23,9 @@ pub(crate) struct Environment {
 impl Environment {
     /// An environment in which all variables are free.
     pub(crate) fn new(scope: &Scope) -> Self {
-        let types = (0..scope.len()).map(|at| scope.slot(VariableId::from_index(at)).types.clone()).collect();
-        Self { nodes: vec![None; scope.len()], types }
+        let slots = scope.slots();
+        let types = slots.iter().map(|slot| slot.types.clone()).collect();
+        Self { nodes: vec![None; slots.len()], types }
     }
 
     /// The node that a variable is bound to.

@@ -60,11 +60,4 @@ impl Binding {
         }
         self
     }
-
-    /// This binding with one more variable bound.
-    #[must_use]
-    pub fn with(mut self, variable: VariableId, node: NodeId) -> Self {
-        self.bind(variable, node);
-        self
-    }
 }

@@ -60,11 +60,6 @@ impl Condition {
         Ok(Self { vocabulary: Arc::clone(vocabulary), scope: scope.clone(), alternatives, mentions, parts })
     }
 
-    /// The variables of its schema.
-    pub fn scope(&self) -> &Scope {
-        &self.scope
-    }
-
     /// The alternatives as patterns; empty if it can never hold.
     pub fn alternatives(&self) -> &[Alternative] {
         &self.alternatives

@@ -30,17 +30,7 @@ impl Tokens {
     }
 }
 
-impl<'a> Link<'a> {
-    /// The vocabulary.
-    pub fn tokens(&self) -> &'a Tokens {
-        self.tokens
-    }
-
-    /// The importing domain.
-    pub fn domain(&self) -> &'a Domain {
-        self.domain
-    }
-
+impl Link<'_> {
     /// The variables of a schema, with their types in the graph.
     pub fn scope(&self, variables: &Variables) -> Result<Scope, Vec<LinkError>> {
         let mut errors = Vec::new();

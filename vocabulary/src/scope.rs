@@ -37,14 +37,9 @@ impl Scope {
         (0..self.parameters).map(VariableId::from_index)
     }
 
-    /// The number of variables.
-    pub fn len(&self) -> usize {
-        self.slots.len()
-    }
-
-    /// Whether the schema has no variables.
-    pub fn is_empty(&self) -> bool {
-        self.slots.is_empty()
+    /// All variables, by id.
+    pub fn slots(&self) -> &[Slot] {
+        &self.slots
     }
 
     /// Whether the variable stands for nodes.

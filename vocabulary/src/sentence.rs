@@ -18,13 +18,6 @@ use crate::scope::Scope;
 #[serde(transparent)]
 pub struct Sentence(String);
 
-impl Sentence {
-    /// As text.
-    pub fn as_str(&self) -> &str {
-        &self.0
-    }
-}
-
 impl fmt::Display for Sentence {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.0)

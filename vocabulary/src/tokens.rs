@@ -19,7 +19,6 @@ use std::sync::Arc;
 
 use dsr::{AttributeId, LabelId, TypeId, Value, Vocabulary};
 use indexmap::IndexMap;
-use pddl::Span;
 use pddl::model::{Domain, Name};
 use rustc_hash::FxHashMap;
 
@@ -123,11 +122,5 @@ impl Tokens {
             Constant::Value(value) => Some(value),
             Constant::BuiltIn(_) | Constant::Node(_) => None,
         }
-    }
-
-    /// The place of a predicate's or function's declaration, in the vocabulary's source.
-    pub fn declared(&self, name: &str) -> Option<Span> {
-        let predicate = self.domain.predicate(name).map(|id| self.domain.predicates[id].span);
-        predicate.or_else(|| self.domain.function(name).map(|id| self.domain.functions[id].span))
     }
 }
