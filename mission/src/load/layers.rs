@@ -3,7 +3,7 @@
 use pddl::model::{Domain, Feature, Problem};
 use pddl::{Parsed, Source, Span};
 
-use super::Loader;
+use super::loader::Loader;
 use crate::files::join;
 use crate::layers::{Layer, Layers, NamedTokens};
 use crate::manifest::{Manifest, Mention};

@@ -2,7 +2,7 @@
 
 use pddl::Span;
 
-use super::Loader;
+use super::loader::Loader;
 use crate::content::said::Said;
 use crate::content::{Words, file, names, required};
 use crate::files::{join, stem};
