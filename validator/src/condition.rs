@@ -58,7 +58,7 @@ impl Scene<'_> {
         let (one, two) = (self.number(left, binding).ok()?, self.number(right, binding).ok()?);
         let order = match &self.state.passage {
             Some(passage) => evolution::order(passage, *self, left, right, binding).unwrap_or_else(|_| {
-                self.state.effort.give_up();
+                self.state.work.mark_undecided();
                 Ordering::Equal
             }),
             None => one.cmp(&two),
@@ -66,7 +66,7 @@ impl Scene<'_> {
         if self.state.rounded && order.is_ne() && !(one.is_exact() && two.is_exact()) {
             let (one, two) = (one.to_f64(), two.to_f64());
             if (one - two).abs() <= NEARNESS * one.abs().max(two.abs()).max(1.0) {
-                self.state.effort.give_up();
+                self.state.work.mark_undecided();
             }
         }
         Some(order)

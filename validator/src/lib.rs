@@ -33,7 +33,6 @@ mod condition;
 mod curve;
 mod demands;
 mod effect;
-mod effort;
 mod evolution;
 mod expression;
 mod fraction;
@@ -60,8 +59,9 @@ mod validator;
 mod value;
 mod verdict;
 mod why;
+mod work;
 
-pub use advice::{Budget, Repair};
+pub use advice::{AdviceLimits, Repair};
 pub use cause::Cause;
 pub use number::Number;
 pub use plan::{PlanRef, StepIndex};

@@ -3,7 +3,6 @@
 use crate::axiom::{Needs, Strata};
 use crate::cause::Causes;
 use crate::demands::Demands;
-use crate::effort::Patience;
 use crate::number::Number;
 use crate::preference::judge;
 use crate::prepare::{derived_in_effect, initial_state};
@@ -14,6 +13,7 @@ use crate::trajectory::Asked;
 use crate::universe::Universe;
 use crate::verdict::{Failure, Feature, MetricValue, StepFault, Unsatisfied, Unsupported, Valid, Verdict};
 use crate::why::{DEPTH, Why};
+use crate::work::Thoroughness;
 use pddl::Span;
 use pddl::model::{Condition, Domain, Given, ObjectId, Problem, TimeSpecifier, TimedEffect, Variables};
 
@@ -39,7 +39,7 @@ pub(crate) struct Prepared<'a> {
     pub(crate) domain: &'a Domain,
     pub(crate) problem: &'a Problem,
     pub(crate) precision: Precision,
-    pub(crate) patience: Patience,
+    pub(crate) thoroughness: Thoroughness,
     pub(crate) universe: Universe,
     pub(crate) strata: Strata,
     pub(crate) initial: State,
@@ -76,7 +76,7 @@ impl<'a> Prepared<'a> {
             domain,
             problem,
             precision: Precision::default(),
-            patience: Patience::default(),
+            thoroughness: Thoroughness::default(),
             universe,
             strata,
             initial,

@@ -100,7 +100,7 @@ impl<'a> Scene<'a> {
 }
 
 /// What an instance costs at least, beside a step of a search: it is noted, and kept.
-const INSTANCE: u64 = 10;
+const INSTANCE: usize = 10;
 
 /// Visits each binding of `variables`, as long as the effort allows; they are unbound again on return.
 pub(crate) fn each_instance(
@@ -111,7 +111,7 @@ pub(crate) fn each_instance(
 ) {
     let Some((&first, rest)) = variables.split_first() else { return visit(binding) };
     for &object in &scene.extent(first).objects {
-        if !scene.state.effort.spend(INSTANCE) {
+        if !scene.state.work.spend(INSTANCE) {
             break;
         }
         binding.set(first, Some(object));

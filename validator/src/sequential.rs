@@ -4,7 +4,6 @@ use crate::axiom::Needs;
 use crate::cause::{Cause, Causes};
 use crate::demands::Demands;
 use crate::effect::Changes;
-use crate::effort::Effort;
 use crate::number::Number;
 use crate::plan::StepIndex;
 use crate::preference::judge;
@@ -16,6 +15,7 @@ use crate::state::State;
 use crate::trace::{Diff, Happening, Trace};
 use crate::trajectory::{Asked, Since};
 use crate::verdict::{Failure, StepFault, Unsatisfied, Valid};
+use crate::work::Work;
 use pddl::PlanStep;
 use pddl::model::{Action, ActionId, IndexVec};
 
@@ -78,9 +78,9 @@ pub(crate) fn replay<'p>(
     visit: &mut dyn FnMut(u32, &mut State),
 ) -> bool {
     let mut state = prepared.initial.clone();
-    state.effort = Effort::for_steps(steps);
+    state.work = Work::for_steps(steps);
     let _ = run(prepared, plan, &mut state, None, visit);
-    !state.effort.is_spent()
+    !state.work.is_exhausted()
 }
 
 /// Per action, the derived predicates that its conditions read.
@@ -107,7 +107,7 @@ impl Run<'_, '_, '_> {
     /// What was lacking in a state that lies behind: the plan is carried out again that far.
     fn lacked<'p>(&self, asked: Asked, plan: impl Iterator<Item = &'p PlanStep>) -> Vec<Unsatisfied> {
         let mut state = self.prepared.initial.clone();
-        state.effort = self.state.effort.clone();
+        state.work = self.state.work.clone();
         let mut again = Run {
             prepared: self.prepared,
             needs: needs(self.prepared),

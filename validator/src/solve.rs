@@ -180,7 +180,7 @@ impl Scene<'_> {
         binding: &mut Binding,
         visit: &mut Visit<'_>,
     ) -> ControlFlow<()> {
-        if !self.state.effort.spend(1) {
+        if !self.state.work.spend(1) {
             return ControlFlow::Continue(());
         }
         if !targets.is_empty() && targets.iter().all(|&v| binding.get(v).is_some()) {

@@ -211,7 +211,7 @@ impl<'a> Trajectory<'a> {
     pub(crate) fn observe(&mut self, since: Since, universe: &Universe, state: &State) {
         self.times.push(since);
         for leaf in &mut self.leaves {
-            if !state.effort.spend(1) {
+            if !state.work.spend(1) {
                 return;
             }
             let clock = Clock::at(since.time);

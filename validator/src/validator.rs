@@ -3,12 +3,12 @@
 //! [`Validator`] prepares a task once (extents, strata, the initial state) and then judges plans. Cost of
 //! a plan: the initial state is copied once, then each step pays for its own conditions and effects only.
 
-use crate::effort::{Effort, Patience};
 use crate::plan::PlanRef;
 use crate::prepared::{Precision, Prepared};
 use crate::state::State;
 use crate::trace::Trace;
 use crate::verdict::{Feature, Stop, Unsupported, Valid, Verdict};
+use crate::work::{Thoroughness, Work};
 use crate::{htn, sequential, temporal};
 use pddl::TemporalPlan;
 use pddl::model::{Domain, Problem};
@@ -45,8 +45,8 @@ impl<'a> Validator<'a> {
 
     /// The same for plans that are many.
     #[must_use]
-    pub(crate) fn with_patience(mut self, patience: Patience) -> Self {
-        self.prepared.patience = patience;
+    pub(crate) fn with_thoroughness(mut self, thoroughness: Thoroughness) -> Self {
+        self.prepared.thoroughness = thoroughness;
         self
     }
 
@@ -64,15 +64,15 @@ impl<'a> Validator<'a> {
 
     fn run(&self, plan: PlanRef<'_>, trace: Option<&mut Trace>) -> Verdict {
         let mut state = self.prepared.initial.clone();
-        state.effort = Effort::for_steps(plan.steps());
+        state.work = Work::for_steps(plan.steps());
         let result = self.carry_out(plan, &mut state, trace);
         let unsupported =
             |feature| Verdict::Unsupported(Unsupported { feature, span: self.prepared.problem.goal_span });
         match result {
             Err(Stop::Unsupported(unsupported)) => Verdict::Unsupported(unsupported),
             // What was found once the effort was spent is never part of a verdict.
-            _ if state.effort.is_spent() => unsupported(Feature::TooMuch),
-            _ if state.effort.is_undecided() => unsupported(Feature::Undecided),
+            _ if state.work.is_exhausted() => unsupported(Feature::TooMuch),
+            _ if state.work.is_undecided() => unsupported(Feature::Undecided),
             Ok(valid) => Verdict::Valid(valid),
             Err(Stop::Failure(failure)) => Verdict::Invalid(*failure),
         }

@@ -194,7 +194,7 @@ impl Why<'_> {
                 ControlFlow::Break(())
             });
         debug_assert!(
-            flow.is_break() || self.scene.state.effort.is_spent(),
+            flow.is_break() || self.scene.state.work.is_exhausted(),
             "a universal condition that does not hold has a counterexample"
         );
         Unsatisfied::Counterexample { binding: found.0, parts: found.1, span }

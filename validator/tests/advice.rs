@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use pddl::{Source, parse_domain, parse_plan, parse_problem};
-use validator::{Budget, Validator, Verdict, show_repair};
+use validator::{AdviceLimits, Validator, Verdict, show_repair};
 
 const HOUSE: &str = "(define (domain house) (:requirements :strips :typing :negative-preconditions)
     (:types room) (:predicates (at ?r - room) (locked ?r - room) (way ?a ?b - room) (key) (lit ?r - room))
@@ -13,7 +13,7 @@ const HOUSE: &str = "(define (domain house) (:requirements :strips :typing :nega
       :precondition (and (at ?a) (way ?a ?b) (not (locked ?b))) :effect (and (at ?b) (not (at ?a))))
     (:action light :parameters (?r - room) :precondition (at ?r) :effect (lit ?r)))";
 
-fn advice_in(domain: &str, problem: &str, plan: &str, budget: Budget) -> Option<String> {
+fn advice_in(domain: &str, problem: &str, plan: &str, budget: AdviceLimits) -> Option<String> {
     let domain = parse_domain(&Source::new("d", domain), &[]).model.unwrap();
     let problem = parse_problem(&Source::new("p", problem), &domain).model.unwrap();
     let plan = parse_plan(&Source::new("plan", plan), &domain, &problem).model.unwrap();
@@ -27,7 +27,7 @@ fn house(plan: &str) -> Option<String> {
     let problem = "(define (problem p) (:domain house) (:objects hall cellar attic - room)
         (:init (at hall) (way hall cellar) (way cellar hall) (way hall attic) (locked cellar))
         (:goal (and (lit cellar) (lit hall))))";
-    advice_in(HOUSE, problem, plan, Budget::default())
+    advice_in(HOUSE, problem, plan, AdviceLimits::default())
 }
 
 #[test]
@@ -59,14 +59,14 @@ fn one_change_of_the_plan() {
 fn one_change_of_the_task() {
     let problem = "(define (problem p) (:domain house) (:objects hall cellar - room)
         (:init (at hall)) (:goal (lit cellar)))";
-    let advice = advice_in(HOUSE, problem, "(go hall cellar) (light cellar)", Budget::default());
+    let advice = advice_in(HOUSE, problem, "(go hall cellar) (light cellar)", AdviceLimits::default());
     assert_eq!(advice.unwrap(), "adding `(way hall cellar)` to the initial state");
 }
 
 #[test]
 fn two_changes_are_too_many() {
     assert_eq!(house("(light hall) (go hall attic)"), None);
-    let none = Budget { plans: 0, ..Budget::default() };
+    let none = AdviceLimits { plans: 0, ..AdviceLimits::default() };
     let problem =
         "(define (problem p) (:domain house) (:objects hall - room) (:init (at hall)) (:goal (lit hall)))";
     assert_eq!(advice_in(HOUSE, problem, "", none), None);
@@ -80,7 +80,7 @@ fn one_change_of_times() {
         (:durative-action turn :parameters () :duration (= ?duration 12)
           :condition () :effect (and (at start (open)) (at end (not (open))))))";
     let problem = "(define (problem p) (:domain bath) (:init (clean)) (:goal (full)))";
-    let advice = |plan| advice_in(domain, problem, plan, Budget::default()).unwrap();
+    let advice = |plan| advice_in(domain, problem, plan, AdviceLimits::default()).unwrap();
     assert_eq!(advice("1.0: (turn) [12]\n9.0: (fill) [10]"), "starting step 2 at 3");
     assert_eq!(advice("1.0: (turn) [12]\n2.0: (fill) [8]"), "letting step 2 take 10 s");
 }

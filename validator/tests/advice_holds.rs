@@ -13,7 +13,7 @@ use proptest::prelude::*;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
-use validator::{Budget, Validator, Verdict, show_repair};
+use validator::{AdviceLimits, Validator, Verdict, show_repair};
 
 /// A plan of a suite with its task, and whether it is valid.
 struct Case {
@@ -80,7 +80,7 @@ fn check(case: &Case, plan: &Plan) -> usize {
     let (domain, problem) = (&case.domain, &case.problem);
     let validator = Validator::new(domain, problem).unwrap();
     let Verdict::Invalid(failure) = validator.validate(plan) else { return 0 };
-    let budget = Budget { plans: 200, steps: 5_000, ..Budget::default() };
+    let budget = AdviceLimits { plans: 200, steps: 5_000, ..AdviceLimits::default() };
     let repairs = validator.advise(plan, &failure, budget);
     for repair in &repairs {
         let (mut domain, mut problem, mut plan) = (domain.clone(), problem.clone(), plan.clone());

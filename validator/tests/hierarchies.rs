@@ -14,7 +14,7 @@ mod hierarchy;
 use hierarchy::{Chance, Made, Task};
 use pddl::{Source, parse_domain, parse_plan, parse_problem, print_plan};
 use proptest::prelude::*;
-use validator::{Budget, Failure, Repair, Validator, Verdict, validate};
+use validator::{AdviceLimits, Failure, Repair, Validator, Verdict, validate};
 
 /// How many tasks the enumerator takes apart before it gives up.
 const APART: u32 = 7;
@@ -111,7 +111,7 @@ fn another_decomposition_is_advised() {
     let plan = plan.model.unwrap();
     let validator = Validator::new(&domain, &problem).unwrap();
     let Verdict::Invalid(failure) = validator.validate(&plan) else { panic!("its method needs p") };
-    let advice = validator.advise(&plan, &failure, Budget::default());
+    let advice = validator.advise(&plan, &failure, AdviceLimits::default());
     let otherwise = advice.iter().find(|repair| matches!(repair, Repair::Decompose(_))).unwrap();
     let changed = otherwise.applied(&plan).unwrap();
     assert!(validator.validate(&changed).is_valid());

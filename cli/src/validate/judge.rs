@@ -7,7 +7,7 @@ use diagnostics::SourceId;
 use pddl::{Diagnostic, Plan, Severity, Source, parse_plan, print_plan};
 use std::path::Path;
 use validator::{
-    Budget, Feature, File, Finding, Place, Repair, Subject, Trace, Unsupported, Validator, Verdict,
+    AdviceLimits, Feature, File, Finding, Place, Repair, Subject, Trace, Unsupported, Validator, Verdict,
     VerdictRecord, Word, explain, html, show_cause, show_diff,
 };
 
@@ -113,7 +113,7 @@ impl Judge<'_> {
     fn advise(&self, plan: &Plan, verdict: &Verdict) -> Vec<Repair> {
         match (self.validator, verdict, self.advice) {
             (Ok(validator), Verdict::Invalid(failure), true) => {
-                validator.advise(plan, failure, Budget::default())
+                validator.advise(plan, failure, AdviceLimits::default())
             }
             _ => Vec::new(),
         }

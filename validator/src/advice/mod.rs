@@ -8,7 +8,7 @@
 //!
 //! Invariant: what is offered was applied, and the whole plan then judged valid. Nothing is shared with a planner.
 //!
-//! Cost: at most [`Budget::plans`] changes are tried, and no more than [`Budget::steps`] steps taken, one with times
+//! Cost: at most [`AdviceLimits::plans`] changes are tried, and no more than [`AdviceLimits::steps`] steps taken, one with times
 //! counting for [`TIMED`].
 
 mod apply;
@@ -27,11 +27,11 @@ mod trials;
 mod wants;
 
 pub use change::Repair;
-pub use trials::Budget;
+pub use trials::AdviceLimits;
 
-use crate::effort::Patience;
 use crate::validator::Validator;
 use crate::verdict::{Failure, Verdict};
+use crate::work::Thoroughness;
 use pddl::model::Idx;
 use pddl::{DecompositionId, HierarchicalPlan, Plan, PlanLabel, SequentialPlan};
 use trials::Trials;
@@ -42,12 +42,12 @@ const SEARCHED_PLANS: usize = 400;
 impl Validator<'_> {
     /// Looks for single changes that make the plan valid, the smallest and most likely first; `failure` is why it is
     /// not.
-    pub fn advise(&self, plan: &Plan, failure: &Failure, budget: Budget) -> Vec<Repair> {
+    pub fn advise(&self, plan: &Plan, failure: &Failure, budget: AdviceLimits) -> Vec<Repair> {
         // For a task network each plan that is tried is searched for a decomposition.
         let (brief, budget) = match (plan, &self.prepared.problem.htn) {
             (Plan::Sequential(_), Some(_)) => {
                 let plans = budget.plans.min(SEARCHED_PLANS);
-                (Some(self.clone().with_patience(Patience::Brief)), Budget { plans, ..budget })
+                (Some(self.clone().with_thoroughness(Thoroughness::Brief)), AdviceLimits { plans, ..budget })
             }
             _ => (None, budget),
         };

@@ -2,13 +2,13 @@
 
 use super::wants::Wants;
 use crate::cause::Cause;
-use crate::effort::Effort;
 use crate::number::Number;
 use crate::plan::{StepIndex, end, start};
 use crate::prepared::Prepared;
 use crate::state::State;
 use crate::trace::Trace;
 use crate::verdict::{Failure, Unsatisfied};
+use crate::work::Work;
 use pddl::TemporalPlan;
 use std::cell::Cell;
 use std::ops::Range;
@@ -34,7 +34,7 @@ pub(super) struct Case<'c> {
 /// The state after so many happenings.
 fn state_after(prepared: &Prepared<'_>, trace: &Trace, happenings: usize) -> State {
     let mut state = prepared.initial.clone();
-    state.effort = Effort::for_steps(0);
+    state.work = Work::for_steps(0);
     advance(&mut state, trace, 0..happenings);
     state
 }

@@ -13,13 +13,13 @@
 
 use super::edit::Edit;
 use crate::effect::Changes;
-use crate::effort::Effort;
 use crate::prepared::Prepared;
 use crate::reads::each_guard;
 use crate::relation::Moment;
 use crate::scene::{Binding, Clock};
 use crate::state::State;
 use crate::trace::Diff;
+use crate::work::Work;
 use pddl::PlanStep;
 
 /// A plan's states, one at a time.
@@ -42,7 +42,7 @@ impl<'t, 'a> Track<'t, 'a> {
     pub(super) fn new(prepared: &'t Prepared<'a>, steps: &'t [PlanStep], left: usize) -> Self {
         let mut state = State::empty(prepared.domain, &vec![true; prepared.domain.predicates.len()]);
         // One purse for all trials.
-        state.effort = Effort::for_steps(steps.len());
+        state.work = Work::for_steps(steps.len());
         for (predicate, relation) in prepared.initial.facts.enumerate() {
             for arguments in relation.holding() {
                 state.facts[predicate].add(arguments, 0);

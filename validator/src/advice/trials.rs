@@ -9,7 +9,7 @@ const TIMED: usize = 8;
 
 /// How hard to look.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Budget {
+pub struct AdviceLimits {
     /// How many changes are tried.
     pub plans: usize,
     /// How many steps are taken for that.
@@ -18,7 +18,7 @@ pub struct Budget {
     pub offers: usize,
 }
 
-impl Default for Budget {
+impl Default for AdviceLimits {
     /// Well under a second for ordinary plans.
     fn default() -> Self {
         Self { plans: 6_000, steps: 400_000, offers: 3 }
@@ -28,7 +28,7 @@ impl Default for Budget {
 /// Judges changed plans while the budget lasts.
 pub(super) struct Trials<'v, 'a> {
     pub(super) validator: &'v Validator<'a>,
-    pub(super) budget: Budget,
+    pub(super) budget: AdviceLimits,
 }
 
 impl Trials<'_, '_> {
@@ -47,7 +47,7 @@ impl Trials<'_, '_> {
             && validator.is_ok_and(|v| {
                 let v = v
                     .with_precision(self.validator.prepared.precision)
-                    .with_patience(self.validator.prepared.patience);
+                    .with_thoroughness(self.validator.prepared.thoroughness);
                 v.validate(plan).is_valid()
             })
     }

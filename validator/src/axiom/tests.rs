@@ -3,7 +3,6 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use super::Strata;
-use crate::effort::Effort;
 use crate::number::Number;
 use crate::prepare::initial_state;
 use crate::reads::each_predicate;
@@ -11,6 +10,7 @@ use crate::scene::{Binding, Clock, Scene};
 use crate::state::State;
 use crate::universe::Universe;
 use crate::value::Value;
+use crate::work::Work;
 use pddl::model::{Domain, GroundApplication, Idx, ObjectId, PredicateId, Problem};
 use pddl::{Source, parse_domain, parse_problem};
 use proptest::prelude::*;
@@ -218,7 +218,7 @@ proptest! {
         let Ok(strata) = Strata::new(&domain) else { return Ok(()) };
         let universe = Universe::new(&domain, &problem);
         let mut initial = initial_state(&domain, &problem);
-        initial.effort = Effort::for_steps(0);
+        initial.effort = Work::for_steps(0);
         let mut state = initial.clone();
         for (now, change) in (1..).zip(changes) {
             match change {

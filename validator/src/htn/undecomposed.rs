@@ -3,12 +3,12 @@
 use super::decomposed;
 use super::schema::Schema;
 use super::search;
-use crate::effort::Effort;
 use crate::prepared::Prepared;
 use crate::sequential;
 use crate::state::State;
 use crate::trace::Trace;
 use crate::verdict::{Feature, NetworkFault, Stop, Unsupported, Valid};
+use crate::work::Work;
 use pddl::SequentialPlan;
 
 /// Judges a plan that does not say how it comes out of the problem's task network: finds a decomposition, and judges that.
@@ -27,16 +27,16 @@ pub(crate) fn run(
         return unsupported(Feature::DurativeSubtaskOfProblem, span);
     }
     sequential::run(prepared, plan.steps.iter(), state, trace, &mut |_, _| ())?;
-    if state.effort.is_spent() {
+    if state.work.is_exhausted() {
         return unsupported(Feature::TooMuch, goal_span);
     }
     let span = network.subtasks.first().map_or(goal_span, |subtask| subtask.span);
     match search::search(prepared, plan) {
         search::Outcome::Found(found) => {
             let mut state = prepared.initial.clone();
-            state.effort = Effort::for_steps(plan.steps.len());
+            state.work = Work::for_steps(plan.steps.len());
             match decomposed::run(prepared, &found, &mut state, None) {
-                Ok(valid) if !state.effort.is_spent() => {
+                Ok(valid) if !state.work.is_exhausted() => {
                     Ok(Valid { decomposition: Some(Box::new(found)), ..valid })
                 }
                 other => {

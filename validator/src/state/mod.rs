@@ -10,10 +10,10 @@ mod passage;
 pub(crate) use lag::{Lag, Seen};
 pub(crate) use passage::{Curves, Passage};
 
-use crate::effort::Effort;
 use crate::number::Number;
 use crate::relation::Relation;
 use crate::value::Value;
+use crate::work::Work;
 use indexmap::{Equivalent, IndexMap};
 use pddl::model::{Domain, FunctionId, GroundApplication, Idx, IndexVec, ObjectId, PredicateId};
 use rustc_hash::{FxBuildHasher, FxHashMap};
@@ -66,7 +66,7 @@ pub(crate) struct State {
     /// Whether a fluent may be rounded because something happened at an instant that is no fraction.
     pub(crate) rounded: bool,
     /// What may still be spent on the plan whose state this is.
-    pub(crate) effort: Effort,
+    pub(crate) work: Work,
 }
 
 impl State {
@@ -95,7 +95,7 @@ impl State {
             lag: Lag::default(),
             passage: None,
             rounded: false,
-            effort: Effort::default(),
+            work: Work::default(),
         }
     }
 
@@ -127,7 +127,7 @@ impl State {
         let passed = self.lines.now.minus(line.since).ok()?;
         let number = line.slope.times(passed).and_then(|more| number.plus(more)).ok()?;
         if !number.is_exact() {
-            self.effort.give_up();
+            self.work.mark_undecided();
         }
         Some(Value::Number(number))
     }

@@ -142,7 +142,7 @@ impl Flow {
                 };
                 match roots {
                     Ok(roots) => into.extend(roots),
-                    Err(Undecided) => scene.state.effort.give_up(),
+                    Err(Undecided) => scene.state.work.mark_undecided(),
                 }
             }
             _ => condition.parts().for_each(|part| self.critical(part, scene, binding, length, into)),

@@ -161,7 +161,7 @@ impl Run<'_, '_, '_> {
         for (at, tickets) in instants.chain([(time, None)]) {
             let middle = before.plus(at).and_then(|sum| sum.over(Number::integer(2)));
             let Ok(middle) = middle else {
-                self.state.effort.give_up();
+                self.state.work.mark_undecided();
                 return Ok(());
             };
             self.ask_at(middle, &due)?;

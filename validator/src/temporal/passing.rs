@@ -89,10 +89,10 @@ impl Run<'_, '_, '_> {
             }
             let length = time.minus(origin).unwrap_or(Number::ZERO);
             let unrest = self.flow_quietly(&flow, origin, &from, length, &processes)?;
-            if self.state.effort.is_undecided() {
+            if self.state.work.is_undecided() {
                 // Times that come ever nearer to each other get too near for any numbers.
                 if passed < Number::thousandths(1) && met >= MANY {
-                    self.state.effort.take_up();
+                    self.state.work.clear_undecided();
                     return Err(self.change(ChangeFault::Unsteady));
                 }
                 break;
@@ -157,7 +157,7 @@ impl Run<'_, '_, '_> {
     ) -> Checked<Option<Unrest>> {
         let mut last = from.clone();
         for (instant, critical) in self.instants_of(flow, from, length)? {
-            if self.state.effort.is_undecided() {
+            if self.state.work.is_undecided() {
                 break;
             }
             self.set(flow, &instant)?;
@@ -204,7 +204,7 @@ impl Run<'_, '_, '_> {
             self.critical_of_processes(flow, from, length, &mut critical)?;
         }
         Ok(with_middles(critical, from, length).unwrap_or_else(|Undecided| {
-            self.state.effort.give_up();
+            self.state.work.mark_undecided();
             Vec::new()
         }))
     }

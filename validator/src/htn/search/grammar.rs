@@ -113,18 +113,3 @@ impl Grammar {
         other
     }
 }
-
-/// What a search may still cost, counted and never timed, so that the same plan always gets the same verdict.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Purse(pub(super) u64);
-
-/// The purse is empty.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Spent;
-
-impl Purse {
-    pub(super) fn spend(&mut self, price: usize) -> Result<(), Spent> {
-        self.0 = self.0.checked_sub(price as u64).ok_or(Spent)?;
-        Ok(())
-    }
-}

@@ -12,9 +12,8 @@
 //! Source: Ramoul et al., "Grounding of HTN planning domain", IJAIT 2017; Behnke et al., "On succinct groundings of HTN
 //! planning problems", AAAI 2020; semi-naive evaluation: Bancilhon & Ramakrishnan, SIGMOD 1986.
 
-use super::grammar::{Grammar, Purse, Rule, RuleId, Spent, Symbol, SymbolId};
+use super::grammar::{Grammar, Rule, RuleId, Symbol, SymbolId};
 use crate::condition::Strictness;
-use crate::effort::Effort;
 use crate::htn::schema::{Schema, unify};
 use crate::prepared::Prepared;
 use crate::reads::each_predicate;
@@ -22,6 +21,8 @@ use crate::relation::Relation;
 use crate::scene::{Binding, Clock};
 use crate::sequential;
 use crate::state::State;
+use crate::work::Work;
+use budget::{Interrupted, Meter};
 use pddl::model::{
     Atom, Condition, ConditionKind, Idx, IndexVec, MethodId, ObjectId, PredicateId, SubtaskHead, Term,
     VariableId,
@@ -73,21 +74,25 @@ struct Instance {
 pub(super) fn ground(
     prepared: &Prepared<'_>,
     plan: &SequentialPlan,
-    purse: &mut Purse,
-) -> Result<Ground, Spent> {
-    let mut grounding = Grounding::new(prepared, plan, purse)?;
-    grounding.close(plan, purse)?;
+    meter: &Meter<'_>,
+) -> Result<Ground, Interrupted> {
+    let mut grounding = Grounding::new(prepared, plan, meter)?;
+    grounding.close(plan, meter)?;
     if grounding.roots.is_empty() {
         return Ok(Ground::Impossible(grounding.impossible()));
     }
-    grounding.grammar(plan, purse).map(Ground::Grammar)
+    grounding.grammar(plan, meter).map(Ground::Grammar)
 }
 
 impl<'g, 'a> Grounding<'g, 'a> {
-    fn new(prepared: &'g Prepared<'a>, plan: &SequentialPlan, purse: &mut Purse) -> Result<Self, Spent> {
+    fn new(
+        prepared: &'g Prepared<'a>,
+        plan: &SequentialPlan,
+        meter: &Meter<'_>,
+    ) -> Result<Self, Interrupted> {
         let domain = prepared.domain;
         let mut table = State::empty(domain, &vec![true; domain.predicates.len()]);
-        table.effort = Effort::for_steps(plan.steps.len());
+        table.work = Work::for_steps(plan.steps.len());
         let heads = domain.tasks.ids().map(SubtaskHead::Task);
         let heads = heads.chain(domain.actions.ids().map(SubtaskHead::Action));
         let mut tables = FxHashMap::default();
@@ -129,12 +134,12 @@ impl<'g, 'a> Grounding<'g, 'a> {
             ways: FxHashMap::default(),
             roots: Vec::new(),
         };
-        grounding.fill(plan, purse)?;
+        grounding.fill(plan, meter)?;
         Ok(grounding)
     }
 
     /// Enters what holds at some moment.
-    fn fill(&mut self, plan: &SequentialPlan, purse: &mut Purse) -> Result<(), Spent> {
+    fn fill(&mut self, plan: &SequentialPlan, meter: &Meter<'_>) -> Result<(), Interrupted> {
         let prepared = self.prepared;
         let mut read = Vec::new();
         for form in &self.forms {
@@ -156,7 +161,7 @@ impl<'g, 'a> Grounding<'g, 'a> {
                     if outcome.is_err() {
                         return;
                     }
-                    outcome = purse.spend(1);
+                    outcome = meter.spend(1);
                     table.facts[predicate].add(arguments, 0);
                 }
             }
@@ -165,19 +170,19 @@ impl<'g, 'a> Grounding<'g, 'a> {
     }
 
     /// The fixed point.
-    fn close(&mut self, plan: &SequentialPlan, purse: &mut Purse) -> Result<(), Spent> {
+    fn close(&mut self, plan: &SequentialPlan, meter: &Meter<'_>) -> Result<(), Interrupted> {
         for step in &plan.steps {
             self.appears(SubtaskHead::Action(step.action), step.arguments.as_slice().into());
         }
         for form in 0..self.forms.len() {
             if self.forms[form].schema.network.subtasks.is_empty() {
-                self.join(form, None, purse)?;
+                self.join(form, None, meter)?;
             }
         }
         while let Some((head, objects)) = self.waiting.pop_front() {
             let places = self.occurrences.get(&head).cloned().unwrap_or_default();
             for (form, place) in places {
-                self.join(form, Some((place, &objects)), purse)?;
+                self.join(form, Some((place, &objects)), meter)?;
             }
         }
         Ok(())
@@ -196,8 +201,8 @@ impl<'g, 'a> Grounding<'g, 'a> {
         &mut self,
         index: usize,
         given: Option<(usize, &[ObjectId])>,
-        purse: &mut Purse,
-    ) -> Result<(), Spent> {
+        meter: &Meter<'_>,
+    ) -> Result<(), Interrupted> {
         let prepared = self.prepared;
         let form = &self.forms[index];
         let schema = &form.schema;
@@ -217,7 +222,7 @@ impl<'g, 'a> Grounding<'g, 'a> {
         let mut outcome = Ok(());
         let guards = [(&form.query, true)];
         let _ = scene.each_binding(&open, &guards, Strictness::Certain, &mut binding, &mut |binding| {
-            outcome = purse.spend(1 + schema.determined.len());
+            outcome = meter.spend(1 + schema.determined.len());
             found.push(schema.determined.iter().map(|&v| binding.get(v)).collect::<Vec<_>>());
             // Without a variable to look for, one way is as good as all.
             if outcome.is_err() || open.is_empty() {
@@ -227,8 +232,8 @@ impl<'g, 'a> Grounding<'g, 'a> {
             }
         });
         outcome?;
-        if self.table.effort.is_spent() {
-            return Err(Spent);
+        if self.table.work.is_exhausted() {
+            return Err(Interrupted::Work);
         }
         for values in found {
             self.add(index, values);
@@ -291,7 +296,7 @@ impl<'g, 'a> Grounding<'g, 'a> {
     }
 
     /// What the problem's network needs.
-    fn grammar(&self, plan: &SequentialPlan, purse: &mut Purse) -> Result<Grammar, Spent> {
+    fn grammar(&self, plan: &SequentialPlan, meter: &Meter<'_>) -> Result<Grammar, Interrupted> {
         let mut symbols = IndexVec::new();
         let mut ids = FxHashMap::<(SubtaskHead, Objects), SymbolId>::default();
         let mut steps = Vec::with_capacity(plan.steps.len());
@@ -312,7 +317,7 @@ impl<'g, 'a> Grounding<'g, 'a> {
             for &way in ways {
                 let instance = &self.instances[way];
                 let schema = &self.forms[instance.form].schema;
-                purse.spend(1 + schema.network.subtasks.len())?;
+                meter.spend(1 + schema.network.subtasks.len())?;
                 let guard = schema.precondition.is_some();
                 let mut rule = Rule {
                     method: self.forms[instance.form].method,
@@ -356,7 +361,7 @@ impl<'g, 'a> Grounding<'g, 'a> {
                 rules.push(rule);
             }
         }
-        self.ask(plan, &guards, &mut symbols, purse)?;
+        self.ask(plan, &guards, &mut symbols, meter)?;
         let mut ways: IndexVec<SymbolId, Vec<RuleId>> = symbols.iter().map(|_| Vec::new()).collect();
         for (id, rule) in rules.enumerate() {
             ways[rule.head].push(id);
@@ -370,8 +375,8 @@ impl<'g, 'a> Grounding<'g, 'a> {
         plan: &SequentialPlan,
         guards: &[(SymbolId, usize)],
         symbols: &mut IndexVec<SymbolId, Symbol>,
-        purse: &mut Purse,
-    ) -> Result<(), Spent> {
+        meter: &Meter<'_>,
+    ) -> Result<(), Interrupted> {
         let prepared = self.prepared;
         let mut holds = vec![Vec::with_capacity(plan.steps.len() + 1); guards.len()];
         let mut bindings: Vec<Binding> =
@@ -384,7 +389,7 @@ impl<'g, 'a> Grounding<'g, 'a> {
                 if outcome.is_err() {
                     return;
                 }
-                outcome = purse.spend(2);
+                outcome = meter.spend(2);
                 prepared.derive_for(precondition, state, slot);
                 let scene = prepared.scene(state, schema.variables, Clock::steps(slot));
                 holds.push(scene.holds(precondition, binding));
@@ -392,7 +397,7 @@ impl<'g, 'a> Grounding<'g, 'a> {
         });
         outcome?;
         if !enough {
-            return Err(Spent);
+            return Err(Interrupted::Work);
         }
         for (&(symbol, _), holds) in guards.iter().zip(holds) {
             symbols[symbol] = Symbol::Guard(holds.into());

@@ -14,11 +14,12 @@ mod progress;
 mod rebuild;
 mod situation;
 
-use crate::effort::Patience;
 use crate::plan::StepIndex;
 use crate::prepared::Prepared;
 use crate::verdict::Shortfall;
-use grammar::{Grammar, Purse, Spent, Symbol, SymbolId};
+use crate::work::Thoroughness;
+use budget::{Interrupted, Meter};
+use grammar::{Grammar, Symbol, SymbolId};
 use ground::{Ground, ground};
 use outlook::Outlook;
 use pddl::{HierarchicalPlan, SequentialPlan};
@@ -46,36 +47,36 @@ pub(super) fn search(prepared: &Prepared<'_>, plan: &SequentialPlan) -> Outcome 
     decide(prepared, plan).unwrap_or(Outcome::Limit)
 }
 
-fn decide(prepared: &Prepared<'_>, plan: &SequentialPlan) -> Result<Outcome, Spent> {
-    let patience = prepared.patience;
-    let mut purse = Purse(patience.of(GROUND));
-    let grammar = match ground(prepared, plan, &mut purse)? {
+fn decide(prepared: &Prepared<'_>, plan: &SequentialPlan) -> Result<Outcome, Interrupted> {
+    let thoroughness = prepared.thoroughness;
+    let meter = Meter::of_work(thoroughness.of(GROUND));
+    let grammar = match ground(prepared, plan, &meter)? {
         Ground::Grammar(grammar) => grammar,
         Ground::Impossible(spans) => return Ok(Outcome::None(Shortfall::Subtasks(spans))),
     };
-    let outlook = Outlook::new(&grammar, &mut purse)?;
+    let outlook = Outlook::new(&grammar, &meter)?;
     let reversed = grammar.reversed();
-    let reversed_outlook = Outlook::new(&reversed, &mut purse)?;
+    let reversed_outlook = Outlook::new(&reversed, &meter)?;
     let sides =
         [(Direction::Forward, &grammar, &outlook), (Direction::Backward, &reversed, &reversed_outlook)];
     for round in ROUNDS {
         for (direction, grammar, outlook) in sides {
-            let mut purse = Purse(patience.of(round));
-            let mut search = Search::new(grammar, outlook, Ahead::Far, &mut Purse(GROUND))?;
-            match search.run(&mut purse) {
+            let meter = Meter::of_work(thoroughness.of(round));
+            let mut search = Search::new(grammar, outlook, Ahead::Far, &Meter::of_work(GROUND))?;
+            match search.run(&meter) {
                 Answer::Found(events) => {
-                    let found = rebuild(plan, grammar, outlook, direction, events, &mut Purse(REBUILD))?;
+                    let found = rebuild(plan, grammar, outlook, direction, events, &Meter::of_work(REBUILD))?;
                     return Ok(Outcome::Found(found));
                 }
                 Answer::None => {
                     // Of one of many, nobody asks why.
-                    let why = match patience {
-                        Patience::Full => shortfall(sides[0].1, sides[0].2),
-                        Patience::Brief => Shortfall::Explained(0),
+                    let why = match thoroughness {
+                        Thoroughness::Full => shortfall(sides[0].1, sides[0].2),
+                        Thoroughness::Brief => Shortfall::Explained(0),
                     };
                     return Ok(Outcome::None(why));
                 }
-                Answer::Spent => {}
+                Answer::Limit => {}
             }
         }
     }
@@ -92,10 +93,10 @@ fn shortfall(grammar: &Grammar, outlook: &Outlook) -> Shortfall {
     if let Some(step) = alien.and_then(|step| u32::try_from(step).ok()) {
         return Shortfall::Step(StepIndex(step));
     }
-    let search = Search::new(grammar, outlook, Ahead::Near, &mut Purse(GROUND));
+    let search = Search::new(grammar, outlook, Ahead::Near, &Meter::of_work(GROUND));
     let explained = search.map(|mut search| {
         // Whatever it comes to, it got so far.
-        let _ = search.run(&mut Purse(ROUNDS[0]));
+        let _ = search.run(&Meter::of_work(ROUNDS[0]));
         search.explained
     });
     Shortfall::Explained(explained.unwrap_or(0))

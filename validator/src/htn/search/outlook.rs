@@ -6,7 +6,8 @@
 //!
 //! Source: Knuth, "A generalization of Dijkstra's algorithm", IPL 1977 (least ends and lengths over a grammar).
 
-use super::grammar::{Grammar, Purse, Rule, RuleId, Slot, Spent, Symbol, SymbolId};
+use super::grammar::{Grammar, Rule, RuleId, Slot, Symbol, SymbolId};
+use budget::{Interrupted, Meter};
 use pddl::model::{Idx, IndexVec};
 use std::collections::VecDeque;
 
@@ -66,9 +67,9 @@ pub(super) struct Outlook {
 }
 
 impl Outlook {
-    pub(super) fn new(grammar: &Grammar, purse: &mut Purse) -> Result<Self, Spent> {
+    pub(super) fn new(grammar: &Grammar, meter: &Meter<'_>) -> Result<Self, Interrupted> {
         let symbols = grammar.symbols.len();
-        purse.spend(3 * symbols * (1 + grammar.actions / 64))?;
+        meter.spend(3 * symbols * (1 + grammar.actions / 64))?;
         let mut outlook = Self {
             least: grammar.symbols.iter().map(|_| u32::MAX).collect(),
             first: Sets::new(symbols, grammar.actions, false),
@@ -99,13 +100,13 @@ impl Outlook {
             }
         }
         let users = users(grammar);
-        outlook.fixed_point(grammar, &users, purse, Self::shorten)?;
+        outlook.fixed_point(grammar, &users, meter, Self::shorten)?;
         for (id, rule) in grammar.rules.enumerate() {
             outlook.alive[id] = rule.nodes.iter().all(|&node| outlook.least[node] < u32::MAX);
         }
-        outlook.fixed_point(grammar, &users, purse, Self::vanish_earlier)?;
-        outlook.fixed_point(grammar, &users, purse, Self::widen)?;
-        outlook.fixed_point(grammar, &users, purse, |outlook, grammar, id, _| {
+        outlook.fixed_point(grammar, &users, meter, Self::vanish_earlier)?;
+        outlook.fixed_point(grammar, &users, meter, Self::widen)?;
+        outlook.fixed_point(grammar, &users, meter, |outlook, grammar, id, _| {
             Ok(outlook.demand_less(grammar, grammar.rules[id].head))
         })?;
         Ok(outlook)
@@ -121,16 +122,16 @@ impl Outlook {
         &mut self,
         grammar: &Grammar,
         users: &IndexVec<SymbolId, Vec<RuleId>>,
-        purse: &mut Purse,
-        mut improve: impl FnMut(&mut Self, &Grammar, RuleId, &mut Purse) -> Result<bool, Spent>,
-    ) -> Result<(), Spent> {
+        meter: &Meter<'_>,
+        mut improve: impl FnMut(&mut Self, &Grammar, RuleId, &Meter<'_>) -> Result<bool, Interrupted>,
+    ) -> Result<(), Interrupted> {
         let mut queue: VecDeque<RuleId> = grammar.rules.ids().collect();
         let mut queued: IndexVec<RuleId, bool> = grammar.rules.iter().map(|_| true).collect();
         while let Some(id) = queue.pop_front() {
             queued[id] = false;
             let rule = &grammar.rules[id];
-            purse.spend((1 + rule.nodes.len()) * (1 + grammar.actions / 64))?;
-            if improve(self, grammar, id, purse)? {
+            meter.spend((1 + rule.nodes.len()) * (1 + grammar.actions / 64))?;
+            if improve(self, grammar, id, meter)? {
                 for &user in &users[rule.head] {
                     if !std::mem::replace(&mut queued[user], true) {
                         queue.push_back(user);
@@ -141,7 +142,7 @@ impl Outlook {
         Ok(())
     }
 
-    fn shorten(&mut self, grammar: &Grammar, id: RuleId, _: &mut Purse) -> Result<bool, Spent> {
+    fn shorten(&mut self, grammar: &Grammar, id: RuleId, _: &Meter<'_>) -> Result<bool, Interrupted> {
         let rule = &grammar.rules[id];
         let sum = rule.nodes.iter().fold(0u32, |sum, &node| sum.saturating_add(self.least[node]));
         let shorter = sum < self.least[rule.head];
@@ -151,13 +152,18 @@ impl Outlook {
         Ok(shorter)
     }
 
-    fn vanish_earlier(&mut self, grammar: &Grammar, id: RuleId, purse: &mut Purse) -> Result<bool, Spent> {
+    fn vanish_earlier(
+        &mut self,
+        grammar: &Grammar,
+        id: RuleId,
+        meter: &Meter<'_>,
+    ) -> Result<bool, Interrupted> {
         let rule = &grammar.rules[id];
         if rule.nodes.iter().any(|&node| self.vanishing[node].is_empty()) {
             return Ok(false);
         }
         let moments = grammar.steps.len() + 1;
-        purse.spend(moments * (1 + rule.nodes.len()))?;
+        meter.spend(moments * (1 + rule.nodes.len()))?;
         let mut changed = false;
         let mut ends = Vec::with_capacity(rule.nodes.len());
         for start in 0..=grammar.end() {
@@ -196,7 +202,7 @@ impl Outlook {
         rule.before.iter().map(|before| begin(before).unwrap_or(start)).collect()
     }
 
-    fn widen(&mut self, grammar: &Grammar, id: RuleId, _: &mut Purse) -> Result<bool, Spent> {
+    fn widen(&mut self, grammar: &Grammar, id: RuleId, _: &Meter<'_>) -> Result<bool, Interrupted> {
         let rule = &grammar.rules[id];
         if !self.alive[id] {
             return Ok(false);

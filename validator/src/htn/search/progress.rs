@@ -17,9 +17,10 @@
 //! as heuristic progression search", JAIR 2020; Behnke, Höller & Biundo, "On the complexity of HTN plan verification",
 //! ICAPS 2015, and "This is a solution! (… but is it though?)", ICAPS 2017.
 
-use super::grammar::{Grammar, Purse, RuleId, Slot, Spent, Symbol, SymbolId};
+use super::grammar::{Grammar, RuleId, Slot, Symbol, SymbolId};
 use super::outlook::Outlook;
 use super::situation::{Duty, NodeId, Part, Pending, Situation};
+use budget::{Interrupted, Meter};
 use rustc_hash::FxHashSet;
 
 /// What became of a node.
@@ -40,7 +41,7 @@ pub(super) enum Answer {
     /// Nothing yields the steps.
     None,
     /// That would cost more than was to be spent.
-    Spent,
+    Limit,
 }
 
 /// How far ahead of the next step the search looks.
@@ -80,10 +81,10 @@ impl<'g> Search<'g> {
         grammar: &'g Grammar,
         outlook: &'g Outlook,
         ahead: Ahead,
-        purse: &mut Purse,
-    ) -> Result<Self, Spent> {
+        meter: &Meter<'_>,
+    ) -> Result<Self, Interrupted> {
         let words = grammar.actions.div_ceil(64);
-        purse.spend((grammar.steps.len() + 1) * words)?;
+        meter.spend((grammar.steps.len() + 1) * words)?;
         let mut places = vec![Vec::new(); grammar.actions];
         let mut rest = vec![vec![0u64; words].into_boxed_slice()];
         for (step, &symbol) in grammar.steps.iter().enumerate().rev() {
@@ -110,15 +111,15 @@ impl<'g> Search<'g> {
         })
     }
 
-    pub(super) fn run(&mut self, purse: &mut Purse) -> Answer {
-        match self.search(purse) {
+    pub(super) fn run(&mut self, meter: &Meter<'_>) -> Answer {
+        match self.search(meter) {
             Ok(Some(events)) => Answer::Found(events),
             Ok(None) => Answer::None,
-            Err(Spent) => Answer::Spent,
+            Err(_) => Answer::Limit,
         }
     }
 
-    fn search(&mut self, purse: &mut Purse) -> Result<Option<Vec<Event>>, Spent> {
+    fn search(&mut self, meter: &Meter<'_>) -> Result<Option<Vec<Event>>, Interrupted> {
         let root = Pending {
             symbol: self.grammar.root,
             duty: Duty::Open,
@@ -127,18 +128,18 @@ impl<'g> Search<'g> {
             node: NodeId(0),
         };
         let start = Situation { pending: vec![root], next: 1, ..Situation::default() };
-        self.enter(start, None, Vec::new(), purse)?;
+        self.enter(start, None, Vec::new(), meter)?;
         while let Some((situation, place)) = self.open.pop() {
             self.explained = self.explained.max(situation.step);
             let known = self.open.len();
             match situation.focus {
-                Some(focus) => self.expand(&situation, focus, place, purse)?,
+                Some(focus) => self.expand(&situation, focus, place, meter)?,
                 None if situation.step as usize == self.grammar.steps.len() => {
                     if let Some(events) = self.vanish_all(&situation) {
                         return Ok(Some(self.told(place, events)));
                     }
                 }
-                None => self.focus(&situation, place, purse)?,
+                None => self.focus(&situation, place, meter)?,
             }
             // What was thought of first is looked at first.
             self.open[known..].reverse();
@@ -163,10 +164,10 @@ impl<'g> Search<'g> {
         mut situation: Situation,
         from: Option<u32>,
         mut events: Vec<Event>,
-        purse: &mut Purse,
-    ) -> Result<(), Spent> {
-        purse.spend(4 + 2 * situation.pending.len())?;
-        if !self.settle(&mut situation, &mut events) || !self.may_be_the_rest(&situation, purse)? {
+        meter: &Meter<'_>,
+    ) -> Result<(), Interrupted> {
+        meter.spend(4 + 2 * situation.pending.len())?;
+        if !self.settle(&mut situation, &mut events) || !self.may_be_the_rest(&situation, meter)? {
             return Ok(());
         }
         if self.seen.insert(self.key(&situation)) {
@@ -225,8 +226,8 @@ impl<'g> Search<'g> {
         key.into()
     }
 
-    fn may_be_the_rest(&mut self, situation: &Situation, purse: &mut Purse) -> Result<bool, Spent> {
-        purse.spend(self.rest[0].len() * situation.pending.len() / 4)?;
+    fn may_be_the_rest(&mut self, situation: &Situation, meter: &Meter<'_>) -> Result<bool, Interrupted> {
+        meter.spend(self.rest[0].len() * situation.pending.len() / 4)?;
         let mut touched = Vec::new();
         let so = self.is_enough(situation, &mut touched);
         for action in touched {
@@ -308,7 +309,7 @@ impl<'g> Search<'g> {
     }
 
     /// Decides which node the next step comes out of.
-    fn focus(&mut self, situation: &Situation, place: u32, purse: &mut Purse) -> Result<(), Spent> {
+    fn focus(&mut self, situation: &Situation, place: u32, meter: &Meter<'_>) -> Result<(), Interrupted> {
         let moments = self.vanishing(situation);
         let mut tried: Vec<usize> = Vec::new();
         for (index, pending) in situation.pending.iter().enumerate() {
@@ -338,7 +339,7 @@ impl<'g> Search<'g> {
             next.focus = u32::try_from(index).ok();
             next.trail.clear();
             next.without(&ends);
-            self.enter(next, Some(place), events, purse)?;
+            self.enter(next, Some(place), events, meter)?;
         }
         Ok(())
     }
@@ -349,8 +350,8 @@ impl<'g> Search<'g> {
         situation: &Situation,
         focus: u32,
         place: u32,
-        purse: &mut Purse,
-    ) -> Result<(), Spent> {
+        meter: &Meter<'_>,
+    ) -> Result<(), Interrupted> {
         let grammar = self.grammar;
         let pending = &situation.pending[focus as usize];
         if matches!(grammar.symbols[pending.symbol], Symbol::Action(_)) {
@@ -362,11 +363,11 @@ impl<'g> Search<'g> {
             let mut ends = vec![None; next.pending.len()];
             ends[focus as usize] = Some(next.step);
             next.without(&ends);
-            return self.enter(next, Some(place), vec![Event::Taken { node: pending.node, step }], purse);
+            return self.enter(next, Some(place), vec![Event::Taken { node: pending.node, step }], meter);
         }
         for &id in grammar.ways[pending.symbol].iter().filter(|id| self.outlook.alive[**id]) {
             let rule = &grammar.rules[id];
-            purse.spend(1 + rule.nodes.len())?;
+            meter.spend(1 + rule.nodes.len())?;
             // As in a situation: when each node begins if all before it vanishes.
             let mut moments: Vec<(Option<Slot>, Option<Slot>)> = Vec::with_capacity(rule.nodes.len());
             for (&node, before) in rule.nodes.iter().zip(&rule.before) {
@@ -379,7 +380,7 @@ impl<'g> Search<'g> {
             for next in 0..rule.nodes.len() {
                 let begins = moments[next].0.is_some_and(|start| start <= situation.step);
                 if begins && self.begins(rule.nodes[next], situation.step) {
-                    self.descend(situation, focus, place, id, next, &moments, purse)?;
+                    self.descend(situation, focus, place, id, next, &moments, meter)?;
                 }
             }
         }
@@ -396,8 +397,8 @@ impl<'g> Search<'g> {
         id: RuleId,
         next: usize,
         moments: &[(Option<Slot>, Option<Slot>)],
-        purse: &mut Purse,
-    ) -> Result<(), Spent> {
+        meter: &Meter<'_>,
+    ) -> Result<(), Interrupted> {
         let rule = &self.grammar.rules[id];
         let pending = &situation.pending[focus as usize];
         let first = situation.next;
@@ -434,7 +435,7 @@ impl<'g> Search<'g> {
             let mut after = situation.clone();
             after.trail = trail;
             after.expand(focus, rule, parts, &starts, next);
-            self.enter(after, Some(place), events.clone(), purse)
+            self.enter(after, Some(place), events.clone(), meter)
         };
         if takes {
             return go(&parts, Vec::new());

@@ -1,9 +1,10 @@
 //! The decomposition that a search found, as a plan.
 
-use super::grammar::{Grammar, Purse, Rule, RuleId, Slot, Spent, Symbol, SymbolId};
+use super::grammar::{Grammar, Rule, RuleId, Slot, Symbol, SymbolId};
 use super::outlook::Outlook;
 use super::progress::Event;
 use super::situation::NodeId;
+use budget::{Interrupted, Meter};
 use pddl::model::Idx;
 use pddl::{
     Decomposition, DecompositionId, HierarchicalPlan, LabelledStep, LabelledStepId, PlanLabel, PlanNode,
@@ -42,8 +43,8 @@ pub(super) fn rebuild(
     outlook: &Outlook,
     direction: Direction,
     events: Vec<Event>,
-    purse: &mut Purse,
-) -> Result<HierarchicalPlan, Spent> {
+    meter: &Meter<'_>,
+) -> Result<HierarchicalPlan, Interrupted> {
     let last = grammar.end().saturating_sub(1);
     let became = |event| match event {
         Event::Applied { node, rule, first } => (node, Became::Rule { rule, first }),
@@ -69,7 +70,7 @@ pub(super) fn rebuild(
         rebuild.waiting.push_back((None, rule, parts));
     }
     while let Some((of, rule, parts)) = rebuild.waiting.pop_front() {
-        purse.spend(1 + parts.len())?;
+        meter.spend(1 + parts.len())?;
         rebuild.enter(of, &grammar.rules[rule], &parts);
     }
     Ok(rebuild.plan)

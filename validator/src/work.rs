@@ -1,0 +1,99 @@
+//! The work that judging one plan may cost.
+//!
+//! Problem: a quantifier over eight variables, or a constraint for every ten objects, fits into one line of PDDL and
+//! cannot be evaluated in a lifetime. Idea: each binding that is tried spends a unit of one budget. Once the budget
+//! is exhausted, no search finds anything more, and the validator refuses the plan by name instead of judging it.
+//! Work is counted and not timed, so the same plan always gets the same verdict.
+//!
+//! The same holds for questions without an exact answer in bounded work, such as which of two roots comes first.
+//!
+//! Invariant: no verdict contains anything that was found after the budget was exhausted.
+
+use budget::Meter;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Units for any plan.
+const ANY_PLAN: u64 = 5_000_000;
+
+/// Additional units for each step.
+const EACH_STEP: u64 = 2_000;
+
+/// The work of judging one plan, in bindings that are tried.
+#[derive(Debug)]
+pub(crate) struct Work {
+    meter: Meter<'static>,
+    /// Whether a question had no exact answer. Atomic only so that threads can share a prepared task.
+    undecided: AtomicBool,
+}
+
+impl Work {
+    /// Enough for a plan of so many steps.
+    pub(crate) fn for_steps(steps: usize) -> Self {
+        let steps = u64::try_from(steps).unwrap_or(u64::MAX);
+        Self::of_units(EACH_STEP.saturating_mul(steps).saturating_add(ANY_PLAN))
+    }
+
+    fn of_units(units: u64) -> Self {
+        Self { meter: Meter::of_work(units), undecided: AtomicBool::new(false) }
+    }
+
+    /// Spends units; returns whether the budget had as many left.
+    pub(crate) fn spend(&self, units: usize) -> bool {
+        self.meter.spend(units).is_ok()
+    }
+
+    /// Whether the budget has nothing left.
+    pub(crate) fn is_exhausted(&self) -> bool {
+        self.meter.left() == 0
+    }
+
+    /// Notes that the verdict depends on a question that has no exact answer.
+    pub(crate) fn mark_undecided(&self) {
+        self.undecided.store(true, Ordering::Relaxed);
+    }
+
+    /// Takes [`Work::mark_undecided`] back: the verdict does not depend on the question after all.
+    pub(crate) fn clear_undecided(&self) {
+        self.undecided.store(false, Ordering::Relaxed);
+    }
+
+    /// Whether the verdict depends on a question that has no exact answer.
+    pub(crate) fn is_undecided(&self) -> bool {
+        self.undecided.load(Ordering::Relaxed)
+    }
+}
+
+impl Default for Work {
+    /// Nothing may be spent.
+    fn default() -> Self {
+        Self::of_units(0)
+    }
+}
+
+impl Clone for Work {
+    fn clone(&self) -> Self {
+        Self { meter: self.meter.clone(), undecided: AtomicBool::new(self.is_undecided()) }
+    }
+}
+
+/// How a search that is one of many is kept short: what it may cost is divided by this.
+const BRIEF: u64 = 30;
+
+/// How much a plan is worth that does not say how it comes out of its task network.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Thoroughness {
+    /// It is the plan that was asked about.
+    #[default]
+    Full,
+    /// It is one of many that are tried.
+    Brief,
+}
+
+impl Thoroughness {
+    pub(crate) const fn of(self, price: u64) -> u64 {
+        match self {
+            Self::Full => price,
+            Self::Brief => price / BRIEF,
+        }
+    }
+}
