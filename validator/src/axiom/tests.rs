@@ -218,7 +218,7 @@ proptest! {
         let Ok(strata) = Strata::new(&domain) else { return Ok(()) };
         let universe = Universe::new(&domain, &problem);
         let mut initial = initial_state(&domain, &problem);
-        initial.effort = Work::for_steps(0);
+        initial.work = Work::for_steps(0);
         let mut state = initial.clone();
         for (now, change) in (1..).zip(changes) {
             match change {

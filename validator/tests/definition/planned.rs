@@ -5,7 +5,7 @@ use crate::choices::Choices;
 use crate::naive::Fault;
 use crate::sequential::{compared, steps, task};
 use pddl::model::{Domain, Idx, ObjectId, Problem};
-use planner::{AdviceLimits, GroundOptions, Outcome, Query, SearchConfiguration, ground, solve};
+use planner::{Budget, GroundOptions, Outcome, Query, SearchConfiguration, ground, solve};
 use proptest::prelude::*;
 use std::fmt::Write;
 
@@ -71,7 +71,7 @@ fn problem(choices: &mut Choices<'_>, domain: &str) -> String {
 /// What the planner finds.
 fn plan(domain: &Domain, problem: &Problem) -> Vec<String> {
     let task = ground(domain, problem, &GroundOptions::default()).unwrap();
-    let budget = AdviceLimits { work: Some(20_000), ..AdviceLimits::default() };
+    let budget = Budget { work: Some(20_000), ..Budget::default() };
     let report = solve(&task, &Query::of(&task), &SearchConfiguration::default(), &budget);
     let Outcome::Solved(plan) = report.outcome else { panic!("every place can be reached") };
     plan.operators.iter().map(|&o| task.operator_name(o)).collect()
