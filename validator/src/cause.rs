@@ -1,7 +1,7 @@
-//! What changes a state, so that a verdict can say who did it.
+//! What changes a state, so that a verdict can name the cause.
 //!
-//! The state notes of each atom the moment of its last change: a small number that is counted up. Which
-//! step, start, end or event a moment belongs to is kept here.
+//! The state stores for each atom the moment of its last change, a number that counts up. This module maps a moment
+//! to its step, start, end, timed change or event.
 
 use crate::plan::StepIndex;
 use crate::relation::Moment;
@@ -23,7 +23,7 @@ pub enum Cause {
 }
 
 impl Cause {
-    /// The step whose doing it is.
+    /// The step that causes it.
     pub fn step(self) -> Option<StepIndex> {
         match self {
             Self::Step(step) | Self::Start(step) | Self::End(step) => Some(step),
@@ -32,7 +32,7 @@ impl Cause {
     }
 }
 
-/// Whose doing the moments are.
+/// The cause at each moment.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Causes<'a> {
     /// Moment `n` is the `n`-th step.
@@ -42,7 +42,7 @@ pub(crate) enum Causes<'a> {
 }
 
 impl Causes<'_> {
-    /// Who did it; nobody in the initial state.
+    /// The cause of a change; `None` for the initial state.
     pub(crate) fn of(self, moment: Moment) -> Option<Cause> {
         let index = moment.checked_sub(1)?;
         match self {

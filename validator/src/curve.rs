@@ -1,15 +1,15 @@
-//! How a numeric fluent runs between two happenings: a polynomial of the time since the first of them.
+//! A numeric fluent between two happenings: a polynomial of the time since the first of them.
 //!
-//! Problem: a condition that must hold over an open interval cannot be asked at every instant. Idea: with
-//! rates that are constant, or that depend on other running fluents without a circle, every fluent is a
-//! polynomial, and so is every sum, difference and product of fluents. A comparison can change its
-//! truth only at a root of the difference of its sides; between roots one instant speaks for all.
+//! Problem: a condition that must hold over an open interval cannot be evaluated at every instant. Idea: if rates are
+//! constant, or depend on other changing fluents without a cycle, every fluent is a polynomial, and so is every sum,
+//! difference and product of fluents. A comparison changes its truth only at a root of the difference of its sides;
+//! between two roots, one instant represents all.
 //!
-//! Where that is, is exact: a fraction, or an isolated root ([`Instant`]). Cost: a division for a line, Sturm's
-//! sequence for what is not.
+//! Roots are exact: a fraction, or an isolated root ([`Instant`]). Cost: a division for a line, Sturm's sequence for
+//! a higher degree.
 //!
-//! Source: Howey, Long & Fox, "VAL: Automatic Plan Validation, Continuous Effects and Mixed Initiative
-//! Planning using PDDL", ICTAI 2004, §5 (polynomial change and invariants).
+//! Source: Howey, Long & Fox, "VAL: Automatic Plan Validation, Continuous Effects and Mixed Initiative Planning using
+//! PDDL", ICTAI 2004, §5 (polynomial change and invariants).
 
 use crate::number::{NoResult, Number};
 use crate::root::{Instant, Polynomial, Undecided};

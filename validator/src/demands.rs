@@ -1,7 +1,7 @@
-//! What a plan must and should satisfy besides its goal: trajectory constraints and preferences.
+//! Trajectory constraints and preferences over the trajectory of one plan.
 //!
-//! The domain's and the problem's constraints are grounded once, before the first state; then the states
-//! are noted as they come, and at the end the hard ones are judged, the soft ones counted.
+//! The constraints of the domain and the problem are grounded once, before the first state. Each state is recorded as
+//! it comes. At the end the hard constraints are judged and the violated soft ones counted.
 
 use crate::axiom::{Needs, Strata};
 use crate::number::Number;

@@ -1,8 +1,8 @@
 //! Plan validation by the semantics of PDDL, on an evaluator of its own.
 //!
-//! The planner that finds a plan must not be the one who says that it is right, so nothing here is
-//! shared with it but `pddl`'s typed model: no grounding, no compiled operators. Conditions and effects
-//! are read from the model as they stand, over one state that is changed in place.
+//! The planner that finds a plan must not judge it, so this crate shares nothing with it but `pddl`'s typed model: no
+//! grounding, no compiled operators. Conditions and effects are read from the model, over one state that is changed in
+//! place.
 //!
 //! ```
 //! use pddl::{Source, parse_domain, parse_plan, parse_problem};
@@ -19,12 +19,10 @@
 //! assert!(verdict.is_valid());
 //! ```
 //!
-//! From the ground up: `number` (exact arithmetic), `universe` (which objects a type has), `relation` and `state`
-//! (facts and fluents, each with the step that changed it last), `expression`, `condition` and `solve`
-//! (what holds), `axiom` (what follows), `effect` (what an action does), `run` (the plan, step by step),
-//! [`Verdict`] with `why` (what was missing) and `words` (how to say it). [`Repair`] is what to do about it,
-//! tried before it is said. Its cases are suites of `pelea test` in
-//! `test_data`, a folder per feature.
+//! From the ground up: `number` to `relation` (exact numbers, objects, atoms), `verdict` (the outcome, as data),
+//! `state` and `scene`, `condition`, `axiom` and `effect` (what holds, what follows, what changes), `prepared` (a task),
+//! `sequential`, `temporal` and `htn` (the three kinds of plans), [`Validator`] (the entry), `advice` ([`Repair`]),
+//! `report` (text, JSON, HTML). The README has the whole map.
 
 mod advice;
 mod axiom;

@@ -1,11 +1,10 @@
-//! Numbers as a plan's referee needs them: 0.1 + 0.2 is 0.3.
+//! Exact numbers: 0.1 + 0.2 is 0.3.
 //!
-//! Problem: with floating point, a plan that spends 0.1 ten times has not spent 1. Idea: rationals over
-//! 128-bit integers, which hold every decimal a file writes and every sum, difference, product and
-//! quotient of them that ordinary tasks make. Where an exact result would need more than 128 bits, the
-//! value goes on as the nearest double and says so ([`Number::is_exact`]). Invariant: exact numbers are
-//! in lowest terms with a positive denominator; doubles are finite. Cost: integers never take a greatest
-//! common divisor.
+//! Problem: in floating point, a plan that spends 0.1 ten times has not spent 1. Idea: rationals over 128-bit
+//! integers hold every decimal in a file, and every sum, difference, product and quotient that ordinary tasks make.
+//! If an exact result needs more than 128 bits, the value becomes the nearest double, and [`Number::is_exact`]
+//! reports it. Invariant: exact numbers are in lowest terms with a positive denominator; doubles are finite. Cost:
+//! integers never compute a greatest common divisor.
 
 use crate::fraction::simplest;
 use num_rational::BigRational;

@@ -6,16 +6,16 @@ use pddl::{HierarchicalPlan, Plan, SequentialPlan, StepHead, TemporalPlan, Tempo
 /// A plan of any kind.
 #[derive(Clone, Copy, Debug)]
 pub enum PlanRef<'p> {
-    /// One action after the other.
+    /// A sequence of actions.
     Sequential(&'p SequentialPlan),
     /// Actions with times.
     Temporal(&'p TemporalPlan),
-    /// Actions, and the tasks that they carry out.
+    /// Actions with the decomposition that yields them.
     Hierarchical(&'p HierarchicalPlan),
 }
 
 impl PlanRef<'_> {
-    /// How many steps it has.
+    /// The number of steps.
     pub(crate) fn steps(self) -> usize {
         match self {
             Self::Sequential(plan) => plan.steps.len(),
@@ -58,7 +58,7 @@ impl<'p> From<&'p HierarchicalPlan> for PlanRef<'p> {
 pub struct StepIndex(pub u32);
 
 impl StepIndex {
-    /// As people count: from 1.
+    /// The number for people, from 1.
     pub fn number(self) -> u64 {
         u64::from(self.0) + 1
     }
@@ -74,7 +74,7 @@ pub(crate) fn start(step: &TemporalStep) -> Number {
     Number::from_decimal(step.start)
 }
 
-/// The end of a step; its start if it takes no time or does not say how long it takes.
+/// The end of a step; its start if it has no duration.
 pub(crate) fn end(step: &TemporalStep) -> Number {
     let duration = match (step.head, step.duration) {
         (StepHead::DurativeAction(_), Some(duration)) => Number::from_decimal(duration),
@@ -84,7 +84,7 @@ pub(crate) fn end(step: &TemporalStep) -> Number {
     start(step).plus(duration).unwrap_or(Number::MAX).max(start(step))
 }
 
-/// When the last step ends.
+/// The end of the last step.
 pub(crate) fn makespan(plan: &TemporalPlan) -> Number {
     plan.steps.iter().map(end).max().unwrap_or(Number::ZERO)
 }

@@ -1,5 +1,4 @@
-//! What is prepared once for a task: its initial state, which relations are looked up by pattern, and
-//! whether its effects leave derived predicates alone.
+//! The initial state of a task, the relations to index, and the check that effects leave derived predicates alone.
 
 use crate::axiom::Strata;
 use crate::number::Number;

@@ -1,4 +1,4 @@
-//! A task, prepared once for any number of plans: extents, strata, the initial state.
+//! A task, prepared once for any number of plans: its extents, the strata of its axioms, its initial state.
 
 use crate::axiom::{Needs, Strata};
 use crate::cause::Causes;

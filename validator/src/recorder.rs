@@ -1,4 +1,7 @@
-//! Records what changes besides effects: what follows by axioms, and what changes continuously.
+//! Records the changes that effects do not: derived atoms and continuous change.
+//!
+//! A [`Recorder`] reads the logs of derived relations and lets the state remember old values of fluents. Only a trace
+//! pays for it, and only for what changed.
 
 use crate::prepared::Prepared;
 use crate::relation::{Mark, Moment, Relation, Slot};

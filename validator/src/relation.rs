@@ -1,12 +1,12 @@
-//! The tuples of one predicate: which hold, since when, and which of them match a pattern.
+//! The tuples of one predicate: which hold, since when, and which match a pattern.
 //!
-//! A map from argument tuples to records, which only grows: an atom that was deleted keeps its record, and with it
-//! the step that deleted it. The place of a tuple in that map, its [`Slot`], never changes. Predicates that quantifiers,
-//! axioms or universal effects look up by pattern are *indexed*: a list of the slots that hold, one more per object and
-//! argument position, and a log of the slots that changed, from which axioms learn what to derive anew.
+//! A map from argument tuples to records that only grows: a deleted atom keeps its record, and with it the step that
+//! deleted it. The position of a tuple in that map, its [`Slot`], never changes. Predicates that quantifiers, axioms
+//! or universal effects look up by pattern are *indexed*: by a list of the slots that hold, one more list per object
+//! and argument position, and a log of changed slots, from which axioms learn what to derive again.
 //!
-//! Invariant: the lists hold exactly the slots that hold, in an order that depends on nothing but the changes made, so
-//! that a plan which visits a hundred thousand tuples once each does not wade through those that it left.
+//! Invariant: the lists contain exactly the slots that hold, in an order that depends only on the changes made. So a
+//! plan that visits a hundred thousand tuples once each does not scan those that it left.
 //!
 //! Cost: one hash of the arguments per look-up or change; with an index, a change costs two more per argument.
 

@@ -1,17 +1,17 @@
-//! Instants at which a curve is zero, as exactly as they can be known.
+//! Exact instants at which a curve is zero.
 //!
-//! Problem: a ball that falls 2 metres lands after the square root of 0.4 seconds, which no fraction is. A nearest
-//! double would put it on the wrong side of the root, so that what holds at the instant alone (a curve that touches
-//! zero, `>=` against `>`) is missed, and two instants might be in the wrong order. Idea: an irrational root is kept as
-//! the polynomial and an interval that holds no other root of it (an isolating interval, counted by Sturm's theorem);
-//! order and signs are decided by making the interval smaller, and equality by the greatest common divisor of two
-//! polynomials. All of it in fractions of unbounded integers.
+//! Problem: a ball that falls 2 metres lands after the square root of 0.4 seconds, which is irrational. The nearest
+//! double lies on the wrong side of the root, so a condition that holds at that instant alone (a curve that touches
+//! zero, `>=` against `>`) would be missed, and two instants could be in the wrong order. Idea: an irrational root is
+//! a polynomial and an interval that contains no other root of it (an isolating interval, by Sturm's theorem). Order
+//! and signs are decided by narrowing the interval, equality by the greatest common divisor of two polynomials, all
+//! in fractions of unbounded integers.
 //!
-//! Invariant: the polynomial of a root has simple roots only, one of them inside of the interval, and that is no
-//! fraction: one that is, is found as such, for among the fractions in a narrow interval only the simplest can be a root.
+//! Invariant: the polynomial of a root has simple roots only, exactly one lies in the interval, and that one is
+//! irrational. A rational root is recognised, because only the simplest fraction in a narrow interval can be a root.
 //!
-//! Cost: nothing for curves of the first degree, whose roots are fractions; halvings of the interval are counted, and
-//! past the bound the question is given up, by name.
+//! Cost: nothing for curves of the first degree, whose roots are fractions. Halvings of the interval are counted, and
+//! beyond the bound the result is [`Undecided`].
 //!
 //! Source: Basu, Pollack & Roy, "Algorithms in Real Algebraic Geometry", 2006 (Sturm sequences, isolating lists).
 
@@ -41,7 +41,7 @@ pub(crate) struct Polynomial(Vec<BigRational>);
 pub(crate) enum Instant {
     /// A fraction.
     At(Number),
-    /// A root that is none.
+    /// An irrational root.
     Root(Root),
 }
 
@@ -138,7 +138,7 @@ impl Polynomial {
         sequence.into()
     }
 
-    /// The same for the second degree, where both are fractions that 128 bits hold, or there are none.
+    /// The same for the second degree, if both roots are fractions that 128 bits hold, or no real root exists.
     fn fractions_of_second_degree(&self, from: Number, to: Number) -> Option<Vec<Instant>> {
         let [c, b, a] = self.0.as_slice() else { return None };
         let two = BigRational::from_integer(2.into());

@@ -1,7 +1,7 @@
-//! What an evaluation looks at: a schema's variables with their values, and the state.
+//! What an evaluation reads: the variables of a schema with their values, and the state.
 //!
-//! A binding is an array with a place for each variable of the schema, quantified ones included, so
-//! nothing is ever substituted. Quantified variables are unbound outside of their quantifier.
+//! A binding is an array with an entry for each variable of the schema, including quantified ones, so nothing is ever
+//! substituted. A quantified variable is unbound outside of its quantifier.
 
 use crate::number::Number;
 use crate::state::State;

@@ -1,4 +1,4 @@
-//! What each step changed.
+//! The changes of each step.
 
 use crate::cause::Cause;
 use crate::number::Number;
@@ -7,14 +7,14 @@ use crate::verdict::{Breach, File};
 use pddl::Span;
 use pddl::model::{GroundApplication, Name, ObjectId};
 
-/// A fluent that got another value.
+/// A fluent whose value changed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FluentChange {
-    /// Which one.
+    /// The fluent.
     pub fluent: GroundApplication,
-    /// What it was; `None` is undefined.
+    /// Its value before; `None` is undefined.
     pub before: Option<Value>,
-    /// What it is.
+    /// Its value after.
     pub after: Option<Value>,
 }
 
@@ -27,63 +27,63 @@ pub struct Diff {
     pub deleted: Vec<GroundAtom>,
     /// Fluents with another value.
     pub fluents: Vec<FluentChange>,
-    /// Atoms that follow by axioms now and did not.
+    /// Atoms that the axioms derive now and did not before.
     pub derived: Vec<GroundAtom>,
-    /// Atoms that followed and no longer do.
+    /// Atoms that the axioms derived before and no longer do.
     pub no_longer_derived: Vec<GroundAtom>,
-    /// Fluents that no event set and that had another value just before than after the last happening.
+    /// Fluents that changed continuously since the last happening.
     pub flowed: Vec<FluentChange>,
 }
 
-/// What happened at one time: a step, or what a plan with times does at once.
+/// The changes at one time: those of one step, or of all simultaneous points of a plan with times.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Happening {
-    /// When, in seconds; in a plan without times how many steps lie behind.
+    /// The time in seconds; in a plan without times the number of steps so far.
     pub time: Number,
-    /// What happened.
+    /// Its causes.
     pub causes: Vec<Cause>,
-    /// What it changed.
+    /// The changes.
     pub diff: Diff,
 }
 
-/// Everything that happened before the plan ended or failed.
+/// All happenings up to the end or the failure of the plan.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Trace {
-    /// What holds before the first one: nothing is deleted, and no fluent has a value before.
+    /// The initial state, as additions: nothing is deleted, and no fluent has a value before.
     pub initial: Diff,
     /// In order of time.
     pub happenings: Vec<Happening>,
-    /// The constraints on the whole trajectory; none if the plan failed before its end.
+    /// The constraints on the whole trajectory; empty if the plan failed before its end.
     pub watched: Vec<Watched>,
 }
 
-/// A constraint on the trajectory for one binding of the `forall`s around it, and where its conditions hold.
+/// A trajectory constraint under one binding of the `forall`s around it, and the times at which its conditions hold.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Watched {
-    /// Whether the domain or the problem has it.
+    /// The file with the constraint: the domain or the problem.
     pub file: File,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
-    /// Whether it must hold.
+    /// Whether it is hard or a preference.
     pub demand: Demand,
     /// The values of the variables of the `forall`s and `exists`s around its first condition.
     pub binding: Vec<(Name, ObjectId)>,
-    /// How and, in seconds or steps, when it is broken; `None` if it is not.
+    /// The violation with its time in seconds or steps; `None` if the trajectory satisfies it.
     pub broken: Option<(Breach, Option<Number>)>,
-    /// Each condition in it: where it stands, and from when until when it holds.
+    /// Each condition in it: its place, and the intervals in which it holds.
     pub conditions: Vec<(Span, Vec<Stretch>)>,
 }
 
-/// Whether a constraint must hold or should.
+/// Whether a constraint is hard or soft.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Demand {
-    /// It must.
+    /// It must hold.
     Hard,
-    /// It is a preference, perhaps with a name.
+    /// It is a preference, with its name if it has one.
     Preference(Option<Name>),
 }
 
-/// A time in which something holds.
+/// An interval in which a condition holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stretch {
     /// Its begin, in seconds or steps.

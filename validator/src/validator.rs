@@ -1,7 +1,7 @@
-//! One task, any number of plans of any kind.
+//! The entry: one task, any number of plans of any kind.
 //!
-//! [`Validator`] prepares a task once (extents, strata, the initial state) and then judges plans. Cost of
-//! a plan: the initial state is copied once, then each step pays for its own conditions and effects only.
+//! [`Validator`] prepares a task once and then judges plans. Cost of a plan: one copy of the initial state, then each
+//! step's own conditions and effects.
 
 use crate::plan::PlanRef;
 use crate::prepared::{Precision, Prepared};
@@ -43,7 +43,7 @@ impl<'a> Validator<'a> {
         self
     }
 
-    /// The same for plans that are many.
+    /// The same with another thoroughness.
     #[must_use]
     pub(crate) fn with_thoroughness(mut self, thoroughness: Thoroughness) -> Self {
         self.prepared.thoroughness = thoroughness;
@@ -55,7 +55,7 @@ impl<'a> Validator<'a> {
         self.run(plan.into(), None)
     }
 
-    /// Judges a plan, and answers what each step changed.
+    /// Judges a plan, and returns the changes of each step.
     pub fn trace<'p>(&self, plan: impl Into<PlanRef<'p>>) -> (Verdict, Trace) {
         let mut trace = Trace::default();
         let verdict = self.run(plan.into(), Some(&mut trace));
@@ -78,7 +78,7 @@ impl<'a> Validator<'a> {
         }
     }
 
-    /// The one way of a plan: with times or without, and through the task network if there is one.
+    /// The one way of a plan: through times if it has them, and through the task network if the problem has one.
     fn carry_out(
         &self,
         plan: PlanRef<'_>,
@@ -108,7 +108,7 @@ impl<'a> Validator<'a> {
         }
     }
 
-    /// What in the task only a plan with times can be judged under.
+    /// A part of the task that needs a plan with times.
     fn needs_times(&self) -> Option<Unsupported> {
         let features = [
             (self.prepared.problem.timed.first().map(|timed| timed.span), Feature::TimesMissingForProblem),

@@ -3,16 +3,16 @@
 use crate::number::Number;
 use pddl::model::{FluentValue, ObjectId, PredicateId};
 
-/// A predicate of objects.
+/// A predicate applied to objects.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct GroundAtom {
-    /// Which predicate.
+    /// The predicate.
     pub predicate: PredicateId,
     /// Its arguments.
     pub arguments: Box<[ObjectId]>,
 }
 
-/// What a fluent is.
+/// The value of a fluent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Value {
     /// A number.
@@ -22,7 +22,7 @@ pub enum Value {
 }
 
 impl Value {
-    /// What a file gives a fluent; `None` if it is no finite number.
+    /// The value that a file gives; `None` for a number that is not finite.
     pub(crate) fn of(value: FluentValue) -> Option<Self> {
         match value {
             FluentValue::Number(number) => Number::from_f64(number).map(Self::Number),

@@ -1,9 +1,9 @@
 //! The smallest unsatisfied parts of a condition that does not hold.
 //!
-//! The walk mirrors `condition`: of a conjunction the parts that fail, of a disjunction what each
-//! branch lacks, of a universal condition one counterexample, of an existential one the objects that
-//! come closest. Runs once per failure, so it may cost more than an evaluation; the search for the
-//! closest objects is bounded.
+//! The walk mirrors `condition`. Of a conjunction it returns the parts that fail, of a disjunction the unsatisfied
+//! parts of each branch, of a universal condition one counterexample, of an existential one the objects that come
+//! closest. It runs once per failure, so it may cost more than an evaluation; the search for the closest objects is
+//! bounded.
 
 use crate::axiom::Strata;
 use crate::cause::Causes;

@@ -76,20 +76,21 @@ impl Clone for Work {
     }
 }
 
-/// How a search that is one of many is kept short: what it may cost is divided by this.
+/// The divisor of the budget of a search that is one trial of many.
 const BRIEF: u64 = 30;
 
-/// How much a plan is worth that does not say how it comes out of its task network.
+/// How thoroughly to search for the decomposition of a plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Thoroughness {
-    /// It is the plan that was asked about.
+    /// The plan is the one to judge.
     #[default]
     Full,
-    /// It is one of many that are tried.
+    /// The plan is one trial of many.
     Brief,
 }
 
 impl Thoroughness {
+    /// The budget at this thoroughness.
     pub(crate) const fn of(self, price: u64) -> u64 {
         match self {
             Self::Full => price,

@@ -1,7 +1,6 @@
-//! A repair, made.
+//! Applying a repair.
 //!
-//! What is tried and what is written are the same: trials with times, the text of a repaired plan, and the tests that
-//! hold both against each other all come here.
+//! Trials of plans with times, the text of a repaired plan, and the tests that compare both use the same code.
 
 use super::change::Repair;
 use crate::number::Number;

@@ -1,8 +1,8 @@
-//! A few steps that are missing together.
+//! A few missing steps, found together.
 //!
-//! Breadth first from the state before the failure, by this crate's own semantics: all steps that can be taken, then
-//! all that can be taken after them, until the failing step can be taken or the goal holds. States that were seen are
-//! not looked at again. Complete up to its depth, and of use only because that is small.
+//! A breadth-first search from the state before the failure, by this crate's own semantics. It ends when the failing
+//! step is applicable or the goal holds, and skips states that it has seen. It is complete up to its depth, and
+//! affordable only because the depth is small.
 
 use super::edit::Edit;
 use super::instances::Look;

@@ -6,33 +6,33 @@ use crate::value::GroundAtom;
 use pddl::model::{GroundApplication, ObjectId};
 use pddl::{Decimal, HierarchicalPlan, PlanStep, Span, TemporalStep};
 
-/// One change after which the plan is valid.
+/// A single change that makes the plan valid.
 #[derive(Clone, Debug)]
 pub enum Repair {
-    /// Leave a step out.
+    /// Drop a step.
     Drop(StepIndex),
-    /// Put steps before the one that is at a position now; behind the last one if there is none.
+    /// Insert steps before the one at a position, or at the end.
     Insert {
-        /// Where.
+        /// The position.
         before: StepIndex,
-        /// What; at least one.
+        /// The steps; at least one.
         steps: Vec<PlanStep>,
     },
-    /// Put a step into a plan with times.
+    /// Insert a step into a plan with times.
     InsertAt {
         /// The step with its times.
         step: TemporalStep,
-        /// By how much everything else that starts then or later starts later, in seconds.
+        /// The delay of all other steps that start then or later, in seconds.
         delay: Decimal,
     },
-    /// Take a step earlier or later.
+    /// Move a step to an earlier or later position.
     Move {
-        /// Which one.
+        /// The step or fluent.
         step: StepIndex,
-        /// Before which one; behind the last one if there is none.
+        /// The step before which it goes; the end if the position has no step.
         before: StepIndex,
     },
-    /// Let two steps change places.
+    /// Swap two steps.
     Swap {
         /// The earlier one.
         first: StepIndex,
@@ -41,54 +41,54 @@ pub enum Repair {
     },
     /// Give a step another argument.
     Replace {
-        /// Which one.
+        /// The step or fluent.
         step: StepIndex,
-        /// All its arguments then.
+        /// All its new arguments.
         arguments: Vec<ObjectId>,
     },
     /// Start a step at another time.
     Shift {
-        /// Which one.
+        /// The step or fluent.
         step: StepIndex,
-        /// When, in seconds.
+        /// The new start, in seconds.
         start: Decimal,
     },
-    /// Start a step, and all that start with it or later, later.
+    /// Delay a step and all that start with it or later.
     Delay {
-        /// From which one on.
+        /// The first delayed step.
         step: StepIndex,
-        /// By how much, in seconds.
+        /// The delay, in seconds.
         by: Decimal,
     },
-    /// Let a step take another time.
+    /// Give a step another duration.
     Stretch {
-        /// Which one.
+        /// The step or fluent.
         step: StepIndex,
-        /// How long, in seconds.
+        /// The new duration, in seconds.
         duration: Decimal,
     },
-    /// Let the same steps come out of the task network in another way.
+    /// Give the same steps another decomposition.
     Decompose(Box<HierarchicalPlan>),
-    /// Let a fact hold from the beginning.
+    /// Add a fact to the initial state.
     Initially(GroundAtom),
-    /// Let a fact not hold in the beginning.
+    /// Remove a fact from the initial state.
     NotInitially(GroundAtom),
-    /// Let a fluent have another value in the beginning.
+    /// Give a fluent another initial value.
     Value {
-        /// Which one.
+        /// The step or fluent.
         fluent: GroundApplication,
         /// Its value.
         value: Number,
     },
-    /// Take a part of the failing action's condition away.
+    /// Remove a part of the failing action's condition.
     Without {
-        /// Where it stands, in the domain.
+        /// Its place in the domain.
         span: Span,
     },
 }
 
 impl Repair {
-    /// Whether the plan is changed; otherwise it is the domain or the problem.
+    /// Whether it changes the plan; the others change the domain or the problem.
     pub fn is_of_plan(&self) -> bool {
         !matches!(
             self,

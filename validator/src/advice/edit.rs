@@ -1,7 +1,7 @@
-//! One change of a plan without times, before it is made.
+//! One change of a plan without times, without applying it.
 //!
-//! Plans may have ten thousand steps, and hundreds of changes are tried: so a change is not made to be tried, but read:
-//! [`Edit::step`] is the step that the changed plan has at a position, in constant time.
+//! Plans may have ten thousand steps, and hundreds of changes are tried. So a trial reads the changed plan instead of
+//! making it: [`Edit::step`] returns its step at a position in constant time.
 
 use super::change::Repair;
 use crate::plan::StepIndex;

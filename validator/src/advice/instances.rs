@@ -1,7 +1,7 @@
-//! Which instances of actions bring about what is wanted, and which can be taken in a state.
+//! Instances of actions that achieve a want, or that are applicable in a state.
 //!
-//! An effect that changes a wanted atom or fluent fixes those parameters that stand in it; the others are found by
-//! joining the condition with the state.
+//! An effect that matches the want fixes the parameters that occur in it. Joining the condition with the state finds
+//! the others.
 
 use super::wants::{Want, Wants};
 use crate::condition::Strictness;

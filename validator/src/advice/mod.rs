@@ -1,15 +1,15 @@
-//! Smallest changes that make a plan valid.
+//! The smallest changes that make a plan valid.
 //!
-//! Problem: a diagnosis says what is missing, and its reader wants to know what to do. Idea: the unsatisfied parts of
-//! a failure are what is wanted (`wants`); which instances of actions bring that about (`instances`), which step took
-//! it away last, and which fact or condition is at fault, gives few candidates, each with one change. Plans without
-//! times are tried from the change on only, in a state that walks back and forth (`track`); plans with times as a
-//! whole. Changes of the plan come before changes of the task.
+//! Problem: a diagnosis names what is missing, and its reader wants to know what to do. Idea: the unsatisfied parts
+//! of a failure are the wants (`wants`). The instances of actions that achieve a want (`instances`), the step that
+//! undid it last, and the fact or condition at fault give a few candidates with one change each. A changed plan
+//! without times is executed only from the change on, in a state that moves back and forth (`track`); a changed plan
+//! with times is executed as a whole. Changes of the plan come before changes of the task.
 //!
-//! Invariant: what is offered was applied, and the whole plan then judged valid. Nothing is shared with a planner.
+//! Invariant: each repair was applied, and the whole changed plan is valid. No code is shared with a planner.
 //!
-//! Cost: at most [`AdviceLimits::plans`] changes are tried, and no more than [`AdviceLimits::steps`] steps taken, one with times
-//! counting for [`TIMED`].
+//! Cost: at most [`AdviceLimits::plans`] changes are tried and [`AdviceLimits::steps`] steps executed; a step with
+//! times counts as several.
 
 mod apply;
 mod bridge;

@@ -1,9 +1,9 @@
 //! Changes of a plan without times.
 //!
-//! A change behind the failing step cannot help it, and one before it helps only if it touches what is wanted there:
-//! who took it away last, who could bring it about since. So candidates are read off the wants, the nearest to the
-//! failure first; what a trial costs is in [`Track`]. Several ways of looking (`WAYS`), each with its own share of the
-//! budget, each offering the first change that works: the reader may choose.
+//! A change after the failing step cannot help, and one before it helps only if it touches a want: it affects the
+//! step that undid the want last, or adds one that achieves it. So the wants determine the candidates, those near the
+//! failure first; [`Track`] says what a trial costs. There are several strategies (`WAYS`), each with its own share
+//! of the budget and each offering its first change that works, so the reader can choose.
 
 use super::bridge::{LONGEST, bridge};
 use super::change::Repair;

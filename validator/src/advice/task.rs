@@ -1,4 +1,4 @@
-//! Changes of the task: a fact more or less in the beginning, another initial value, or one literal less in a
+//! Changes of the task: an initial fact added or removed, another initial value, or one literal less in a
 //! precondition.
 
 use super::apply::take_away;

@@ -1,6 +1,6 @@
-//! Changes of a plan with times: steps start at other times, take other times, are left out or put in.
+//! Changes of a plan with times: a step starts at another time, takes another time, is dropped or inserted.
 //!
-//! Every candidate is judged as a whole plan: what happens at one time may interfere with what happens anywhere near.
+//! Every candidate is validated as a whole plan, because a step may interfere with any other step near it.
 
 use super::apply::temporal;
 use super::change::Repair;

@@ -1,7 +1,7 @@
-//! A step that is missing in a plan with times.
+//! A missing step of a plan with times.
 //!
-//! It starts just after something has happened, where its condition at the start holds, and brings about what is
-//! wanted: in the gap that is there, or in one that is made by starting everything after it later.
+//! It starts just after a happening at which its condition at the start holds, and it achieves a want. It uses an
+//! existing gap, or one made by delaying everything after it.
 
 use super::change::Repair;
 use super::instances::{Look, conditions_at, each_match};

@@ -1,15 +1,15 @@
-//! One state that walks along a plan: forward by taking steps, backward by taking them back.
+//! One state that moves along a plan, forward by executing steps and backward by undoing them.
 //!
-//! Problem: most changes that could repair a plan touch a few steps near to where it fails, and judging the whole plan
-//! for each of them costs as much as the plan is long. Idea: the state stays near the failure. Each step that is taken
-//! notes what it changes, so that it can be taken back; a changed plan is carried out from its first new step on, until
-//! a step cannot be taken, and taken back when the next one comes.
+//! Problem: most repairs touch a few steps near the failure, and executing the whole plan for each candidate costs
+//! its full length. Idea: the state stays near the failure. Each executed step records its changes, so that it can be
+//! undone. A changed plan is executed from its first new step up to the first inapplicable one, and undone for the
+//! next candidate.
 //!
-//! Invariant: after [`Track::go_to`] the state is that before the plan's step of that number. A moment is never used
-//! twice, so that no add of an earlier trial wins over a delete.
+//! Invariant: after [`Track::go_to`] the state is the one before the step with that number. A moment is never used
+//! twice, so an add of an earlier trial cannot override a delete.
 //!
-//! Cost: the steps between a change and the first one that cannot be taken after it. What the trajectory must satisfy
-//! is not looked at: who passes here is judged as a whole afterwards.
+//! Cost: the steps between a change and the first inapplicable step after it. Trajectory constraints are not checked
+//! here: a candidate that passes is validated as a whole afterwards.
 
 use super::edit::Edit;
 use crate::effect::Changes;

@@ -1,4 +1,4 @@
-//! What looking for changes may cost, and the changed plans that are judged for it.
+//! The budget of a search for changes, and the validation of changed plans.
 
 use crate::plan::PlanRef;
 use crate::validator::Validator;
@@ -7,14 +7,14 @@ use crate::verdict::Verdict;
 /// What a step with times costs, in steps without: it starts and ends, and things must hold in between.
 const TIMED: usize = 8;
 
-/// How hard to look.
+/// The budget of a search for changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AdviceLimits {
-    /// How many changes are tried.
+    /// The most changes to try.
     pub plans: usize,
-    /// How many steps are taken for that.
+    /// The most steps to execute for that.
     pub steps: usize,
-    /// How many changes of the plan, and how many of the task, are enough.
+    /// The most repairs of the plan, and of the task, to return.
     pub offers: usize,
 }
 

@@ -1,6 +1,6 @@
-//! What a failure asks for: atoms that should hold or should not, fluents that should be something else.
+//! What a failure lacks: atoms that should or should not hold, fluents that should have another value.
 //!
-//! Derived atoms are no step's doing: what the bodies of their axioms lack is wanted in their place.
+//! No step adds a derived atom, so it is replaced by the unsatisfied parts of its axioms.
 
 use crate::cause::{Cause, Causes};
 use crate::prepared::Prepared;

@@ -1,17 +1,16 @@
-//! What follows from a state by the axioms.
+//! Derived predicates.
 //!
-//! Axioms are sorted into strata: a derived predicate may depend on itself through positive atoms, and negatively only
-//! on predicates of lower strata. A domain whose axioms cannot be stratified has no meaning and is refused with the
-//! axiom that closes the circle.
+//! Axioms are sorted into strata. A derived predicate may depend on itself through positive atoms, and negatively
+//! only on predicates of lower strata. A domain whose axioms cannot be stratified has no meaning; it is refused with
+//! the axiom that closes the cycle.
 //!
-//! Problem: a plan of a thousand steps asks a thousand times what follows, and a step changes next to nothing. Idea:
-//! derived predicates that depend on one another form a *component*, the least fixpoint of its rules over what lies
-//! below it. A condition asks only for the components that it reads, directly or through others, and a component is
-//! looked at only if an input of it changed since (`update`). Its rules are axioms with their disjunctions split
-//! (`rule`). Invariant: after [`Strata::derive_needed`] the derived relations asked for are what a derivation from
-//! nothing would give.
+//! Problem: a plan of a thousand steps queries derived atoms a thousand times, and a step changes next to nothing.
+//! Idea: derived predicates that depend on one another form a *component*, the least fixpoint of its rules over the
+//! components below it. A condition needs only the components that it reads, directly or indirectly, and a component
+//! is updated only if one of its inputs changed since (`update`). Its rules are axioms with their disjunctions split
+//! (`rule`). Invariant: after [`Strata::derive_needed`] the requested relations equal a derivation from scratch.
 //!
-//! Cost: where nothing that matters changed, one comparison per input. Else what `update` says.
+//! Cost: one comparison per input if no input changed, else the cost of `update`.
 //!
 //! Source: Thiébaux, Hoffmann & Nebel, "In defense of PDDL axioms", AIJ 2005, §2 (stratification).
 

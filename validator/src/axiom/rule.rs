@@ -1,10 +1,10 @@
 //! Axioms as rules: conjunctions that can be joined.
 //!
-//! An axiom whose body is a disjunction would have to try every tuple of objects, for a disjunction binds nothing.
-//! So it becomes one rule per disjunct, disjunctions inside conjunctions and existential quantifiers being multiplied
-//! out, up to a limit past which they stay conditions to be tested. In a rule, atoms that must hold are *pivots*: if
-//! one more atom holds, only the rule's instances with that atom are new. What else a rule reads is *hidden*, and
-//! where that changes the rule must be asked for all its instances.
+//! Problem: a disjunction binds no variable, so an axiom with a disjunctive body would try every tuple of objects.
+//! Idea: it becomes one rule per disjunct. Disjunctions inside conjunctions and existential quantifiers are
+//! multiplied out, up to a limit; past it they stay conditions to test. In a rule, positive atoms are *pivots*: when
+//! one more atom holds, only the instances of the rule with that atom are new. Everything else that a rule reads is
+//! *hidden*: when it changes, all instances of the rule are evaluated.
 //!
 //! Source: Ullman, "Principles of Database and Knowledge-Base Systems", 1988, ch. 3 (semi-naive evaluation).
 

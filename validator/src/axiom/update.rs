@@ -1,18 +1,19 @@
-//! One component's derived tuples, kept up to date.
+//! Keeping one component's derived tuples up to date.
 //!
-//! From nothing: every rule once, then, as long as tuples are new, the instances of rules with a new tuple (semi-naive).
+//! From scratch: evaluate every rule once; then, while tuples are new, the instances of rules with a new tuple
+//! (semi-naive evaluation).
 //!
-//! After a change: tuples that have lost a proof are taken back, and what was proved with them; those that have another
-//! proof return; then what is new is added semi-naively (delete and rederive). To find what a lost tuple proved, the
-//! inputs are for a while what they were *and* what they are: that proves too much, never too little, and what was taken
-//! back needlessly returns. This works where inputs that changed are read by pivots only. Where a negation, a universal
-//! condition or a fluent reads the change, and where a change takes back half of all, the component is derived from
-//! nothing.
+//! After a change (delete and rederive): delete the tuples that lost a proof, and the tuples proved with them;
+//! restore those with another proof; then add new tuples semi-naively. To find what a lost tuple proved, the inputs
+//! temporarily hold both their old and their new tuples. That deletes too many tuples, never too few, and the second
+//! step restores the surplus. It works where only pivots read the changed inputs. If a negation, a universal
+//! condition or a fluent reads the change, or if the change deletes half of all tuples, the component is derived from
+//! scratch.
 //!
-//! Invariant: slots of derived tuples stay, and the log of a derived relation tells what changed either way, so the
-//! components above go on from there.
+//! Invariant: derived tuples keep their slots, and the log of a derived relation records changes in both directions,
+//! so the components above can continue from there.
 //!
-//! Cost: that of the instances with a tuple that changed, plus one proof per tuple taken back.
+//! Cost: the instances with a changed tuple, plus one proof per deleted tuple.
 //!
 //! Source: Gupta, Mumick & Subrahmanian, "Maintaining views incrementally", SIGMOD 1993, §7 (DRed).
 

@@ -1,4 +1,4 @@
-//! A plan with its decomposition.
+//! Checking a plan with its decomposition.
 
 use super::matching::{self, Assignment, Child, Limit, Match, Matching};
 use super::placing::{Reading, Slot, place};

@@ -1,9 +1,9 @@
-//! Which subtask of a network each subtask of the plan is.
+//! Matching the subtasks of the plan with those of the network.
 //!
-//! Problem: the plan lists numbers, in any order, and a network may have equal subtasks that only its ordering
-//! tells apart. Idea: a search over the assignments, subtask by subtask, that binds the network's variables as it
-//! goes; interchangeable subtasks are taken in one order only. Invariant: an [`Assignment`] binds each variable
-//! that a task determines. Cost: linear where names and arguments tell the subtasks apart; bounded by a budget.
+//! Problem: the plan lists its subtasks in any order, and a network may have equal subtasks that only its ordering
+//! distinguishes. Idea: a search over the assignments, subtask by subtask, that binds the variables of the network on
+//! the way; interchangeable subtasks are tried in one order only. Invariant: an [`Assignment`] binds each variable
+//! that a task determines. Cost: linear where names and arguments distinguish the subtasks; bounded by a budget.
 
 use super::schema::{Schema, unify};
 use super::tree::Range;

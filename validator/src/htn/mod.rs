@@ -1,10 +1,12 @@
-//! Plans of task networks.
+//! Plans for task networks.
 //!
-//! A plan without its decomposition is given one ([`search`]). A plan with its decomposition is checked in four passes: the numbers make a tree ([`tree`]); the subtasks of each
-//! task are those of its method, under some values of the method's variables and in an order that the method allows
-//! ([`schema`], [`matching`]); the steps can be taken one after the other, as in any plan; and each method's
-//! precondition holds at a moment that its task's place in the order allows ([`placing`]). What is found is exact
-//! but for the limits of the searches, which end with a refusal and never with a guess.
+//! A plan with its decomposition (`decomposed`) is checked in four passes. The numbers form a tree (`tree`). The
+//! subtasks of each task are those of its method, under some values of the method's variables and in an order that
+//! the method allows (`schema`, `matching`). The steps are applicable one after the other, as in any plan. Each
+//! method's precondition holds in a state that the task's place in the order allows (`placing`). For a plan without a
+//! decomposition, a search finds one (`undecomposed`, `search`), and the same passes check it.
+//!
+//! Verdicts are exact. A search that reaches its limit ends with a refusal, never with a guess.
 //!
 //! Source: Höller et al., "HDDL: an extension to PDDL for expressing hierarchical planning problems", AAAI 2020;
 //! Behnke, Höller & Biundo, "On the complexity of HTN plan verification", ICAPS 2015.

@@ -1,9 +1,9 @@
-//! At which moments the methods' preconditions hold.
+//! The moments at which the preconditions of methods hold.
 //!
-//! A precondition is what an action without effects would need that comes before all subtasks of its method and
-//! behind all that is ordered before the task. Where the order is total, that is one moment; else some moment will
-//! do, and taking each as early as it can be hurts no other. So one walk over the tree, in the order of the
-//! networks, either places all or shows one that has no place. Nothing recurses.
+//! A method's precondition acts like that of an action without effects, before all subtasks of the method and after
+//! the predecessors of its task. In a total order that is one moment. Else some moment must do, and taking the
+//! earliest never hurts another task. So one walk over the tree, in the order of the networks, either places all
+//! preconditions or finds one that has no place. The walk does not recurse.
 //!
 //! Source: Höller et al., "HDDL: an extension to PDDL for expressing hierarchical planning problems", AAAI 2020, §3:
 //! preconditions of methods are compiled to actions.
@@ -25,7 +25,8 @@ pub(super) struct Reading {
     pub(super) holds: Option<Vec<Slot>>,
 }
 
-/// What something must not come before, and whose precondition says so, having been sought since when.
+/// The earliest moment of a subtask; `by` is the task whose precondition delays it, with the moment from which on that
+/// was searched.
 #[derive(Clone, Copy, Debug)]
 struct Bound {
     slot: Slot,
@@ -49,9 +50,10 @@ struct Frame {
     within: u32,
 }
 
-/// Places every precondition, or answers whose has no place and from which moment on that was sought.
+/// Places every precondition, or returns a task whose precondition has no place, with the moment from which on it was
+/// searched.
 ///
-/// `visit` is told the earliest moment of each task.
+/// Calls `visit` with the earliest moment of each task.
 pub(super) fn place<'a>(
     plan: &HierarchicalPlan,
     schema: impl Fn(Parent) -> &'a Schema<'a>,

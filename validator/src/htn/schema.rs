@@ -17,7 +17,7 @@ pub(super) struct Schema<'a> {
     pub(super) determined: Vec<VariableId>,
     /// The constraints, for some value of each parameter that no task determines.
     pub(super) constraints: Condition,
-    /// The same with the precondition; `None` where there is none.
+    /// The same with the precondition, if the method has one.
     pub(super) precondition: Option<Condition>,
     /// Per subtask, those that come directly before it.
     pub(super) before: Vec<Vec<u32>>,

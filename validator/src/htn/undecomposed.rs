@@ -1,4 +1,4 @@
-//! A plan that does not say how it comes out of the problem's task network.
+//! Checking a plan for a task network that does not give its decomposition: a search finds one.
 
 use super::decomposed;
 use super::schema::Schema;

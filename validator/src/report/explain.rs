@@ -1,8 +1,8 @@
-//! A verdict in words, each with its place.
+//! A verdict in sentences, each with its place.
 //!
-//! The verdict is data; whoever shows it to people (the command line, the executive's log) says the same
-//! sentences. A [`Finding`] has one sentence and a place, and notes with places of their own, which may
-//! lie in another file: a failing step in the plan, its unsatisfied parts in the domain.
+//! The verdict is data. The command line and the executive's log render it by the same sentences. A [`Finding`] is
+//! one sentence with a place, and notes with places of their own, possibly in another file: a failing step in the
+//! plan, its unsatisfied parts in the domain.
 
 use super::finding::{Finding, Place};
 use super::interference::{Access, Interference, interference_of};
@@ -18,7 +18,7 @@ use crate::verdict::{
 use pddl::Span;
 use pddl::model::{Domain, Problem};
 
-/// What to say about a verdict; nothing about a valid plan.
+/// Explains a verdict; `None` for a valid plan.
 pub fn explain<'p>(
     domain: &Domain,
     problem: &Problem,
@@ -226,7 +226,7 @@ fn failure(words: &Words<'_>, failure: &Failure) -> Finding {
     }
 }
 
-/// At which times a constraint is broken.
+/// The times at which a constraint is violated.
 fn times_of_breach(words: &Words<'_>, states: usize, times: &[Number]) -> String {
     let has_times = matches!(words.plan, PlanRef::Temporal(_));
     let unit = if has_times { "at" } else { "after steps" };
@@ -235,7 +235,7 @@ fn times_of_breach(words: &Words<'_>, states: usize, times: &[Number]) -> String
     format!("broken {states} times: {unit} {}{more}", list.join(", "))
 }
 
-/// What one of two does that interfere: `deletes (a)`.
+/// What one of two interfering happenings does: `deletes (a)`.
 fn does(words: &Words<'_>, role: Option<Interference>, over: &Shared) -> String {
     let what = match over {
         Shared::Atom(atom) | Shared::Derived { atom, .. } => words.atom(atom),

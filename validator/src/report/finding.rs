@@ -1,4 +1,4 @@
-//! Something to say about a plan, with its place in one of the three texts.
+//! A sentence about a plan, with its place in one of the three files.
 
 use crate::verdict::File;
 use pddl::Span;
@@ -13,13 +13,13 @@ pub struct Place {
     pub span: Span,
 }
 
-/// Something to say about a plan.
+/// A sentence about a plan.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Finding {
     /// One sentence without a full stop.
     pub sentence: String,
     /// Where.
     pub place: Place,
-    /// What it consists in, most important first.
+    /// Its details, the most important first.
     pub notes: Vec<(Place, String)>,
 }

@@ -1,8 +1,7 @@
-//! What each of two happenings does to that about which they disagree.
+//! How each of two interfering happenings accesses the shared atom or fluent.
 //!
-//! A verdict names two happenings and an atom or fluent; this finds the effect or the condition in the domain that is
-//! meant, for whoever shows the verdict. Read from the model alone: an effect under a condition is named whether its
-//! condition held or not.
+//! A verdict names two happenings and an atom or fluent. This module finds the effect or condition in the domain that
+//! accesses it. It reads the model alone, so a conditional effect is named whether its condition held or not.
 
 use crate::cause::Cause;
 use crate::plan::PlanRef;

@@ -8,7 +8,7 @@ use crate::verdict::{File, NetworkFault, Parent, Shortfall};
 use pddl::model::Name;
 use pddl::{DecompositionId, HierarchicalPlan, PlanNode, Span};
 
-/// What is wrong with a decomposition, or why there is none.
+/// What is wrong with a decomposition, or why none exists.
 pub(super) fn network_fault(words: &Words<'_>, fault: &NetworkFault) -> Finding {
     match words.plan {
         PlanRef::Hierarchical(plan) => Decomposed { words, plan }.fault(fault),
@@ -133,7 +133,7 @@ impl Decomposed<'_, '_> {
                 Self::plain(sentence.to_owned(), in_plan(self.plan.root_span))
             }
             NetworkFault::Unknown { task } => {
-                let sentence = format!("{} is none of the domain, or its method is not", self.task(*task));
+                let sentence = format!("the domain does not have {}, or not its method", self.task(*task));
                 Self::plain(sentence, self.task_place(*task))
             }
             NetworkFault::Arguments { task, .. } => {

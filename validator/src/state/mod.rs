@@ -1,8 +1,8 @@
-//! The state: which atoms hold, what each fluent is, and which step made it so.
+//! The state: which atoms hold, the value of each fluent, and which step changed each of them last.
 //!
-//! A plan of a hundred thousand steps must not copy a state per step, so there is one, changed in place.
-//! Each predicate has a [`Relation`], which remembers who deleted what; what axioms derive is kept apart from the
-//! facts and brought up to date only when it is asked for (`axiom`).
+//! Problem: a plan of a hundred thousand steps must not copy a state per step. Idea: one state, changed in place.
+//! Each predicate has a [`Relation`], which remembers the last change of each atom. Derived atoms are kept apart from
+//! the facts and are updated only on demand (`axiom`).
 
 mod lag;
 mod passage;
@@ -55,7 +55,7 @@ pub(crate) struct State {
     pub(crate) derived: IndexVec<PredicateId, Relation>,
     fluents: IndexMap<GroundApplication, Value, FxBuildHasher>,
     lines: Lines,
-    /// What fluents were before they were given a value, if somebody wants to know.
+    /// The old values of assigned fluents, if a recorder needs them.
     before: Option<FxHashMap<GroundApplication, Option<Value>>>,
     /// How often a fluent of the function was given a value.
     fluent_changes: IndexVec<FunctionId, u64>,
@@ -65,7 +65,7 @@ pub(crate) struct State {
     pub(crate) passage: Option<Arc<Passage>>,
     /// Whether a fluent may be rounded because something happened at an instant that is no fraction.
     pub(crate) rounded: bool,
-    /// What may still be spent on the plan whose state this is.
+    /// The work that judging this plan may still cost.
     pub(crate) work: Work,
 }
 

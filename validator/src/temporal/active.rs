@@ -1,9 +1,9 @@
-//! The durative actions that run.
+//! The durative actions that are running.
 //!
-//! Problem: with ten thousand at one time, nothing may ask each of them at each happening. Idea: each has a [`Ticket`],
-//! the next free number; what is kept of it is found by its ticket or its step, and those that change something
-//! continuously are listed apart. Invariant: tickets are given in the order in which actions start, so that a set of
-//! them is in that order, which is the order in which what fails is told.
+//! Problem: with ten thousand at once, a happening must not visit all of them. Idea: each has a [`Ticket`], the next
+//! free number. Its data is found by ticket or by step, and actions with continuous effects are listed separately.
+//! Invariant: tickets increase in the order in which actions start, so a sorted set of tickets has that order, and so
+//! have the failures that are reported.
 
 use super::watch::{Reads, Ticket};
 use crate::number::Number;

@@ -1,10 +1,10 @@
-//! What happened a moment ago, and who of it is in the way of what happens now.
+//! Recent happenings, and which of them interfere with a new one.
 //!
-//! Problem: ten thousand actions that start at one time are fifty million pairs. Idea: what each needs and changes is
-//! listed by atom and fluent, and who comes next looks its own up. Invariant: the lists hold those that are remembered,
-//! in the order in which they happened, and perhaps some that were forgotten, at their beginning.
+//! Problem: ten thousand actions that start at one time are fifty million pairs. Idea: recent happenings are listed
+//! by the atoms and fluents that they read and change, and a new one looks up its own. Invariant: each list holds the
+//! remembered happenings in their order, possibly after some forgotten ones.
 //!
-//! Cost: the size of a footprint, whatever else happens.
+//! Cost: the size of a footprint, independent of the number of happenings.
 
 use super::footprint::{Footprint, Touch};
 use crate::cause::Cause;

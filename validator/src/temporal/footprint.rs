@@ -1,15 +1,13 @@
-//! What a happening needs and changes, and whether two at one time get in each other's way.
+//! What a happening reads and changes, and whether two simultaneous ones interfere.
 //!
-//! Two happenings may be simultaneous only if their order does not matter: neither changes an atom that
-//! the other needs or changes the other way, nor a fluent that the other reads, and both may change a
-//! fluent only by increasing and decreasing it. What a condition needs is every atom and fluent in it,
-//! whether it matters to its truth or not, with quantifiers expanded; of a derived predicate, every atom
-//! of the predicates that it depends on. Cost: the size of the expanded conditions, so only what stands
-//! nearer to something else than the separation is looked at.
+//! Two happenings may be simultaneous only if their order does not matter. Neither may change an atom that the other
+//! reads or changes to the opposite, or a fluent that the other reads. Both may change a fluent only by increasing
+//! and decreasing it. A condition reads every atom and fluent in it, relevant to its truth or not, with quantifiers
+//! expanded. A derived predicate reads every atom of the predicates that it depends on. Cost: the size of the
+//! expanded conditions, so only happenings closer to another one than the separation have a footprint.
 //!
-//! Source: Fox & Long, "PDDL2.1", JAIR 2003, Definition 12 (mutex actions, the rule of no moving
-//! targets). Deviation: conditions of conditional effects and preferences count as
-//! needed; a duration's bound does too.
+//! Source: Fox & Long, "PDDL2.1", JAIR 2003, Definition 12 (mutex actions, the rule of no moving targets). Deviation:
+//! conditions of conditional effects, preferences, and bounds of durations count as read.
 
 use crate::axiom::Strata;
 use crate::effect::{Changes, Write};

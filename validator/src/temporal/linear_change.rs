@@ -1,15 +1,15 @@
-//! Continuous change in straight lines, of which only what matters is looked at.
+//! Linear continuous change, computed only where a condition reads it.
 //!
-//! Problem: with thousands of continuous effects at once, giving each fluent its value at each happening is quadratic.
-//! Idea: where rates are numbers that nothing changes, a fluent runs in a straight line until an effect on it begins or
-//! ends or something else sets it. So the state is told the line ([`Line`]) and works out the value when it is asked;
-//! and when a condition can change is computed once for each line that it reads, and kept in a queue until then.
+//! Problem: with thousands of continuous effects at once, updating each fluent at each happening is quadratic. Idea:
+//! if rates are numbers that nothing changes, a fluent is linear until an effect on it begins or ends, or another
+//! effect assigns it. The state stores the line ([`crate::state::Line`]) and computes the value on demand. The time
+//! at which a condition can change is computed once for each line that the condition reads, and waits in a queue.
 //!
-//! Invariant: what is asked when is what `flow_to` asks without, but for conditions that cannot have changed. Where
-//! that does not work (processes, events, axioms, constraints and traces look at everything; rates may change; an instant
-//! may be no fraction) the linear is closed for good, and all values are what the state says.
+//! Invariant: `flow_linearly` evaluates the same conditions at the same times as `flow_to`, except for conditions
+//! that cannot have changed. In other cases linear change stops for good and the state stores all values: processes,
+//! events, axioms, constraints and traces read everything; rates may change; an instant may be irrational.
 //!
-//! Cost: of a happening, the lines that it changes and the conditions that read them.
+//! Cost: per happening, the lines that it changes and the conditions that read them.
 
 use super::watch::Ticket;
 use crate::number::Number;

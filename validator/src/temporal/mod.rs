@@ -1,15 +1,17 @@
-//! A plan with times.
+//! Plans with times.
 //!
-//! The plan's starts and ends and the problem's timed changes are points on a time line. All that happens
-//! at one time is judged in the state just before, must not interfere, and then changes the state
-//! together. Between two times, what `over all` says must hold, and continuous effects run; a condition
-//! over fluents that run is asked at each instant at which it can change and once between any two of them.
+//! The starts and ends of the steps and the problem's timed changes are points on a time line. All points at one time
+//! are judged in the state just before them, must not interfere, and then change the state together. Between two
+//! times, `over all` conditions must hold and continuous effects act. A condition over continuously changing fluents
+//! is evaluated at each instant at which its truth can change, and once between any two such instants.
 //!
-//! Invariant: `now` is the time of the last happening, and `state` is the state right after it.
+//! Bottom up: `timeline`, `flow` (curves of fluents), `linear_change`, `footprint` and `concurrent` (interference),
+//! `watch` and `active` (running actions), then `run`, the plan under way, with what it does: `invariants`,
+//! `processes`, `point`, `linear_flow`, `passing`.
 //!
-//! Cost: the conditions of each point, and at each happening those of the running actions that read what changed
-//! (`watch`), where change is linear only for the fluents that are read (`linear`); footprints only for points that are
-//! nearer to another one than the separation.
+//! Cost: the conditions of each point, and at each happening the conditions of those running actions that read a
+//! changed fact or fluent (`watch`). Where change is linear, only fluents that a condition reads are computed
+//! (`linear_change`). Footprints are made only for points that are closer to another one than the separation.
 //!
 //! Source: Fox & Long, "PDDL2.1", JAIR 2003, Definitions 16 to 20; Edelkamp & Hoffmann, "PDDL2.2", 2004.
 

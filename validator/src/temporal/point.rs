@@ -1,8 +1,8 @@
-//! What happens at one time.
+//! The happenings at one time.
 //!
-//! Every point's conditions are judged in the state before, and what it changes is collected there too;
-//! then the points are held against each other and against those a moment ago, and only then the state
-//! changes. So nothing sees half of a happening.
+//! Each point is judged in the state before, and its changes are collected there too. Then the points are compared
+//! with each other and with those a moment ago, and only then the state changes. So no point sees a part of a
+//! happening.
 
 use super::active::{Active, given};
 use super::footprint::{Footprint, Reader};

@@ -1,15 +1,14 @@
-//! What happens by itself: processes run as long as their condition holds, events happen when theirs begins to.
+//! Processes and events: a process acts while its condition holds, an event happens when its condition becomes true.
 //!
-//! At every instant at which a condition of either can change, and between any two of them, the processes
-//! that run and the events that are due are found by a query. An event must make
-//! its own condition false, or it would happen for ever; what happens a hundred times at one time in a
-//! cascade is called endless too. An event or a
-//! process whose condition holds only just after an instant (`>`, not `>=`) begins at that instant.
+//! At every instant at which a condition of either can change, and between any two of them, a query finds the
+//! processes that act and the events that are due. An event must make its own condition false, or it would happen
+//! endlessly; a cascade in which one event happens a hundred times at one time is endless, too. An event or process
+//! whose condition holds only just after an instant (`>`, not `>=`) begins at that instant.
 //!
-//! An event that is due at the time of a happening happens before it, and what is due because of the happening
-//! after it. Events that are due in one state all see that state, so none of them may change what another needs or
-//! changes: the outcome would depend on an order that nobody gave. A timed literal is an event too, and must leave
-//! alone what those of its time need and change. What an event makes true that is so already is no change.
+//! An event that is due at the time of a happening happens before it, and an event that the happening triggers
+//! happens after it. All events that are due in one state read that state. So none of them may change what another
+//! reads or changes: the outcome would depend on an order that the domain does not define. The same holds between an
+//! event and a timed literal at its time. An event that adds an atom which holds already changes nothing.
 //!
 //! Source: Fox & Long, "Modelling mixed discrete-continuous domains for planning", JAIR 2006, §4.
 

@@ -1,10 +1,10 @@
-//! When things happen: the plan's starts and ends, and the problem's timed changes, in order of time.
+//! The time line: the plan's starts and ends and the problem's timed changes, in order of time.
 //!
-//! Times are exact, so two points are at one time or they are not. All timed changes of the problem
-//! belong to the trajectory, those after the plan's end too: the goal must hold when all is over.
+//! Times are exact, so two points are simultaneous or they are not. All timed changes belong to the trajectory,
+//! including those after the plan's end: the goal must hold after the last of them.
 //!
-//! Source: Fox & Long, "PDDL2.1", JAIR 2003, Definition 18 (happening sequence); Edelkamp & Hoffmann,
-//! "PDDL2.2", 2004, §3.
+//! Source: Fox & Long, "PDDL2.1", JAIR 2003, Definition 18 (happening sequence); Edelkamp & Hoffmann, "PDDL2.2",
+//! 2004, §3.
 
 use crate::cause::Cause;
 use crate::number::Number;

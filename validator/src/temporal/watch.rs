@@ -1,16 +1,18 @@
-//! Which of the actions that run must be asked again when something changes.
+//! Which running actions must be checked again after a change.
 //!
-//! Problem: what ten thousand actions need `over all` is not to be evaluated at each of ten thousand happenings. Idea: a
-//! condition whose atoms and fluents are as they were is as true as it was. So each action is listed under all that its
-//! conditions read ([`Key`]), a change makes those listed under it *due*, and only these are asked.
+//! Problem: evaluating the `over all` conditions of ten thousand actions at each of ten thousand happenings takes too
+//! long. Idea: a condition keeps its truth while its atoms and fluents keep their values. So each action is listed
+//! under everything that its conditions read ([`Key`]). A change makes the actions under it *due*, and only these are
+//! evaluated.
 //!
-//! What a quantified variable stands for is open: such an atom is listed under one argument that is known, or else under
-//! its predicate. A derived predicate stands for the predicates and functions below it. A condition that reads the time
-//! is always due.
+//! The object of a quantified variable is not known in advance. Such an atom is listed under one known argument, or
+//! else under its predicate. A derived predicate stands for the predicates and functions below it. A condition that
+//! reads the time is always due.
 //!
-//! Invariant: an action that is not due has conditions that hold, as they were last found to.
+//! Invariant: the conditions of an action that is not due still hold.
 //!
-//! Cost: of a change, one look-up, three with open variables, and those listed; of an action, what its conditions read.
+//! Cost: of a change, one look-up (three with open variables) and the actions listed there; of an action, the size of
+//! its conditions.
 
 use super::footprint::Dependencies;
 use crate::axiom::Strata;
@@ -211,7 +213,7 @@ impl Watch {
         self.due.remove(&ticket);
     }
 
-    /// Whoever reads what is changed is due.
+    /// Makes the actions due that read what changed.
     pub(super) fn changed(&mut self, changes: &Changes) {
         if self.by_key.is_empty() {
             return;
@@ -232,7 +234,7 @@ impl Watch {
         self.call(&Key::Atom(atom));
     }
 
-    /// Whoever reads the fluent is due.
+    /// Makes the actions due that read the fluent.
     pub(super) fn flowed(&mut self, fluent: &GroundApplication) {
         let Self { by_key, open_functions, due, .. } = self;
         each_reader(by_key, open_functions, fluent, &mut |tickets| due.extend(tickets));
@@ -244,24 +246,24 @@ impl Watch {
         }
     }
 
-    /// Everybody is due.
+    /// Makes all running actions due.
     pub(super) fn all_changed(&mut self) {
         self.due.extend(&self.running);
     }
 
-    /// Who is due, in the order in which they started; they are so no longer.
+    /// Takes the actions that are due, in the order in which they started.
     pub(super) fn due(&mut self) -> BTreeSet<Ticket> {
         let mut due = std::mem::take(&mut self.due);
         due.extend(&self.always);
         due
     }
 
-    /// Who reads the time.
+    /// The actions that read the time.
     pub(super) fn always(&self) -> impl Iterator<Item = Ticket> {
         self.always.iter().copied()
     }
 
-    /// Who reads one of the fluents, or the time.
+    /// The actions that read one of the fluents, or the time.
     pub(super) fn readers<'f>(
         &self,
         fluents: impl Iterator<Item = &'f GroundApplication>,

@@ -11,7 +11,7 @@ use pddl::Span;
 use pddl::model::{Comparison, EventId, GroundApplication, Name, ObjectId, PredicateId};
 use serde::Serialize;
 
-/// One of the three texts.
+/// One of the three files that a place can lie in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum File {
@@ -26,106 +26,106 @@ pub enum File {
 /// Why a plan is not valid.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Failure {
-    /// A step is not an instance of an action. (A plan that was read from text has none.)
+    /// A step is not an instance of an action. (Plans that were read from text never have this fault.)
     Step {
-        /// Which one.
+        /// The step.
         step: StepIndex,
-        /// What is wrong with it.
+        /// Its fault.
         fault: StepFault,
     },
-    /// A step cannot be taken, started or ended.
+    /// A condition of a step, or of the start or end of one, does not hold.
     Precondition {
-        /// Which one, and which end of it.
+        /// The step, or its start or end.
         at: Cause,
-        /// What its condition lacks; spans are of the domain.
+        /// The unsatisfied parts of the condition; spans are in the domain.
         parts: Vec<Unsatisfied>,
     },
-    /// A step takes too long or too short.
+    /// A duration constraint of a step does not hold.
     Duration {
-        /// Which one.
+        /// The step.
         step: StepIndex,
-        /// How long it takes, in seconds.
+        /// The duration of the step, in seconds.
         actual: Number,
-        /// How it must compare …
+        /// The comparison that the constraint makes.
         comparison: Comparison,
-        /// … with what.
+        /// The bound that it compares with.
         bound: Operand,
-        /// Where that is asked for, in the domain.
+        /// The constraint, in the domain.
         span: Span,
     },
-    /// What must hold all the time that a step takes does not.
+    /// An `over all` condition of a step does not hold.
     Invariant {
-        /// Which step.
+        /// The step.
         step: StepIndex,
         /// A time at which it does not hold, in seconds.
         time: Number,
-        /// What it lacks; spans are of the domain.
+        /// The unsatisfied parts; spans are in the domain.
         parts: Vec<Unsatisfied>,
     },
-    /// Two things happen at once, and what they do or need depends on their order.
+    /// Two simultaneous happenings interfere: their order matters.
     Interference {
-        /// One.
+        /// The first.
         first: Cause,
-        /// The other.
+        /// The second.
         second: Cause,
-        /// What they disagree about.
+        /// What both of them access.
         over: Shared,
     },
-    /// Something that can happen has no result.
+    /// The effects of a happening have no result.
     Effect {
-        /// What.
+        /// The happening.
         at: Cause,
-        /// Why; spans are of the domain.
+        /// The reason; spans are in the domain.
         fault: EffectFault,
     },
-    /// Fluents that change continuously have no values.
+    /// Continuous change has no result.
     Change {
-        /// From when on, in seconds.
+        /// The time from which on it has none, in seconds.
         time: Number,
-        /// Why; spans are of the domain.
+        /// The reason; spans are in the domain.
         fault: ChangeFault,
     },
-    /// Events cause each other without end, at one time.
+    /// Events trigger each other endlessly at one time.
     EndlessEvents {
-        /// When, in seconds.
+        /// The time, in seconds.
         time: Number,
-        /// One of them.
+        /// One of these events.
         event: EventId,
     },
-    /// The states that the plan goes through break a constraint.
+    /// The trajectory violates a constraint.
     Constraint {
-        /// Whether the domain or the problem has it.
+        /// The file with the constraint: the domain or the problem.
         file: File,
         /// The constraint, without `and` and `forall` around it.
         span: Span,
-        /// How it is broken.
+        /// The kind of violation.
         breach: Breach,
-        /// When, in seconds or steps; `None` if it is nowhere satisfied.
+        /// The time of the violation, in seconds or steps; `None` if no state satisfies the constraint.
         time: Option<Number>,
-        /// The values of the variables around it.
+        /// The values of the variables that are bound around it.
         binding: Vec<(Name, ObjectId)>,
-        /// How many times there are at which it is broken, as far as single states are at fault.
+        /// The number of times at which single states violate it.
         states: usize,
         /// The first of them, in seconds or steps.
         times: Vec<Number>,
-        /// What the state that is named, or the last one where something never came, lacks; empty where no single
-        /// condition says it.
+        /// The unsatisfied parts in the violating state, or in the last state if a required state never came. Empty
+        /// where no single condition explains the violation.
         parts: Vec<Unsatisfied>,
     },
-    /// The plan does not come out of the problem's task network.
+    /// The plan is not a decomposition of the problem's task network.
     Network {
-        /// Why.
+        /// The reason.
         fault: NetworkFault,
     },
-    /// The goal does not hold in the end.
+    /// The goal does not hold in the last state.
     Goal {
-        /// What it lacks; spans are of the problem.
+        /// The unsatisfied parts; spans are in the problem.
         parts: Vec<Unsatisfied>,
     },
 }
 
 impl Failure {
-    /// The parts that a condition lacks, if the failure is about a condition.
+    /// The unsatisfied parts, if the failure is about a condition.
     pub(crate) fn parts(&self) -> &[Unsatisfied] {
         match self {
             Self::Precondition { parts, .. }
@@ -137,18 +137,18 @@ impl Failure {
     }
 }
 
-/// What two simultaneous happenings disagree about.
+/// What two interfering happenings both access.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Shared {
-    /// An atom that one changes and the other needs or changes the other way.
+    /// An atom that one adds or deletes, and the other reads or changes to the opposite.
     Atom(GroundAtom),
     /// A fluent that one changes and the other reads or changes.
     Fluent(GroundApplication),
-    /// A derived predicate that one needs and that depends on what the other changes.
+    /// A derived predicate that one reads and that depends on an atom that the other changes.
     Derived {
-        /// What is needed.
+        /// The derived predicate.
         predicate: PredicateId,
-        /// What is changed.
+        /// The changed atom.
         atom: GroundAtom,
     },
 }
@@ -156,23 +156,23 @@ pub enum Shared {
 /// The position of a state on the trajectory: 0 is the initial one.
 pub(crate) type Position = usize;
 
-/// Where and how a constraint is broken.
+/// Where and how the trajectory violates a constraint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Breach {
-    /// In a state in which its condition had to hold.
+    /// The condition does not hold in this state, and had to.
     Here(Position),
-    /// Nothing came after this state that had to come.
+    /// The required state after this one never comes.
     NeverAfter(Position),
-    /// Nothing came before this state that had to come.
+    /// The required state before this one is missing.
     NeverBefore(Position),
-    /// It became true again in this state.
+    /// The condition becomes true again in this state.
     Again(Position),
     /// No state satisfies it.
     Nowhere,
 }
 
 impl Breach {
-    /// The state that it is about.
+    /// The position of the violating state.
     pub(crate) fn position(self) -> Option<Position> {
         match self {
             Self::Here(at) | Self::NeverAfter(at) | Self::NeverBefore(at) | Self::Again(at) => Some(at),

@@ -1,4 +1,4 @@
-//! What there is to say about a plan, as data.
+//! The outcome of validating a plan, as data.
 
 mod failure;
 mod fault;
@@ -20,11 +20,11 @@ use pddl::{HierarchicalPlan, Span};
 /// The outcome of validating a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// Every step can be taken and the goal holds in the end.
+    /// All steps are applicable, and the goal holds in the last state.
     Valid(Valid),
-    /// It is not a plan for the problem.
+    /// The plan does not solve the problem.
     Invalid(Failure),
-    /// The task uses a feature whose meaning this crate does not know. Nothing was checked.
+    /// The task uses a feature that this crate does not support. Nothing was checked.
     Unsupported(Unsupported),
     /// The task has no meaning. Nothing was checked.
     IllFormed(IllFormed),
@@ -37,53 +37,53 @@ impl Verdict {
     }
 }
 
-/// A valid plan's figures.
+/// The figures of a valid plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Valid {
-    /// Its length.
+    /// The number of steps.
     pub steps: u32,
-    /// When its last step ends, in seconds; `None` for a plan without times.
+    /// The end of the last step, in seconds; `None` for a plan without times.
     pub makespan: Option<Number>,
-    /// The metric, if the problem has one with a value in the last state.
+    /// The metric, if the problem has one and it has a value in the last state.
     pub metric: Option<MetricValue>,
-    /// The preferences that it does not satisfy.
+    /// The preferences that the plan violates.
     pub violations: Violations,
-    /// How the steps come out of the problem's task network, if the plan did not say so and it was found.
+    /// The decomposition that the validator found, if the plan did not give one and the problem has a task network.
     pub decomposition: Option<Box<HierarchicalPlan>>,
 }
 
 impl Valid {
-    /// What the plan costs: the metric where there is one, otherwise how long it takes, or its length.
+    /// The cost of the plan: the metric if it has one, else its makespan, else its number of steps.
     pub fn cost(&self) -> Number {
         let length = self.makespan.unwrap_or(Number::integer(i64::from(self.steps)));
         self.metric.map_or(length, |metric| metric.value)
     }
 }
 
-/// What the problem's metric comes to.
+/// The value of the problem's metric.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MetricValue {
-    /// Which way it should go.
+    /// Whether to minimise or to maximise it.
     pub objective: Objective,
     /// Its value.
     pub value: Number,
 }
 
-/// A feature whose meaning is not known here.
+/// A use of a feature that is not supported.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unsupported {
-    /// Which one.
+    /// The feature.
     pub feature: Feature,
-    /// Where it is used.
+    /// Its place.
     pub span: Span,
 }
 
 /// Features that are not supported.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Feature {
-    /// Something that the domain's model does not hold, in the parser's words.
+    /// A construct that the model of the domain leaves out, in the parser's words.
     InDomain(String),
-    /// Something that the problem's model does not hold, in the parser's words.
+    /// A construct that the model of the problem leaves out, in the parser's words.
     InProblem(String),
     /// A part of the language that the domain uses.
     LanguageOfDomain(pddl::model::Feature),
@@ -91,25 +91,25 @@ pub enum Feature {
     LanguageOfProblem(pddl::model::Feature),
     /// A plan with times for a task network.
     TimedTaskNetwork,
-    /// An action that takes time among the subtasks of the problem.
+    /// A durative action among the subtasks of the problem.
     DurativeSubtaskOfProblem,
-    /// An action that takes time among the subtasks of a method.
+    /// A durative action among the subtasks of a method.
     DurativeSubtaskOfDomain,
-    /// Which subtask is which takes too long to find out.
+    /// Matching the subtasks exceeds its budget.
     MatchLimit,
-    /// Whether the steps come out of the task network takes too long to find out.
+    /// The search for a decomposition exceeds its budget.
     DecompositionLimit,
     /// A plan without times, where the problem has timed changes.
     TimesMissingForProblem,
     /// A plan without times, where the domain has processes or events.
     TimesMissingForDomain,
-    /// Quantifiers and constraints for more objects than can be tried.
+    /// Quantifiers or constraints over more combinations of objects than the budget allows.
     TooMuch,
-    /// Continuous change whose instants are too near to each other to tell their order, or no roots of polynomials.
+    /// Continuous change whose instants are too close to each other to be ordered, or are no roots of polynomials.
     Undecided,
 }
 
-/// Why there is no valid plan to tell of.
+/// Why a plan is not accepted: it fails, or the validator cannot judge it.
 #[derive(Debug)]
 pub(crate) enum Stop {
     Failure(Box<Failure>),

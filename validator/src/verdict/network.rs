@@ -1,4 +1,4 @@
-//! What can be wrong with a decomposition, as data.
+//! Faults of a decomposition, as data.
 
 use super::fault::StepFault;
 use super::unsatisfied::Unsatisfied;
@@ -6,7 +6,7 @@ use crate::plan::StepIndex;
 use pddl::model::ObjectId;
 use pddl::{DecompositionId, PlanNode, PlanReference, Span};
 
-/// Whose subtasks are meant.
+/// The owner of a list of subtasks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Parent {
     /// The problem's task network.
@@ -15,107 +15,107 @@ pub enum Parent {
     Task(DecompositionId),
 }
 
-/// Why a plan does not come out of the problem's task network.
+/// Why a plan is not a decomposition of the problem's task network.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NetworkFault {
     /// The problem has no task network.
     NoNetwork,
-    /// A task or method is none of the domain's. (A plan that was read from text has none.)
+    /// The domain has no such task or method. (Plans that were read from text never have this fault.)
     Unknown {
-        /// Which task.
+        /// The task.
         task: DecompositionId,
     },
-    /// A task's arguments do not fit. (A plan that was read from text has none.)
+    /// A task's arguments do not fit its parameters. (Plans that were read from text never have this fault.)
     Arguments {
-        /// Which task.
+        /// The task.
         task: DecompositionId,
-        /// What is wrong with them.
+        /// Their fault.
         fault: StepFault,
     },
-    /// A task comes out of itself.
+    /// A task is among its own descendants.
     Cycle {
-        /// One of the tasks on the circle.
+        /// One task of the cycle.
         task: DecompositionId,
-        /// Where a subtask is a task above it.
+        /// The subtask that is one of its own ancestors.
         span: Span,
     },
     /// An action or task is used twice.
     Shared {
-        /// Which one.
+        /// The action or task.
         node: PlanNode,
-        /// Where it is used.
+        /// The first use.
         first: Span,
-        /// Where it is used again.
+        /// The second use.
         second: Span,
     },
     /// An action or task is used nowhere.
     Orphan {
-        /// Which one.
+        /// The action or task.
         node: PlanNode,
     },
-    /// A task's method is one of another task.
+    /// The method decomposes another task.
     Method {
-        /// Which task.
+        /// The task.
         task: DecompositionId,
     },
-    /// A task's method is not for its arguments.
+    /// The method does not accept the task's arguments.
     MethodArguments {
-        /// Which task.
+        /// The task.
         task: DecompositionId,
         /// The first argument that does not fit.
         object: ObjectId,
-        /// Its position.
+        /// The position of that argument.
         position: usize,
     },
-    /// The subtasks are not those of the network, whatever its variables are.
+    /// No assignment of the variables makes the subtasks those of the network.
     Subtasks {
-        /// Whose.
+        /// The owner of the subtasks.
         of: Parent,
-        /// What the plan lacks, at its places in the network; nothing but the nearest match can be told.
+        /// Subtasks of the network that the plan lacks, by the nearest match.
         missing: Vec<Span>,
-        /// What the network lacks.
+        /// Subtasks of the plan that the network lacks.
         surplus: Vec<PlanReference>,
     },
     /// The network's constraints do not hold for these subtasks, or a variable has no object of its type.
     Constraints {
-        /// Whose.
+        /// The owner of the subtasks.
         of: Parent,
-        /// What they lack.
+        /// The unsatisfied parts.
         parts: Vec<Unsatisfied>,
     },
-    /// The steps of a subtask come too early.
+    /// The plan violates an ordering of the network.
     Ordering {
-        /// Whose subtasks.
+        /// The owner of the subtasks.
         of: Parent,
-        /// What comes too late.
+        /// The subtask that must end first.
         before: PlanReference,
-        /// What comes too early.
+        /// The subtask that begins before that.
         after: PlanReference,
     },
-    /// A method's precondition holds nowhere between what is ordered before the task and the task's first step.
+    /// A method's precondition holds in no state between the end of the task's predecessors and its first step.
     Precondition {
-        /// Which task.
+        /// The task.
         task: DecompositionId,
-        /// After how many steps it was looked at.
+        /// Number of steps before the state that `parts` describes.
         after: u32,
-        /// What it lacks there.
+        /// The unsatisfied parts in that state.
         parts: Vec<Unsatisfied>,
     },
-    /// Nothing that the task network can become has these steps, and no others, in this order.
+    /// No decomposition of the task network yields exactly these steps in this order.
     NoDecomposition {
-        /// How far it goes.
+        /// How far a decomposition gets.
         shortfall: Shortfall,
     },
 }
 
-/// How far a task network can become the steps of a plan.
+/// How far a decomposition of the task network gets.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Shortfall {
-    /// Some subtasks of the problem's network cannot be carried out with actions of the plan alone.
+    /// These subtasks of the problem's network have no decomposition into actions of the plan.
     Subtasks(Vec<Span>),
-    /// Nothing that the network can become has this step, wherever it stands.
+    /// No decomposition contains this step, at any position.
     Step(StepIndex),
-    /// Some decomposition begins with so many steps; none that begins with more was found, among those that could
-    /// still come to the rest. Others may.
+    /// Some decomposition begins with this many steps. Among the decompositions that could still yield the remaining
+    /// steps, the search found none that begins with more.
     Explained(u32),
 }

@@ -7,60 +7,60 @@ use crate::value::GroundAtom;
 use pddl::Span;
 use pddl::model::{Comparison, GroundApplication, Name, ObjectId};
 
-/// One smallest unsatisfied part of a condition.
+/// A smallest unsatisfied part of a condition.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Unsatisfied {
     /// An atom should hold.
     Missing {
-        /// Which one.
+        /// The atom.
         atom: GroundAtom,
-        /// What deleted it last; `None` if it never held.
+        /// The happening that deleted it last; `None` if it never held.
         deleted_by: Option<Cause>,
         /// Whether an axiom would have to derive it.
         derived: bool,
-        /// What the axiom lacks that is nearest to deriving it; spans are of the domain.
+        /// The unsatisfied parts of the axiom that comes closest to deriving it; spans are in the domain.
         because: Vec<Unsatisfied>,
-        /// Where it is asked for.
+        /// The place of the condition.
         span: Span,
     },
     /// An atom should not hold.
     Present {
-        /// Which one.
+        /// The atom.
         atom: GroundAtom,
-        /// What added it last; `None` if it held from the beginning, or follows by an axiom.
+        /// The happening that added it last; `None` if it held initially, or an axiom derives it.
         added_by: Option<Cause>,
         /// Whether an axiom derives it.
         derived: bool,
-        /// What would have to be otherwise for it not to follow; spans are of the domain.
+        /// The parts that would have to change for the axioms not to derive it; spans are in the domain.
         because: Vec<Unsatisfied>,
-        /// Where it is forbidden.
+        /// The place of the condition.
         span: Span,
     },
-    /// An object should be of a type, or should not.
+    /// An object should be, or should not be, of a type.
     Type {
         /// The object.
         object: ObjectId,
-        /// The type, or several of which one is enough.
+        /// The type; of several, one is enough.
         types: pddl::model::TypeSet,
-        /// Whether it should be.
+        /// Whether it should be of that type.
         wanted: bool,
-        /// Where that is asked for.
+        /// The place of the condition.
         span: Span,
     },
     /// Two objects should be the same.
     Different {
-        /// One.
+        /// The first.
         left: ObjectId,
-        /// The other.
+        /// The second.
         right: ObjectId,
-        /// Where that is asked for.
+        /// The place of the condition.
         span: Span,
     },
     /// Two objects should be different.
     Same {
         /// The object that both are.
         object: ObjectId,
-        /// Where that is forbidden.
+        /// The place of the condition.
         span: Span,
     },
     /// A comparison fails, or cannot be made.
@@ -73,41 +73,41 @@ pub enum Unsatisfied {
         left: Operand,
         /// Its right side.
         right: Operand,
-        /// Where it stands.
+        /// The place of the condition.
         span: Span,
     },
     /// An object fluent has the wrong value.
     Fluent {
-        /// Which one.
+        /// The fluent.
         fluent: GroundApplication,
         /// The object that it should be, or should not be.
         value: ObjectId,
-        /// Whether it should.
+        /// Whether it should be.
         wanted: bool,
-        /// What it is; `None` is undefined.
+        /// Its value; `None` is undefined.
         actual: Option<ObjectId>,
-        /// Where it stands.
+        /// The place of the condition.
         span: Span,
     },
     /// None of several alternatives holds.
     Alternatives {
-        /// What each lacks. No alternative at all is `(or)`.
+        /// The unsatisfied parts of each. `(or)` has no alternative.
         branches: Vec<Vec<Unsatisfied>>,
         /// The disjunction.
         span: Span,
     },
-    /// Something should be so for all objects, and is not for these.
+    /// A universal condition fails for these objects.
     Counterexample {
         /// The quantified variables' values.
         binding: Vec<(Name, ObjectId)>,
-        /// What is wrong with them.
+        /// The unsatisfied parts for these objects.
         parts: Vec<Unsatisfied>,
         /// The quantifier.
         span: Span,
     },
-    /// Something should be so for some objects, and is for none.
+    /// An existential condition has no witness.
     NoWitness {
-        /// The objects that lack least, as far as a bounded search shows; `None` if there are no objects.
+        /// The objects with the fewest unsatisfied parts that a bounded search found; `None` if the types have no object.
         closest: Option<Near>,
         /// The quantifier.
         span: Span,
@@ -115,7 +115,7 @@ pub enum Unsatisfied {
 }
 
 impl Unsatisfied {
-    /// Where it stands.
+    /// The place of the condition.
     pub fn span(&self) -> Span {
         match self {
             Self::Missing { span, .. }
@@ -152,14 +152,14 @@ impl Unsatisfied {
 pub struct Near {
     /// The quantified variables' values.
     pub binding: Vec<(Name, ObjectId)>,
-    /// What they lack.
+    /// Their unsatisfied parts.
     pub parts: Vec<Unsatisfied>,
 }
 
 /// A side of a comparison.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Operand {
-    /// Its value, or why it has none.
+    /// Its value, or the reason why it has no value.
     pub value: Result<Number, NumericFault>,
     /// The fluents in it with their values.
     pub fluents: Vec<(GroundApplication, Option<Number>)>,

@@ -12,11 +12,11 @@ pub struct ViolatedPreference {
     pub name: Option<Name>,
     /// The values of the variables of the `forall`s around it.
     pub binding: Vec<(Name, ObjectId)>,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
 }
 
-/// How many instances of preferences are violated, by name.
+/// The violated instances of preferences, counted by name.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Violations {
     counts: IndexMap<Name, u64>,
@@ -24,7 +24,7 @@ pub struct Violations {
 }
 
 impl Violations {
-    /// How many of this name.
+    /// The number of violated instances with this name.
     pub fn count(&self, name: &Name) -> Number {
         let count = self.counts.get(name).copied().unwrap_or(0);
         Number::integer(i64::try_from(count).unwrap_or(i64::MAX))

@@ -1,9 +1,9 @@
-//! What can become what: tasks of objects, and the ways to carry them out, as far as the steps of one plan go.
+//! Ground tasks and their decompositions, restricted to the steps of one plan.
 //!
 //! A [`Rule`] is a method (or the problem's network) with objects for all variables that its subtasks need. Its
-//! precondition is one more node, before all others: a guard, which takes no step and asks for a moment at which the
-//! precondition holds. So everything later on knows nodes and orders only, and can be read from either end:
-//! [`Grammar::reversed`] is the same question of the plan read backwards.
+//! precondition is one more node before all others: a guard, which yields no step and needs a moment at which the
+//! precondition holds. So the search sees nodes and orders only, and can read the plan from either end:
+//! [`Grammar::reversed`] is the grammar of the reversed plan.
 //!
 //! Source: Höller et al., "HDDL", AAAI 2020, §3 (preconditions of methods as actions); Barták, Maillard & Cardoso,
 //! "Validation of hierarchical plans via parsing of attribute grammars", ICAPS 2018 (decomposition as a grammar).

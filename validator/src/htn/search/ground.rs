@@ -1,16 +1,16 @@
-//! The grammar of one plan.
+//! Grounding: makes the grammar of one plan.
 //!
-//! Problem: a domain's tasks have far too many instances to write them all down. Idea: only those matter that can
-//! become steps of the plan, or nothing. They are found from below, as a fixed point: the actions of the plan are
-//! given, and a method adds a task as soon as all of its subtasks are there, its constraints hold, and each atom of
-//! its precondition holds at some moment of the plan. Each new task looks only for the methods it is a subtask of, and
-//! the rest of the method is a join over tables of what is there already. Then what the problem's network does not
-//! need is left out, and each guard is asked at each moment of the plan.
+//! Problem: the tasks of a domain have far too many instances to list. Idea: only instances matter that yield steps
+//! of the plan, or no step. They are a fixed point, built bottom-up. It starts with the actions of the plan. A method
+//! adds an instance of its task as soon as all of its subtasks exist, its constraints hold, and each atom of its
+//! precondition holds at some moment of the plan. Each new task triggers only the methods with such a subtask, and
+//! the rest of the method is a join over the tables so far. Then instances that the problem's network does not reach
+//! are dropped, and each guard is evaluated at each moment of the plan.
 //!
-//! Invariant: every decomposition that yields the steps is one of the grammar. Cost: that of the joins, bounded.
+//! Invariant: the grammar contains every decomposition that yields the steps. Cost: that of the joins, bounded.
 //!
-//! Source: Ramoul et al., "Grounding of HTN planning domain", IJAIT 2017; Behnke et al., "On succinct groundings of HTN
-//! planning problems", AAAI 2020; semi-naive evaluation: Bancilhon & Ramakrishnan, SIGMOD 1986.
+//! Source: Ramoul et al., "Grounding of HTN planning domain", IJAIT 2017; Behnke et al., "On succinct groundings of
+//! HTN planning problems", AAAI 2020; semi-naive evaluation: Bancilhon & Ramakrishnan, SIGMOD 1986.
 
 use super::grammar::{Grammar, Rule, RuleId, Symbol, SymbolId};
 use crate::condition::Strictness;

@@ -1,11 +1,13 @@
-//! Whether a task network can become the steps of a plan that does not say how.
+//! The search for a decomposition of the task network into the steps of a plan.
 //!
-//! The plan's steps can be taken; that was judged before. [`ground`] writes down what can become what, as far as these
-//! steps go ([`grammar`]); [`outlook`] says what each task can and must become; [`progress`] looks for a decomposition
-//! from the first step on, and, since what is easy from one end may be hard from the other, from the last step back,
-//! in turns; [`rebuild`] makes it a plan. What is found is judged like any given decomposition before anybody is told.
+//! The caller has checked that the steps are applicable. [`ground`] writes down the [`grammar`] of this plan: which
+//! tasks decompose into what, restricted to the plan's steps. [`outlook`] bounds what each task can and must yield.
+//! [`progress`] searches for a decomposition, in turns from the first step forward and from the last step back,
+//! because a problem that is hard from one end may be easy from the other. [`rebuild`] turns the result into a plan,
+//! and the caller checks it like any given decomposition.
 //!
-//! Invariant: "none" is said only where everything was looked at. A limit is counted, not timed, and is no answer.
+//! Invariant: [`Outcome::None`] means that the search was exhaustive. Limits are counted, not timed, and a limit is
+//! no answer.
 
 mod grammar;
 mod ground;
@@ -26,20 +28,20 @@ use pddl::{HierarchicalPlan, SequentialPlan};
 use progress::{Ahead, Answer, Search};
 use rebuild::{Direction, rebuild};
 
-/// What making the grammar may cost.
+/// The budget of grounding.
 const GROUND: u64 = 6_000_000;
-/// What writing down a decomposition may cost: one that takes few steps may have many tasks.
+/// The budget of rebuilding a decomposition: one with few steps may have many tasks.
 const REBUILD: u64 = 300_000;
-/// What each round of the search may cost from each end.
+/// The budget of each round of the search, from each end.
 const ROUNDS: [u64; 3] = [60_000, 600_000, 6_000_000];
 
 /// What a search for a decomposition comes to.
 pub(super) enum Outcome {
     /// One decomposition.
     Found(HierarchicalPlan),
-    /// There is none.
+    /// No decomposition exists.
     None(Shortfall),
-    /// That could not be found out within the limit.
+    /// The budget is exhausted.
     Limit,
 }
 
@@ -69,7 +71,7 @@ fn decide(prepared: &Prepared<'_>, plan: &SequentialPlan) -> Result<Outcome, Int
                     return Ok(Outcome::Found(found));
                 }
                 Answer::None => {
-                    // Of one of many, nobody asks why.
+                    // The caller drops the reason for one trial of many.
                     let why = match thoroughness {
                         Thoroughness::Full => shortfall(sides[0].1, sides[0].2),
                         Thoroughness::Brief => Shortfall::Explained(0),
@@ -83,7 +85,7 @@ fn decide(prepared: &Prepared<'_>, plan: &SequentialPlan) -> Result<Outcome, Int
     Ok(Outcome::Limit)
 }
 
-/// What is best said of a plan that has no decomposition.
+/// The most helpful reason why a plan has no decomposition.
 fn shortfall(grammar: &Grammar, outlook: &Outlook) -> Shortfall {
     let alien = |step: &SymbolId| match grammar.symbols[*step] {
         Symbol::Action(action) => !outlook.may.has(grammar.root, action),

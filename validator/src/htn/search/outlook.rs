@@ -1,8 +1,8 @@
-//! What each symbol can become at best and must become at least: what the search looks ahead with.
+//! Look-ahead: bounds on what each symbol can and must yield.
 //!
-//! All of it are fixed points over the rules, and all but [`Outlook::vanish`] do not ask at which moment: they promise
-//! too much, never too little. [`Outlook::vanish`] is exact: at which moment a symbol can end that takes no step and
-//! may begin at some moment. Beginning earlier never ends later, so the earliest end is all there is to know.
+//! All bounds are fixed points over the rules. All but [`Outlook::vanish`] ignore moments and are optimistic.
+//! [`Outlook::vanish`] is exact: the earliest moment at which a symbol can end that yields no step and begins at a
+//! given moment. An earlier beginning never ends later, so the earliest end suffices.
 //!
 //! Source: Knuth, "A generalization of Dijkstra's algorithm", IPL 1977 (least ends and lengths over a grammar).
 

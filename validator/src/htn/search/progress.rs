@@ -1,21 +1,21 @@
-//! Whether the steps of a plan come out of its grammar, and how.
+//! The search: can the grammar yield the steps of the plan, and by which decomposition?
 //!
-//! Idea: consume the steps from the left. In each [`Situation`] the next step comes out of some node that nothing is
-//! before but what may vanish; that node becomes the focus and is expanded, rule by rule, down to the action. Nothing
-//! is decided before it must be: a task is expanded when its first step comes, and what takes no step vanishes when
-//! something behind it begins, as early as it can, which hurts nothing. Situations that were seen are not entered
-//! again. What cannot become exactly the rest of the plan is cut: too few or too many steps, an action that nothing
-//! left can take or that more must take than there are.
+//! Idea: consume the steps from the left. In each [`Situation`], the next step comes from a node whose predecessors
+//! can all vanish, that is, yield no step. That node becomes the focus and is expanded, rule by rule, down to the
+//! action. Decisions are made as late as possible: a task is expanded when its first step comes, and a node that
+//! yields no step vanishes when a successor begins, as early as it can, which never hurts. Situations that were seen
+//! are not entered again. A situation that cannot yield exactly the rest of the plan is pruned: too few or too many
+//! steps, an action that no node can yield, or one that the nodes must yield more often than it occurs.
 //!
-//! It ends, and misses nothing: if a task comes out of itself and nothing beside it takes a step, it could have been
-//! left out. So on a focus' way down, where all that is beside it may vanish, either all does, and then no task comes
-//! twice, or one of it must take a step; and there are only so many steps.
+//! The search is complete and terminates. If a task is its own descendant and no node beside it yields a step, the
+//! cycle can be left out. So on the way down from a focus whose siblings may vanish, either all of them do, and then
+//! no task occurs twice, or one of them must yield a step; and the number of steps is finite.
 //!
-//! Cost: exponential in the worst case, as the question is NP-complete, and bounded; a bound is no answer.
+//! Cost: exponential in the worst case, as the problem is NP-complete, and bounded; reaching the bound is no answer.
 //!
-//! Source: Höller, Behnke, Bercher & Biundo, "Plan and goal recognition as HTN planning", ICTAI 2018, and "HTN planning
-//! as heuristic progression search", JAIR 2020; Behnke, Höller & Biundo, "On the complexity of HTN plan verification",
-//! ICAPS 2015, and "This is a solution! (… but is it though?)", ICAPS 2017.
+//! Source: Höller, Behnke, Bercher & Biundo, "Plan and goal recognition as HTN planning", ICTAI 2018, and "HTN
+//! planning as heuristic progression search", JAIR 2020; Behnke, Höller & Biundo, "On the complexity of HTN plan
+//! verification", ICAPS 2015, and "This is a solution! (… but is it though?)", ICAPS 2017.
 
 use super::grammar::{Grammar, RuleId, Slot, Symbol, SymbolId};
 use super::outlook::Outlook;

@@ -1,4 +1,4 @@
-//! The decomposition that a search found, as a plan.
+//! Turns the result of the search into a plan with its decomposition.
 
 use super::grammar::{Grammar, Rule, RuleId, Slot, Symbol, SymbolId};
 use super::outlook::Outlook;

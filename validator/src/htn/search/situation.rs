@@ -1,7 +1,7 @@
-//! What is left to do after some steps of a plan: a partial order of tasks, and how one comes from another.
+//! A situation: the partial order of tasks that remain after some steps of a plan, and its successors.
 //!
-//! The order of a [`Situation`] never has a node before one that must come before it. A node knows what is directly
-//! before it, and since when all that is gone already is over.
+//! The nodes of a [`Situation`] are in a topological order. Each node stores its direct predecessors, and the moment
+//! at which all completed predecessors were over.
 
 use super::grammar::{Rule, Slot, SymbolId};
 
