@@ -4,7 +4,7 @@
 //! ours: it is not written, and the exit code is 70. As JSON the result is
 //!
 //! ```json
-//! {"kind": "plan", "outcome": "solved", "steps": ["(go a b)"], "cost": 1, "cost_kind": "unit cost",
+//! {"kind": "plan", "outcome": "solved", "steps": ["(go a b)"], "cost": 1, "cost_kind": "unit_cost",
 //!  "search": "dual", "message": null,
 //!  "statistics": {"read_ms": 1.2, "ground_ms": 0.4, "search_ms": 0.3, "facts": 3, "operators": 4,
 //!                 "expanded": 2, "evaluated": 2, "generated": 4}}
@@ -32,6 +32,7 @@ use crate::task::TaskFiles;
 use crate::validate;
 use clap::Args;
 use diagnostics::{Finding, Place};
+use pddl::model::Problem;
 use pddl::{PlanStep, Severity, Source, Span};
 use planner::{
     Budget, GroundError, GroundOptions, Limit, Origin, Outcome, Quality, Query, Report, SearchConfiguration,
@@ -237,8 +238,8 @@ fn solved(
     let Verdict::Valid(valid) = verdict else {
         return bug(&verdict, &plan, &text, files, console);
     };
-    let kind = cost_kind(files);
-    writeln!(text, "; cost = {} ({kind})", valid.cost()).expect("a string takes all");
+    let kind = CostKind::of(&files.problem);
+    writeln!(text, "; cost = {} ({})", valid.cost(), kind.text()).expect("a string takes all");
     match &arguments.output {
         Some(path) => {
             if let Err(error) = files::write(path, &text) {
@@ -299,8 +300,28 @@ fn bug(
     Exit::Bug
 }
 
-fn cost_kind(files: &TaskFiles) -> &'static str {
-    if files.problem.metric.is_some() { "general cost" } else { "unit cost" }
+/// What a plan's cost counts.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[serde(rename_all = "snake_case")]
+enum CostKind {
+    /// Steps.
+    UnitCost,
+    /// The problem's metric.
+    GeneralCost,
+}
+
+impl CostKind {
+    fn of(problem: &Problem) -> Self {
+        if problem.metric.is_some() { Self::GeneralCost } else { Self::UnitCost }
+    }
+
+    /// As plan files have it.
+    const fn text(self) -> &'static str {
+        match self {
+            Self::UnitCost => "unit cost",
+            Self::GeneralCost => "general cost",
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -309,7 +330,7 @@ struct Answer {
     outcome: &'static str,
     steps: Vec<String>,
     cost: Option<Number>,
-    cost_kind: Option<&'static str>,
+    cost_kind: Option<CostKind>,
     search: &'static str,
     /// Whether no plan is better; where that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -346,7 +367,7 @@ impl Answer {
         self.message = Some(message.to_owned());
     }
 
-    fn solved(&mut self, valid: &Valid, kind: &'static str, console: &mut Console<'_>) {
+    fn solved(&mut self, valid: &Valid, kind: CostKind, console: &mut Console<'_>) {
         let cost: Number = valid.cost();
         self.outcome = "solved";
         self.cost = Some(cost);

@@ -172,7 +172,7 @@ fn better_plans_are_written_one_after_the_other() {
     assert_eq!(read("out.plan.2"), "(ride)\n(walk)\n(swim)\n; cost = 6 (general cost)\n");
     assert_eq!(read("out.plan"), read("out.plan.2"));
     let (records, _) = run(&["plan", "domain.pddl", "problem.pddl", "--anytime", "--json"]);
-    assert_eq!(records.matches("\"better-plan\"").count(), 2, "{records}");
+    assert_eq!(records.matches("\"better_plan\"").count(), 2, "{records}");
     assert!(records.contains("\"optimal\":true"), "{records}");
 }
 

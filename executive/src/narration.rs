@@ -8,7 +8,7 @@ use serde::Serialize;
 
 /// A decision of the executive, with its reason.
 #[derive(Clone, Debug, Serialize)]
-#[serde(tag = "event", rename_all = "kebab-case")]
+#[serde(tag = "event", rename_all = "snake_case")]
 pub enum Narration {
     /// The plan no longer fits, and why; a new one has been asked for.
     Deviated(Deviation),

@@ -5,11 +5,11 @@
 //! printed where there is no such file. As JSON each plan is
 //!
 //! ```json
-//! {"kind": "better-plan", "number": 2, "steps": 7, "cost": 12, "cost_kind": "general cost",
+//! {"kind": "better_plan", "number": 2, "steps": 7, "cost": 12, "cost_kind": "general_cost",
 //!  "after_ms": 812.5, "file": "PLAN.2"}
 //! ```
 
-use super::{bug, cost_kind, written};
+use super::{CostKind, bug, written};
 use crate::clock::Stopwatch;
 use crate::console::Console;
 use crate::exit::Exit;
@@ -31,7 +31,7 @@ struct Better {
     number: usize,
     steps: u32,
     cost: Number,
-    cost_kind: &'static str,
+    cost_kind: CostKind,
     after_ms: f64,
     file: Option<String>,
 }
@@ -97,13 +97,15 @@ impl Writer<'_> {
             return Ok(());
         }
         self.count += 1;
-        let kind = cost_kind(self.files);
+        let kind = CostKind::of(&self.files.problem);
         let file = self.output.map(|path| numbered(path, self.count));
         if let Some(file) = &file {
-            files::write(file, &format!("{text}; cost = {} ({kind})\n", valid.cost())).map_err(|error| {
-                render::error(error.to_string(), console);
-                Exit::Unwritable
-            })?;
+            files::write(file, &format!("{text}; cost = {} ({})\n", valid.cost(), kind.text())).map_err(
+                |error| {
+                    render::error(error.to_string(), console);
+                    Exit::Unwritable
+                },
+            )?;
         }
         let after_ms = self.watch.milliseconds();
         let place = file.as_ref().map(|file| format!(", written to {}", file.display()));
@@ -115,7 +117,7 @@ impl Writer<'_> {
             place.unwrap_or_default()
         ));
         console.record(&Better {
-            kind: "better-plan",
+            kind: "better_plan",
             number: self.count,
             steps: valid.steps,
             cost: valid.cost(),

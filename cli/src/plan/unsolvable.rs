@@ -7,12 +7,12 @@
 //!   "parts": [{"place": {…}, "never": [{"literal": "(at attic)", "reason": 0}]}],
 //!   "reasons": [{"literal": "(at attic)", "why": "givers", "more": 0, "givers": [
 //!     {"by": "(go ?a attic)", "why": "needs", "needs": [{"literal": "(open ?a attic)", "reason": 1}], "together": []}]},
-//!     {"literal": "(open ?a attic)", "why": "nothing gives it", "more": 0, "givers": []}],
+//!     {"literal": "(open ?a attic)", "why": "nothing_gives_it", "more": 0, "givers": []}],
 //!   "exclusive": [{"atoms": ["(at a)", "(at b)"], "group": ["(at a)", "(at b)", "(at c)"]}],
 //!   "space": null}}
 //! ```
 //!
-//! What is needed and is no literal is `{"comparison": "(>= (fuel a) 10)", "measured": "(fuel a)", "extent": "at most",
+//! What is needed and is no literal is `{"comparison": "(>= (fuel a) 10)", "measured": "(fuel a)", "extent": "at_most",
 //! "bound": 7}` or, of the goal, `{"condition": {…}}`, a place.
 
 use crate::render::{At, PlaceRecord};
@@ -102,8 +102,8 @@ impl<'a> Unsolvable<'a> {
     fn reason_record(&self, reason: &Reason) -> ReasonRecord {
         let literal = self.words().wanted(&reason.wanted);
         let (why, givers, more) = match &reason.why {
-            Why::NothingGives => ("nothing gives it", Vec::new(), 0),
-            Why::Unexplored => ("not looked at", Vec::new(), 0),
+            Why::NothingGives => ("nothing_gives_it", Vec::new(), 0),
+            Why::Unexplored => ("not_looked_at", Vec::new(), 0),
             Why::Givers { givers, more } => {
                 ("givers", givers.iter().map(|giver| self.giver_record(giver)).collect(), *more)
             }
@@ -121,9 +121,9 @@ impl<'a> Unsolvable<'a> {
                 ("needs", needs.collect(), Vec::new())
             }
             Hindrance::NeverTogether(all) => {
-                ("never together", Vec::new(), all.iter().map(|wanted| self.words().wanted(wanted)).collect())
+                ("never_together", Vec::new(), all.iter().map(|wanted| self.words().wanted(wanted)).collect())
             }
-            Hindrance::NeverApplies => ("never applies", Vec::new(), Vec::new()),
+            Hindrance::NeverApplies => ("never_applies", Vec::new(), Vec::new()),
             Hindrance::Excluded => ("excluded", Vec::new(), Vec::new()),
         };
         GiverRecord { by: self.words().giver(giver), why, needs, together }
@@ -133,9 +133,9 @@ impl<'a> Unsolvable<'a> {
 fn number(never: &NeverCompares) -> NeverRecord {
     let (extent, bound): (_, Option<Number>) = match never.extent {
         Extent::Undefined => ("undefined", None),
-        Extent::AtMost(bound) => ("at most", Some(bound)),
+        Extent::AtMost(bound) => ("at_most", Some(bound)),
         Extent::Below(bound) => ("below", Some(bound)),
-        Extent::AtLeast(bound) => ("at least", Some(bound)),
+        Extent::AtLeast(bound) => ("at_least", Some(bound)),
         Extent::Above(bound) => ("above", Some(bound)),
     };
     NeverRecord::Number {

@@ -25,7 +25,7 @@ pub(super) struct Entry {
 
 /// What happened.
 #[derive(Clone, Debug, Serialize)]
-#[serde(tag = "source", rename_all = "kebab-case")]
+#[serde(tag = "source", rename_all = "snake_case")]
 pub(super) enum What {
     /// Something that can be heard or seen in the room.
     Room(RoomEvent),

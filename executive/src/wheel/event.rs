@@ -45,7 +45,7 @@ pub enum Effect {
 
 /// How a mission ended.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
-#[serde(tag = "ending", rename_all = "kebab-case")]
+#[serde(tag = "ending", rename_all = "snake_case")]
 pub enum Ending {
     /// The goal was seen to hold.
     Accomplished,

@@ -52,7 +52,7 @@ impl Attempt {
 
 /// Where a plan came from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[serde(rename_all = "snake_case")]
 pub enum Way {
     /// The old plan was reused.
     Reuse,

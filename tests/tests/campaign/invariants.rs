@@ -170,7 +170,7 @@ impl Run {
             self.finding(result, "help was asked for, and nobody was called");
         }
         if !accomplished {
-            if !records.iter().any(|r| r["event"] == "fell-back") {
+            if !records.iter().any(|r| r["event"] == "fell_back") {
                 self.finding(result, "not accomplished, and nothing else was tried");
             }
             if made_up.comes && result["fallback"] != true {
