@@ -8,10 +8,11 @@ use crate::files;
 use crate::memory;
 use crate::render;
 use pddl::Source;
+use planner::Budget;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use suite::{Limits, draft};
+use suite::draft;
 
 pub(super) fn run(folders: &[PathBuf], timeout: Seconds, console: &mut Console<'_>) -> Exit {
     folders.iter().fold(Exit::Yes, |exit, folder| exit.and(one(folder, timeout, console)))
@@ -39,8 +40,8 @@ fn one(folder: &Path, timeout: Seconds, console: &mut Console<'_>) -> Exit {
     };
     let start = Instant::now();
     let now = move || start.elapsed();
-    let limits = Limits { now: &now, memory_bytes: Some(memory::budget()) };
-    let text = draft(found, timeout.duration(), &limits);
+    let budget = Budget { memory_bytes: Some(memory::budget()), ..Budget::default() };
+    let text = draft(found, timeout.duration(), &now, &budget);
     if let Err(error) = files::write(&path, &text) {
         render::error(error.to_string(), console);
         return Exit::Unwritable;

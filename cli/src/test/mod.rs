@@ -29,10 +29,11 @@ use crate::pool;
 use crate::render;
 use clap::Args;
 use diagnostics::Finding;
+use planner::Budget;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
-use suite::{CaseId, Limits, Suite};
+use suite::{CaseId, Suite};
 
 /// What to test.
 #[derive(Debug, Args)]
@@ -119,12 +120,12 @@ fn run_folders(folders: &[PathBuf], filter: &[String], console: &mut Console<'_>
     }
     let start = Instant::now();
     let now = move || start.elapsed();
-    let limits = Limits { now: &now, memory_bytes: Some(memory::budget() / pool::width()) };
+    let budget = Budget { memory_bytes: Some(memory::budget() / pool::width()), ..Budget::default() };
     pool::in_order(
         &work,
         |&(suite, id)| {
             let watch = Stopwatch::start();
-            let findings = suite.run(id, &limits);
+            let findings = suite.run(id, &now, &budget);
             (findings, watch.milliseconds())
         },
         |&(suite, id), (findings, time)| report.case(suite, id, findings, time, console),

@@ -1,26 +1,26 @@
-//! A first `expected.toml`, from what is found.
+//! A first `expected.toml`, from the present results.
 //!
-//! Whoever has a domain and some plans does not want to write down what a machine can see. The draft says what is so
-//! now; the author reads it and takes out what should not be. Invariant: a suite passes with its draft, unless a plan
-//! that stands in `valid` is invalid, which a draft does not hide.
+//! Problem: an author with a domain and some plans should not have to write what a program can find out. Idea: the draft
+//! states the present results; the author reads it and corrects what is not intended. Invariant: a suite passes with its
+//! draft, unless a plan in a folder `valid` is invalid, which a draft does not hide.
 
 use crate::Fault;
 use crate::Folder;
 use crate::expected::Verdict;
 use crate::folder::{last_folder, stem, without_extension};
-use crate::judge::Limits;
-use crate::plan::Found;
-use crate::solve::{Answer, Question};
+use crate::found::Found;
+use crate::solve::{Answer, Clock, Means, Question};
 use crate::suite::{Suite, problem_of};
 use pddl::Source;
-use planner::SearchConfiguration;
+use planner::{Budget, SearchConfiguration};
 use project::FileKind;
 use std::fmt::Write as _;
 use std::time::Duration;
 
-/// What `expected.toml` would say; each question to the planner ends after `timeout`. The text that `folder` has is
-/// not looked at.
-pub fn draft(folder: Folder, timeout: Duration, limits: &Limits<'_>) -> String {
+/// The text of an `expected.toml` that passes; each question to the planner ends after `timeout`. The text in
+/// `folder.expected` is ignored.
+pub fn draft(folder: Folder, timeout: Duration, clock: &Clock<'_>, budget: &Budget<'_>) -> String {
+    let means = Means { clock, budget };
     let mut files: Vec<_> =
         folder.files.iter().map(|f| (f.path.clone(), f.source.name().to_owned())).collect();
     files.sort();
@@ -51,15 +51,15 @@ pub fn draft(folder: Folder, timeout: Duration, limits: &Limits<'_>) -> String {
     let problems: Vec<_> = of_kind(FileKind::Problem).cloned().collect();
     for (id, path) in &problems {
         let Ok(task) = suite.task(*id) else { continue };
-        let end = (limits.now)().saturating_add(timeout);
-        let over = || (limits.now)() >= end;
-        let asked = Question { task: &task, limits, over: &over };
+        let end = clock().saturating_add(timeout);
+        let over = || clock() >= end;
+        let asked = Question { task: &task, means: &means, over: &over };
         let says = match asked.answer(task.problem, SearchConfiguration::best_optimal()) {
             Answer::Plan(_, valid) => format!("optimal-cost = {}", valid.cost()),
             Answer::Unsolvable => "solvable = false".to_owned(),
             Answer::Unknown(_) => {
-                let over = || (limits.now)() >= end.saturating_add(timeout);
-                let asked = Question { task: &task, limits, over: &over };
+                let over = || clock() >= end.saturating_add(timeout);
+                let asked = Question { task: &task, means: &means, over: &over };
                 match asked.answer(task.problem, SearchConfiguration::default()) {
                     Answer::Plan(_, valid) => format!("cost-at-most = {}", valid.cost()),
                     Answer::Unsolvable => "solvable = false".to_owned(),

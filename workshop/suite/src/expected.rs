@@ -1,6 +1,6 @@
 //! The model of `expected.toml`: each expectation with the place where it is written.
 //!
-//! What is not written is `None`, and then nothing is asked; what a folder's name says is filled in by `suite`.
+//! An expectation that is not written is `None` and is not checked; `suite` fills in what a folder's name states.
 
 use crate::Fault;
 use diagnostics::SourceId;
@@ -15,7 +15,7 @@ pub(crate) struct Written<T> {
     pub(crate) span: Span,
 }
 
-/// What becomes of warnings in files without an entry of their own.
+/// Whether warnings are allowed in files without an entry of their own.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum Warnings {
     #[default]
@@ -40,7 +40,7 @@ pub(crate) struct ProblemEntry {
     pub(crate) file: SourceId,
     /// The entry's key.
     pub(crate) span: Span,
-    /// What is asked of the planner; `None` is nothing.
+    /// The question to the planner, if any.
     pub(crate) solvable: Option<Written<Solvable>>,
     pub(crate) timeout: Option<Duration>,
 }
@@ -52,7 +52,7 @@ pub(crate) enum Solvable {
     No,
 }
 
-/// What is known about the best plan.
+/// Bounds on the best plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Bounds {
     /// No plan is cheaper, and one costs this.
@@ -74,12 +74,12 @@ pub(crate) struct PlanEntry {
     pub(crate) details: Details,
 }
 
-/// What is to be said about a plan.
+/// The verdict that is expected of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Verdict {
     Valid,
     Invalid,
-    /// The plan, or its task, uses what the validator does not know.
+    /// The plan or its task uses a feature that the validator does not support.
     Unsupported,
 }
 
@@ -99,7 +99,7 @@ impl Verdict {
     }
 }
 
-/// What more is to be said about a plan.
+/// What is expected beside the verdict.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Details {
     /// Of a valid plan: the metric's value, or how many steps it has.
@@ -110,7 +110,7 @@ pub(crate) struct Details {
     pub(crate) step: Option<Written<u32>>,
     /// The line of the plan that a diagnostic is about, from 1.
     pub(crate) line: Option<Written<u32>>,
-    /// Literals as [`crate::plan::literal`] writes them.
+    /// In the spelling of [`literal`].
     pub(crate) missing: Vec<Written<String>>,
     /// Parts of the sentences that explain it.
     pub(crate) says: Vec<Written<String>>,
@@ -138,4 +138,17 @@ pub(crate) struct DiagnosticsEntry {
 pub(crate) struct CodeAt {
     pub(crate) code: String,
     pub(crate) line: Option<u32>,
+}
+
+/// PDDL in the one spelling that is compared: lower case, single spaces, none inside parentheses.
+pub(crate) fn literal(text: &str) -> String {
+    let spaced = text.to_lowercase().replace('(', " ( ").replace(')', " ) ");
+    let mut written = String::new();
+    for word in spaced.split_whitespace() {
+        if !(written.is_empty() || written.ends_with('(') || word == ")") {
+            written.push(' ');
+        }
+        written.push_str(word);
+    }
+    written
 }

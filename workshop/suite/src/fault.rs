@@ -1,14 +1,14 @@
-//! Why a plan is not valid, by a word that stays the same.
+//! Kinds of fault of an invalid plan, by stable words.
 //!
-//! Sentences get better and codes are looked up; a test names the kind of fault. A word is never renamed, and a kind
-//! that the validator learns gets a word here: the compiler asks for it.
+//! Sentences may improve, so a test names the kind of fault. Invariant: a word is never renamed. The compiler demands a
+//! word here for each new kind of failure of the validator.
 
 use std::fmt;
 
 /// A kind of fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Fault {
-    /// The text is no plan: parentheses, words that are no steps.
+    /// The text is not a plan: parentheses, words that are not steps.
     Syntax,
     /// A step names no action of the domain.
     UnknownAction,
@@ -22,7 +22,7 @@ pub enum Fault {
     Precondition,
     /// A step takes too long or too short, or does not say how long.
     Duration,
-    /// What must hold all the time that a step takes does not.
+    /// A condition over all of a step is violated.
     Invariant,
     /// Two things happen at once, and their order matters.
     Interference,

@@ -1,4 +1,4 @@
-//! What a suite is made of, as somebody has found it.
+//! The files of a suite, as the caller found them.
 
 use pddl::Source;
 
@@ -14,7 +14,7 @@ pub struct File {
 /// A folder with an `expected.toml`.
 #[derive(Clone, Debug)]
 pub struct Folder {
-    /// The path that is shown; empty for the folder that one stands in.
+    /// The path that is shown; empty for the current folder.
     pub path: String,
     /// `expected.toml`
     pub expected: Source,
@@ -55,7 +55,7 @@ mod tests {
     use super::{last_folder, names, stem, without_extension};
 
     #[test]
-    fn files_go_by_any_end_of_their_path() {
+    fn any_end_of_its_path_names_a_file() {
         for key in ["a.b", "a.b.plan", "valid/a.b", "plans/valid/a.b.plan"] {
             assert!(names(key, "plans/valid/a.b.plan"), "{key}");
         }

@@ -1,42 +1,22 @@
-//! A case, held against what is so.
+//! Runs a case: parser, planner or validator, compared with what is expected.
 
+use crate::solve::{Clock, Means};
 use crate::suite::{Case, CaseId, Suite, What};
 use diagnostics::{Finding, Place, SourceId, Sources};
 use pddl::Span;
+use planner::Budget;
 use project::{NoTask, Task};
-use std::time::Duration;
-
-/// What a case may use up.
-#[derive(Clone, Copy)]
-pub struct Limits<'a> {
-    /// The time since some moment.
-    pub now: &'a (dyn Fn() -> Duration + Sync),
-    /// The most bytes for one question to the planner.
-    pub memory_bytes: Option<usize>,
-}
-
-impl Default for Limits<'_> {
-    /// A clock that stands still, and all the memory there is.
-    fn default() -> Self {
-        Self { now: &|| Duration::ZERO, memory_bytes: None }
-    }
-}
-
-impl std::fmt::Debug for Limits<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Limits").field("memory_bytes", &self.memory_bytes).finish_non_exhaustive()
-    }
-}
 
 impl Suite {
-    /// Runs a case. What differs from what is expected is answered; nothing is a case that passed.
-    pub fn run(&self, id: CaseId, limits: &Limits<'_>) -> Vec<Finding> {
+    /// Runs a case and returns how it differs from what is expected; a case that passed has no findings. `budget` is for
+    /// each question to the planner.
+    pub fn run(&self, id: CaseId, clock: &Clock<'_>, budget: &Budget<'_>) -> Vec<Finding> {
         let Some(Case { file, what, .. }) = self.case(id) else { return Vec::new() };
         match what {
             What::Clean(warnings) => self.clean(*file, *warnings),
             What::Diagnostics { entry, expected } => self.diagnostics(*file, *entry, expected),
             What::Solvable { expected, timeout } => match self.task(*file) {
-                Ok(task) => self.solvable(&task, *expected, *timeout, limits),
+                Ok(task) => self.solvable(&task, *expected, *timeout, &Means { clock, budget }),
                 Err(finding) => vec![*finding],
             },
             What::Plan(case) => match self.task(case.problem) {
@@ -49,7 +29,7 @@ impl Suite {
     /// The problem in that file with its domain.
     ///
     /// # Errors
-    /// What keeps it from being one.
+    /// A finding about what the task lacks.
     pub(crate) fn task(&self, problem: SourceId) -> Result<Task<'_>, Box<Finding>> {
         self.project.task(problem).map_err(|lack| {
             let start = Sources::start_of(problem);

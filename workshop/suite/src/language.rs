@@ -1,4 +1,4 @@
-//! What the language and the lints have to say about a file, against what was expected.
+//! The case of a domain or problem: its diagnostics and lints compared with what is expected.
 
 use crate::expected::{CodeAt, Warnings, Written};
 use crate::suite::Suite;
@@ -6,7 +6,7 @@ use diagnostics::{Finding, SourceId};
 use pddl::{Severity, Span};
 
 impl Suite {
-    /// No errors, and no warnings where they are denied.
+    /// The errors, and the warnings where they are denied.
     pub(crate) fn clean(&self, file: SourceId, warnings: Warnings) -> Vec<Finding> {
         if warnings == Warnings::Deny {
             let counts = |finding: &Finding| finding.severity != Severity::Unsupported;
@@ -15,8 +15,8 @@ impl Suite {
         self.project.language_findings(file).iter().filter(|finding| finding.is_error()).cloned().collect()
     }
 
-    /// These and no others. Each expectation takes the first finding that it fits; those with a line come first, so
-    /// that a code alone takes what is left.
+    /// These and no others. Each expectation takes the first finding that it matches; those with a line come first, so
+    /// that a code alone takes one of the remaining findings.
     pub(crate) fn diagnostics(
         &self,
         file: SourceId,

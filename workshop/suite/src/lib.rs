@@ -1,15 +1,17 @@
-//! Tests for domains as text: what `expected.toml` says, held against what is so.
+//! Tests for domains as text: `expected.toml`, compared with the results of parser, planner and validator.
 //!
-//! Problem: a domain changes, and nobody notices that a problem became unsolvable, that a plan which must never work
-//! now does, or that an error lost its place. Idea: a folder is a suite. `plans/valid` and `plans/invalid` say by their
-//! names what is expected of the plans in them, `expected.toml` says the rest, and whatever is in the folder without
-//! being mentioned is at least free of errors. [`Suite::read`] turns a [`Folder`] into [`Case`]s; [`Suite::run`] holds
-//! one of them against the parser, the planner and the validator, and answers with findings at their places.
-//! Nothing here reads a disk or a clock, and cases may run in any order and on any thread.
+//! Problem: a change of a domain can silently make a problem unsolvable, make an invalid plan valid, or move an error to
+//! another place. Idea: a folder is a suite. The names of `plans/valid` and `plans/invalid` state what is expected of the
+//! plans in them, `expected.toml` states the rest, and every file without an entry must be free of errors.
+//! [`Suite::read`] turns a [`Folder`] into [`Case`]s; [`Suite::run`] compares one of them with the results of parser,
+//! planner and validator, and returns the differences as findings at their places.
+//! Invariant: nothing here reads a disk or a clock; cases may run in any order and on any thread.
 //!
 //! ```
 //! use pddl::Source;
-//! use suite::{File, Folder, Limits, Suite};
+//! use planner::Budget;
+//! use std::time::Duration;
+//! use suite::{File, Folder, Suite};
 //!
 //! let file = |path: &str, text: &str| File { path: path.to_owned(), source: Source::new(path, text) };
 //! let folder = Folder {
@@ -26,25 +28,26 @@
 //! assert!(suite.findings().is_empty());
 //! let failed: Vec<_> = suite
 //!     .cases()
-//!     .filter(|(id, _)| !suite.run(*id, &Limits::default()).is_empty())
+//!     .filter(|(id, _)| !suite.run(*id, &|| Duration::ZERO, &Budget::default()).is_empty())
 //!     .map(|(_, case)| case.name.clone())
 //!     .collect();
 //! assert_eq!(failed, ["dark.pddl::solvable"]);
 //! ```
 //!
-//! Map, from the ground up: `folder` (what a suite is made of), `fault` (why a plan is not valid, by a stable word),
-//! `expected` (the model of `expected.toml`), `read` (its text), `suite` (cases), `judge` with `plan`, `solve` and
-//! `diagnostics` (a case, held against what is so), `touched` (which suites a change concerns), `draft` (a first
-//! `expected.toml` from what is found).
+//! Map, from the ground up: `folder` (the files of a suite), `fault` (kinds of fault of a plan, by stable words),
+//! `expected` (the model of `expected.toml`), `read` (its text), `suite` (cases), `found` (the verdict on a plan), `plan`,
+//! `solve` and `language` (the comparison for plans, problems and diagnostics), `judge` (runs a case), `touched` (which
+//! suites a change affects), `draft` (a first `expected.toml` from the present results).
 //!
-//! Codes: T01 a suite that makes no sense, T02 something in the folder that nobody asks for, T03 a case that failed.
+//! Codes: T01 an inconsistent suite, T02 a file without an expectation, T03 a failed case.
 
-mod diagnostics;
 mod draft;
 mod expected;
 mod fault;
 mod folder;
+mod found;
 mod judge;
+mod language;
 mod plan;
 mod read;
 mod solve;
@@ -54,6 +57,6 @@ mod touched;
 pub use draft::draft;
 pub use fault::Fault;
 pub use folder::{File, Folder};
-pub use judge::Limits;
+pub use solve::Clock;
 pub use suite::{Case, CaseId, Suite};
 pub use touched::{Extent, touched};

@@ -1,11 +1,11 @@
-//! `expected.toml`: every mistake in it at its place, nothing passed over.
+//! Reads `expected.toml`, and reports every mistake in it at its place.
 //!
-//! Files go by any end of their path that only one of them has: `[plan.late]` or `[plan."invalid/late"]`.
+//! An entry names a file by any end of its path that is unambiguous: `[plan.late]` or `[plan."invalid/late"]`.
 
 use crate::Fault;
 use crate::expected::{
     Bounds, CodeAt, Details, DiagnosticsEntry, Expected, PlanEntry, ProblemEntry, Solvable, Verdict,
-    Warnings, Why, Written,
+    Warnings, Why, Written, literal,
 };
 use crate::folder::{names, stem};
 use diagnostics::did_you_mean;
@@ -14,7 +14,7 @@ use diagnostics::{Finding, SourceId};
 use pddl::{Source, Span};
 use validator::Number;
 
-/// The files that a suite may speak of, each with its path from the folder.
+/// The files that an entry may name, each with its path from the folder.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Known {
     pub(crate) domains: Vec<(SourceId, String)>,
@@ -132,7 +132,7 @@ fn plan(reader: &mut Reader<'_>, entry: &mut Table<'_>, span: Span, known: &Know
         missing: entry
             .one_or_more(reader, "missing")
             .into_iter()
-            .map(|text| Written { value: crate::plan::literal(&text.value), span: text.span })
+            .map(|text| Written { value: literal(&text.value), span: text.span })
             .collect(),
         says: entry
             .one_or_more(reader, "says")
@@ -202,7 +202,7 @@ fn twice(reader: &mut Reader<'_>, span: Span, key: &str) {
     reader.error("T0102", span, format!("`{key}` is a file that has an entry already"));
 }
 
-/// The one file that goes by the key; if there is none or are several, that is said.
+/// The file that the key names; an unknown or ambiguous key is reported.
 fn find(
     reader: &mut Reader<'_>,
     key: &str,

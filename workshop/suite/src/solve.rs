@@ -1,13 +1,11 @@
-//! What the planner has to say about a problem, against what was expected.
+//! The case of a problem: the planner's answer compared with what is expected.
 //!
-//! Problem: a satisficing search proves a bound only if it happens to find a plan below it, and nothing if it does
-//! not. Idea: search quickly first; where the plan found is beyond a bound, search for the best one, by cost or by the
-//! number of steps (the same problem without its metric). A case fails only on proof, or for want of time. Every plan
-//! goes through the validator, which shares nothing with the planner. The searches are those that always give the same
-//! answer.
+//! Problem: a satisficing search proves a bound only if its plan happens to satisfy it. Idea: search quickly first; where
+//! that plan exceeds a bound, search for the best one, by cost or by the number of steps (the same problem without its
+//! metric). A case fails only on proof, or for lack of time. The validator, which shares no code with the planner, checks
+//! every plan. Invariant: only deterministic searches are used.
 
 use crate::expected::{Bounds, Solvable, Written};
-use crate::judge::Limits;
 use crate::suite::Suite;
 use diagnostics::{Finding, Place, Sources};
 use pddl::model::{Domain, Problem};
@@ -19,15 +17,15 @@ use project::Task;
 use std::time::Duration;
 use validator::{Number, Valid, Verdict, validate};
 
-/// What the planner says.
+/// The planner's answer.
 pub(crate) enum Answer {
     /// A valid plan, as text, and its figures.
     Plan(String, Box<Valid>),
-    /// There is none.
+    /// Proven to have no plan.
     Unsolvable,
-    /// It does not know.
+    /// No answer, and why.
     Unknown(String),
-    /// It does not do this.
+    /// A feature that the planner does not support.
     Unsupported { what: String, origin: Origin, span: Span },
     /// A bug of ours.
     NotValid(String),
@@ -40,12 +38,12 @@ impl Suite {
         task: &Task<'_>,
         expected: Written<Solvable>,
         timeout: Duration,
-        limits: &Limits<'_>,
+        means: &Means<'_>,
     ) -> Vec<Finding> {
-        let end = (limits.now)().saturating_add(timeout);
-        let over = || (limits.now)() >= end;
+        let end = (means.clock)().saturating_add(timeout);
+        let over = || (means.clock)() >= end;
         let over: &(dyn Fn() -> bool + Sync) = if timeout.is_zero() { &|| true } else { &over };
-        let asked = Question { task, limits, over };
+        let asked = Question { task, means, over };
         let first = asked.answer(task.problem, SearchConfiguration::default());
         let finding = match (expected.value, first) {
             (Solvable::No, Answer::Unsolvable) => None,
@@ -148,18 +146,28 @@ impl Suite {
     }
 }
 
+/// The time since some moment; timeouts are measured with it.
+pub type Clock<'a> = dyn Fn() -> Duration + Sync + 'a;
+
+/// What a question to the planner may use.
+pub(crate) struct Means<'a> {
+    pub(crate) clock: &'a Clock<'a>,
+    pub(crate) budget: &'a Budget<'a>,
+}
+
 /// A task to ask the planner about.
 pub(crate) struct Question<'a> {
     pub(crate) task: &'a Task<'a>,
-    pub(crate) limits: &'a Limits<'a>,
+    pub(crate) means: &'a Means<'a>,
     pub(crate) over: &'a (dyn Fn() -> bool + Sync),
 }
 
 impl Question<'_> {
     pub(crate) fn answer(&self, problem: &Problem, search: SearchConfiguration) -> Answer {
         let domain: &Domain = self.task.domain;
-        let memory_bytes = self.limits.memory_bytes;
-        let budget = Budget { memory_bytes, interrupted: self.over, ..Budget::default() };
+        let given = self.means.budget;
+        let interrupted = || (self.over)() || (given.interrupted)();
+        let budget = Budget { interrupted: &interrupted, ..*given };
         let options = GroundOptions { budget, ..GroundOptions::default() };
         let grounded = match ground(domain, problem, &options) {
             Ok(grounded) => grounded,
@@ -173,7 +181,7 @@ impl Question<'_> {
                 };
             }
         };
-        let memory_bytes = memory_bytes.map(|most| most.saturating_sub(grounded.memory_bytes()));
+        let memory_bytes = given.memory_bytes.map(|most| most.saturating_sub(grounded.memory_bytes()));
         let budget = Budget { memory_bytes, ..budget };
         let plan = match solve(&grounded, &Query::of(&grounded), &search, &budget).outcome {
             Outcome::Solved(plan) => plan,

@@ -1,4 +1,4 @@
-//! A folder as cases: what is to be checked, in an order that does not change.
+//! The cases of a folder, in a stable order.
 //!
 //! Invariant: every domain and problem of the folder has a case, and every plan has one or is warned about. Order:
 //! domains, problems, what is asked of the planner, plans, each by path.
@@ -36,22 +36,22 @@ pub(crate) enum What {
     Clean(Warnings),
     /// These diagnostics and no others.
     Diagnostics { entry: Span, expected: Vec<Written<CodeAt>> },
-    /// What the planner has to say.
+    /// The planner's answer.
     Solvable { expected: Written<Solvable>, timeout: Duration },
-    /// What the validator has to say.
+    /// The validator's verdict.
     Plan(PlanCase),
 }
 
 #[derive(Clone, Debug)]
 pub(crate) struct PlanCase {
-    /// The entry's key; `None` if the folder says it all.
+    /// The entry's key; `None` if the folder's name states all.
     pub(crate) entry: Option<Span>,
     pub(crate) problem: SourceId,
     pub(crate) verdict: Verdict,
     pub(crate) details: Details,
 }
 
-/// A suite that was read. Its files are read when a case first needs them.
+/// A suite. Its files are parsed when a case first needs them.
 #[derive(Clone, Debug)]
 pub struct Suite {
     path: String,
@@ -63,8 +63,7 @@ pub struct Suite {
 }
 
 impl Suite {
-    /// Reads what is expected of a folder. If there are errors among the [`findings`](Suite::findings), the suite
-    /// makes no sense and there are no cases.
+    /// Reads what is expected of a folder. A suite with errors among its [`findings`](Suite::findings) has no cases.
     pub fn read(mut folder: Folder) -> Self {
         folder.files.sort_by(|a, b| a.path.cmp(&b.path));
         let mut project = Project::new();
@@ -172,7 +171,7 @@ impl Suite {
         Some(PlanCase { entry: entry.map(|e| e.span), problem, verdict, details })
     }
 
-    /// What cannot be expected of a plan with that verdict.
+    /// Reports expectations that contradict the verdict.
     fn contradictions(&mut self, verdict: Verdict, details: &Details) {
         let mut wrong = Vec::new();
         if verdict != Verdict::Valid {
@@ -196,7 +195,7 @@ impl Suite {
         &self.path
     }
 
-    /// The texts that findings speak of.
+    /// The texts in which findings have their places.
     pub fn sources(&self) -> &Sources {
         &self.sources
     }
@@ -205,12 +204,12 @@ impl Suite {
         &self.sources[id]
     }
 
-    /// What is wrong with the suite itself.
+    /// Errors and warnings about the suite itself.
     pub fn findings(&self) -> &[Finding] {
         &self.findings
     }
 
-    /// Whether the suite makes no sense.
+    /// Whether the suite itself has errors.
     pub fn has_errors(&self) -> bool {
         self.findings.iter().any(|finding| finding.severity == Severity::Error)
     }

@@ -1,9 +1,9 @@
-//! Which suites a change concerns.
+//! Which suites a change affects.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// Where a suite's files come from, in paths as a watcher reports them.
+/// The paths of a suite, as a watcher reports them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Extent {
     /// The suite's folder.
@@ -12,8 +12,8 @@ pub struct Extent {
     pub elsewhere: BTreeSet<PathBuf>,
 }
 
-/// The positions of the suites that a change of those paths concerns: everything below a suite's folder that it could
-/// be made of, and what it took from elsewhere. A suite further down is concerned for itself.
+/// The positions of the suites that a change of those paths affects: a change of a file below a suite's folder that the
+/// suite could read, or of a file that it took from elsewhere. A change below a nested suite affects that one alone.
 pub fn touched(suites: &[Extent], changed: &[PathBuf]) -> Vec<usize> {
     let nearest = |path: &Path| {
         let above = suites.iter().filter(|suite| path.starts_with(&suite.folder));
@@ -57,7 +57,7 @@ mod tests {
     }
 
     #[test]
-    fn a_change_concerns_the_nearest_suite_and_whoever_took_the_file() {
+    fn a_change_affects_the_nearest_suite_and_each_that_took_the_file() {
         check("/d/coffee/plans/valid/a.plan", &[2]);
         check("/d/coffee/expected.toml", &[2]);
         check("/d/tea/further/p.pddl", &[1]);
@@ -66,7 +66,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_suite_reads_concerns_none() {
+    fn a_file_that_no_suite_reads_affects_no_suite() {
         check("/d/coffee/.p.pddl.swp", &[]);
         check("/d/coffee/README.md", &[]);
         check("/d/coffee2/p.pddl", &[]);

@@ -4,8 +4,9 @@
 
 use expect_test::{Expect, expect};
 use pddl::Source;
+use planner::Budget;
 use std::time::Duration;
-use suite::{File, Folder, Limits, Suite, draft};
+use suite::{CaseId, File, Folder, Suite, draft};
 
 const DOMAIN: &str = "(define (domain tea)
   (:requirements :strips :typing :negative-preconditions)
@@ -35,12 +36,17 @@ fn folder(expected: &str, more: &[(&str, &str)]) -> Folder {
     }
 }
 
+/// With a clock that stands still.
+fn run(suite: &Suite, id: CaseId) -> Vec<diagnostics::Finding> {
+    suite.run(id, &|| Duration::ZERO, &Budget::default())
+}
+
 /// A line per case, and whatever is to be said.
 fn check(expected: &str, more: &[(&str, &str)], said: &Expect) {
     let suite = Suite::read(folder(expected, more));
     let mut text: String = suite.findings().iter().map(|f| suite.sources().describe(f)).collect();
     for (id, case) in suite.cases() {
-        let findings = suite.run(id, &Limits::default());
+        let findings = run(&suite, id);
         text += if findings.is_empty() { "pass " } else { "FAIL " };
         text += &case.name;
         text.push('\n');
@@ -397,7 +403,12 @@ fn a_suite_passes_with_its_draft() {
         ("plans/two-loose.plan", "(boil)"),
         ("plans/unknown.plan", "(boil)"),
     ];
-    let text = draft(folder("not = 'looked at'", &more), Duration::from_secs(1), &Limits::default());
+    let text = draft(
+        folder("not = 'looked at'", &more),
+        Duration::from_secs(1),
+        &|| Duration::ZERO,
+        &Budget::default(),
+    );
     expect![[r##"
         # What is expected of this folder: docs/testing.md.
 
@@ -433,7 +444,7 @@ fn a_suite_passes_with_its_draft() {
     let suite = Suite::read(folder(&text, &more[..5]));
     assert!(suite.findings().is_empty(), "{:?}", suite.findings());
     for (id, case) in suite.cases() {
-        assert!(suite.run(id, &Limits::default()).is_empty(), "{}", case.name);
+        assert!(run(&suite, id).is_empty(), "{}", case.name);
     }
 }
 
