@@ -1,10 +1,10 @@
 //! Sixteen nodes as a few flat lists: what one page of the graph holds.
 //!
-//! Problem: a node with a list of its own for each kind of content is six allocations to read, to copy for a
-//! snapshot, and to count references of. Idea: neighbours by id share one list per kind, sorted by node, with
-//! the end of each node's run beside it. Copying a block is then a handful of memory copies, and its lists lie
-//! together in the cache. Invariant: a run is sorted by what its items are found by. Cost: finding is a binary
-//! search in the node's run; inserting moves the runs of the up to fifteen nodes after it.
+//! Problem: a node with one list for each kind of content costs six allocations to read, to copy for a snapshot, and to
+//! count references of. Idea: nodes with neighbouring ids share one list per kind, sorted by node, beside a table of
+//! where each node's run ends. Copying a block is then a few memory copies, and its lists lie together in the cache.
+//! Invariant: a run is sorted by the key that its items are found by. Cost: finding is a binary search in the node's
+//! run; inserting moves the runs of up to fifteen nodes after it.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use crate::pose::Pose;
 use crate::track::Track;
 use crate::value::Value;
 
-/// How many nodes share a block.
+/// The number of nodes in a block.
 pub(crate) const NODES: usize = 16;
 
 /// The block and the slot in it of a node.
@@ -53,7 +53,7 @@ impl<T> Runs<T> {
     /// Inserts at a position of the node's run.
     pub(crate) fn insert(&mut self, slot: usize, at: usize, item: T) {
         if self.items.len() == self.items.capacity() {
-            // An eighth more, not twice as much: the spare room of a million lists is most of their memory.
+            // Growth by an eighth, not by half: otherwise the spare room of a million lists is most of their memory.
             self.items.reserve_exact(4.max(self.items.len() / 8));
         }
         let at = self.range(slot).start + at;
@@ -113,21 +113,21 @@ struct Head {
     node_type: TypeId,
 }
 
-/// The type of a node that is not there; never given out.
+/// The head of a node that does not exist; no node has this type.
 const ABSENT: Head = Head { since: Version(0), node_type: TypeId(u32::MAX) };
 
 #[derive(Debug, Clone)]
 pub(crate) struct Block {
     heads: [Head; NODES],
-    /// By attribute.
+    /// Sorted by attribute.
     pub(crate) cells: Runs<Cell>,
-    /// By label and end.
+    /// Sorted by label and end.
     pub(crate) outgoing: Runs<Edge>,
-    /// By label and start.
+    /// Sorted by label and start.
     pub(crate) incoming: Runs<(LabelId, NodeId)>,
-    /// By label, end and attribute.
+    /// Sorted by label, end and attribute.
     pub(crate) edge_cells: Runs<EdgeCell>,
-    /// Attributes elsewhere whose value is the node.
+    /// The attributes of other nodes and edges whose value is this node.
     pub(crate) referrers: Runs<(Holder, AttributeId)>,
 }
 
@@ -237,16 +237,16 @@ pub(crate) struct Joint {
     pub(crate) parent: NodeId,
     pub(crate) pose: Pose,
     pub(crate) since: Version,
-    /// The stamped poses, of which `pose` is the newest; `None` for a pose that stands until it is changed.
+    /// The stamped poses of a moving frame, of which `pose` is the newest; `None` for a static frame.
     pub(crate) track: Option<Arc<Track>>,
     /// The time of the newest of them.
     pub(crate) newest: Time,
 }
 
-/// The geometric side of a block of nodes, kept apart: most nodes have none, and poses change most often.
+/// The transforms of a block of nodes. They are kept apart because most nodes have none, and poses change most often.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Frames {
     pub(crate) joints: [Option<Joint>; NODES],
-    /// By id.
+    /// Sorted by id.
     pub(crate) children: Runs<NodeId>,
 }

@@ -1,17 +1,17 @@
 //! Kinematic chains: from one frame to another through their closest common ancestor.
 //!
-//! Convention: `transform(from, to)` maps coordinates of frame `to` into frame `from`, so it is the pose of `to`
-//! as seen from `from`, and `transform(world, robot)` is where the robot is in the world. An RT edge from parent
-//! to child holds `transform(parent, child)`. With `w` the closest common ancestor,
+//! Convention: `transform(from, to)` maps coordinates of frame `to` into frame `from`, so it is the pose of `to` as
+//! seen from `from`; `transform(world, robot)` is where the robot is in the world. An RT edge from parent to child
+//! holds `transform(parent, child)`. With `w` the closest common ancestor,
 //!
 //! ```text
 //! transform(from, to) = transform(w, from)⁻¹ · transform(w, to)
 //! ```
 //!
-//! that is, inverses on the way up, products on the way down. Each edge gives its newest pose, or its pose at a
-//! time. Invariant: a chain is read from one snapshot, so all its poses are of one version; edges above the common
-//! ancestor have no say. Cost: one product per RT edge. A frame and its ancestor need one walk; two branches need
-//! one more to the root each, to find where they meet.
+//! that is, inverses on the way up and products on the way down. Each edge contributes its newest pose, or its pose at
+//! a time. Invariant: a chain is read from one snapshot, so all its poses are of one version; edges above the common
+//! ancestor do not matter. Cost: one product per RT edge. A frame and its ancestor need one walk; two branches need
+//! another walk from each to the root, to find where they meet.
 //!
 //! Source: Marfil et al., §3.1, "kinematic chain"; Foote, "tf: the transform library", TePRA 2013, for common times.
 
@@ -27,7 +27,7 @@ use crate::pose::{Pose, Uncertain};
 use crate::state::State;
 use crate::vocabulary::Nature;
 
-/// Why there is no chain.
+/// Why there is no transform between two frames.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum ChainError {
     /// No such node.
@@ -36,13 +36,13 @@ pub enum ChainError {
         /// The id.
         node: NodeId,
     },
-    /// The node's type has no place in the geometric quiver.
+    /// The node's type is not geometric.
     #[error("'{node}' is not geometric")]
     NotGeometric {
         /// The node's name.
         node: Arc<str>,
     },
-    /// No transform connects the two now.
+    /// No chain of transforms connects the two now.
     #[error("no chain from '{from}' to '{to}'")]
     NotConnected {
         /// The first frame.
@@ -50,23 +50,23 @@ pub enum ChainError {
         /// The second frame.
         to: Arc<str>,
     },
-    /// The time lies outside what an edge of the chain remembers.
+    /// An edge of the chain has no pose at the time.
     #[error("'{child}' in '{parent}' is known from {} to {} ns, not at {}", first.0, last.0, asked.0)]
     Extrapolation {
-        /// Where the edge starts.
+        /// The parent of the edge.
         parent: Arc<str>,
-        /// Where it ends.
+        /// The child of the edge.
         child: Arc<str>,
-        /// The time asked for.
+        /// The requested time.
         asked: Time,
-        /// The first time that the edge remembers.
+        /// The first time for which the edge has a pose.
         first: Time,
         /// The last one.
         last: Time,
     },
 }
 
-/// Goes up the tree. Frames of one robot mostly share a block, which is looked up once.
+/// A walk up the tree. The frames of a robot usually share a block, which is looked up once.
 struct Climb<'a> {
     state: &'a State,
     at: NodeId,
@@ -80,7 +80,7 @@ impl<'a> Climb<'a> {
         Self { state, at, block, frames: state.frames(block) }
     }
 
-    /// The joint above the present frame, and up to its parent.
+    /// Goes to the parent. Returns the frame that it leaves and its transform.
     fn step(&mut self) -> Option<(NodeId, &'a Joint)> {
         let (child, (block, slot)) = (self.at, place(self.at));
         if block != self.block {
@@ -92,21 +92,21 @@ impl<'a> Climb<'a> {
     }
 }
 
-/// The joints above a frame, from below.
+/// The transforms above a frame, from the frame upwards.
 type Path<'a> = SmallVec<[(NodeId, &'a Joint); 32]>;
 
-/// What lies between two frames: the joints from each up to where they meet.
+/// The chain between two frames: the transforms from each up to their common ancestor.
 struct Between<'a> {
     up: Path<'a>,
     down: Path<'a>,
 }
 
-/// The newest poses.
+/// The pose of `to` in `from`, by the newest poses.
 pub(crate) fn transform(state: &State, from: NodeId, to: NodeId) -> Result<Isometry3<f64>, ChainError> {
     chain(state, from, to, |_, joint| Ok(joint.pose.transform))
 }
 
-/// The poses at a time.
+/// The pose of `to` in `from` at a time.
 pub(crate) fn transform_at(
     state: &State,
     from: NodeId,
@@ -130,12 +130,12 @@ fn outside(
     ChainError::Extrapolation { parent, child, asked, first, last }
 }
 
-/// The newest pose, with what is known of its error.
+/// Like [`transform`], with the covariance.
 pub(crate) fn pose(state: &State, from: NodeId, to: NodeId) -> Result<Pose, ChainError> {
     uncertain(state, from, to, |_, joint| Ok(Uncertain::of(&joint.pose, joint.track.is_some())))
 }
 
-/// The pose at a time, with what is known of its error.
+/// Like [`transform_at`], with the covariance.
 pub(crate) fn pose_at(state: &State, from: NodeId, to: NodeId, time: Time) -> Result<Pose, ChainError> {
     uncertain(state, from, to, |child, joint| match &joint.track {
         None => Ok(Uncertain::of(&joint.pose, false)),
@@ -160,7 +160,8 @@ fn uncertain(
     Ok((along(up)?.inverse() * along(down)?).pose())
 }
 
-/// The poses at the newest common time. Mostly that is the newest time of all: then they are the newest poses.
+/// The pose of `to` in `from` at their newest common time. Usually all edges have the same newest time; then the newest
+/// poses are the answer.
 pub(crate) fn transform_together(
     state: &State,
     from: NodeId,
@@ -174,7 +175,7 @@ pub(crate) fn transform_together(
         }
         Ok(joint.pose.transform)
     })?;
-    // Edges above the common ancestor may have been looked at too: then this is decided the long way.
+    // The walk may have read edges above the common ancestor too; then the times are compared again without them.
     if oldest.get() >= newest.get() {
         return Ok(pose);
     }
@@ -184,7 +185,7 @@ pub(crate) fn transform_together(
     }
 }
 
-/// The oldest of the newest times between two frames.
+/// The oldest of the newest times of the moving edges between two frames.
 pub(crate) fn common_time(state: &State, from: NodeId, to: NodeId) -> Result<Option<Time>, ChainError> {
     let Between { up, down } = between(state, from, to)?;
     Ok(up.iter().chain(&down).filter(|(_, joint)| joint.track.is_some()).map(|(_, joint)| joint.newest).min())
@@ -207,7 +208,7 @@ fn known_frame(state: &State, id: NodeId) -> Result<(), ChainError> {
     Err(ChainError::NotGeometric { node: state.name(id) })
 }
 
-/// The pose of a frame in one above it; `None` if it is not above it, or if an edge on the way has no pose.
+/// The pose of `frame` in its ancestor `above`; `None` if it is not an ancestor, or if an edge on the way has no pose.
 fn below(
     state: &State,
     above: NodeId,
@@ -230,7 +231,7 @@ fn chain(
     to: NodeId,
     pose: impl Fn(NodeId, &Joint) -> Result<Isometry3<f64>, ChainError>,
 ) -> Result<Isometry3<f64>, ChainError> {
-    // Mostly one frame is above the other, and one walk finds that out. Where it fails, the other way says why.
+    // Usually one frame is an ancestor of the other, which one walk finds out. If not, the general way finds the error.
     if from != to {
         if let Some(found) = below(state, from, to, &pose) {
             return Ok(found);
@@ -271,7 +272,7 @@ fn between(state: &State, from: NodeId, to: NodeId) -> Result<Between<'_>, Chain
     if top != other {
         return Err(ChainError::NotConnected { from: state.name(from), to: state.name(to) });
     }
-    // Both lead to the root: what they share at the end lies above where they meet.
+    // Both paths lead to the root. The edges that they share lie above the common ancestor.
     while let (Some((a, _)), Some((b, _))) = (up.last(), down.last())
         && a == b
     {

@@ -1,10 +1,10 @@
-//! What a commit changed: the difference between two states, never the list of what was asked.
+//! What a commit changed: the difference between two states, not the list of its edits.
 //!
-//! Problem: a log of requested edits says "added" for what was there and "removed" for what was put back a line
-//! later. Idea: hold what the log says was there before the transaction against what is there now, once per thing
-//! touched. What is the same to the bit keeps its old `since`; the rest is a change. Invariant: applying the changes
-//! in their order to the state before gives the state after, to the byte (see `replay`). Cost: linear in what was
-//! edited.
+//! Problem: a log of edits says "added" for what existed before, and "removed" for what was added again a line later.
+//! Idea: compare, once for each thing that was edited, the value that the log kept from before with the value now. A
+//! thing that is equal to the bit keeps its old `since`; the others are changes. Invariant: applying the changes in
+//! their order to the state before gives the state after, to the byte (see `replay`). Cost: linear in the number of
+//! edits.
 
 use std::sync::Arc;
 
@@ -25,40 +25,41 @@ use crate::value::Value;
 #[serde(rename_all = "snake_case")]
 #[expect(missing_docs, reason = "the fields are the terms of the variant")]
 pub enum Change {
-    /// An attribute went, alone or with its holder.
+    /// An attribute was removed, alone or with its holder.
     AttributeRemoved { holder: Holder, attribute: AttributeId, old: Value },
-    /// An edge went.
+    /// An edge was removed.
     EdgeRemoved { edge: EdgeKey },
-    /// A child was taken off its parent.
+    /// The transform from a child to its parent was removed.
     TransformRemoved { parent: NodeId, child: NodeId, old: Pose },
-    /// A node went.
+    /// A node was removed.
     NodeRemoved { node: NodeId, name: Arc<str>, node_type: TypeId },
-    /// A node came.
+    /// A node was added.
     NodeAdded { node: NodeId, name: Arc<str>, node_type: TypeId },
-    /// A child was hung below a parent.
+    /// A child got a transform to a parent.
     TransformAdded {
         parent: NodeId,
         child: NodeId,
         new: Pose,
-        /// When it was there; `None` for a pose that stands until it is changed.
+        /// The time of the first sample of a moving child; `None` for a static pose.
         #[serde(default)]
         time: Option<Time>,
     },
-    /// A child moved relative to its parent.
+    /// The static pose of a child in its parent changed.
     TransformChanged { parent: NodeId, child: NodeId, old: Pose, new: Pose },
-    /// A child was elsewhere relative to its parent at that time.
+    /// A moving child got a pose at a time.
     TransformSampled { parent: NodeId, child: NodeId, time: Time, old: Option<Pose>, new: Pose },
-    /// An edge came.
+    /// An edge was added.
     EdgeAdded { edge: EdgeKey },
-    /// An attribute was given a value.
+    /// An attribute got a value.
     AttributeAdded { holder: Holder, attribute: AttributeId, new: Value },
-    /// An attribute was given another value.
+    /// The value of an attribute changed.
     AttributeChanged { holder: Holder, attribute: AttributeId, old: Value, new: Value },
 }
 
 impl Change {
-    /// Changes are listed by rank: what goes first, what it hung on after it; then what comes, after what it
-    /// hangs on. Within a rank by node, its own attributes before those of its edges.
+    /// The order of changes in a delta. Removals come first, each after the removals of what depends on it; then
+    /// additions, each after what it depends on. Within a rank they are sorted by node, with its own attributes before
+    /// those of its edges.
     pub(crate) fn order(&self) -> (u8, NodeId, Option<(LabelId, NodeId)>, u64, Option<AttributeId>) {
         let of = |rank, holder: &Holder, added: bool, attribute: &AttributeId| match holder {
             Holder::Node(node) => (rank, *node, None, added.into(), Some(*attribute)),
@@ -73,7 +74,7 @@ impl Change {
             Self::TransformAdded { child, .. } | Self::TransformChanged { child, .. } => {
                 (5, *child, None, 0, None)
             }
-            // After the first one, which brings the edge.
+            // After the first sample, which adds the transform.
             Self::TransformSampled { child, time, .. } => (5, *child, None, time.0.saturating_add(1), None),
             Self::EdgeAdded { edge } => (6, edge.from, Some((edge.label, edge.to)), 0, None),
             Self::AttributeChanged { holder, attribute, .. } => of(7, holder, false, attribute),
@@ -82,18 +83,18 @@ impl Change {
     }
 }
 
-/// What one commit changed. Serialisable: the entry of a journal.
+/// What one commit changed. Serialisable: journals store it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Delta {
     /// The version that the commit made.
     pub version: Version,
-    /// The time that the committer gave.
+    /// The time of the commit, as the committer gave it.
     pub time: Time,
-    /// Who committed. Reflexes wrote as their owners.
+    /// The agent that committed. The edits of reflexes are those of their owners.
     pub writer: AgentId,
-    /// The differences, in an order in which they can be applied.
+    /// The changes, in an order in which they can be applied.
     pub changes: Vec<Change>,
-    /// The reflexes that fired, in the order in which they did.
+    /// The reflexes that fired, in order.
     pub reflexes: Vec<ReflexId>,
 }
 
@@ -120,7 +121,7 @@ impl Mentions {
     }
 }
 
-/// What an entry of the log is about.
+/// The thing that an entry of the log is about.
 #[derive(PartialEq, Eq, Hash)]
 enum Thing {
     Node(NodeId),
@@ -142,15 +143,15 @@ impl Thing {
     }
 }
 
-/// Logs up to this length are searched rather than hashed.
+/// Logs up to this length are searched instead of hashed.
 const SHORT: usize = 16;
 
-/// Holds what was overwritten against what is there now, gives what stayed its old `since`, and lists the rest.
+/// Compares the log with the state. Restores the `since` of each thing that has not changed, and returns the changes.
 pub(crate) fn settle(after: &mut State) -> Vec<Change> {
     let entries = std::mem::take(&mut after.log.entries);
     let mut changes = Vec::with_capacity(entries.len());
     let mut seen = FxHashSet::default();
-    // An edge that came in this transaction, or went and came, is told as a whole with all its poses.
+    // A transform that was added in this transaction, or removed and added, is reported as a whole with all its poses.
     let hung: FxHashSet<_> = entries
         .iter()
         .filter_map(|entry| if let Undo::Joint { child, .. } = entry { Some(*child) } else { None })
@@ -161,7 +162,7 @@ pub(crate) fn settle(after: &mut State) -> Vec<Change> {
         {
             continue;
         }
-        // The first entry about a thing has what was there before the transaction.
+        // The first entry about a thing has its value before the transaction.
         let first = if entries.len() <= SHORT {
             let thing = Thing::of(entry);
             entries[..at].iter().all(|earlier| Thing::of(earlier) != thing)
@@ -184,7 +185,7 @@ pub(crate) fn settle(after: &mut State) -> Vec<Change> {
     changes
 }
 
-/// Holds the first entry about a thing, and with it those before, against what is there now.
+/// Compares the first entry about a thing with the state. `earlier` are the entries before it.
 fn compare(after: &mut State, first: &Undo, earlier: &[Undo], changes: &mut Vec<Change>) {
     match first {
         Undo::NodeAdded(node) => {
@@ -236,7 +237,7 @@ fn compare_joints(
     };
     let stays = old.parent == new.parent;
     let stand = old.track.is_none() && new.track.is_none();
-    // What the edge remembered before the transaction is told by `old` only if it was not sampled first.
+    // `old` has the samples from before the transaction only if the transaction did not add a sample before it.
     let sampled = |entry: &Undo| matches!(entry, Undo::Sample { child: other, .. } if *other == child);
     if stays && stand && old.pose.same(&new.pose)
         || stays && same_samples(old, new) && !earlier.iter().any(sampled)
@@ -250,14 +251,14 @@ fn compare_joints(
     }
 }
 
-/// Whether both move, and remember the same.
+/// Whether both are moving, with equal samples.
 fn same_samples(old: &Joint, new: &Joint) -> bool {
     let (Some(old), Some(new)) = (&old.track, &new.track) else { return false };
     let same = |(a, b): (&Sample, &Sample)| a.time == b.time && a.pose.same(&b.pose);
     old.samples().count() == new.samples().count() && old.samples().zip(new.samples()).all(same)
 }
 
-/// What it takes to go from one joint of a node to another, or none.
+/// The changes that replace one transform of a child by another; either may be absent.
 pub(crate) fn replace_joint(
     child: NodeId,
     old: Option<&Joint>,
@@ -305,8 +306,9 @@ fn compare_cells(
     }
 }
 
-/// What it takes to go from one value of an attribute to another. It goes with the node that it names, and changes are
-/// applied after nodes have gone: then it went and came back.
+/// The changes that replace one value of an attribute by another. Changes are applied after the removals of nodes, and
+/// removing a node removes the attributes that refer to it: an attribute that referred to a removed node is therefore
+/// removed and added.
 pub(crate) fn replace_value(
     after: &State,
     holder: Holder,

@@ -1,10 +1,10 @@
-//! What differs between two states of a graph, whatever lies between them.
+//! The difference between any two states of a graph.
 //!
-//! Idea: two snapshots share the blocks that nobody wrote to in between, so only blocks that are not the same are looked
-//! at. The answer is a list of changes, as a commit that made the one into the other would have published it; what was
-//! changed and changed back is not in it. Invariant: applying it to the earlier state gives the later one, but for the
-//! versions in which things were written. Cost: a comparison of references per page, and what was written; between
-//! states read from files, which share nothing, everything is compared.
+//! Idea: two snapshots share the blocks that were not written in between, so only blocks that differ are compared. The
+//! result is the list of changes that a commit from the one state to the other would publish; a change that was
+//! reverted in between is not in it. Invariant: applying it to the earlier state gives the later one, except for the
+//! versions in which things were written. Cost: one comparison of references per page, and of what was written; states
+//! that were read from files share nothing, so everything is compared.
 
 use crate::block::{Joint, NODES, Node};
 use crate::delta::{Change, replace_joint, replace_value};
@@ -30,7 +30,7 @@ impl Snapshot {
 
 fn nodes(before: &State, after: &State, id: NodeId, changes: &mut Vec<Change>) {
     let (old, new) = (before.node(id), after.node(id));
-    // Ids are never given out twice: a node that is on both sides is the same one.
+    // Ids are never used twice, so a node with the same id on both sides is the same node.
     match (old, new) {
         (Some(old), None) => {
             let (name, node_type) = (before.name(id), old.node_type());
@@ -75,7 +75,7 @@ fn nodes(before: &State, after: &State, id: NodeId, changes: &mut Vec<Change>) {
     }
 }
 
-/// A node and the edges that leave it.
+/// A node and its outgoing edges.
 fn holders(id: NodeId, node: Option<Node<'_>>) -> impl Iterator<Item = Holder> {
     let edges = node.into_iter().flat_map(Node::outgoing);
     let edges = edges.map(move |edge| Holder::Edge(EdgeKey { from: id, label: edge.label, to: edge.to }));

@@ -101,7 +101,8 @@ pub struct ExportedTransform {
     pub translation: [f64; 3],
     /// The unit quaternion i, j, k, w.
     pub rotation: [f64; 4],
-    /// The covariance of the pose, if it is known: six rows of x, y, z in metres and the rotation about them in radians.
+    /// The covariance of the pose, if it is known: six rows of x, y, z in metres and the rotation about them in
+    /// radians.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub covariance: Option<Arc<Covariance>>,
     /// The version that wrote it.
@@ -120,7 +121,8 @@ pub struct ExportedSample {
     pub translation: [f64; 3],
     /// The unit quaternion i, j, k, w.
     pub rotation: [f64; 4],
-    /// The covariance of the pose, if it is known: six rows of x, y, z in metres and the rotation about them in radians.
+    /// The covariance of the pose, if it is known: six rows of x, y, z in metres and the rotation about them in
+    /// radians.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub covariance: Option<Arc<Covariance>>,
 }

@@ -1,13 +1,13 @@
-//! The graph: one handle for everybody, one lock for writers, none for readers.
+//! The graph: one handle, one lock for writers, none for readers.
 //!
-//! Idea: `left_right` keeps two states that writers edit in turn; this module says how one follows the other (by the delta
-//! that the commit publishes anyway) and when it is not worth it: after a transaction so long that it would cost more
-//! than a copy. Then the next writer copies what it touches. Either way a snapshot is one load, whatever writers do.
-//! Cost: what has been written since the last such transaction is there twice.
+//! Idea: `left_right` keeps two states that writers edit in turn. This module says how one state follows the other, by
+//! the delta that the commit publishes anyway, and when not: after a transaction so long that following costs more than
+//! a copy, the next writer copies what it edits. Either way a snapshot is one load, whatever writers do. Cost: what was
+//! written since the last such transaction is in memory twice.
 //!
-//! Invariants: what is published is the present version; versions are handed out without gaps; subscribers get commits
-//! in order, and a subscriber that hears of a commit finds it in the graph; a transaction that changes nothing makes no
-//! version and wakes nobody. No code of others runs under the lock.
+//! Invariants: the published state is the present version. Versions have no gaps. Subscribers get commits in order, and
+//! a subscriber that receives a commit finds it in the graph. A transaction that changes nothing makes no version and
+//! wakes no subscriber. No callback runs under the lock.
 
 use std::num::NonZeroUsize;
 use std::sync::{Arc, Weak};
@@ -31,14 +31,14 @@ use crate::transaction::reflexes::Registry;
 use crate::transaction::{Edit, Transaction, TransactionError};
 use crate::vocabulary::Vocabulary;
 
-/// What a successful commit made.
+/// The result of a successful commit.
 #[derive(Debug, Clone)]
 pub struct Commit {
     /// The version in which the transaction's content holds: a new one, or the present one if nothing changed.
     pub version: Version,
-    /// What changed, the writings of reflexes included.
+    /// What changed, including the edits of reflexes.
     pub delta: Arc<Delta>,
-    /// The state right after.
+    /// The state after the commit.
     pub snapshot: Snapshot,
     /// The reflexes registered by the transaction, in its order.
     pub guards: Vec<ReflexId>,
@@ -56,12 +56,12 @@ struct Shared {
     states: LeftRight<State, Writers>,
 }
 
-/// What only writers have.
+/// Data that only writers use, under the lock.
 struct Writers {
     version: Version,
     reflexes: Registry,
     queues: Routes,
-    /// The journals that take each delta.
+    /// The journals that receive each delta.
     feeds: Vec<Arc<Feed>>,
 }
 
@@ -74,7 +74,7 @@ impl Twin for State {
     }
 }
 
-/// A transaction of more changes than this costs more to follow than to copy.
+/// After more changes than this, copying costs less than following the delta.
 const LONG: usize = 64;
 
 impl Drop for Shared {
@@ -89,12 +89,12 @@ impl Drop for Shared {
     }
 }
 
-/// A graph as a journal sees it: without keeping it alive.
+/// A graph as its journal sees it: a reference that does not keep it alive.
 #[derive(Clone)]
 pub(crate) struct Observed(Weak<Shared>);
 
 impl Observed {
-    /// What waits in the feed and the state right after it, so that nothing falls between the two.
+    /// Empties the feed, and takes the state right after its content, so that no commit falls between the two.
     pub(crate) fn restart(&self, feed: &Feed) -> Option<(Rest, Snapshot)> {
         let shared = self.0.upgrade()?;
         let writing = shared.states.write();
@@ -147,13 +147,13 @@ impl Graph {
         Arc::clone(&self.shared.vocabulary)
     }
 
-    /// The present state. Never waits, whatever writers do.
+    /// The present state. Never waits.
     pub fn snapshot(&self) -> Snapshot {
         Snapshot::new(self.shared.states.read())
     }
 
-    /// Keeps the last `count` versions before the present one for [`Graph::at`], from now on; none at first. Each costs
-    /// what was written after it, and commits then copy what they touch.
+    /// Keeps the last `count` versions before the present one for [`Graph::at`], from now on; by default none. Each
+    /// costs the memory of what was written after it, and makes commits copy the pages that they edit.
     pub fn remember(&self, count: usize) {
         let writing = self.shared.states.write();
         let forgotten = self.shared.past.keep(count, &Snapshot::new(writing.present()));
@@ -161,7 +161,7 @@ impl Graph {
         drop(forgotten);
     }
 
-    /// The state at a version that is still remembered, the present one among them. Older ones are in a journal: see
+    /// The state at the present version or at one that [`Graph::remember`] kept. Older ones are in a journal: see
     /// [`Recording::at`](crate::Recording::at).
     pub fn at(&self, version: Version) -> Option<Snapshot> {
         let present = self.snapshot();
@@ -171,8 +171,8 @@ impl Graph {
     /// Applies a transaction, as a whole or not at all.
     pub fn commit(&self, transaction: &Transaction, time: Time) -> Result<Commit, TransactionError> {
         let (mut wakes, mut forgotten) = (Vec::new(), None);
-        // A subscriber that goes meanwhile leaves its queue to us, with a callback and states that are not ours to free
-        // under the lock.
+        // If a subscriber is dropped meanwhile, this holds the last reference to its queue. The queue has a callback
+        // and states, which must not be dropped under the lock.
         let mut queues = SmallVec::<[Arc<Queue>; 8]>::new();
         let mut writing = self.shared.states.write();
         transaction.stale_at(writing.own().version)?;
@@ -209,7 +209,7 @@ impl Graph {
         }
         drop(writing);
         wakes.into_iter().for_each(Wake::call);
-        // Freeing may take a while, so it is done neither under the lock nor before others can go on.
+        // Freeing may take a while, so it happens after the lock is released and subscribers are woken.
         drop((before, forgotten, queues));
         Ok(Commit { version: delta.version, delta, snapshot, guards: outcome.guards })
     }
@@ -226,9 +226,9 @@ impl Graph {
         self.commit(&transaction, time)
     }
 
-    /// Reads a snapshot, writes a transaction from what was read, and commits it on that very version: when
-    /// somebody else was faster, `write` is asked again with the newer snapshot. Each retry means that another
-    /// commit went through, so the graph as a whole never stands still.
+    /// Reads a snapshot, writes a transaction from it, and commits it on that very version. If another commit came
+    /// first, `write` runs again with the newer snapshot. Each retry means that another commit succeeded, so the graph
+    /// as a whole always makes progress.
     pub fn update(
         &self,
         writer: AgentId,
@@ -247,19 +247,19 @@ impl Graph {
         }
     }
 
-    /// Buries an agent: drops its leases and fires its reflexes.
+    /// Declares an agent dead: releases its leases and fires its reflexes.
     pub fn expire(&self, agent: AgentId, time: Time) -> Result<Commit, TransactionError> {
         self.edit(AgentId::DSR, time, |transaction| {
             transaction.push(Edit::Expire { agent });
         })
     }
 
-    /// Tells how the matches of a pattern change, beginning with those of now.
+    /// Subscribes to the matches of a pattern, beginning with the present ones.
     pub fn subscribe(&self, pattern: impl Into<Arc<Pattern>>) -> Matches {
         self.subscribe_with(pattern, Mailbox::default())
     }
 
-    /// The same, with a queue that is kept so.
+    /// Like [`Graph::subscribe`], with settings for the queue.
     pub fn subscribe_with(&self, pattern: impl Into<Arc<Pattern>>, mailbox: impl Into<Mailbox>) -> Matches {
         let pattern = pattern.into();
         let queue = Queue::new(mailbox.into());
@@ -267,12 +267,12 @@ impl Graph {
         Matches::new(queue, pattern)
     }
 
-    /// Tells every commit from now on.
+    /// Subscribes to every commit from now on.
     pub fn subscribe_deltas(&self) -> Deltas {
         self.subscribe_deltas_with(Mailbox::default().capacity)
     }
 
-    /// The same, with a queue of this capacity.
+    /// Like [`Graph::subscribe_deltas`], with a queue of this capacity.
     pub fn subscribe_deltas_with(&self, capacity: NonZeroUsize) -> Deltas {
         let queue = Queue::new(capacity.into());
         self.register(&queue, None);
@@ -287,7 +287,7 @@ impl Graph {
         queue.begin(Snapshot::new(present));
     }
 
-    /// Hands every commit from now on to a feed, which begins with the state of now.
+    /// Sends every commit from now on to a feed. Returns the present state, with which the feed begins.
     pub(crate) fn attach(&self, feed: &Arc<Feed>) -> Snapshot {
         let mut writing = self.shared.states.write();
         writing.own().feeds.push(Arc::clone(feed));
@@ -298,7 +298,7 @@ impl Graph {
         Observed(Arc::downgrade(&self.shared))
     }
 
-    /// A graph of its own that goes on from a snapshot. Reflexes stay where they were registered.
+    /// A new graph that continues from a snapshot. Reflexes stay with the old graph.
     pub fn from_snapshot(snapshot: &Snapshot) -> Self {
         Self::with(snapshot.state().clone())
     }
@@ -315,7 +315,7 @@ mod tests {
     use super::*;
     use crate::vocabulary::{Nature, VocabularyBuilder};
 
-    /// Would wait for ever if a reader needed anything that a writer has.
+    /// Deadlocks if a reader needs anything that a writer holds.
     #[test]
     fn a_snapshot_is_taken_while_a_writer_is_at_work() {
         let mut builder = VocabularyBuilder::new();
@@ -331,7 +331,7 @@ mod tests {
             state.insert_node(state.next, "half done".into(), place, version);
             let seen = graph.snapshot();
             assert_eq!((seen.version(), seen.node("half done")), (version, None));
-            // Dropped as by a panic, with the state half edited: the next commits know nothing of it.
+            // Dropped as by a panic, with the state half edited: the next commits do not see the edit.
         }
         assert_eq!(add("last"), Version(6));
         assert_eq!(graph.snapshot().node("half done"), None);

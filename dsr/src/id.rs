@@ -1,9 +1,8 @@
 //! Identifiers: small copyable names for what the vocabulary declares and the graph holds.
 //!
-//! Problem: strings are what people write and read, but comparing them on every edit is slow and a bare
-//! integer may be passed in the wrong place. Idea: one newtype over `u32` per kind of thing.
-//! Invariant: an id means something only with the vocabulary (or the graph) that handed it out. A foreign
-//! id is refused by name of the error, never by a panic.
+//! Problem: people read and write strings, but comparing strings on every edit is slow, and a bare integer can be
+//! passed in the wrong place. Idea: one newtype over `u32` for each kind of thing. Invariant: an id is valid only with
+//! the vocabulary or graph that issued it. A foreign id gives an error, never a panic.
 
 use serde::{Deserialize, Serialize};
 
@@ -45,12 +44,12 @@ ids! {
     AgentId
     /// An exclusive resource.
     ResourceId
-    /// A node of the graph. Ids of removed nodes are never given out again.
+    /// A node of the graph. Ids of removed nodes are never used again.
     NodeId
 }
 
 impl TypeId {
-    /// `object`, the root of every hierarchy.
+    /// `object`, the root of the hierarchy of types.
     pub const OBJECT: Self = Self(0);
     /// `agent`, the type of the nodes that stand for writers.
     pub const AGENT: Self = Self(1);
@@ -59,9 +58,9 @@ impl TypeId {
 }
 
 impl LabelId {
-    /// `holds`: an agent holds a resource. Written by claims and releases only.
+    /// `holds`: an agent holds a resource. Only claims and releases write it.
     pub const HOLDS: Self = Self(0);
-    /// `awaits`: an agent waits for a resource. Written by the graph itself.
+    /// `awaits`: an agent waits for a resource. Only the graph writes it.
     pub const AWAITS: Self = Self(1);
 }
 
@@ -74,19 +73,19 @@ impl AttributeId {
     pub const CLAIM: Self = Self(2);
     /// `awaits_priority` of a wait, on the edge `awaits`.
     pub const AWAITS_PRIORITY: Self = Self(3);
-    /// `awaits_yields`: whether the lease to be yields, on the edge `awaits`.
+    /// `awaits_yields`: whether the lease will yield, on the edge `awaits`.
     pub const AWAITS_YIELDS: Self = Self(4);
-    /// `asked`: the version in which the lease was asked for, on the edge `awaits`.
+    /// `asked`: the version in which the agent asked for the lease, on the edge `awaits`.
     pub const ASKED: Self = Self(5);
 }
 
 impl AgentId {
-    /// `dsr`, the graph itself: sets up the world, buries dead agents, may write every token.
+    /// `dsr`, the graph itself: sets up the world, expires dead agents, may write every token.
     pub const DSR: Self = Self(0);
 }
 
 impl NodeId {
-    /// Stands for a node that is not there; never given out.
+    /// Stands for a node that does not exist; no node has this id.
     pub(crate) const NOWHERE: Self = Self(u32::MAX);
 }
 
@@ -95,22 +94,22 @@ impl NodeId {
 #[serde(transparent)]
 pub struct Version(pub u64);
 
-/// Nanoseconds on the clock of whoever commits. The graph orders by version and never reads a clock.
+/// Nanoseconds on the clock of the committer. The graph orders by version and never reads a clock.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Time(pub u64);
 
-/// A registered reflex. Ids are never given out twice.
+/// A registered reflex. Ids are never used twice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct ReflexId(pub u64);
 
-/// What identifies a symbolic edge: at most one edge per label and ordered pair of nodes.
+/// Identifies a symbolic edge: there is at most one per label and ordered pair of nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct EdgeKey {
     /// Where it starts.
     pub from: NodeId,
-    /// What it says.
+    /// Its label.
     pub label: LabelId,
     /// Where it ends.
     pub to: NodeId,

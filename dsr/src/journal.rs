@@ -2,12 +2,12 @@
 //!
 //! Problem: what a robot knew and did must outlive the process and be looked at afterwards, and no disk may slow the
 //! robot. Idea: a commit leaves a reference to its delta in a [`feed`]; one thread takes whatever waits as a group,
-//! appends it as one checksummed frame and syncs when the [`Durability`] says so. A journal is a row of segments, each of
-//! which begins with the vocabulary and a whole state, so that old ones can be let go of and any can be read alone.
+//! appends it as one checksummed frame and syncs when the [`Durability`] says so. A journal is a row of segments, each
+//! of which begins with the vocabulary and a whole state, so that old ones can be let go of and any can be read alone.
 //!
-//! Invariants: a journal read back gives each version to the byte, or says which it lacks; a writer waits for no disk, and
-//! no more than [`Settings::waiting_bytes`] wait for one; what is torn at the end is told apart from what was damaged
-//! later; no bytes make the reader panic.
+//! Invariants: a journal read back gives each version to the byte, or says which it lacks; a writer waits for no disk,
+//! and no more than [`Settings::waiting_bytes`] wait for one; what is torn at the end is told apart from what was
+//! damaged later; no bytes make the reader panic.
 //!
 //! This module is the only one of the crate that knows threads, times and files, and it opens none but those of a
 //! [`Folder`] or those that [`Recording::open`] is asked for.

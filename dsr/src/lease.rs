@@ -1,14 +1,15 @@
 //! Leases of exclusive resources, as the graph shows them: who speaks, who has the screen, who drives, and who is next.
 //!
-//! Problem: the paper's agents "are responsible for not unnecessarily disturbing a course of action". Idea: a lease is an
-//! edge `holds` from an agent to a resource, and a wait is an edge `awaits`. Both carry their priority as attributes, so
-//! every agent sees them and patterns can mention them. This file reads them; `transaction::claim` writes them.
+//! Problem: the paper's agents "are responsible for not unnecessarily disturbing a course of action". Idea: a lease is
+//! an edge `holds` from an agent to a resource, and a wait is an edge `awaits`. Both carry their priority as
+//! attributes, so every agent sees them and patterns can mention them. This file reads them; `transaction::claim`
+//! writes them.
 //!
 //! Invariants:
 //! - A resource has at most one holder. An agent awaits at most one resource, and not one that it holds.
 //! - The next holder is the waiting agent of the highest priority; among equals, the one that asked first.
-//! - Priority is inherited: a lease is worth at least as much as the most urgent wait for its holder, through any number
-//!   of waits. So an urgent agent never waits for an agent of low priority that one of medium priority holds up.
+//! - Priority is inherited: a lease is worth at least as much as the most urgent wait for its holder, through any
+//!   number of waits. So an urgent agent never waits for an agent of low priority that one of medium priority holds up.
 //! - Waits have no cycle (see `transaction::claim`).
 //!
 //! Cost: reading a lease walks the waits for its holder.
@@ -35,8 +36,8 @@ pub enum Preemption {
     /// The holder stops now: the claimant has the lease from its own commit on.
     #[default]
     Yields,
-    /// The holder finishes first: the claim is rejected, whatever its priority. An agent that waits gets the lease when it
-    /// is released.
+    /// The holder finishes first: the claim is rejected, whatever its priority. An agent that waits gets the lease when
+    /// it is released.
     Finishes,
 }
 

@@ -1,32 +1,32 @@
-//! Publication: readers take the present value and never wait; one writer at a time makes the next one.
+//! Publication: readers take the present value without waiting; one writer at a time makes the next one.
 //!
-//! Problem: a value that is edited in place cannot be read meanwhile, so whoever comes then must wait; one that is
-//! copied for every edit costs more than the edit. Idea: two values, twins. Readers have the present one. The writer
-//! has the other one to itself, one change behind: it lets it follow that change, edits it, and exchanges the two in
-//! one store. What was the present value is the other one now, and follows when the next writer comes. Where a
-//! reader still holds it, it is left to that reader and the present one is cloned instead, which for pages behind
-//! reference counts is a handful of counts, and a copy of what is then touched.
+//! Problem: a value that is edited in place cannot be read meanwhile, so readers would wait; copying the value for
+//! every edit costs more than the edit. Idea: two values, twins. Readers have the present one. The writer has the other
+//! one to itself, one change behind: it applies that change, edits the value, and exchanges the two in one store. The
+//! value that was present catches up when the next writer comes. If a reader still holds it, it is left to that reader,
+//! and the writer clones the present value instead; with pages behind reference counts, a clone is a few counts, and a
+//! copy of each page that is edited.
 //!
-//! Invariants: what is published is never edited; the other value has no second holder while it is edited. An edit
-//! that fails says that it has put everything back, or its value is given up; so does one that panics, whatever it
-//! had done by then. Reading is one load from the slot. Cost: an edit is made twice, the second time as a change that
-//! is already known to fit.
+//! Invariants: a published value is never edited; the other value has no second holder while it is edited. A writer
+//! whose edit fails has put everything back (`leave`), or its value is discarded; the value of a writer that panics is
+//! discarded too. Reading is one load from the slot. Cost: each edit is made twice, the second time as a change that is
+//! known to fit.
 //!
-//! Source: Ramalhete and Correia, "Left-Right", 2013, with the second copy given away to readers that are slow rather
-//! than waited for.
+//! Source: Ramalhete and Correia, "Left-Right", 2013; here the second copy is given away to slow readers instead of
+//! waiting for them.
 
 use super::sync::{Arc, Mutex, MutexGuard, PoisonError, Slot};
 
-/// A value that can be made the next one by a change.
+/// A value that a change turns into the next one.
 pub(crate) trait Twin: Clone {
-    /// What makes of one value the next one.
+    /// The change from one value to the next.
     type Change;
 
-    /// Makes the value the next one; false if it cannot, then it is given up.
+    /// Turns the value into the next one. If it returns false, the value is discarded.
     fn follow(&mut self, change: &Self::Change) -> bool;
 }
 
-/// A value for readers and writers, and what only writers have.
+/// A value for readers and writers, and data for writers only.
 pub(crate) struct LeftRight<T: Twin, W> {
     present: Slot<T>,
     writers: Mutex<Side<T, W>>,
@@ -35,9 +35,9 @@ pub(crate) struct LeftRight<T: Twin, W> {
 /// What the lock guards.
 struct Side<T: Twin, W> {
     twin: Option<Arc<T>>,
-    /// What the twin has yet to follow.
+    /// The change that the twin has not applied yet.
     behind: Option<T::Change>,
-    /// An edit has begun and neither ended nor been taken back.
+    /// An edit has begun, and was neither published nor put back.
     editing: bool,
     own: W,
 }
@@ -48,14 +48,14 @@ impl<T: Twin, W> LeftRight<T, W> {
         Self { present: Slot::new(Arc::new(value)), writers: Mutex::new(side) }
     }
 
-    /// The present value. Waits for nobody.
+    /// The present value. Never waits.
     pub(crate) fn read(&self) -> Arc<T> {
         self.present.load()
     }
 
-    /// Waits until no other writer is left.
+    /// Waits for the present writer to finish.
     pub(crate) fn write(&self) -> Writing<'_, T, W> {
-        // A writer that panicked leaves nothing but its twin, which `editing` gives up.
+        // After a panic of a writer only its twin is in doubt, and `editing` marks it to be discarded.
         let mut side = self.writers.lock().unwrap_or_else(PoisonError::into_inner);
         if std::mem::take(&mut side.editing) {
             (side.twin, side.behind) = (None, None);
@@ -71,22 +71,22 @@ pub(crate) struct Writing<'k, T: Twin, W> {
 }
 
 impl<T: Twin, W> Writing<'_, T, W> {
-    /// What only writers have.
+    /// The data for writers only.
     pub(crate) fn own(&mut self) -> &mut W {
         &mut self.side.own
     }
 
-    /// The present value, which stays that until `publish`.
+    /// The present value, until `publish`.
     pub(crate) fn present(&self) -> Arc<T> {
         self.states.present.load()
     }
 
-    /// What will most likely be given by `next`, as it is now: for having it in the cache.
+    /// The value that `next` will most likely return, as it is now: for loading it into the cache.
     pub(crate) fn ahead(&self) -> Option<&T> {
         self.side.twin.as_deref()
     }
 
-    /// A value like the present one, for the writer alone. What becomes of it is said by `publish` or `leave`.
+    /// A value equal to the present one, for the writer alone. End the edit with `publish` or `leave`.
     pub(crate) fn next(&mut self) -> &mut T {
         let Side { twin, behind, editing, .. } = &mut *self.side;
         *editing = true;
@@ -99,13 +99,13 @@ impl<T: Twin, W> Writing<'_, T, W> {
         Arc::get_mut(twin).expect("just made, or just found to have no other holder")
     }
 
-    /// The value of `next` is as it was given.
+    /// Ends an edit that has put the value of `next` back as it was.
     pub(crate) fn leave(&mut self) {
         self.side.editing = false;
     }
 
-    /// Makes the value of `next` the present one, and gives it, with what it replaces if nobody is to follow: that is
-    /// let go of after the lock. Without a change the next writer clones.
+    /// Makes the value of `next` the present one and returns it. Without a change, the next writer clones the present
+    /// value; the old one is returned too, for the caller to free without the lock.
     pub(crate) fn publish(&mut self, change: Option<T::Change>) -> (Arc<T>, Option<Arc<T>>) {
         let next = self.side.twin.take().unwrap_or_else(|| self.states.present.load());
         let before = self.states.present.swap(Arc::clone(&next));

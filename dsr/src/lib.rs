@@ -7,7 +7,8 @@
 //! lets the [`Reflex`]es of broken activities write in the very commit that broke them.
 //!
 //! It reads no clock and no socket: times are arguments, and the same transactions in the same order give the same
-//! bytes. A [`Journal`] writes them to a [`Store`] on a thread of its own, and a [`Recording`] gives every version back.
+//! bytes. A [`Journal`] writes them to a [`Store`] on a thread of its own, and a [`Recording`] gives every version
+//! back.
 //!
 //! ```
 //! use dsr::{AgentId, VocabularyBuilder, Graph, Nature, PatternBuilder, Time};
@@ -40,10 +41,11 @@
 //! # }
 //! ```
 //!
-//! Map, from the ground up: `id`, `unit`, `value` → `vocabulary` → `pages`, `block`, `names`, `members`, `state` (what a snapshot
-//! is), `pose`, `track`, `undo` → `transaction` (edits, leases, the tree of transforms), `delta`, `replay_check`, `replay`, `export` → `chain`, `pattern`,
-//! `reflex` → `snapshot`, `diff`, `past`, `sentence` → `subscription`,
-//! `routes`, `left_right` (how readers and writers keep out of each other's way), `graph`, `liveness` → `journal`.
+//! Map, from the ground up: `id`, `unit`, `value` → `vocabulary` → `pages`, `block`, `names`, `members`, `state` (what
+//! a snapshot is), `pose`, `track`, `undo` → `transaction` (edits, leases, the tree of transforms), `delta`,
+//! `replay_check`, `replay`, `export` → `chain`, `pattern`, `reflex` → `snapshot`, `diff`, `past`, `sentence` →
+//! `subscription`, `routes`, `left_right` (how readers and writers keep out of each other's way), `graph`, `liveness` →
+//! `journal`.
 
 mod block;
 mod chain;

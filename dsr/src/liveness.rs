@@ -1,30 +1,30 @@
-//! An agent that dies gives up what it holds.
+//! Liveness: an agent that dies gives up what it holds.
 //!
-//! Problem: the thread of an agent ends, by a panic or because nobody needs it, and the loudspeaker stays leased to it.
-//! Idea: whoever runs the agent keeps an [`Liveness`]; when that is dropped, as it is when its thread unwinds, the
-//! agent is buried in a commit of its own: its leases go to who waits for them, its reflexes fire. An agent in another
-//! process needs somebody here who keeps it, and drops it when the connection ends.
+//! Problem: the thread of an agent ends, by a panic or normally, and the loudspeaker stays leased to the agent. Idea:
+//! the code that runs the agent keeps a [`Liveness`]. Dropping it, as unwinding its thread does, expires the agent in a
+//! commit of its own: its leases pass to the agents that wait for them, and its reflexes fire. For an agent in another
+//! process, the server of its connection keeps the `Liveness` and drops it when the connection ends.
 
 use crate::graph::Graph;
 use crate::id::AgentId;
 
-/// An agent's life. Dropping it buries the agent, at the time of the newest commit.
+/// Keeps an agent alive. Dropping it expires the agent, at the time of the newest commit.
 #[derive(Debug)]
-#[must_use = "dropped at once, it buries the agent"]
+#[must_use = "dropping it expires the agent"]
 pub struct Liveness {
     graph: Graph,
     agent: AgentId,
 }
 
 impl Graph {
-    /// The agent lives as long as what this gives.
+    /// Expires the agent when the returned value is dropped.
     pub fn attend(&self, agent: AgentId) -> Liveness {
         Liveness { graph: self.clone(), agent }
     }
 }
 
 impl Liveness {
-    /// Whose.
+    /// The agent.
     pub fn agent(&self) -> AgentId {
         self.agent
     }
@@ -32,7 +32,7 @@ impl Liveness {
 
 impl Drop for Liveness {
     fn drop(&mut self) {
-        // Refused only for an agent of another vocabulary, which holds nothing here.
+        // Rejected only for an agent of another vocabulary, which holds nothing here.
         let _ = self.graph.expire(self.agent, self.graph.snapshot().time());
     }
 }

@@ -1,4 +1,5 @@
-//! The nodes of each type, as sets of bits in pages: a bit per node where a type is dense, 64 bytes where not.
+//! The nodes of each type, as bit sets in pages. Cost: one bit per node of a dense type, up to 64 bytes per node of a
+//! sparse one.
 
 use std::sync::Arc;
 
@@ -10,14 +11,14 @@ const BITS: usize = WORDS * 64;
 
 type Set = Pages<[u64; WORDS]>;
 
-/// The nodes of exactly one type, and how many they are.
+/// The nodes of exactly one type, and their number.
 #[derive(Debug, Clone, Default)]
 struct Kind {
     set: Set,
     count: usize,
 }
 
-/// Per type, the nodes of exactly that type.
+/// For each type, the nodes of exactly that type.
 #[derive(Debug, Clone)]
 pub(crate) struct Members {
     types: Arc<[Kind]>,
@@ -47,12 +48,12 @@ impl Members {
         }
     }
 
-    /// How many there are.
+    /// The number of nodes of exactly this type.
     pub(crate) fn count(&self, node_type: TypeId) -> usize {
         self.types.get(node_type.index()).map_or(0, |kind| kind.count)
     }
 
-    /// Ascending.
+    /// The nodes of exactly this type, ascending.
     pub(crate) fn of(&self, node_type: TypeId) -> impl Iterator<Item = NodeId> + '_ {
         let blocks = self.types.get(node_type.index()).into_iter().flat_map(|kind| kind.set.iter());
         let words = blocks.flat_map(|(block, words)| {

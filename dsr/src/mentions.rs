@@ -1,7 +1,7 @@
-//! What a pattern depends on and what a delta touches, as sets of tokens that can be intersected quickly.
+//! The tokens that a pattern depends on or a delta changes, as sets that intersect quickly.
 //!
-//! Invariant: if a delta's mentions and a pattern's do not intersect, the delta cannot change the pattern's
-//! matches. The converse may fail: an intersection only says that it is worth looking.
+//! Invariant: if the mentions of a delta and of a pattern do not intersect, the delta does not change the pattern's
+//! matches. If they do intersect, it may.
 
 use smallvec::SmallVec;
 
@@ -32,7 +32,7 @@ impl Bits {
     }
 }
 
-/// Labels, attributes, types of nodes that come or go, and whether transforms matter.
+/// Labels, attributes, types of added and removed nodes, and whether transforms are included.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Mentions {
     labels: Bits,
@@ -60,12 +60,12 @@ impl Mentions {
         self.attributes.iter().map(AttributeId::at)
     }
 
-    /// The types of nodes whose coming and going matters; for a pattern, with all subtypes.
+    /// The types of nodes that are added or removed; for a pattern, with all subtypes.
     pub fn types(&self) -> impl Iterator<Item = TypeId> + '_ {
         self.types.iter().map(TypeId::at)
     }
 
-    /// Whether transforms matter.
+    /// Whether transforms are included.
     pub fn transforms(&self) -> bool {
         self.transforms
     }
@@ -86,7 +86,7 @@ impl Mentions {
         self.labels.contains(label.index())
     }
 
-    /// Whether leases or waits for them matter.
+    /// Whether leases or waits are included.
     pub(crate) fn leases(&self) -> bool {
         self.has_label(LabelId::HOLDS) || self.has_label(LabelId::AWAITS)
     }

@@ -1,10 +1,10 @@
 //! Names of nodes: from id to name and back, in copies that share what has not been written since.
 //!
-//! Problem: one hash map of 10^6 names is copied as a whole for a snapshot, or stands still while it grows. Idea:
-//! linear hashing. The buckets are blocks of [`Pages`]; each insertion above the load splits at most one bucket,
-//! so the table grows without a pause and a write copies one bucket. A bucket holds hashes and ids; the name
-//! itself is with the id, and is looked at only when the hash agrees. The hash is fixed (no random state), and
-//! nothing iterates over the buckets.
+//! Problem: one hash map of 10^6 names is copied as a whole for a snapshot, and stalls a write while it grows. Idea:
+//! linear hashing. The buckets are blocks of [`Pages`]; each insertion above the load splits at most one bucket, so the
+//! table grows without a pause and a write copies one bucket. A bucket holds hashes and ids. The name itself is stored
+//! with the id, and is compared only when the hash agrees. The hash is fixed (no random state), and no code iterates
+//! over the buckets.
 //!
 //! Source: Litwin, "Linear hashing: a new tool for file and table addressing", VLDB 1980.
 
@@ -17,14 +17,14 @@ use crate::block::{NODES, place};
 use crate::id::NodeId;
 use crate::pages::Pages;
 
-/// How many names a bucket holds on average before one more bucket is made.
+/// The mean number of names per bucket above which a bucket is split.
 const LOAD: usize = 12;
 
 #[derive(Debug, Clone)]
 pub(crate) struct Names {
     texts: Pages<[Option<Arc<str>>; NODES]>,
     buckets: Pages<Vec<(u32, NodeId)>>,
-    /// How many buckets there are; at least one.
+    /// The number of buckets; at least one.
     count: usize,
     len: usize,
 }
@@ -40,8 +40,8 @@ fn hash_of(name: &str) -> u32 {
     u32::try_from((hash ^ (hash >> 32)) & u64::from(u32::MAX)).expect("32 bits")
 }
 
-/// The bucket of a hash when there are `count`: as if there were twice as many as at the last doubling, except
-/// for those that have not been split since.
+/// The bucket of a hash among `count` buckets: its bucket among the next power of two, or, if that one has not been
+/// split off yet, the bucket that will be split into it.
 fn bucket_of(hash: u32, count: usize) -> usize {
     let mask = count.next_power_of_two() - 1;
     let bucket = hash as usize & mask;
@@ -87,7 +87,7 @@ impl Names {
         Some(name)
     }
 
-    /// One more bucket, with what belongs there of the one that held it until now.
+    /// Splits one bucket into two.
     fn split(&mut self) {
         let new = self.count;
         let old = new & !(1 << new.ilog2());

@@ -1,13 +1,14 @@
-//! A sparse array of blocks that is written in place, unless somebody else still holds the path to the block.
+//! A sparse array of blocks that is written in place, and copied on write only while another copy shares the block.
 //!
-//! Problem: readers keep old states of a graph with 10^6 nodes while writers go on, and most of the time nobody
-//! keeps one. Idea: a radix tree behind `Arc` over blocks of plain cells. A copy is one reference count; a write
-//! asks at each level whether this copy is the only one, and copies that level only if it is not. The tables are
-//! narrow (32), because copying a table touches the count of each block below it, and those lie apart. The tree is
-//! as high as its largest index needs: the few hundred nodes that a robot has are one table.
-//! Cost: get is a dependent load per level and one for the block, four at most; a write to an array that nobody else
-//! holds adds an atomic exchange per level; to a held one, 64 reference counts, the root and one block, once per
-//! block and copy.
+//! Problem: readers keep old states of a graph with 10^6 nodes while writers go on; most of the time, no reader keeps
+//! one. Idea: a radix tree behind `Arc` over blocks of plain cells. A copy is one reference count. A write checks at
+//! each level whether this copy is the only one, and copies that level only if it is not. The tables are narrow (32
+//! entries), because copying a table touches the reference count of each block below it, and those lie apart in memory.
+//! The tree is as high as its largest index needs: the few hundred nodes of a robot fit in one table.
+//!
+//! Cost: a read is one dependent load per level and one for the block, four at most. A write to an array without
+//! another copy adds an atomic exchange per level. A write to a shared one copies, once per block and copy, 64
+//! reference counts, the root and one block.
 
 use std::sync::Arc;
 
@@ -25,7 +26,7 @@ enum Root<B> {
     Lower(Arc<Lower<B>>),
     /// Up to 1,024.
     Upper(Arc<Upper<B>>),
-    /// As many as one likes.
+    /// Any number.
     Top(Arc<[Option<Arc<Upper<B>>>]>),
 }
 
@@ -72,7 +73,7 @@ const fn split(index: usize) -> (usize, usize, usize) {
 }
 
 impl<B> Pages<B> {
-    /// The table of 32 blocks of that index.
+    /// The table of 32 blocks with that index.
     fn lower(&self, index: usize) -> Option<&Arc<Lower<B>>> {
         match self.root.as_ref()? {
             Root::Lower(table) => (index == 0).then_some(table),
@@ -81,7 +82,7 @@ impl<B> Pages<B> {
         }
     }
 
-    /// One more than the largest index that `lower` may have something for.
+    /// One more than the largest index for which `lower` may return a table.
     fn width(&self) -> usize {
         match &self.root {
             None => 0,
@@ -120,9 +121,9 @@ impl<B> Pages<B> {
 }
 
 impl<B: Clone> Pages<B> {
-    /// The block for writing, alone in this copy.
+    /// The block for writing, not shared with any other copy.
     pub(crate) fn get_mut(&mut self, index: usize) -> Option<&mut B> {
-        // An absent block must not cost a copy of the path to it.
+        // Looking for an absent block must not copy the path to it.
         self.get(index)?;
         let (top, middle, low) = split(index);
         let lower = match self.root.as_mut()? {
@@ -138,7 +139,7 @@ impl<B: Clone> Pages<B> {
 }
 
 impl<B: Clone + Default> Pages<B> {
-    /// The block for writing, made if it is not there.
+    /// The block for writing, created if it is absent.
     pub(crate) fn make(&mut self, index: usize) -> &mut B {
         let (top, middle, low) = split(index);
         let root = self.root.get_or_insert_with(|| Root::Lower(empty()));
@@ -156,7 +157,7 @@ impl<B: Clone + Default> Pages<B> {
 }
 
 impl<B> Root<B> {
-    /// Makes the tree as high and the root as wide as these tables need.
+    /// Grows the tree to the height, and the root to the width, that these tables need.
     fn reach(&mut self, top: usize, middle: usize) {
         if let Self::Lower(table) = self
             && (top, middle) != (0, 0)
@@ -171,7 +172,7 @@ impl<B> Root<B> {
         if let Self::Top(tables) = self
             && tables.len() <= top
         {
-            // A table more per 1,024 blocks: growing is rare enough to copy the root.
+            // The root grows by one table per 1,024 blocks, rarely enough to copy it.
             let more = std::iter::repeat_n(None, top + 1 - tables.len());
             *tables = tables.iter().cloned().chain(more).collect();
         }
@@ -187,7 +188,7 @@ mod tests {
     use super::*;
 
     proptest! {
-        /// Copies taken on the way never see what was written after them.
+        /// A copy never sees what is written after it was taken.
         #[test]
         fn copies_are_independent(writes in prop::collection::vec((0_usize..5000, any::<u16>(), any::<bool>()), 0..60)) {
             let (mut pages, mut model) = (Pages::<u16>::default(), BTreeMap::new());

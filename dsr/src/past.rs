@@ -1,7 +1,7 @@
-//! The last versions, for whoever wants to look back.
+//! The last versions, in memory.
 //!
-//! Problem: "what was it a second ago" should not need a disk. Idea: a ring of snapshots, none unless asked for, since
-//! each that is held makes commits copy. Invariant: what is remembered follows without gaps up to the present.
+//! Problem: "what was it a second ago" should not need a disk. Idea: a ring of snapshots, empty by default, because
+//! each held snapshot makes commits copy. Invariant: the versions in it are consecutive, up to the present one.
 
 use std::collections::VecDeque;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -14,9 +14,9 @@ pub(crate) struct Past(Mutex<Ring>);
 
 #[derive(Debug, Default)]
 struct Ring {
-    /// How many versions before the present one are kept.
+    /// The number of versions to keep before the present one.
     count: usize,
-    /// Oldest first, the present one last; empty if nothing is kept.
+    /// The oldest first, the present one last; empty if none is kept.
     versions: VecDeque<Snapshot>,
 }
 
@@ -25,7 +25,8 @@ impl Past {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Keeps so many from now on. Called under the commit lock; gives what nobody needs any more.
+    /// Sets the number of versions to keep. Called under the commit lock. Returns the snapshots that are dropped, for
+    /// the caller to free without the lock.
     pub(crate) fn keep(&self, count: usize, present: &Snapshot) -> Vec<Snapshot> {
         let mut ring = self.lock();
         ring.count = count;
@@ -37,7 +38,7 @@ impl Past {
         ring.versions.drain(..surplus).collect()
     }
 
-    /// Takes a new version. Called under the commit lock; gives the one that is forgotten.
+    /// Adds a new version. Called under the commit lock. Returns the snapshot that is dropped.
     pub(crate) fn push(&self, snapshot: &Snapshot) -> Option<Snapshot> {
         let mut ring = self.lock();
         if ring.count == 0 {

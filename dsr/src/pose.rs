@@ -1,17 +1,18 @@
-//! Poses with what is known of their error.
+//! Poses with the covariance of their error.
 //!
 //! Convention: a covariance is that of `(x, y, z, α, β, γ)`, the error of the position and a small rotation, both along
-//! the axes of the frame in which the pose is given: `T' = (t + δt, exp(δφ)·R)`, as ROS has it in
-//! `PoseWithCovariance`. Metres and radians. Errors of different edges are taken to be independent.
+//! the axes of the frame in which the pose is given: `T' = (t + δt, exp(δφ)·R)`, as in ROS's `PoseWithCovariance`.
+//! Metres and radians. The errors of different edges count as independent.
 //!
-//! Along a chain they add up to first order. For `T = T₁·T₂` with `r = R₁·t₂`
+//! Along a chain, errors add up to first order. For `T = T₁·T₂` with `r = R₁·t₂`
 //!
 //! ```text
 //! δt = δt₁ − [r]ₓ·δφ₁ + R₁·δt₂          δφ = δφ₁ + R₁·δφ₂
 //! ```
 //!
-//! and for `T⁻¹`: `δt' = −Rᵀ·(δt + [t]ₓ·δφ)`, `δφ' = −Rᵀ·δφ`. Invariant: a [`Covariance`] is finite, symmetric and has no
-//! negative variance in any direction, wherever it comes from. Cost: four products of 6×6 matrices per edge that has one.
+//! and for `T⁻¹`: `δt' = −Rᵀ·(δt + [t]ₓ·δφ)`, `δφ' = −Rᵀ·δφ`. Invariant: a [`Covariance`] is finite, symmetric and has
+//! no negative variance in any direction, also when it was read from a file. Cost: four products of 6×6 matrices per
+//! edge that has one.
 //!
 //! Source: Smith, Self and Cheeseman, "Estimating uncertain spatial relationships in robotics", 1990 (compounding);
 //! Barfoot and Furgale, "Associating uncertainty with three-dimensional poses", IEEE T-RO 30, 2014 (rotations by their
@@ -28,25 +29,25 @@ use serde::{Deserialize, Serialize};
 #[serde(try_from = "[[f64; 6]; 6]", into = "[[f64; 6]; 6]")]
 pub struct Covariance(Matrix6<f64>);
 
-/// Why a matrix is no covariance.
+/// Why a matrix is not a covariance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum CovarianceError {
-    /// A number is infinite or none.
+    /// A number is infinite or not a number.
     #[error("the covariance has a number that is not finite")]
     NotFinite,
-    /// It differs from its transpose.
+    /// The matrix differs from its transpose.
     #[error("the covariance is not symmetric")]
     NotSymmetric,
-    /// A variance would be negative, along an axis or between them.
+    /// The variance in some direction is negative.
     #[error("the covariance has a negative variance in some direction")]
     NotPositive,
 }
 
-/// Of the largest number: what rounding may leave.
+/// The rounding error that is tolerated, relative to the largest number.
 const ROUNDING: f64 = 1e-9;
 
 impl Covariance {
-    /// Checks and takes a matrix; what rounding has left of asymmetry is evened out.
+    /// Checks a matrix, and evens out the asymmetry that rounding left.
     pub fn new(matrix: Matrix6<f64>) -> Result<Self, CovarianceError> {
         if !matrix.iter().all(|number| number.is_finite()) {
             return Err(CovarianceError::NotFinite);
@@ -55,8 +56,8 @@ impl Covariance {
         if (matrix - even).amax() > matrix.amax() * ROUNDING {
             return Err(CovarianceError::NotSymmetric);
         }
-        // Singular ones are common: a robot on a floor has no error upwards. Of what is kept, so that what has been taken
-        // once is taken again, when it is read.
+        // Singular matrices are common: a robot on a floor has no error upwards. The check is of the symmetric matrix,
+        // which is the one that is stored: so a covariance that was accepted once is accepted again when it is read.
         let scale = even.amax();
         let shifted = even + Matrix6::identity() * (scale * ROUNDING);
         if scale > 0.0 && Cholesky::new(shifted).is_none() {
@@ -65,7 +66,7 @@ impl Covariance {
         Ok(Self(even))
     }
 
-    /// At `part` of the way to another; `None` where rounding has made it none.
+    /// The mean at the fraction `part` of the way to another; `None` if rounding has made it invalid.
     pub(crate) fn towards(&self, other: &Self, part: f64) -> Option<Self> {
         Self::new(self.0 * (1.0 - part) + other.0 * part).ok()
     }
@@ -90,12 +91,12 @@ impl From<Covariance> for [[f64; 6]; 6] {
     }
 }
 
-/// A pose, with its covariance if that is known.
+/// A pose, with its covariance if it is known.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Pose {
-    /// Maps coordinates of the child into the parent.
+    /// Maps coordinates of the child into the parent's frame.
     pub transform: Isometry3<f64>,
-    /// How far off it may be.
+    /// The covariance of its error; `None` if it is unknown, or if the pose is exact.
     pub covariance: Option<Arc<Covariance>>,
 }
 
@@ -116,13 +117,13 @@ impl Pose {
         translation.vector.iter().chain(rotation.coords.iter()).all(|number| number.is_finite())
     }
 
-    /// Whether it is a pose at all. A rotation that was read or made without a check need not be one, and is not made one
-    /// here: the bits of what was written come back.
+    /// Whether the rotation is a unit quaternion, as far as rounding allows. One that was read, or made without a
+    /// check, need not be. It is not normalised here, because a read must return the bits that were written.
     pub(crate) fn is_rigid(&self) -> bool {
         self.is_finite() && (self.transform.rotation.coords.norm() - 1.0).abs() < 1e-3
     }
 
-    /// Same to the bit.
+    /// Equal to the bit.
     pub(crate) fn same(&self, other: &Self) -> bool {
         let bits = |pose: &Self| {
             let (t, q) = (&pose.transform.translation.vector, &pose.transform.rotation.coords);
@@ -140,21 +141,21 @@ impl Pose {
     }
 }
 
-/// A pose on the way along a chain.
+/// The pose of a part of a chain.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Uncertain {
     transform: Isometry3<f64>,
     error: Error,
 }
 
-/// What is known of the error of a pose on the way.
+/// The error of the pose of a part of a chain.
 #[derive(Debug, Clone, Copy)]
 #[expect(clippy::large_enum_variant, reason = "a box per edge would cost more than the room on the stack")]
 enum Error {
-    /// There is none.
+    /// The pose is exact.
     None,
     Known(Matrix6<f64>),
-    /// There is one that nobody has told.
+    /// The error is unknown.
     Unknown,
 }
 
@@ -189,8 +190,8 @@ impl Uncertain {
         Self { transform: Isometry3::identity(), error: Error::None }
     }
 
-    /// A pose of an edge. One that stands is exact if nobody says otherwise, like a mounting; one that moves was measured,
-    /// so that without a covariance its error is not known.
+    /// The pose of one edge. Without a covariance, a static pose is exact, like a mounting; a moving pose was measured,
+    /// so its error is unknown.
     pub(crate) fn of(pose: &Pose, moves: bool) -> Self {
         let error = match &pose.covariance {
             Some(covariance) => Error::Known(covariance.0),
@@ -210,10 +211,10 @@ impl Uncertain {
         }
     }
 
-    /// As what callers see.
+    /// The pose as callers see it.
     pub(crate) fn pose(self) -> Pose {
         let covariance = match self.error {
-            // Numbers too large, or lost in rounding along a chain of kilometres: nothing is known then.
+            // Numbers that are too large, or were lost in rounding along a chain of kilometres, make the error unknown.
             Error::Known(matrix) => Covariance::new(matrix).ok().map(Arc::new),
             Error::None | Error::Unknown => None,
         };
@@ -270,7 +271,8 @@ mod tests {
     }
 
     proptest! {
-        /// An error in one direction becomes the one that measuring it gives, to first order; and independent ones add up.
+        /// To first order, an error in one direction changes the product as a numeric derivative says, and independent
+        /// errors add up.
         #[test]
         fn errors_add_up_along_a_chain(
             a in prop::array::uniform6(-3.0..3.0),
@@ -293,7 +295,7 @@ mod tests {
         }
 
         #[test]
-        fn what_is_added_up_is_a_covariance(
+        fn a_sum_of_covariances_is_a_covariance(
             poses in prop::collection::vec((prop::array::uniform6(-3.0..3.0), prop::array::uniform6(-1.0..1.0)), 1..20),
         ) {
             let along = poses.iter().fold(Uncertain::identity(), |sum, (pose, error)| {
@@ -303,9 +305,9 @@ mod tests {
         }
     }
 
-    /// A variance that stands for "no idea" may be too large to be added up.
+    /// A variance that means "unknown" may be too large to be added up.
     #[test]
-    fn what_is_too_large_is_not_known() {
+    fn a_covariance_that_overflows_is_unknown() {
         let vast =
             Uncertain { transform: Isometry3::identity(), error: Error::Known(Matrix6::identity() * 1e308) };
         assert_eq!(vast.pose().covariance.map(|known| known.matrix()[(0, 0)]), Some(1e308));
@@ -313,14 +315,14 @@ mod tests {
     }
 
     #[test]
-    fn what_is_none_is_refused() {
+    fn invalid_matrices_are_rejected() {
         let whole = |change: fn(&mut Matrix6<f64>)| {
             let mut matrix = Matrix6::identity() * 0.01;
             change(&mut matrix);
             Covariance::new(matrix)
         };
         assert!(whole(|_| {}).is_ok());
-        assert!(whole(|m| m.fill(0.0)).is_ok(), "nobody is wrong here");
+        assert!(whole(|m| m.fill(0.0)).is_ok(), "an exact pose");
         assert_eq!(whole(|m| m[(2, 2)] = f64::NAN), Err(CovarianceError::NotFinite));
         assert_eq!(whole(|m| m[(0, 1)] = 0.002), Err(CovarianceError::NotSymmetric));
         assert_eq!(whole(|m| m[(5, 5)] = -0.001), Err(CovarianceError::NotPositive));

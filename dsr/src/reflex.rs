@@ -1,9 +1,9 @@
 //! Reflexes: edits made in the very commit that breaks a condition of a running activity.
 //!
-//! Problem: a robot goes on speaking to an empty chair until its planner notices. Idea: an activity registers with the graph
-//! the conditions that must keep holding, and the edits to make when one no longer holds. Each commit, before it is
-//! published, lets the broken reflexes write as their owners. So no version shows the person gone and the robot still
-//! speaking.
+//! Problem: a robot goes on speaking to an empty chair until its planner notices. Idea: an activity registers with the
+//! graph the conditions that must keep holding, and the edits to make when one no longer holds. Each commit, before it
+//! is published, lets the broken reflexes write as their owners. So no version shows the person gone and the robot
+//! still speaking.
 //!
 //! This file says what a reflex is; `transaction::reflexes` registers and fires them.
 //!
@@ -16,11 +16,11 @@ use serde::{Deserialize, Serialize};
 use crate::id::{AgentId, NodeId, ResourceId};
 use crate::pattern::{Pattern, PatternError, PatternSource, Variable};
 use crate::state::State;
-use crate::transaction::Edit;
+use crate::transaction::edit::Edit;
 use crate::vocabulary::Vocabulary;
 
-/// A pattern with nodes for some of its variables. With `P` = [`PatternSource`] it is plain data, and so are [`Keep`] and
-/// [`Reflex`].
+/// A pattern with nodes for some of its variables. With `P` = [`PatternSource`] it is plain data, and so are [`Keep`]
+/// and [`Reflex`].
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Bound<P = Arc<Pattern>> {
     /// The pattern.

@@ -1,7 +1,7 @@
-//! Replay: from a state and the deltas after it to the state now, without asking anybody for permission again.
+//! Replay: from a state and the deltas after it to the present state, without checking permissions again.
 //!
-//! Invariant: replaying what a graph published gives its export, byte for byte. A delta that cannot have come
-//! after the state it is applied to is an error that names the version, never a panic.
+//! Invariant: replaying what a graph published gives its export, byte for byte. A delta that cannot follow the state to
+//! which it is applied gives an error with its version, never a panic.
 
 use crate::block::Cell;
 use crate::delta::{Change, Delta};
@@ -13,13 +13,13 @@ use crate::state::log::Mark;
 use crate::transaction::invariants;
 use crate::value::Value;
 
-/// Why deltas do not continue a state.
+/// Why a delta cannot follow a state.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ReplayError {
-    /// The initial state is not one of this vocabulary.
+    /// The initial state is invalid for this vocabulary.
     #[error(transparent)]
     Restore(#[from] crate::export::RestoreError),
-    /// A version is missing or comes twice.
+    /// A version is missing or repeated.
     #[error("version {} cannot follow version {}", found.0, at.0)]
     Gap {
         /// The version of the state.
@@ -27,7 +27,7 @@ pub enum ReplayError {
         /// The version of the delta.
         found: Version,
     },
-    /// A change does not fit the state.
+    /// A change cannot be applied to the state.
     #[error("version {}: change {change} does not fit", version.0)]
     Misfit {
         /// The version of the delta.
@@ -69,9 +69,8 @@ fn redo_all(state: &mut State, delta: &Delta, mark: Mark) -> Result<(), ReplayEr
     if state.log.mentions.leases() && !lease::are_sound(state) { Err(as_a_whole) } else { Ok(()) }
 }
 
-/// Applies a delta that another copy of the same state made, so that it is known to fit; false if it does not continue
-/// the state all the same. Edges and attributes, which is most of what is written, are put where they belong without
-/// being looked up first.
+/// Applies a delta that was made on a copy of this state, and so is known to fit. Returns false if it does not follow
+/// the state. Changes of edges and attributes, the most frequent ones, are written without looking up the old value.
 pub(crate) fn follow(state: &mut State, delta: &Delta) -> bool {
     let plain = |change: &Change| {
         matches!(
@@ -106,7 +105,7 @@ pub(crate) fn follow(state: &mut State, delta: &Delta) -> bool {
     true
 }
 
-/// Applies one change, or `None` if the state is not the one before it.
+/// Applies one change; `None` if it cannot follow the state.
 fn redo(state: &mut State, change: &Change, since: Version) -> Option<()> {
     let fits = |found: bool| found.then_some(());
     match change {
@@ -190,9 +189,9 @@ mod tests {
     use crate::id::{AgentId, Time};
     use crate::vocabulary::{Nature, VocabularyBuilder};
 
-    /// Two sensors by turns: each twin, and a replay, is told of half of the samples or of all by deltas alone.
+    /// Two sensors in turn: each of the two states, and a replay, gets half or all of the samples through deltas.
     #[test]
-    fn samples_that_nobody_can_see_are_let_go_of_wherever_a_delta_is_applied() {
+    fn invisible_samples_are_freed_wherever_a_delta_is_applied() {
         let mut builder = VocabularyBuilder::new();
         let place = builder.node_type("place", None, Nature::Geometric).expect("a new type");
         let graph = Graph::new(builder.build());

@@ -1,9 +1,9 @@
-//! What may stand in a state, whoever says that it did: a restored export, a replayed delta.
+//! Rules for parts of a state that come from outside: a restored export, a replayed delta.
 //!
-//! A transaction is checked edit by edit, and told what is wrong with it. What was read from a file is held against the
-//! same rules here, part by part, and only whether it fits is told, because a graph never wrote what does not.
-//! What concerns the graph as a whole is judged when all parts are there: the tree of transforms by
-//! `transaction::tree`, leases and waits by `transaction::lease`.
+//! A transaction is checked edit by edit, with an error that explains the fault (`transaction::check`). Data from a
+//! file is checked here against the same rules, part by part, with a yes or no: a graph never writes data that breaks
+//! them. Rules for the graph as a whole are checked when all parts are in place: transforms and degrees by
+//! `transaction::invariants`, leases and waits by `lease::are_sound`.
 
 use crate::block::Node;
 use crate::id::{AttributeId, EdgeKey, Holder, NodeId, TypeId};
@@ -16,7 +16,7 @@ fn type_of(state: &State, id: NodeId) -> Option<TypeId> {
     state.node(id).map(Node::node_type)
 }
 
-/// Whether an edge may come. Leases and waits are edges like others here.
+/// Whether an edge may be added. Leases and waits count as edges here.
 pub(crate) fn edge_fits(state: &State, key: EdgeKey) -> bool {
     let EdgeKey { from, label, to } = key;
     let types = type_of(state, from).zip(type_of(state, to));
@@ -24,7 +24,7 @@ pub(crate) fn edge_fits(state: &State, key: EdgeKey) -> bool {
     from != to && allowed && state.edge(key).is_none()
 }
 
-/// Whether an attribute may have this value there.
+/// Whether the attribute of this holder may have this value.
 pub(crate) fn value_fits(state: &State, holder: Holder, attribute: AttributeId, value: &Value) -> bool {
     let vocabulary = &state.vocabulary;
     let sits = vocabulary.holder(attribute).is_some_and(|declared| match holder {
@@ -47,7 +47,7 @@ pub(crate) fn value_fits(state: &State, holder: Holder, attribute: AttributeId, 
     }
 }
 
-/// Whether a pose may be given between these two, if no other parent is in the way.
+/// Whether `child` may have this pose in `parent`, as far as it has no other parent.
 pub(crate) fn pose_fits(state: &State, parent: NodeId, child: NodeId, pose: &Pose) -> bool {
     let geometric = |id| {
         let nature = type_of(state, id).and_then(|found| state.vocabulary.nature(found));

@@ -1,6 +1,7 @@
-//! Snapshots: one state of the graph, for as long as anybody wants to look at it.
+//! Snapshots: one immutable state of the graph.
 //!
-//! Taking one costs a reference count, reading one takes no lock, holding one keeps only what has changed since.
+//! Taking a snapshot costs a reference count, and reading one takes no lock. Holding one keeps in memory what later
+//! commits overwrite.
 
 use std::sync::Arc;
 
@@ -83,7 +84,7 @@ impl<'a> NodeView<'a> {
         self.node.cells().iter().map(Cell::view)
     }
 
-    /// The edges that leave it, by label and end.
+    /// Its outgoing edges, by label and end.
     pub fn edges(&self) -> impl Iterator<Item = EdgeView<'a>> + use<'a> {
         let (from, node) = (self.id, self.node);
         node.outgoing().iter().map(move |edge| EdgeView {
@@ -93,24 +94,24 @@ impl<'a> NodeView<'a> {
         })
     }
 
-    /// The edges that reach it, by label and start.
+    /// Its incoming edges, by label and start.
     pub fn incoming(&self) -> impl Iterator<Item = EdgeKey> + use<'a> {
         let to = self.id;
         self.node.incoming().iter().map(move |&(label, from)| EdgeKey { from, label, to })
     }
 
-    /// What it hangs below in the geometric quiver, its pose there, and the version that gave it.
+    /// Its parent in the geometric quiver, its newest pose there, and the version that wrote it.
     pub fn parent(&self) -> Option<(NodeId, &'a Pose, Version)> {
         self.state.joint(self.id).map(|joint| (joint.parent, &joint.pose, joint.since))
     }
 
-    /// The stamped poses that the edge from its parent remembers, in order of time; none of one that stands.
+    /// The stamped poses of a moving node in its parent, in order of time; empty for a static one.
     pub fn poses(&self) -> impl Iterator<Item = (Time, &'a Pose)> + use<'a> {
         let track = self.state.joint(self.id).and_then(|joint| joint.track.as_ref());
         track.into_iter().flat_map(|track| track.samples()).map(|sample| (sample.time, &sample.pose))
     }
 
-    /// What hangs below it in the geometric quiver, by id.
+    /// Its children in the geometric quiver, by id.
     pub fn children(&self) -> &'a [NodeId] {
         self.state.children(self.id)
     }
@@ -189,7 +190,7 @@ impl Snapshot {
         })
     }
 
-    /// Whether the edge is there.
+    /// Whether the edge exists.
     pub fn has_edge(&self, from: NodeId, label: LabelId, to: NodeId) -> bool {
         self.edge(from, label, to).is_some()
     }
@@ -208,19 +209,19 @@ impl Snapshot {
         self.state.cell(holder.into(), attribute).map(Cell::view)
     }
 
-    /// The pose of frame `to` in frame `from`, each pose between them the newest there is: maps coordinates of `to`
-    /// into `from`. See the README.
+    /// The pose of frame `to` in frame `from`, by the newest pose of each edge between them. It maps coordinates of
+    /// `to` into `from`; see the README.
     pub fn transform(&self, from: NodeId, to: NodeId) -> Result<Isometry3<f64>, ChainError> {
         chain::transform(&self.state, from, to)
     }
 
-    /// The pose of frame `to` in frame `from` at a time. Poses that move are interpolated; times outside what one of
-    /// them remembers are refused with the name of the edge.
+    /// The pose of frame `to` in frame `from` at a time. The poses of moving frames are interpolated. A time for which
+    /// an edge has no pose is an error with the names of that edge.
     pub fn transform_at(&self, from: NodeId, to: NodeId, time: Time) -> Result<Isometry3<f64>, ChainError> {
         chain::transform_at(&self.state, from, to, time)
     }
 
-    /// The newest time at which all poses between the two frames are known; `None` if all of them stand.
+    /// The newest time for which every edge between the two frames has a pose; `None` if all are static.
     pub fn common_time(&self, from: NodeId, to: NodeId) -> Result<Option<Time>, ChainError> {
         chain::common_time(&self.state, from, to)
     }
@@ -230,13 +231,13 @@ impl Snapshot {
         chain::transform_together(&self.state, from, to)
     }
 
-    /// The newest pose of frame `to` in frame `from` with its covariance, to first order; none if no edge between them has
-    /// one, or if one that moves has none. See [`Covariance`](crate::Covariance).
+    /// The newest pose of frame `to` in frame `from` with its covariance, to first order. There is no covariance if no
+    /// edge between them has one, or if a moving edge has none. See [`Covariance`](crate::Covariance).
     pub fn pose(&self, from: NodeId, to: NodeId) -> Result<Pose, ChainError> {
         chain::pose(&self.state, from, to)
     }
 
-    /// The same at a time.
+    /// Like [`Snapshot::pose`], at a time.
     pub fn pose_at(&self, from: NodeId, to: NodeId, time: Time) -> Result<Pose, ChainError> {
         chain::pose_at(&self.state, from, to, time)
     }
@@ -246,35 +247,35 @@ impl Snapshot {
         chain::distance(&self.state, from, to)
     }
 
-    /// In which direction the origin of frame `to` lies in the plane of frame `from`: radians from its x axis, positive
+    /// The direction of the origin of frame `to` in the plane of frame `from`: radians from its x axis, positive
     /// towards y, in (-π, π].
     pub fn bearing(&self, from: NodeId, to: NodeId) -> Result<f64, ChainError> {
         chain::bearing(&self.state, from, to)
     }
 
-    /// Whether the origin of frame `to` lies no further from that of `from` than the attribute `reach` of `from` says, in
-    /// metres; false without it.
+    /// Whether the distance from frame `from` to frame `to` is at most the attribute `reach` of `from`, in metres;
+    /// false if the attribute has no value.
     pub fn reachable(&self, from: NodeId, to: NodeId, reach: AttributeId) -> Result<bool, ChainError> {
         let reach = self.attribute(from, reach).and_then(Value::as_number);
         Ok(Some(self.distance(from, to)?) <= reach)
     }
 
-    /// The root of the geometric quiver, if any transform is there.
+    /// The root of the geometric quiver, if it has any transform.
     pub fn root(&self) -> Option<NodeId> {
         self.state.root
     }
 
-    /// Who holds a resource.
+    /// The lease of a resource, if an agent holds it.
     pub fn lease(&self, resource: ResourceId) -> Option<Lease> {
         lease::lease(&self.state, resource)
     }
 
-    /// Who waits for a resource, the next first.
+    /// The agents that wait for a resource, the next holder first.
     pub fn waiting(&self, resource: ResourceId) -> Vec<Waiting> {
         lease::waiting(&self.state, resource)
     }
 
-    /// What an agent waits for.
+    /// The resource for which an agent waits.
     pub fn awaited(&self, agent: AgentId) -> Option<ResourceId> {
         lease::awaited(&self.state, agent)
     }

@@ -1,7 +1,7 @@
 //! One state of the graph: the value behind a snapshot.
 //!
-//! Sixteen nodes share a block. Blocks are in pages, which are copied on write only while a snapshot holds them. Names and
-//! poses have pages of their own. This file has the fields and reads them; the modules below write:
+//! Sixteen nodes share a block. Blocks are in pages, which are copied on write only while a snapshot holds them. Names
+//! and poses have pages of their own. This file has the fields and reads them; the modules below write:
 //!
 //! 1. `raw`: unlogged edits. Each keeps the indexes in step: an edge is listed at both ends, a transform at parent and
 //!    child, a reference at the node that it refers to.
@@ -9,8 +9,8 @@
 //! 3. `write`: logged edits, made of raw ones. They check no rule; `transaction::check` does.
 //! 4. `rollback`: undoing what was logged.
 //!
-//! Cost: a copy is a few reference counts. An edit is a binary search in one or two blocks, and copies each block once if
-//! a snapshot holds it.
+//! Cost: a copy is a few reference counts. An edit is a binary search in one or two blocks, and copies each block once
+//! if a snapshot holds it.
 
 pub(crate) mod log;
 mod raw;

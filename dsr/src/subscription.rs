@@ -5,10 +5,11 @@
 //! (`pattern::seed`). Invariant: what a subscriber holds is what matching its pattern from scratch would give.
 //!
 //! Overflow: a queue that is full is emptied, and from then on keeps one thing, the newest state, until its subscriber
-//! comes for it: so a pattern subscriber misses intermediate matches but never ends up with a wrong set of them, and one
-//! that never comes holds old states only until its queue is full, and commits do not copy around them for ever. Waking: a blocked `recv` by a condition
-//! variable, anything else (an async task) by a callback; both after the commit's lock and the queue's are given back,
-//! so that who wakes finds neither taken. What an emptied queue held is freed then too.
+//! comes for it: so a pattern subscriber misses intermediate matches but never ends up with a wrong set of them, and
+//! one that never comes holds old states only until its queue is full, and commits do not copy around them for ever.
+//! Waking: a blocked `recv` by a condition variable, anything else (an async task) by a callback; both after the
+//! commit's lock and the queue's are given back, so that who wakes finds neither taken. What an emptied queue held is
+//! freed then too.
 
 use std::cell::Cell;
 use std::collections::{BTreeSet, VecDeque};

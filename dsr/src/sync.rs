@@ -1,12 +1,12 @@
-//! What `left_right` takes from the machine: a lock, a reference count, and a slot that is read without waiting.
+//! The primitives of `left_right`: a lock, a reference count, and a slot that is read without waiting.
 //!
-//! Kept apart so that the model test (`tests/loom.rs`) can put loom's in their place.
+//! They are apart so that the model test (`tests/loom.rs`) can replace them with loom's.
 
 pub(crate) use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use arc_swap::ArcSwap;
 
-/// Holds one value for everybody. Neither reading nor writing it waits for anyone.
+/// Holds one shared value. Neither reading nor writing it waits.
 pub(crate) struct Slot<T>(ArcSwap<T>);
 
 impl<T> Slot<T> {
@@ -18,7 +18,7 @@ impl<T> Slot<T> {
         self.0.load_full()
     }
 
-    /// Puts a value in place of the one there; gives that, with every reader's reference counted.
+    /// Replaces the value. Returns the old one, whose reference count includes every reader.
     pub(crate) fn swap(&self, value: Arc<T>) -> Arc<T> {
         self.0.swap(value)
     }

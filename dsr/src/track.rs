@@ -1,15 +1,14 @@
-//! Where a frame was in its parent, as stamped poses of the last ten seconds.
+//! The poses of a moving frame in its parent: stamped samples of the last ten seconds.
 //!
-//! Problem: sensors are late, so one asks where the camera was when the picture was taken, and the answer lies
-//! between two poses. Idea: a list in order of time, cut into chunks behind `Arc`: a write copies one chunk while a
-//! snapshot holds it, a look is two binary searches and an interpolation. Translations are interpolated linearly,
-//! rotations along the great circle (slerp), the short way round. Invariant: no chunk is empty, times rise
-//! strictly, and nothing is said of times outside the buffer. What lies further back than [`HORIZON`] is invisible
-//! at once and is let go of by the chunk.
+//! Problem: sensors are late. A caller asks where the camera was when a picture was taken, and the answer lies between
+//! two poses. Idea: a list in order of time, in chunks behind `Arc`: a write copies one chunk while a snapshot holds
+//! it, a look-up is two binary searches and an interpolation. Translations are interpolated linearly, rotations along
+//! the shorter great circle (slerp). Invariant: no chunk is empty, times rise strictly, and a time outside the samples
+//! has no pose. Samples older than [`HORIZON`] are invisible at once, and are freed a chunk at a time.
 //!
-//! Source: Foote, "tf: the transform library", TePRA 2013 (the buffer and its length); Shoemake, "Animating
-//! rotation with quaternion curves", SIGGRAPH 1985 (slerp); Eberly, "A fast and accurate algorithm for computing slerp",
-//! Journal of Graphics, GPU, and Game Tools 15, 2011 (the series).
+//! Source: Foote, "tf: the transform library", TePRA 2013 (the buffer and its length); Shoemake, "Animating rotation
+//! with quaternion curves", SIGGRAPH 1985 (slerp); Eberly, "A fast and accurate algorithm for computing slerp", Journal
+//! of Graphics, GPU, and Game Tools 15, 2011 (the series).
 
 use std::sync::Arc;
 
@@ -18,10 +17,10 @@ use nalgebra::{Isometry3, Quaternion, Translation3, Unit, UnitQuaternion};
 use crate::id::Time;
 use crate::pose::Pose;
 
-/// How far back the poses of an edge reach from its newest: ten seconds.
+/// How far the samples of a moving frame reach back from the newest one: ten seconds.
 pub const HORIZON: Time = Time(10_000_000_000);
 
-/// How many poses share a chunk.
+/// The most samples in a chunk.
 const CHUNK: usize = 32;
 
 #[derive(Debug, Clone)]
@@ -47,7 +46,7 @@ impl Track {
         self.newest
     }
 
-    /// The time before which nothing is visible.
+    /// Samples before this time are invisible.
     pub(crate) fn horizon(&self) -> Time {
         Time(self.newest.0.saturating_sub(HORIZON.0))
     }
@@ -68,7 +67,7 @@ impl Track {
         self.chunks.partition_point(|(first, _)| *first <= time).saturating_sub(1)
     }
 
-    /// Puts a sample in its place; gives the one of the same time that was there.
+    /// Inserts a sample. Returns the old one of the same time, if there was one.
     pub(crate) fn put(&mut self, time: Time, pose: Pose) -> Option<Pose> {
         let at = self.chunk_of(time);
         self.newest = self.newest.max(time);
@@ -95,7 +94,7 @@ impl Track {
         None
     }
 
-    /// Takes the sample of exactly this time back; another one must be left.
+    /// Removes the sample of exactly this time. It must not be the only one.
     pub(crate) fn take(&mut self, time: Time) {
         let at = self.chunk_of(time);
         let (first, chunk) = &mut self.chunks[at];
@@ -111,7 +110,7 @@ impl Track {
         }
     }
 
-    /// Lets go of chunks that nobody can see any more.
+    /// Frees the chunks whose samples are all invisible.
     pub(crate) fn evict(&mut self) {
         let start = self.horizon();
         let gone = self.chunks.partition_point(|(first, _)| *first <= start).saturating_sub(1);
@@ -123,12 +122,13 @@ impl Track {
         self.chunks.len()
     }
 
-    /// Whether there are chunks to let go of.
+    /// Whether a chunk can be freed.
     pub(crate) fn has_invisible(&self) -> bool {
         self.chunks.get(1).is_some_and(|(first, _)| *first <= self.horizon())
     }
 
-    /// The first sample of a chunk after a time. Sensors are regular: look first where it would be if this one were.
+    /// The position in a chunk of the first sample after a time. Sensors are regular, so the search begins where the
+    /// sample would be if they were evenly spaced.
     fn after(&self, index: usize, time: Time) -> usize {
         let (first, chunk) = &self.chunks[index];
         let end = self.chunks.get(index + 1).map_or(self.newest.0.saturating_add(1), |(next, _)| next.0);
@@ -143,7 +143,7 @@ impl Track {
         chunk.partition_point(|sample| sample.time <= time)
     }
 
-    /// The pose at a time, or the first and the last time of the buffer.
+    /// The pose at a time, or the first and the last time for which there is one.
     pub(crate) fn at(&self, time: Time) -> Result<Isometry3<f64>, (Time, Time)> {
         Ok(match self.around(time)? {
             Around::Exactly(pose) => pose.transform,
@@ -151,7 +151,7 @@ impl Track {
         })
     }
 
-    /// The same, with its covariance: of a time between two, the mean of theirs as near as it lies to each.
+    /// Like [`Track::at`], with the covariance: between two samples, the mean of theirs, weighted by time.
     pub(crate) fn pose_at(&self, time: Time) -> Result<Pose, (Time, Time)> {
         Ok(match self.around(time)? {
             Around::Exactly(pose) => pose.clone(),
@@ -177,7 +177,7 @@ impl Track {
         }
         let next = chunk.get(after).or_else(|| self.chunks.get(index + 1)?.1.first());
         match next {
-            // The earlier one may lie beyond the horizon: then so does what is between.
+            // If the earlier sample is beyond the horizon, the time between the two counts as beyond it too.
             Some(next) if before.time >= self.horizon() => {
                 #[expect(clippy::cast_precision_loss, reason = "two samples lie at most ten seconds apart")]
                 let part = (time.0 - before.time.0) as f64 / (next.time.0 - before.time.0) as f64;
@@ -188,22 +188,22 @@ impl Track {
     }
 }
 
-/// The poses that a time lies between.
+/// The samples around a time.
 enum Around<'t> {
     Exactly(&'t Pose),
-    /// How far from the one to the other.
+    /// The two samples, and the fraction of the way from the first to the second.
     Between(&'t Pose, &'t Pose, f64),
 }
 
-/// The pose at `part` of the way from `a` to `b`.
+/// The pose at the fraction `part` of the way from `a` to `b`.
 pub(crate) fn between(a: &Isometry3<f64>, b: &Isometry3<f64>, part: f64) -> Isometry3<f64> {
     let translation = a.translation.vector.lerp(&b.translation.vector, part);
     Isometry3::from_parts(Translation3::from(translation), slerp(&a.rotation, &b.rotation, part))
 }
 
-/// Along the great circle, the short way. The weights are `sin(tθ)/sin θ`; for the small angles between poses that
-/// follow each other they are a short product series in `1 - cos θ`, without a root, a division or a call of the
-/// mathematical library, and its factors do not wait for each other.
+/// Interpolates along the shorter great circle. The weights are `sin(tθ)/sin θ`. For the small angles between
+/// successive poses they are a short product series in `1 - cos θ`, without a root, a division or a call of the
+/// mathematical library; its factors are independent, so the processor computes them in parallel.
 fn slerp(a: &UnitQuaternion<f64>, b: &UnitQuaternion<f64>, part: f64) -> UnitQuaternion<f64> {
     let dot = a.coords.dot(&b.coords);
     let (dot, sign) = if dot < 0.0 { (-dot, -1.0) } else { (dot, 1.0) };
@@ -218,7 +218,7 @@ fn slerp(a: &UnitQuaternion<f64>, b: &UnitQuaternion<f64>, part: f64) -> UnitQua
     Unit::new_unchecked(Quaternion::from(coords))
 }
 
-/// The cosine above which what six factors leave out lies below the last bit.
+/// The cosine above which six factors are exact to the last bit.
 const SMALL: f64 = 0.99;
 
 /// `sin(tθ)/sin θ` of `1 - cos θ`: `t·(1 + b₁·(1 + b₂·(1 + …)))` with `bᵢ = (i²- t²)/(i·(2i + 1))·(1 - cos θ)`.
@@ -246,7 +246,7 @@ mod tests {
     }
 
     proptest! {
-        /// A track is a sorted map of what was put and not taken back.
+        /// A track is a sorted map of the samples put and not taken.
         #[test]
         fn a_track_is_a_map(first in 0_u64..2000, edits in prop::collection::vec((0_u64..2000, any::<bool>()), 0..400)) {
             let mut track = Track::new(Time(first), pose(first));
@@ -285,7 +285,7 @@ mod tests {
             prop_assert_eq!(held.samples().count(), 1, "a copy never changes");
         }
 
-        /// The series agree with the functions, where one takes over from the other too.
+        /// The series agrees with the functions, also at the cosine where one replaces the other.
         #[test]
         fn slerp_is_exact(angle in prop_oneof![0.0_f64..3.1, 0.0_f64..0.3], part in 0.0_f64..1.0) {
             let axis = Vector3::y_axis();
@@ -298,14 +298,14 @@ mod tests {
     }
 
     #[test]
-    fn what_is_older_than_the_horizon_is_gone() {
+    fn samples_older_than_the_horizon_are_gone() {
         let mut track = Track::new(Time(0), pose(0));
         for at in 1..=2_000 {
             track.put(Time(at * 10_000_000), pose(at));
             track.evict();
         }
         assert_eq!(track.samples().count(), 1_001);
-        assert!(track.chunks.len() <= 1_001 / CHUNK + 2, "chunks are let go of");
+        assert!(track.chunks.len() <= 1_001 / CHUNK + 2, "chunks are freed");
         assert_eq!(track.at(Time(9_999_999_999)), Err((Time(10_000_000_000), Time(20_000_000_000))));
         assert_eq!(track.at(Time(10_000_000_000)), Ok(pose(1_000).transform));
     }

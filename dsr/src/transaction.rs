@@ -1,15 +1,16 @@
 //! Transactions: a list of edits by one writer that is applied as a whole or not at all.
 //!
-//! A transaction is plain data, made without the graph and checked at commit. Edits are applied in order; what
-//! concerns the graph as a whole (one rooted tree of transforms, reflexes) is judged at the end, so a node can
-//! change its parent by a removal and a setting in one transaction.
+//! A transaction is plain data, made without the graph and checked at commit. To follow one from first to last, read
+//! `commit` (the order of the stages), `apply` (one edit), `check` (its rules), then `crate::state::write` (written and
+//! logged), `invariants` (the rules for the whole graph, with `tree` and `degree`), `reflexes`, and `crate::delta` (the
+//! log as the published changes). `claim` writes leases.
 
 mod apply;
 mod check;
 mod claim;
 pub(crate) mod commit;
 mod degree;
-mod edit;
+pub(crate) mod edit;
 mod error;
 pub(crate) mod invariants;
 mod names;
@@ -30,8 +31,8 @@ use crate::reflex::Reflex;
 use crate::value::{NewValue, NodeRef};
 use crate::vocabulary::Vocabulary;
 
-/// A list of edits by one writer. With `P` = [`PatternSource`] it is plain data, which [`Transaction::build`] makes one of
-/// a vocabulary.
+/// A list of edits by one writer. With `P` = [`PatternSource`] it is plain data, which [`Transaction::build`] compiles
+/// for a vocabulary.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Transaction<P = Arc<Pattern>> {
     pub(crate) writer: AgentId,
@@ -42,7 +43,7 @@ pub struct Transaction<P = Arc<Pattern>> {
 }
 
 impl Transaction<PatternSource> {
-    /// The transaction of a vocabulary.
+    /// Compiles the patterns of the transaction for a vocabulary.
     pub fn build(self, vocabulary: &Vocabulary) -> Result<Transaction, PatternError> {
         let Self { writer, expected, edits, guards, dismissed } = self;
         let guards = guards.into_iter().map(|guard| guard.build(vocabulary)).collect::<Result<_, _>>()?;
@@ -51,12 +52,12 @@ impl Transaction<PatternSource> {
 }
 
 impl Transaction {
-    /// Nothing yet, by this writer.
+    /// An empty transaction of this writer.
     pub fn new(writer: AgentId) -> Self {
         Self { writer, expected: None, edits: Vec::new(), guards: Vec::new(), dismissed: Vec::new() }
     }
 
-    /// Who writes.
+    /// The agent that writes.
     pub fn writer(&self) -> AgentId {
         self.writer
     }
@@ -66,13 +67,13 @@ impl Transaction {
         &self.edits
     }
 
-    /// Refuses the commit if the graph is no longer at this version.
+    /// Makes the commit fail if the graph is no longer at this version.
     pub fn expect_version(&mut self, version: Version) -> &mut Self {
         self.expected = Some(version);
         self
     }
 
-    /// Refuses to be applied to another version than the expected one.
+    /// Fails if `current` is not the expected version.
     pub(crate) fn stale_at(&self, current: Version) -> Result<(), TransactionError> {
         match self.expected {
             Some(expected) if expected != current => Err(TransactionError::Stale { expected, current }),
@@ -97,7 +98,7 @@ impl Transaction {
         self.push(Edit::AddNode { name: name.into(), node_type })
     }
 
-    /// Removes a node with all that touches it.
+    /// Removes a node with its edges, attributes and transforms, and with the attributes that refer to it.
     pub fn remove_node(&mut self, node: impl Into<NodeRef>) -> &mut Self {
         self.push(Edit::RemoveNode { node: node.into() })
     }
@@ -132,12 +133,12 @@ impl Transaction {
         self.push(Edit::SetAttribute { holder: holder.into(), attribute, value: value.into() })
     }
 
-    /// Takes an attribute away.
+    /// Removes an attribute.
     pub fn clear_attribute(&mut self, holder: impl Into<HolderRef>, attribute: AttributeId) -> &mut Self {
         self.push(Edit::ClearAttribute { holder: holder.into(), attribute })
     }
 
-    /// Gives the pose of `child` in the frame of `parent`.
+    /// Sets the pose of `child` in the frame of `parent`.
     pub fn set_transform(
         &mut self,
         parent: impl Into<NodeRef>,
@@ -147,7 +148,7 @@ impl Transaction {
         self.push(Edit::SetTransform { parent: parent.into(), child: child.into(), pose: pose.into() })
     }
 
-    /// Says where `child` was in the frame of `parent` at a time.
+    /// Adds the pose of `child` in the frame of `parent` at a time.
     pub fn sample_transform(
         &mut self,
         parent: impl Into<NodeRef>,
@@ -163,17 +164,17 @@ impl Transaction {
         })
     }
 
-    /// Takes `child` off `parent`.
+    /// Removes the transform between `parent` and `child`.
     pub fn remove_transform(&mut self, parent: impl Into<NodeRef>, child: impl Into<NodeRef>) -> &mut Self {
         self.push(Edit::RemoveTransform { parent: parent.into(), child: child.into() })
     }
 
-    /// Takes a lease.
+    /// Claims a lease.
     pub fn claim(&mut self, resource: ResourceId, priority: Priority, preemption: Preemption) -> &mut Self {
         self.push(Edit::Claim { resource, priority, preemption })
     }
 
-    /// Takes a lease, or waits for it.
+    /// Claims a lease, or waits for it.
     pub fn await_lease(
         &mut self,
         resource: ResourceId,
@@ -183,7 +184,7 @@ impl Transaction {
         self.push(Edit::Await { resource, priority, preemption })
     }
 
-    /// Gives a lease back, or stops waiting for it.
+    /// Releases a lease, or stops waiting for it.
     pub fn release(&mut self, resource: ResourceId) -> &mut Self {
         self.push(Edit::Release { resource })
     }
@@ -195,8 +196,8 @@ impl Transaction {
         self
     }
 
-    /// Ends a reflex of the writer and gives back the leases it was registered with. If it has fired, the whole
-    /// transaction is refused: what it would have concluded is already undone.
+    /// Ends a reflex of the writer and releases the leases with which it was registered. If it has fired, the whole
+    /// transaction is rejected: the reflex has already undone what the transaction would conclude.
     pub fn dismiss(&mut self, reflex: ReflexId) -> &mut Self {
         self.dismissed.push(reflex);
         self

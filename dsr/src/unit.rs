@@ -1,8 +1,9 @@
-//! Units of measure, for attributes that are measured and writers that measure in their own.
+//! Units of measure, for numeric attributes.
 //!
-//! An attribute that is declared with a unit is kept in it. A writer may give a number, which is in that unit, or a
-//! quantity in a unit of its own, which is converted; one of another dimension is refused, so degrees never stand where
-//! metres are meant. Invariant: the factor of a unit leads to the one of its dimension that has the factor 1.
+//! An attribute that is declared with a unit stores numbers in that unit. A writer gives a plain number, which is in
+//! that unit, or a quantity in a unit of its own, which is converted. A quantity of another dimension is rejected, so
+//! degrees never stand where metres are meant. Invariant: each dimension has one unit with the factor 1, and every
+//! factor converts to it.
 
 use std::fmt;
 
@@ -62,7 +63,7 @@ impl Unit {
         }
     }
 
-    /// A number of this unit in another one; `None` if the two do not measure the same.
+    /// Converts a number of this unit to another unit; `None` if the two have different dimensions.
     pub fn convert(self, number: f64, to: Self) -> Option<f64> {
         if self == to {
             return Some(number);

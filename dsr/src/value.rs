@@ -1,7 +1,7 @@
 //! Values of attributes: numbers, text, truth values and references to nodes.
 //!
-//! A stored number is always finite, so two stored values are the same exactly when their bits are; that is
-//! what makes a delta, an export and a replay agree to the byte.
+//! A stored number is always finite, so two stored values are equal exactly when their bits are. Deltas, exports and
+//! replays agree to the byte because of this.
 
 use std::fmt;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use crate::unit::Unit;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
-    /// A finite number, in the unit that the vocabulary's author means.
+    /// A finite number, in the unit of the attribute if it has one.
     Number,
     /// Text.
     Text,
@@ -46,7 +46,7 @@ pub enum Value {
     Text(Arc<str>),
     /// A truth value.
     Bool(bool),
-    /// A node. When that node is removed, so is the attribute that names it.
+    /// A node. Removing that node removes the attribute.
     Node(NodeId),
 }
 
@@ -76,7 +76,7 @@ impl Value {
         if let Self::Node(node) = self { Some(*node) } else { None }
     }
 
-    /// Same to the bit, so that nothing that a byte comparison would see goes unreported.
+    /// Equal to the bit, so that a delta reports every difference that a comparison of bytes would find.
     pub(crate) fn same(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Number(a), Self::Number(b)) => a.to_bits() == b.to_bits(),
@@ -85,13 +85,13 @@ impl Value {
     }
 }
 
-/// Names a node in an edit: by id, or by name (the only way to name a node added by the same transaction).
+/// Names a node in an edit, by id or by name. Only a name can refer to a node that the same transaction adds.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NodeRef {
     /// By id.
     Id(NodeId),
-    /// By name, looked up when the edit is applied.
+    /// By name, which is looked up when the edit is applied.
     Name(Arc<str>),
 }
 
@@ -128,13 +128,13 @@ impl From<Arc<str>> for NodeRef {
     }
 }
 
-/// A value as an edit gives it: like [`Value`], but a node may be named.
+/// A value as an edit gives it: like [`Value`], but a node may be given by name.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NewValue {
     /// A number, in the attribute's unit if it has one.
     Number(f64),
-    /// A number in a unit, kept in the attribute's.
+    /// A number in a unit; it is converted to the attribute's unit.
     Quantity(f64, Unit),
     /// Text.
     Text(Arc<str>),

@@ -1,14 +1,14 @@
-//! The vocabulary: every token that may stand in the graph, and who may write it.
+//! The vocabulary: every token that may stand in the graph, and which agents may write it.
 //!
-//! Problem: agents that invent terms of their own cannot understand each other. The paper's authors name the
-//! missing common vocabulary as the first thing they could not do. Idea: types in a single-parent hierarchy,
-//! labels with the signatures they allow, attributes with their holder and kind, writers with the tokens they
-//! own, exclusive resources. Invariant: a built vocabulary never changes, and every id in it is valid.
-//! Cost: `is_a` is two comparisons (an interval per type, numbered depth first); a permission is one hash look-up.
+//! Problem: agents that invent terms of their own cannot understand each other; the paper's authors name the missing
+//! common vocabulary as the first thing that they could not do. Idea: types in a single-parent hierarchy, labels with
+//! the signatures that they allow, attributes with their holder and kind, writers with the tokens that they may write,
+//! and exclusive resources. Invariant: a built vocabulary never changes, and every id in it is valid. Cost: `is_a` is
+//! two comparisons (types are numbered depth first, so subtypes are an interval); a permission is one hash look-up.
 //!
-//! Built into every vocabulary: types `object`, `agent`, `resource`; labels from agent to resource, `holds` with
-//! its attributes `priority`, `yields` and `claim`, and `awaits` with `awaits_priority`, `awaits_yields` and `asked`; the
-//! agent `dsr`.
+//! Every vocabulary has the types `object`, `agent` and `resource`, the agent `dsr`, and two labels from agent to
+//! resource: `holds` with its attributes `priority`, `yields` and `claim`, and `awaits` with `awaits_priority`,
+//! `awaits_yields` and `asked`.
 
 mod builder;
 mod permission;
@@ -29,9 +29,9 @@ use crate::value::Kind;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Nature {
-    /// Symbolic only, unless an ancestor is geometric.
+    /// May not have a pose, unless an ancestor of the type is geometric.
     Symbolic,
-    /// May have a pose; so may every subtype.
+    /// May have a pose, and so may nodes of every subtype.
     Geometric,
 }
 
@@ -44,12 +44,12 @@ pub struct Signature {
     pub to: TypeId,
 }
 
-/// How many edges of a label a node may have; as many as one likes where nothing is said.
+/// The most edges of a label that a node may have; `None` for no limit.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Degree {
-    /// That leave it.
+    /// Outgoing edges.
     pub leaving: Option<u32>,
-    /// That reach it.
+    /// Incoming edges.
     pub reaching: Option<u32>,
 }
 
@@ -216,7 +216,7 @@ impl Vocabulary {
         }
     }
 
-    /// Whether some node could be of both types: in a tree of types, one must be a subtype of the other.
+    /// Whether a node can be of both types. In a tree of types, one must then be a subtype of the other.
     pub fn overlap(&self, a: TypeId, b: TypeId) -> bool {
         self.is_a(a, b) || self.is_a(b, a)
     }
@@ -246,12 +246,12 @@ impl Vocabulary {
         self.attributes.get(id.index()).map(|entry| entry.holder)
     }
 
-    /// What the attribute may hold.
+    /// The kind of value that the attribute holds.
     pub fn kind(&self, id: AttributeId) -> Option<Kind> {
         self.attributes.get(id.index()).map(|entry| entry.kind)
     }
 
-    /// How many edges of the label a node may have.
+    /// The most edges of the label that a node may have.
     pub fn degree(&self, label: LabelId) -> Degree {
         self.labels.get(label.index()).map_or(Degree::default(), |entry| entry.degree)
     }
@@ -261,7 +261,7 @@ impl Vocabulary {
         self.limited
     }
 
-    /// What the attribute is measured in, if it is declared.
+    /// The unit of the attribute, if it has one.
     pub fn unit(&self, id: AttributeId) -> Option<Unit> {
         self.attributes.get(id.index())?.unit
     }
@@ -301,7 +301,7 @@ impl Vocabulary {
         self.permits(writer, token, (&first, from.1), to)
     }
 
-    /// The same, with names that are looked up only where a permission is for a node of a name.
+    /// Like [`Vocabulary::may_write`], with names that are looked up only if a permission is for a named node.
     pub(crate) fn permits(
         &self,
         writer: AgentId,
@@ -324,5 +324,5 @@ impl Vocabulary {
     }
 }
 
-/// Gives the name of a node.
+/// Looks up the name of a node.
 pub(crate) type NameOf<'a> = &'a dyn Fn() -> &'a str;

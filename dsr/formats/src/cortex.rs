@@ -1,12 +1,13 @@
 //! Worlds of RoboComp's cortex as graphs of ours: its JSON files with `DSRModel` and `symbols`.
 //!
-//! Problem: their types, labels and attributes are whatever the file has; ours are declared. Idea: the vocabulary is what
-//! the file uses. Node types stand below `object`, geometric where an `RT` link touches one; a label goes between the
-//! types that it goes between; an attribute sits on the one type that has it, or on `object`. Lists of numbers become
-//! one attribute each (`size_0`, `size_1` …), since our attributes hold one value. An `RT` link is a transform: translation
-//! in the file's unit, rotation by the angles about x, y and z as `Rx · Ry · Rz`. Where it keeps a ring of stamped poses,
-//! those of the last ten seconds are samples, at the Unix times of their stamps; a single one is a transform that stays.
-//! What cannot be taken, and what is called otherwise because the name is taken, is in the notes, with the reason.
+//! Problem: their types, labels and attributes are whatever the file has; ours are declared. Idea: the vocabulary is
+//! what the file uses. Node types stand below `object`, geometric where an `RT` link touches one; a label goes between
+//! the types that it goes between; an attribute sits on the one type that has it, or on `object`. Lists of numbers
+//! become one attribute each (`size_0`, `size_1` …), since our attributes hold one value. An `RT` link is a transform:
+//! translation in the file's unit, rotation by the angles about x, y and z as `Rx · Ry · Rz`. Where it keeps a ring of
+//! stamped poses, those of the last ten seconds are samples, at the Unix times of their stamps; a single one is a
+//! transform that stays. What cannot be taken, and what is called otherwise because the name is taken, is in the notes,
+//! with the reason.
 //!
 //! Invariant: no file is refused for its names.
 //!

@@ -94,8 +94,8 @@ impl Transforms {
         Self::some(snapshot.export().transforms.iter().flat_map(of).collect())
     }
 
-    /// Those that a commit moved; the names are those of the state after it. A frame that was taken off its parent stays
-    /// where it was: Foxglove has no word for that.
+    /// Those that a commit moved; the names are those of the state after it. A frame that was taken off its parent
+    /// stays where it was: Foxglove has no word for that.
     pub(super) fn of_commit(delta: &Delta, names: &Snapshot) -> Option<Self> {
         let at = |time: Time, parent: NodeId, child: NodeId, pose: &Pose| {
             let (place, turn) = (&pose.transform.translation.vector, &pose.transform.rotation.coords);

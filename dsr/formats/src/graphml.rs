@@ -8,8 +8,8 @@ use dsr::{Holder, NodeId};
 use crate::view::View;
 use crate::xml::escaped;
 
-/// Writes the view as GraphML. Every attribute is a string. A pose is seven numbers: translation x y z, quaternion i j k w.
-/// A covariance is its six rows, one after the other.
+/// Writes the view as GraphML. Every attribute is a string. A pose is seven numbers: translation x y z, quaternion i j
+/// k w. A covariance is its six rows, one after the other.
 pub fn graphml(view: &View<'_>) -> String {
     // An attribute may have any name, but the id of a GraphML key must be an XML name token.
     let mut keys: BTreeMap<(&'static str, String), usize> = BTreeMap::new();

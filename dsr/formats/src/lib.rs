@@ -1,9 +1,9 @@
 //! The graph in the formats of other tools.
 //!
-//! A [`View`] is a snapshot or a part of it; [`lines`], [`dot`], [`graphml`] and [`svg`] write it as text. [`write_mcap`]
-//! writes a whole recording for Foxglove and other tools that read MCAP. A [`CortexWorld`] is a JSON file of RoboComp's
-//! cortex that becomes a graph. Each function depends only on its arguments: the same state gives the same bytes, and no
-//! other program (such as graphviz) is needed.
+//! A [`View`] is a snapshot or a part of it; [`lines`], [`dot`], [`graphml`] and [`svg`] write it as text.
+//! [`write_mcap`] writes a whole recording for Foxglove and other tools that read MCAP. A [`CortexWorld`] is a JSON
+//! file of RoboComp's cortex that becomes a graph. Each function depends only on its arguments: the same state gives
+//! the same bytes, and no other program (such as graphviz) is needed.
 //!
 //! ```
 //! use dsr::{AgentId, Graph, Nature, Time, VocabularyBuilder};
@@ -26,8 +26,8 @@
 //! # }
 //! ```
 //!
-//! Map, from the ground up: `xml` (escapes), `view` → `lines`, `dot`, `graphml`, `svg` (with `svg::layers`, the layout) ·
-//! `commit` (a commit as a record), `foxglove` (its schemas) → `mcap` · `cortex`.
+//! Map, from the ground up: `xml` (escapes), `view` → `lines`, `dot`, `graphml`, `svg` (with `svg::layers`, the layout)
+//! · `commit` (a commit as a record), `foxglove` (its schemas) → `mcap` · `cortex`.
 
 mod commit;
 mod cortex;

@@ -1,8 +1,8 @@
 //! A whole recording as MCAP, with JSON messages and their schemas.
 //!
-//! The channel `/dsr/state` has the state with which the recording begins, and the state after each gap. `/dsr/commit` has
-//! every commit with its sentences, changes and reflexes. `/tf` has the poses and `/dsr/log` the sentences once more, in
-//! the schemas that Foxglove shows by itself (module `foxglove`). A message has the time of its commit.
+//! The channel `/dsr/state` has the state with which the recording begins, and the state after each gap. `/dsr/commit`
+//! has every commit with its sentences, changes and reflexes. `/tf` has the poses and `/dsr/log` the sentences once
+//! more, in the schemas that Foxglove shows by itself (module `foxglove`). A message has the time of its commit.
 
 use std::collections::BTreeMap;
 use std::io::{Seek, Write};

@@ -1,9 +1,10 @@
 //! The feed: what commits hand to the journal's thread.
 //!
-//! Problem: a disk that stalls must slow no writer and fill no memory. Idea: a commit leaves a reference to its delta and
-//! goes on. When more wait than the limit allows, nothing more is taken in, and the thread begins anew with a whole
+//! Problem: a disk that stalls must slow no writer and fill no memory. Idea: a commit leaves a reference to its delta
+//! and goes on. When more wait than the limit allows, nothing more is taken in, and the thread begins anew with a whole
 //! state as soon as it can: what is missing is a gap in the history, never a wrong state. Invariant: what was taken in
-//! follows without gaps on what was handed out before, and what waits and what the thread holds stay below the limit together.
+//! follows without gaps on what was handed out before, and what waits and what the thread holds stay below the limit
+//! together.
 
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};

@@ -1,7 +1,7 @@
 //! Going through a recording, version by version.
 //!
-//! Invariant: a replay gives what was recorded or an error, whatever the bytes; it holds one segment's bytes and one state.
-//! Cost: a state, and each delta once.
+//! Invariant: a replay gives what was recorded or an error, whatever the bytes; it holds one segment's bytes and one
+//! state. Cost: a state, and each delta once.
 
 use std::borrow::Cow;
 use std::slice;

@@ -1,9 +1,9 @@
 //! Reading segments: what of each can be read, checked once, and which of them are one history.
 //!
-//! Problem: a file may be torn, damaged, or from another program or graph; the rest of the recording must stay readable.
-//! Idea: every fault is a [`Damage`] of one segment. Invariant: a segment that is kept begins with a vocabulary and a whole
-//! state, and the versions of its deltas follow each other. Cost: one pass over the bytes, which finds each frame and the
-//! earliest time in it; and a replay of each segment that another program has continued.
+//! Problem: a file may be torn, damaged, or from another program or graph; the rest of the recording must stay
+//! readable. Idea: every fault is a [`Damage`] of one segment. Invariant: a segment that is kept begins with a
+//! vocabulary and a whole state, and the versions of its deltas follow each other. Cost: one pass over the bytes, which
+//! finds each frame and the earliest time in it; and a replay of each segment that another program has continued.
 
 use std::cmp::Ordering;
 use std::io;
@@ -112,8 +112,8 @@ impl Reader {
                     Ordering::Greater => false,
                     // Commits may be missing in between: left out, or in a segment that is gone.
                     _ if next.goes_on => is_next,
-                    // Another program began where this one ended. Versions of different histories may meet by chance, so
-                    // the states have to; what cannot be read again is not therefore of another history.
+                    // Another program began where this one ended. Versions of different histories may meet by chance,
+                    // so the states have to; what cannot be read again is not therefore of another history.
                     Ordering::Equal => playback::leads_to(&segment, next).unwrap_or(is_next),
                     Ordering::Less => false,
                 };

@@ -4,14 +4,15 @@
 //! lies in it. What cannot be read is a [`Damage`] with its place, and everything before it, and from the next segment
 //! on, stays readable.
 //!
-//! Invariant: in a recording versions rise, and where a segment ends with the version with which the next begins, it ends
-//! with its state. The history is the one that ends in the newest segment: who begins anew, or goes on from an older version,
-//! in the same folder begins another, and the segments that do not lead to the newest are named, left out, and can be read
-//! alone. What is not seen: a segment that ends before the next begins may be of another history with the same vocabulary;
-//! nothing was recorded in between by which to tell, and a replay shows a [`Played::Jump`](super::Played::Jump) there.
+//! Invariant: in a recording versions rise, and where a segment ends with the version with which the next begins, it
+//! ends with its state. The history is the one that ends in the newest segment: who begins anew, or goes on from an
+//! older version, in the same folder begins another, and the segments that do not lead to the newest are named, left
+//! out, and can be read alone. What is not seen: a segment that ends before the next begins may be of another history
+//! with the same vocabulary; nothing was recorded in between by which to tell, and a replay shows a
+//! [`Played::Jump`](super::Played::Jump) there.
 //!
-//! Cost: opening is one pass over the bytes, and a replay of the segments that meet, one at a time; a version is its segment's
-//! state and the deltas up to it.
+//! Cost: opening is one pass over the bytes, and a replay of the segments that meet, one at a time; a version is its
+//! segment's state and the deltas up to it.
 
 use std::io;
 use std::path::Path;
@@ -128,8 +129,8 @@ impl Recording {
         Ok(replay.snapshot())
     }
 
-    /// The newest version that was committed at a time or before, as a state. Times are those that committers gave; versions
-    /// order, not they, so there may be a version before it that was committed later.
+    /// The newest version that was committed at a time or before, as a state. Times are those that committers gave;
+    /// versions order, not they, so there may be a version before it that was committed later.
     pub fn at_time(&self, time: Time) -> Result<Snapshot, RecordingError> {
         for (at, segment) in self.segments.iter().enumerate().rev() {
             let early = |earliest: &Option<Time>| earliest.is_some_and(|earliest| earliest <= time);

@@ -20,11 +20,12 @@ pub struct Settings {
     pub durability: Durability,
     /// Bytes of deltas after which a segment is closed and one begun with the state of then.
     pub segment_bytes: u64,
-    /// How many segments are kept, the newest ones, however many journals wrote them to the same place; all, if `None`. A
-    /// robot that is restarted every day needs no more room than one that is not.
+    /// How many segments are kept, the newest ones, however many journals wrote them to the same place; all, if `None`.
+    /// A robot that is restarted every day needs no more room than one that is not.
     pub segments: Option<NonZeroU64>,
     /// How many bytes of deltas may wait for the disk, those being written included (texts, which the graph shares, not
-    /// counted). When it stalls for longer, commits are left out, and the journal goes on with a whole state in a new segment.
+    /// counted). When it stalls for longer, commits are left out, and the journal goes on with a whole state in a new
+    /// segment.
     pub waiting_bytes: usize,
 }
 

@@ -15,12 +15,12 @@ pub trait Store: Send + 'static {
     fn begin(&mut self, number: u64) -> io::Result<()>;
     /// Appends to the segment.
     fn append(&mut self, bytes: &[u8]) -> io::Result<()>;
-    /// Returns when everything that was appended would outlive a loss of power. The first one after `begin` says that the
-    /// state with which the segment begins is there as a whole.
+    /// Returns when everything that was appended would outlive a loss of power. The first one after `begin` says that
+    /// the state with which the segment begins is there as a whole.
     fn sync(&mut self) -> io::Result<()>;
-    /// Lets go of the oldest segments until there are only so many, those of earlier journals in the same place included.
-    /// Called when the state with which the newest one begins is on the disk. One whose own state never was does not count,
-    /// and is let go of in any case.
+    /// Lets go of the oldest segments until there are only so many, those of earlier journals in the same place
+    /// included. Called when the state with which the newest one begins is on the disk. One whose own state never was
+    /// does not count, and is let go of in any case.
     fn keep(&mut self, newest: NonZeroU64) -> io::Result<()>;
 }
 
@@ -57,8 +57,8 @@ fn staged(folder: &Path) -> io::Result<Vec<(u64, Stage, PathBuf)>> {
     Ok(found)
 }
 
-/// The segments in a folder, by number, those that were only begun among them: after a crash the state of one may be there
-/// as a whole without its name.
+/// The segments in a folder, by number, those that were only begun among them: after a crash the state of one may be
+/// there as a whole without its name.
 pub(super) fn segments(folder: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(staged(folder)?.into_iter().map(|(.., path)| path).collect())
 }

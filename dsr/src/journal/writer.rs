@@ -46,8 +46,8 @@ struct Segment {
     deltas: u64,
 }
 
-/// However the thread ends, by a panic of the store too, commits leave nothing for it any more, nobody waits for it, and
-/// what was not written is not told as written.
+/// However the thread ends, by a panic of the store too, commits leave nothing for it any more, nobody waits for it,
+/// and what was not written is not told as written.
 impl<S> Drop for Writer<S> {
     fn drop(&mut self) {
         self.feed.end();

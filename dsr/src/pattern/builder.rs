@@ -77,8 +77,8 @@ impl<'d> PatternBuilder<'d> {
         self.add(Atom::Distinct(a.into(), b.into()))
     }
 
-    /// The node must be of the type. A variable's own type says the same where it begins; this says it of a variable from
-    /// outside in a negated part, and of constants.
+    /// The node must be of the type. A variable's own type says the same where it begins; this says it of a variable
+    /// from outside in a negated part, and of constants.
     pub fn is_a(&mut self, node: impl Into<Term>, node_type: TypeId) -> &mut Self {
         self.add(Atom::IsA(node.into(), node_type))
     }

@@ -42,8 +42,8 @@ impl Pattern {
         self.matches_with(snapshot, &[])
     }
 
-    /// All matches that give these variables these nodes, in order. None gives a node to a local variable or to one that
-    /// only a larger pattern has; to fix these is a mistake of the caller, and stops a debug build.
+    /// All matches that give these variables these nodes, in order. None gives a node to a local variable or to one
+    /// that only a larger pattern has; to fix these is a mistake of the caller, and stops a debug build.
     pub fn matches_with(&self, snapshot: &Snapshot, fixed: &[(Variable, NodeId)]) -> Vec<Binding> {
         let mut found = Vec::new();
         let count = self.variables.len();

@@ -1,15 +1,15 @@
 //! What is negated, judged by what has moved in it.
 //!
-//! Problem: "a robot with nobody near" is lost by one person of a thousand who takes a step, but to judge it is to look for
-//! somebody near among all of them. Idea: while a match is held, it is known that nobody was. So only somebody who has
-//! moved can be near now, and to look at those is enough. Of what was searched and is no match, somebody who was near is
-//! remembered: as long as they are, nobody else has to be looked for.
+//! Problem: "a robot with nobody near" is lost by one person of a thousand who takes a step, but to judge it is to look
+//! for somebody near among all of them. Idea: while a match is held, it is known that nobody was. So only somebody who
+//! has moved can be near now, and to look at those is enough. Of what was searched and is no match, somebody who was
+//! near is remembered: as long as they are, nobody else has to be looked for.
 //!
-//! Invariant: it is enough where a match with the same nodes for the variables that the part has from outside is held, the
-//! deltas since have touched the part by moves alone, and nothing has moved that it measures from outside. With two numbers
-//! a match may be held that would not appear, so that says nothing about others: then the match must be the very one.
-//! Otherwise the whole part is searched. Who is remembered is judged again each time. Cost: an entry per binding that such
-//! a part keeps from being a match, as what is held costs one per match.
+//! Invariant: it is enough where a match with the same nodes for the variables that the part has from outside is held,
+//! the deltas since have touched the part by moves alone, and nothing has moved that it measures from outside. With two
+//! numbers a match may be held that would not appear, so that says nothing about others: then the match must be the
+//! very one. Otherwise the whole part is searched. Who is remembered is judged again each time. Cost: an entry per
+//! binding that such a part keeps from being a match, as what is held costs one per match.
 
 use std::cell::RefCell;
 

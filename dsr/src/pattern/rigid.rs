@@ -1,20 +1,23 @@
 //! Which distances may have changed: the tree of frames falls into rigid groups.
 //!
-//! Problem: when an edge of the kinematic tree changes, matching every pattern with a distance again costs what the graph
-//! is large, although a person who takes a step changes one distance in a thousand. Idea: label each frame with the lowest
-//! changed edge at or above it, or none. What lies between two frames is their two ways up without what these share, so it
-//! has a changed edge if and only if their labels differ. Frames with one label are a rigid group: whatever is measured
-//! inside of it is what it was, and only pairs across two groups are looked at again. A join begins at the frames of all
-//! groups but one, since each such pair has an end there; the one left out is the largest. So a person who moves is one
-//! beginning, and a floor that moves with all that stand on it is none for those who measure between these.
+//! Problem: when an edge of the kinematic tree changes, matching every pattern with a distance again costs what the
+//! graph is large, although a person who takes a step changes one distance in a thousand. Idea: label each frame with
+//! the lowest changed edge at or above it, or none. What lies between two frames is their two ways up without what
+//! these share, so it has a changed edge if and only if their labels differ. Frames with one label are a rigid group:
+//! whatever is measured inside of it is what it was, and only pairs across two groups are looked at again. A join
+//! begins at the frames of all groups but one, since each such pair has an end there; the one left out is the largest.
+//! So a person who moves is one beginning, and a floor that moves with all that stand on it is none for those who
+//! measure between these.
 //!
 //! Invariant: labels in the state after the changes are enough. A frame without a label has the same edges above it as
-//! before; two with the same label have the same edges up to it. This holds over several deltas, with the frames of all.
+//! before; two with the same label have the same edges up to it. This holds over several deltas, with the frames of
+//! all.
 //!
 //! Cost: no more than a full match, which the caller gives as a budget, and no more than the frames that the pattern
-//! measures. Mostly the frames below the changed edges are few, and are walked; where they are more than the frames that
-//! could be measured, the labels of those are looked up from below instead; where these are too many as well, all matches
-//! are looked at. No history of distances is kept, so a frame that moves without crossing anything costs the same.
+//! measures. Mostly the frames below the changed edges are few, and are walked; where they are more than the frames
+//! that could be measured, the labels of those are looked up from below instead; where these are too many as well, all
+//! matches are looked at. No history of distances is kept, so a frame that moves without crossing anything costs the
+//! same.
 
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;

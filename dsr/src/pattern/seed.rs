@@ -5,10 +5,10 @@
 //! change gives nodes to the variables of that atom, and only matches that have them there are looked at again. An
 //! atom of a negated part gives nodes to those of its variables that the pattern has outside.
 //!
-//! Invariant: matches outside the slices of a delta are the same before and after it. Where a change gives no
-//! variable a node (a constant comes or goes, a negated part shares no variable with the atom), all matches are
-//! looked at again. Which frames a metric begins at is a matter of its own (`rigid`). A variable that an edge or an attribute binds needs no seed of its
-//! own for nodes that come and go, because their edges and attributes come and go with them.
+//! Invariant: matches outside the slices of a delta are the same before and after it. Where a change gives no variable
+//! a node (a constant comes or goes, a negated part shares no variable with the atom), all matches are looked at again.
+//! Which frames a metric begins at is a matter of its own (`rigid`). A variable that an edge or an attribute binds
+//! needs no seed of its own for nodes that come and go, because their edges and attributes come and go with them.
 //!
 //! Source: the semi-naive evaluation of Datalog (Bancilhon and Ramakrishnan, SIGMOD 1986), with single changes as
 //! the deltas.

@@ -13,8 +13,9 @@ use crate::id::{Holder, NodeId};
 use crate::state::State;
 
 impl Pattern {
-    /// The matches that deltas may concern, and what has moved in negated parts, if that is enough to judge them by; the
-    /// state is the one after the last of them. Finding them costs no more than the budget beside what the deltas are long.
+    /// The matches that deltas may concern, and what has moved in negated parts, if that is enough to judge them by;
+    /// the state is the one after the last of them. Finding them costs no more than the budget beside what the deltas
+    /// are long.
     pub(crate) fn slices<'d, 's>(
         &self,
         deltas: impl IntoIterator<Item = &'d Delta>,

@@ -54,8 +54,9 @@ pub(super) struct Conjunction<T> {
     pub(super) atoms: Vec<Atom<T>>,
 }
 
-/// A pattern as it was written, without a vocabulary: plain data, for files and other processes. [`PatternSource::build`]
-/// checks it as a [`PatternBuilder`] does. The format must limit how deeply it nests, as JSON's reader does.
+/// A pattern as it was written, without a vocabulary: plain data, for files and other processes.
+/// [`PatternSource::build`] checks it as a [`PatternBuilder`] does. The format must limit how deeply it nests, as
+/// JSON's reader does.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct PatternSource {
     /// Names and types of the top-level variables.

@@ -67,8 +67,8 @@ impl Form<'_> {
 }
 
 impl Pattern {
-    /// Reads a pattern, in the language of `pelea dsr query`, as the head of this module has it (`docs/dsr.md`). Variables are those that stand outside of
-    /// any `not`, in their order.
+    /// Reads a pattern, in the language of `pelea dsr query`, as the head of this module has it (`docs/dsr.md`).
+    /// Variables are those that stand outside of any `not`, in their order.
     pub fn parse(vocabulary: &Vocabulary, text: &str) -> Result<Self, PatternTextError> {
         let mut reader = Reader { text, at: 0 };
         let form = reader.form(0)?;
@@ -318,7 +318,8 @@ impl<'d, 't> Writer<'d, 't> {
         Ok(())
     }
 
-    /// A metric against a number, against two (one to come, one to go by), or a distance against how far the first reaches.
+    /// A metric against a number, against two (one to come, one to go by), or a distance against how far the first
+    /// reaches.
     fn metric(
         &self,
         builder: &mut PatternBuilder<'d>,

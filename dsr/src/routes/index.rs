@@ -21,9 +21,9 @@ use crate::vocabulary::Vocabulary;
 
 type Seats = SmallVec<[Seat; 2]>;
 
-/// How many frames a commit walks for each subscriber that it may thereby leave alone: as many as take the time of waking
-/// a parked one. Measured at a load of 8: a commit that wakes one takes 5.8 µs, one that tells nobody 1.3, and a thousand
-/// frames take 7.6.
+/// How many frames a commit walks for each subscriber that it may thereby leave alone: as many as take the time of
+/// waking a parked one. Measured at a load of 8: a commit that wakes one takes 5.8 µs, one that tells nobody 1.3, and a
+/// thousand frames take 7.6.
 const FRAMES: usize = 512;
 
 /// What a delta takes away, by node: looked for once, however many edges it changes.
@@ -174,8 +174,8 @@ impl Index {
         }
     }
 
-    /// Tells the seats that a change of a delta may concern; the state is the one after it. Some more than once. For what
-    /// moves see [`Index::find_moved`].
+    /// Tells the seats that a change of a delta may concern; the state is the one after it. Some more than once. For
+    /// what moves see [`Index::find_moved`].
     pub(super) fn find(
         &mut self,
         change: &Change,
@@ -211,9 +211,9 @@ impl Index {
         }
     }
 
-    /// Tells the seats that the moves of a delta may concern: who measures something that hangs below one of the changed
-    /// edges, as one end of each metric that they change does. Where more hangs there than is worth walking, all who
-    /// measure are told.
+    /// Tells the seats that the moves of a delta may concern: who measures something that hangs below one of the
+    /// changed edges, as one end of each metric that they change does. Where more hangs there than is worth walking,
+    /// all who measure are told.
     pub(super) fn find_moved(&self, delta: &Delta, state: &State, mut tell: impl FnMut(&[Seat])) {
         let Some(all) = self.plain.get(&Route::Transforms) else { return };
         let mut frames: SmallVec<[NodeId; 16]> =

@@ -1,8 +1,8 @@
 //! What the transaction in progress has overwritten.
 //!
 //! Idea: a state is edited in place, and each edit first logs what it overwrites. Rolling back plays the log backwards
-//! (`rollback`). Publishing compares, for each thing edited, the first entry (the value before) with the state (the value
-//! now) to make the delta (`delta`). Invariant: the log of a published state is empty.
+//! (`rollback`). Publishing compares, for each thing edited, the first entry (the value before) with the state (the
+//! value now) to make the delta (`delta`). Invariant: the log of a published state is empty.
 
 use std::sync::Arc;
 

@@ -1,7 +1,7 @@
 //! Undoing edits.
 //!
-//! Invariant: after a rollback the state is the one of the mark, to the byte. A reflex that cannot write rolls back to its
-//! own mark, not to the start of the transaction.
+//! Invariant: after a rollback the state is the one of the mark, to the byte. A reflex that cannot write rolls back to
+//! its own mark, not to the start of the transaction.
 
 use super::State;
 use super::log::{Mark, Undo};

@@ -1,8 +1,8 @@
 //! Loading what a transaction will need into the cache, before it begins.
 //!
-//! Problem: to check and write an edit is a chain of loads that wait for one another, and in a large graph each comes from
-//! main memory. Idea: read the first entry of each list that the edits will touch, for all edits at once; the loads then
-//! overlap.
+//! Problem: to check and write an edit is a chain of loads that wait for one another, and in a large graph each comes
+//! from main memory. Idea: read the first entry of each list that the edits will touch, for all edits at once; the
+//! loads then overlap.
 
 use super::State;
 use crate::block::place;
@@ -20,7 +20,8 @@ pub(crate) enum Side {
 }
 
 impl State {
-    /// Reads what an edit of this node will need. The result has no meaning, but keeps the compiler from dropping the reads.
+    /// Reads what an edit of this node will need. The result has no meaning, but keeps the compiler from dropping the
+    /// reads.
     pub(crate) fn warm(&self, id: NodeId, side: Side) -> usize {
         let (block, slot) = place(id);
         let Some(block) = self.blocks.get(block) else { return 0 };

@@ -1,7 +1,7 @@
 //! One edit: checked (`check`), then written and logged (`State::insert_…`, `State::remove_…` in `state::write`).
 //!
-//! Invariant: an edit that is rejected leaves the state as it was, except for a rejected claim, which the rollback of its
-//! transaction undoes.
+//! Invariant: an edit that is rejected leaves the state as it was, except for a rejected claim, which the rollback of
+//! its transaction undoes.
 
 use super::edit::Edit;
 use super::error::TransactionError;

@@ -1,7 +1,7 @@
 //! First stage of an edit: the rules for this edit alone.
 //!
-//! Each function resolves what the edit names, checks it against the vocabulary, the state and the writer's permissions, and
-//! returns the ids to write. It changes nothing. Rules for the graph as a whole are in `invariants`.
+//! Each function resolves what the edit names, checks it against the vocabulary, the state and the writer's
+//! permissions, and returns the ids to write. It changes nothing. Rules for the graph as a whole are in `invariants`.
 
 use std::sync::Arc;
 

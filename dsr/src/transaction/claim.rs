@@ -1,12 +1,13 @@
 //! Writing leases: claims, waits and releases.
 //!
-//! A released lease goes to the next waiting agent in the same commit, so no version shows a free resource that an agent
-//! waits for. A lease that *yields* goes to a claimant of strictly higher priority than the lease is worth; one that
-//! *finishes* goes to no agent before its holder releases it.
+//! A released lease goes to the next waiting agent in the same commit, so no version shows a free resource that an
+//! agent waits for. A lease that *yields* goes to a claimant of strictly higher priority than the lease is worth; one
+//! that *finishes* goes to no agent before its holder releases it.
 //!
-//! Invariant: waits have no cycle. The wait that would close one is rejected. A grant closes none, because an agent that is
-//! granted what it awaits awaits nothing any more; other grants are checked. The attribute `claim` is the version of the
-//! grant, so a reflex can tell its lease from a later one of the same agent. Cost: a claim walks the waits that it touches.
+//! Invariant: waits have no cycle. The wait that would close one is rejected. A grant closes none, because an agent
+//! that is granted what it awaits awaits nothing any more; other grants are checked. The attribute `claim` is the
+//! version of the grant, so a reflex can tell its lease from a later one of the same agent. Cost: a claim walks the
+//! waits that it touches.
 //!
 //! See [`crate::lease`] for the other invariants and for how leases are read.
 
@@ -138,8 +139,8 @@ fn passes_to(
     lease.claimed != since && gives_way(state, lease, resource, worth)
 }
 
-/// Whether a lease passes to a claim or wait of this worth. Agents that wait for the same resource go on waiting for it, so
-/// they do not count; agents that wait for another resource of the holder do.
+/// Whether a lease passes to a claim or wait of this worth. Agents that wait for the same resource go on waiting for
+/// it, so they do not count; agents that wait for another resource of the holder do.
 fn gives_way(state: &State, lease: &Lease, resource: ResourceId, to: Priority) -> bool {
     let pressure = pressure(state, lease.holder, Some(resource), 0);
     lease.preemption == Preemption::Yields && Some(to) > pressure && to > lease.priority

@@ -8,8 +8,8 @@
 //!    (`reflexes`).
 //! 6. The log becomes the delta (`crate::delta`), and the state gets its version.
 //!
-//! Invariant: after an error the state is the one before, to the byte, and the reflexes are those before. Cost: for each
-//! edit a few binary searches and one look-up of permissions; see `BENCHMARKS.md`.
+//! Invariant: after an error the state is the one before, to the byte, and the reflexes are those before. Cost: for
+//! each edit a few binary searches and one look-up of permissions; see `BENCHMARKS.md`.
 
 use super::Transaction;
 use super::apply::apply;
@@ -54,8 +54,8 @@ pub(crate) fn transact(
     if !changes.is_empty() || !fired.is_empty() {
         (state.version, state.time) = (Version(state.version.0 + 1), time);
     }
-    // The id of a node that was added and removed again is free: the delta does not mention it, so a replay would not know
-    // that it is taken.
+    // The id of a node that was added and removed again is free: the delta does not mention it, so a replay would not
+    // know that it is taken.
     let added =
         |change: &Change| if let Change::NodeAdded { node, .. } = change { Some(*node) } else { None };
     let last = changes.iter().filter_map(added).max();
@@ -89,11 +89,10 @@ fn run(
     Ok((guards, fired))
 }
 
-/// Graphs of fewer nodes than this are in the cache anyway.
+/// A graph with fewer nodes than this is in the cache anyway.
 const LARGE: NodeId = NodeId(1 << 12);
 
-/// Brings what the edits will need into the cache. Checking and writing an edit is a chain of loads that wait for one
-/// another, and in a large graph each comes from main memory; asked for at once, they come at once.
+/// Loads what the edits will need into the cache; see `crate::state::warm`.
 pub(crate) fn warm(state: &State, edits: &[Edit]) {
     if state.next < LARGE {
         return;

@@ -1,7 +1,7 @@
-//! How many edges of a label a node may have: judged once, at the end of a transaction, so that one edge can take the
-//! place of another in any order.
+//! The most edges of a label that a node may have: checked once, at the end of a transaction, so that an edge can
+//! replace another one in any order.
 //!
-//! Cost: two binary searches per edge that came; nothing in a vocabulary without limits.
+//! Cost: two binary searches per new edge; nothing in a vocabulary without limits.
 
 use super::error::TransactionError;
 use crate::block::Node;
@@ -9,7 +9,7 @@ use crate::id::{LabelId, NodeId};
 use crate::state::State;
 use crate::state::log::{Mark, Undo};
 
-/// Whether the edges that came since the mark are too many somewhere.
+/// Checks the nodes that got an edge since the mark.
 pub(super) fn check(state: &State, mark: Mark) -> Result<(), TransactionError> {
     if !state.vocabulary.has_limits() {
         return Ok(());

@@ -9,7 +9,7 @@ use crate::lease::{Preemption, Priority};
 use crate::pose::Pose;
 use crate::value::{NewValue, NodeRef};
 
-/// Names the holder of an attribute in an edit.
+/// The holder of an attribute in an edit.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[expect(missing_docs, reason = "the fields are the terms of the variant")]
@@ -56,28 +56,30 @@ pub enum Edit {
     AddNode { name: Arc<str>, node_type: TypeId },
     /// Removes a node with its edges, attributes, transforms and the attributes that refer to it.
     RemoveNode { node: NodeRef },
-    /// Adds an edge; no change if it is there.
+    /// Adds an edge; no change if it exists.
     AddEdge { from: NodeRef, label: LabelId, to: NodeRef },
-    /// Removes an edge with its attributes; no change if it is not there.
+    /// Removes an edge with its attributes; no change if it does not exist.
     RemoveEdge { from: NodeRef, label: LabelId, to: NodeRef },
-    /// Gives an attribute a value; no change if it has it.
+    /// Sets an attribute; no change if it has this value.
     SetAttribute { holder: HolderRef, attribute: AttributeId, value: NewValue },
-    /// Takes an attribute away; no change if it, or the edge that would hold it, is not there.
+    /// Removes an attribute; no change if it, or the edge that would carry it, does not exist.
     ClearAttribute { holder: HolderRef, attribute: AttributeId },
-    /// Gives the pose of `child` in the frame of `parent`, which holds at all times until it is changed.
+    /// Sets the static pose of `child` in the frame of `parent`. It holds at all times until it is changed.
     SetTransform { parent: NodeRef, child: NodeRef, pose: Pose },
-    /// Says where `child` was in the frame of `parent` at a time, and that it moves: the edge keeps the poses of the
-    /// last ten seconds before its newest. No change if the time lies further back.
+    /// Adds the pose of a moving `child` in the frame of `parent` at a time. The transform keeps the poses of the ten
+    /// seconds before its newest. No change if the time lies further back.
     SampleTransform { parent: NodeRef, child: NodeRef, time: Time, pose: Pose },
-    /// Takes `child` off `parent`; no change if it does not hang there.
+    /// Removes the transform between `parent` and `child`; no change if there is none.
     RemoveTransform { parent: NodeRef, child: NodeRef },
-    /// Takes a lease for the writer, from a holder of lower priority if that one yields.
+    /// Takes a lease for the writer, also from a holder of lower priority whose lease yields.
     Claim { resource: ResourceId, priority: Priority, preemption: Preemption },
-    /// Takes a lease for the writer as a claim does, or has the writer wait until it is its turn: the lease comes with
-    /// the commit that frees the resource. Refused where the holder waits for the writer. An agent waits for one at most.
+    /// Claims a lease, or makes the writer wait for its turn: it then gets the lease in the commit that frees the
+    /// resource. Rejected if the holder waits for the writer, directly or through others. An agent waits for at most
+    /// one lease.
     Await { resource: ResourceId, priority: Priority, preemption: Preemption },
-    /// Gives the writer's lease back, or its place among those who wait; no change if it has neither.
+    /// Releases the writer's lease, or ends its wait; no change if it has neither.
     Release { resource: ResourceId },
-    /// Drops all leases and waits of an agent and breaks all its reflexes. For the agent itself and for [`AgentId::DSR`].
+    /// Releases all leases of an agent, ends its wait and breaks all its reflexes. Only the agent itself and
+    /// [`AgentId::DSR`] may write it.
     Expire { agent: AgentId },
 }

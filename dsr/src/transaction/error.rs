@@ -1,4 +1,4 @@
-//! Why a transaction is refused. Every variant carries the names it is about; the graph is untouched.
+//! Why a transaction is rejected. Every variant carries the names that it is about. The graph has not changed.
 
 use std::sync::Arc;
 
@@ -9,26 +9,26 @@ use crate::value::{Kind, NodeRef};
 
 type Name = Arc<str>;
 
-/// Why a transaction is refused.
+/// Why a transaction is rejected.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the fields are the names that the variant is about")]
 pub enum TransactionError {
-    /// The writer is of another vocabulary.
+    /// The vocabulary has no such agent.
     #[error("no agent {id}")]
     UnknownAgent { id: AgentId },
     /// No such node.
     #[error("no node '{node}'")]
     UnknownNode { node: NodeRef },
-    /// The type is of another vocabulary.
+    /// The vocabulary has no such type.
     #[error("no type {id}")]
     UnknownType { id: TypeId },
-    /// The label is of another vocabulary.
+    /// The vocabulary has no such label.
     #[error("no label {id}")]
     UnknownLabel { id: LabelId },
-    /// The attribute is of another vocabulary.
+    /// The vocabulary has no such attribute.
     #[error("no attribute {id}")]
     UnknownAttribute { id: AttributeId },
-    /// The resource is of another vocabulary.
+    /// The vocabulary has no such resource.
     #[error("no resource {id}")]
     UnknownResource { id: ResourceId },
     /// A node without a name.
@@ -37,7 +37,7 @@ pub enum TransactionError {
     /// A node has that name.
     #[error("there is a node '{name}' already")]
     DuplicateNode { name: Name },
-    /// All ids have been given out.
+    /// All node ids have been used.
     #[error("no node id is left")]
     Full,
     /// A token that only the graph itself writes: the nodes of agents and resources, leases.
@@ -49,16 +49,16 @@ pub enum TransactionError {
     /// The label does not connect nodes of these types.
     #[error("'{label}' does not go from '{from}' ({from_type}) to '{to}' ({to_type})")]
     WrongSignature { label: Name, from: Name, from_type: Name, to: Name, to_type: Name },
-    /// An attribute of an edge that is not there.
+    /// An attribute of an edge that does not exist.
     #[error("no edge '{from}' {label} '{to}'")]
     MissingEdge { from: Name, label: Name, to: Name },
-    /// The attribute does not belong on that holder.
+    /// The attribute is declared for other holders.
     #[error("attribute '{attribute}' does not belong on {holder}")]
     WrongHolder { attribute: Name, holder: Name },
-    /// The value is not of the declared kind.
+    /// The value has another kind than the attribute.
     #[error("attribute '{attribute}' is a {expected}, not a {found}")]
     WrongKind { attribute: Name, expected: Kind, found: &'static str },
-    /// A quantity of an attribute that is measured in something else, or in nothing.
+    /// The quantity has another dimension than the attribute, or the attribute has no unit.
     #[error("attribute '{attribute}' is measured in {}, not in {found}", expected.map_or_else(|| "no unit".to_owned(), |unit| unit.to_string()))]
     WrongUnit { attribute: Name, expected: Option<Unit>, found: Unit },
     /// The value names a node of the wrong type.
@@ -67,7 +67,7 @@ pub enum TransactionError {
     /// A number or a transform that is infinite or not a number.
     #[error("{token} is not finite")]
     NotFinite { token: Name },
-    /// A rotation that is no unit quaternion.
+    /// A rotation that is not a unit quaternion.
     #[error("the pose of '{child}' in '{parent}' has a rotation that is no unit quaternion")]
     NotRigid { parent: Name, child: Name },
     /// More edges of a label would leave a node than the vocabulary allows.
@@ -76,10 +76,10 @@ pub enum TransactionError {
     /// More edges of a label would reach a node than the vocabulary allows.
     #[error("at most {most} '{label}' may reach '{node}'")]
     TooManyReach { node: Name, label: Name, most: u32 },
-    /// The writer does not own the token there.
+    /// The writer has no permission for the token there.
     #[error("'{writer}' may not write {token} at '{from}'{}", to.as_ref().map(|to| format!(", '{to}'")).unwrap_or_default())]
     Forbidden { writer: Name, token: Name, from: Name, to: Option<Name> },
-    /// A transform at a node that has no place in the geometric quiver.
+    /// A transform at a node whose type is not geometric.
     #[error("'{node}' ({node_type}) is not geometric")]
     NotGeometric { node: Name, node_type: Name },
     /// A second parent (geometric quiver, properties 2 and 3).
@@ -91,42 +91,43 @@ pub enum TransactionError {
     /// Two trees of transforms (geometric quiver, property 3).
     #[error("two roots: '{root}' and '{other}'")]
     SecondRoot { root: Name, other: Name },
-    /// A subtree lost its way to the root (geometric quiver, property 3).
+    /// A subtree would lose its path to the root (geometric quiver, property 3).
     #[error("taking '{child}' off '{parent}' cuts off what hangs below '{child}'")]
     Disconnected { parent: Name, child: Name },
-    /// The resource is held, by a priority that is not lower or by a holder that finishes first.
+    /// Another agent holds the resource: with a priority that is not lower, or with a lease that does not yield.
     #[error("'{holder}' holds '{resource}' with priority {}", priority.0)]
     ResourceHeld { resource: Name, holder: Name, priority: Priority, preemption: Preemption },
-    /// The writer waits for a resource; nobody waits for two.
+    /// The writer already waits for a resource; an agent waits for at most one.
     #[error("'{writer}' waits for '{resource}' already")]
     WaitsAlready { writer: Name, resource: Name },
-    /// The writer would wait for somebody who waits for the writer: each resource of the circle with who holds it.
-    #[error("'{writer}' would wait for itself: {}", told(circle))]
+    /// The writer would wait for an agent that waits for the writer. The cycle: each resource with its holder.
+    #[error("'{writer}' would wait for itself: {}", named(circle))]
     Deadlock { writer: Name, circle: Vec<(Name, Name)> },
-    /// The graph has moved on.
+    /// The graph is at another version than the expected one.
     #[error("expected version {}, the graph is at {}", expected.0, current.0)]
     Stale { expected: Version, current: Version },
-    /// The reflex to be dismissed has fired or was dismissed.
+    /// The reflex to be dismissed has fired or was dismissed before.
     #[error("reflex {} is gone", reflex.0)]
     ReflexGone { reflex: ReflexId },
-    /// The reflex to be dismissed, or to be registered, is another agent's.
+    /// The reflex or the expiry concerns another agent.
     #[error("'{writer}' cannot act for '{owner}'")]
     NotOwner { writer: Name, owner: Name },
-    /// A condition that a new reflex is to keep does not hold.
+    /// A condition of a new reflex does not hold.
     #[error("condition {keep} of a new reflex of '{owner}' does not hold")]
     KeepBroken { owner: Name, keep: usize },
     /// A new reflex names a lease that its owner does not hold.
     #[error("'{owner}' does not hold '{resource}'")]
     NotHeld { owner: Name, resource: Name },
-    /// A new reflex would take a lease or wait for one; it fires where its owner is dead, and the dead hold nothing.
+    /// A new reflex would claim or await a lease. It may fire because its owner has expired, and an expired agent holds
+    /// none.
     #[error("a reflex of '{owner}' would take '{resource}'")]
     ReflexClaims { owner: Name, resource: Name },
-    /// What a new reflex would do could not be done.
+    /// The edits of a new reflex would be rejected.
     #[error("a reflex of '{owner}' could not fire: {error}")]
     ReflexRefused { owner: Name, error: Box<TransactionError> },
 }
 
-fn told(circle: &[(Name, Name)]) -> String {
+fn named(circle: &[(Name, Name)]) -> String {
     let step = |(resource, holder): &(Name, Name)| format!("'{resource}' is held by '{holder}'");
     circle.iter().map(step).collect::<Vec<_>>().join(", who waits: ")
 }

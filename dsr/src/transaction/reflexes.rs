@@ -1,9 +1,9 @@
 //! The registered reflexes, and how they fire in the commit that breaks them.
 //!
-//! Invariants: a reflex fires at most once and registers no other, so at most as many fire as are registered. A reflex never
-//! makes another agent's commit fail: its edits are tried when it is registered; edits that have become impossible when it
-//! fires are left out, and the delta reports that it fired all the same. Cost: for each commit, one intersection of
-//! small bit sets per reflex; only the reflexes that the commit touches are matched.
+//! Invariants: a reflex fires at most once and registers no other, so at most as many fire as are registered. A reflex
+//! never makes another agent's commit fail: its edits are tried when it is registered; edits that have become
+//! impossible when it fires are left out, and the delta reports that it fired all the same. Cost: for each commit, one
+//! intersection of small bit sets per reflex; only the reflexes that the commit touches are matched.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

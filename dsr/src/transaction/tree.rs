@@ -1,9 +1,10 @@
-//! The geometric quiver is one rooted tree: judged once, at the end of a transaction.
+//! The geometric quiver is one rooted tree: checked once, at the end of a transaction.
 //!
-//! Source: Marfil et al., §3.1: acyclic, one geometric edge per pair, one simple path between any two geometric
-//! nodes. Second parents are refused edit by edit; what is left is cycles (walk up from every child that moved)
-//! and roots (a node with children and no parent; there may be one). A node without transforms takes no part.
-//! Cost: the nodes above the moved children.
+//! An edit that adds a second parent is rejected at once. What remains to check is cycles (walk up from every child
+//! that moved) and roots (nodes with children and no parent: there may be one). A node without transforms is not part
+//! of the tree. Cost: the nodes above the moved children.
+//!
+//! Source: Marfil et al., §3.1: acyclic, one geometric edge per pair, one simple path between any two geometric nodes.
 
 use std::sync::Arc;
 
@@ -14,7 +15,7 @@ use crate::id::NodeId;
 use crate::state::State;
 use crate::state::log::{Mark, Undo};
 
-/// The root after what was edited since the mark, or what is broken.
+/// The root after the edits since the mark, or the rule that they break.
 pub(super) fn check(state: &State, mark: Mark) -> Result<Option<NodeId>, TransactionError> {
     let entries = state.log.since(mark);
     let parent_now = |id| state.joint(id).map(|joint| joint.parent);
@@ -24,11 +25,11 @@ pub(super) fn check(state: &State, mark: Mark) -> Result<Option<NodeId>, Transac
             _ => None,
         })
     };
-    // New poses of joints that stay where they are move nothing in the tree.
+    // New poses of transforms that keep their parent do not change the tree.
     if parents().all(|(child, old)| old == parent_now(child)) {
         return Ok(state.root);
     }
-    // Per child that was touched, its parent before: the first entry about it has that.
+    // The old parent of each edited child: the first entry about the child has it.
     let mut before: Vec<_> = parents().collect();
     let touched: Vec<_> = before.iter().map(|(child, _)| *child).collect();
     before.sort_by_key(|(child, _)| *child);
@@ -38,7 +39,7 @@ pub(super) fn check(state: &State, mark: Mark) -> Result<Option<NodeId>, Transac
         Err(_) => parent_now(id),
     };
 
-    // The edit that closed a cycle is the last one on it.
+    // The last edit on a cycle is the one that closed it.
     let mut fine = FxHashSet::default();
     for &id in touched.iter().rev() {
         if let Some(parent) = parent_now(id)
@@ -68,7 +69,7 @@ pub(super) fn check(state: &State, mark: Mark) -> Result<Option<NodeId>, Transac
     Ok(root)
 }
 
-/// The name of a node that may have been removed.
+/// The name of a node that the transaction may have removed.
 fn name_before(state: &State, entries: &[Undo], id: NodeId) -> Arc<str> {
     let removed = |entry: &Undo| match entry {
         Undo::NodeRemoved { node, name, .. } if *node == id => Some(name.clone()),
@@ -77,9 +78,9 @@ fn name_before(state: &State, entries: &[Undo], id: NodeId) -> Arc<str> {
     entries.iter().find_map(removed).unwrap_or_else(|| state.name(id))
 }
 
-/// Whether going up from `start` comes back to it. A cycle that `start` only leads into is found from the moved child
-/// that lies on it; such a walk ends when it meets a node twice (Brent 1980). What leads to a root is kept in `fine`, so
-/// that all walks together see each node a few times at most.
+/// Whether the path up from `start` comes back to it. A cycle that does not contain `start` is found from the moved
+/// child on it; this walk then ends when it meets a node twice (Brent 1980). Nodes whose path leads to a root are kept
+/// in `fine`, so all walks together visit each node a few times at most.
 fn closes_cycle(state: &State, start: NodeId, fine: &mut FxHashSet<NodeId>) -> bool {
     let mut path = vec![start];
     let mut mark = start;

@@ -1,7 +1,7 @@
-//! Building a vocabulary: names in, ids out, and no id that could be wrong later.
+//! Building a vocabulary: names in, valid ids out.
 //!
-//! A type is declared after its parent, so the hierarchy cannot have a cycle. Declaring a label again adds a
-//! signature. Agents and resources become nodes of every graph, so they share one space of names.
+//! A type is declared after its parent, so the hierarchy cannot have a cycle. Declaring a label again adds a signature.
+//! Agents and resources become nodes of every graph, so they share one name space.
 
 use std::sync::Arc;
 
@@ -14,19 +14,19 @@ use crate::id::{AgentId, AttributeId, LabelId, ResourceId, TypeId};
 use crate::unit::Unit;
 use crate::value::Kind;
 
-/// Why a declaration is refused.
+/// Why a declaration is rejected.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum VocabularyError {
     /// A name is empty.
     #[error("a name is empty")]
     EmptyName,
-    /// The type is declared already.
+    /// The type has been declared before.
     #[error("type '{name}' is declared twice")]
     DuplicateType {
         /// The type.
         name: Arc<str>,
     },
-    /// The attribute is declared already.
+    /// The attribute has been declared before.
     #[error("attribute '{name}' is declared twice")]
     DuplicateAttribute {
         /// The attribute.
@@ -38,43 +38,43 @@ pub enum VocabularyError {
         /// The name.
         name: Arc<str>,
     },
-    /// The id is not of this builder.
+    /// The id belongs to another vocabulary.
     #[error("no type {id} here")]
     UnknownType {
         /// The id.
         id: TypeId,
     },
-    /// The id is not of this builder.
+    /// The id belongs to another vocabulary.
     #[error("no label {id} here")]
     UnknownLabel {
         /// The id.
         id: LabelId,
     },
-    /// The id is not of this builder.
+    /// The id belongs to another vocabulary.
     #[error("no attribute {id} here")]
     UnknownAttribute {
         /// The id.
         id: AttributeId,
     },
-    /// The id is not of this builder.
+    /// The id belongs to another vocabulary.
     #[error("no agent {id} here")]
     UnknownAgent {
         /// The id.
         id: AgentId,
     },
-    /// The labels `holds` and `awaits` and their attributes are written by claims only.
+    /// The labels `holds` and `awaits` and their attributes: only claims write them.
     #[error("'{name}' is reserved for leases")]
     Reserved {
         /// The token.
         name: Arc<str>,
     },
-    /// A unit for an attribute that is no number.
+    /// A unit for an attribute that does not hold numbers.
     #[error("attribute '{name}' is no number and has no unit")]
     NotMeasured {
         /// The attribute.
         name: Arc<str>,
     },
-    /// An attribute sits on edges that the label cannot have.
+    /// An attribute of edges that the label does not allow.
     #[error("attribute '{attribute}': label '{label}' does not go from '{from}' to '{to}'")]
     NoSuchSignature {
         /// The attribute.
@@ -91,7 +91,7 @@ pub enum VocabularyError {
 /// Declares tokens one by one.
 #[derive(Debug)]
 pub struct VocabularyBuilder {
-    /// What will be the vocabulary; its permissions are spelled out at the end.
+    /// The vocabulary so far; its permissions are filled in at the end.
     made: Vocabulary,
     permissions: Vec<(AgentId, Permission)>,
 }
@@ -103,7 +103,7 @@ impl Default for VocabularyBuilder {
 }
 
 impl VocabularyBuilder {
-    /// A vocabulary with what is built into every one.
+    /// A vocabulary with only the built-in tokens.
     pub fn new() -> Self {
         let mut new = Self {
             made: Vocabulary {
@@ -169,7 +169,7 @@ impl VocabularyBuilder {
         Ok(self.add_type(name, Some(parent), nature))
     }
 
-    /// Declares a label, or one more signature of it.
+    /// Declares a label, or another signature of it.
     pub fn label(&mut self, name: &str, from: TypeId, to: TypeId) -> Result<LabelId, VocabularyError> {
         let name = named(name)?;
         self.known_type(from)?;
@@ -234,7 +234,7 @@ impl VocabularyBuilder {
         self.attribute(&name, HolderType::Edge { label, signature: Signature { from, to } }, kind)
     }
 
-    /// Says how many edges of a label a node may have: one place where somebody is, two hands.
+    /// Limits the edges of a label at a node: a person is in one place, a robot has two hands.
     pub fn limit(&mut self, label: LabelId, degree: Degree) -> Result<(), VocabularyError> {
         let entry =
             self.made.labels.get_mut(label.index()).ok_or(VocabularyError::UnknownLabel { id: label })?;
@@ -246,7 +246,7 @@ impl VocabularyBuilder {
         Ok(())
     }
 
-    /// Says what a numeric attribute is measured in.
+    /// Sets the unit of a numeric attribute.
     pub fn measured_in(&mut self, attribute: AttributeId, unit: Unit) -> Result<(), VocabularyError> {
         let id = attribute;
         let entry =
@@ -279,7 +279,7 @@ impl VocabularyBuilder {
         Ok(id)
     }
 
-    /// Lets an agent write a token. Without any permission an agent may only claim and release.
+    /// Permits an agent to write a token. Without any permission an agent may only claim and release.
     pub fn permit(&mut self, agent: AgentId, permission: Permission) -> Result<(), VocabularyError> {
         if agent.index() >= self.made.agents.len() {
             return Err(VocabularyError::UnknownAgent { id: agent });
@@ -305,7 +305,7 @@ impl VocabularyBuilder {
         Ok(())
     }
 
-    /// Closes the vocabulary.
+    /// Completes the vocabulary.
     pub fn build(self) -> Arc<Vocabulary> {
         Arc::new(self.close())
     }
@@ -315,8 +315,8 @@ impl VocabularyBuilder {
         let mut permissions: FxHashMap<_, Vec<_>> = FxHashMap::default();
         for (agent, Permission { token, from, to }) in &self.permissions {
             let tokens = match *token {
-                // Whoever may make nodes of a type may make nodes of its subtypes: spelled out here, so that a
-                // check is one look-up.
+                // An agent that may add nodes of a type may add nodes of its subtypes. The subtypes are listed here, so
+                // that a check is one look-up.
                 Token::Node(id) => (0..self.made.types.len())
                     .map(TypeId::at)
                     .filter(|&sub| self.descends(sub, id))

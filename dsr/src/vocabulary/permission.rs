@@ -1,7 +1,7 @@
 //! Permissions: which agent may write which token, and where.
 //!
-//! A token belongs to the agents that the vocabulary names; with an end fixed, an agent owns a label only
-//! there: `speech` may say what *is* `speaking`, and nothing else that *is*.
+//! The vocabulary lists the agents that may write a token. A permission can fix an end: `speech` may write that a node
+//! *is* `speaking`, and nothing else with the label *is*.
 
 use std::sync::Arc;
 
@@ -14,22 +14,22 @@ use crate::id::{AttributeId, LabelId, TypeId};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Token {
-    /// Edges with this label. Who may remove an edge may thereby remove its attributes.
+    /// Edges with this label. Removing an edge removes its attributes, whatever their permissions.
     Label(LabelId),
     /// This attribute.
     Attribute(AttributeId),
     /// Rigid transforms: `from` is the parent, `to` the child.
     Transform,
-    /// The existence of nodes of this type and its subtypes. Who may remove a node may thereby remove all
-    /// that touches it.
+    /// Nodes of this type and its subtypes. Removing a node removes its edges and attributes, whatever their
+    /// permissions.
     Node(TypeId),
 }
 
-/// Which nodes may stand at one end of what is written.
+/// The nodes at one end of an edge for which a permission holds.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum End {
-    /// Any that the signature allows.
+    /// Any node that the signature allows.
     Any,
     /// The node of this name.
     Named(Arc<str>),
@@ -52,19 +52,19 @@ impl End {
     }
 }
 
-/// One thing that an agent may write.
+/// A token that an agent may write, and where.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Permission {
     /// The token.
     pub token: Token,
-    /// Where it may start; the holder, for an attribute of nodes or the existence of a node.
+    /// Where it may start; for an attribute of nodes and for nodes, the node itself.
     pub from: End,
-    /// Where it may end; [`End::Any`] where there is no second end.
+    /// Where it may end; [`End::Any`] if the token has one end.
     pub to: End,
 }
 
 impl Permission {
-    /// The token, wherever its signature allows.
+    /// The token, at any nodes that its signature allows.
     pub fn anywhere(token: Token) -> Self {
         Self { token, from: End::Any, to: End::Any }
     }

@@ -1,7 +1,7 @@
-//! A vocabulary as plain data: what a journal begins with, so that it can be read without the program that wrote it.
+//! A vocabulary as plain data: the beginning of a journal, which can so be read without the program that wrote it.
 //!
-//! Lists in the order of the ids, without what is built into every vocabulary. Invariant: reading declares everything
-//! again through the builder, so what was read has been checked, and has the ids that it had.
+//! The lists are in the order of the ids, without the built-in tokens. Invariant: reading declares everything again
+//! through the builder, so a vocabulary that was read is checked and has the ids that it had.
 
 use std::sync::Arc;
 

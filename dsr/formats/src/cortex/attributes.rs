@@ -1,8 +1,8 @@
 //! The attributes of the file as attributes of ours.
 //!
-//! Problem: theirs are named by whoever writes them, on any holder and with any value; ours are declared once, with holder
-//! and kind, and share one space of names. Idea: what is one attribute is decided by where it sits, its name in the file,
-//! its place in a list and its kind; only then each gets a name, those first that can keep their own.
+//! Problem: theirs are named by whoever writes them, on any holder and with any value; ours are declared once, with
+//! holder and kind, and share one space of names. Idea: what is one attribute is decided by where it sits, its name in
+//! the file, its place in a list and its kind; only then each gets a name, those first that can keep their own.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,8 +1,8 @@
 //! Names of the file as names of ours, each once.
 //!
-//! Problem: every vocabulary has tokens of its own, and what is one name in the file may be two of ours or the other way
-//! round. Idea: whoever asks first gets the name; the next gets it with a number, and a note. Cost: a look-up per name,
-//! since it is remembered how far the numbers of a name have come.
+//! Problem: every vocabulary has tokens of its own, and what is one name in the file may be two of ours or the other
+//! way round. Idea: whoever asks first gets the name; the next gets it with a number, and a note. Cost: a look-up per
+//! name, since it is remembered how far the numbers of a name have come.
 
 use std::collections::BTreeMap;
 

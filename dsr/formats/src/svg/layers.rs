@@ -1,19 +1,20 @@
-//! Where nodes, lines and their labels stand in a picture: in rows, so that lines point down and nothing lies on anything.
+//! Where nodes, lines and their labels stand in a picture: in rows, so that lines point down and nothing lies on
+//! anything.
 //!
 //! Problem: a line that spans several rows would run through what stands between, and labels would lie on each other.
-//! Idea: the layered method. Lines that close a cycle are turned round and a node stands below whatever points at it;
-//! a line has a cell in each row that it passes, and between any two rows of nodes there is a row for labels, so a label
+//! Idea: the layered method. Lines that close a cycle are turned round and a node stands below whatever points at it; a
+//! line has a cell in each row that it passes, and between any two rows of nodes there is a row for labels, so a label
 //! has a cell of its own. Rows are ordered by the mean place of their neighbours, up and down, and the order with the
-//! fewest crossings is kept. Then each row is moved as near to its neighbours as the widths allow, long lines most of all,
-//! which for a row is a regression under an order, solved exactly by pooling what would overlap. Layout crates for Rust
-//! either ask for graphviz or abort on graphs that they do not like.
+//! fewest crossings is kept. Then each row is moved as near to its neighbours as the widths allow, long lines most of
+//! all, which for a row is a regression under an order, solved exactly by pooling what would overlap. Layout crates for
+//! Rust either ask for graphviz or abort on graphs that they do not like.
 //!
 //! Cost: sweeps times cells, and cells are at most the lines times the rows; beyond [`MOST`] a line has a cell for its
 //! label only and runs behind what is in its way.
 //!
-//! Source: Sugiyama, Tagawa & Toda, "Methods for visual understanding of hierarchical system structures", IEEE SMC 1981;
-//! Gansner, Koutsofios, North & Vo, "A technique for drawing directed graphs", IEEE TSE 19, 1993, §4 (weights); Barlow et
-//! al., "Statistical inference under order restrictions", 1972 (pooling).
+//! Source: Sugiyama, Tagawa & Toda, "Methods for visual understanding of hierarchical system structures", IEEE SMC
+//! 1981; Gansner, Koutsofios, North & Vo, "A technique for drawing directed graphs", IEEE TSE 19, 1993, §4 (weights);
+//! Barlow et al., "Statistical inference under order restrictions", 1972 (pooling).
 
 /// Most cells of lines.
 const MOST: usize = 4_000;
@@ -307,8 +308,8 @@ fn straighten(rows: &[Vec<usize>], cells: &mut [Cell]) {
     }
 }
 
-/// Where a cell would be without the others of its row, and how much it matters. A node, in the middle of its neighbours. A
-/// line, straight on from the row that was moved before: so a long one has its bends in few places.
+/// Where a cell would be without the others of its row, and how much it matters. A node, in the middle of its
+/// neighbours. A line, straight on from the row that was moved before: so a long one has its bends in few places.
 fn wanted(cell: &Cell, cells: &[Cell], is_down: bool) -> (f64, f64) {
     let all = cell.near.iter().map(|(_, weight)| weight).sum();
     let before = |other: usize| cell.is_node || (cells[other].row < cell.row) == is_down;
