@@ -1,7 +1,7 @@
-//! A state as plain data: for files, for people, and for comparing states byte by byte.
+//! A state as plain data: for files, for display, and for comparing states byte by byte.
 //!
-//! Everything is by name, sorted, and complete: two states of one vocabulary are the same exactly when their
-//! exports are. Reflexes are not in it; they belong to activities that run, and die with the process.
+//! Everything is named, sorted and complete: two states of one vocabulary are equal exactly when their exports are.
+//! Reflexes are not included; they belong to running activities and end with the process.
 
 use std::sync::Arc;
 
@@ -25,7 +25,7 @@ pub struct Export {
     pub version: Version,
     /// The time of its commit.
     pub time: Time,
-    /// The id that the next new node will get.
+    /// The id of the next new node.
     pub next: NodeId,
     /// The nodes, by id.
     pub nodes: Vec<ExportedNode>,
@@ -57,7 +57,7 @@ pub struct ExportedNode {
 pub struct ExportedEdge {
     /// Where it starts.
     pub from: Arc<str>,
-    /// What it says.
+    /// Its label.
     pub label: Arc<str>,
     /// Where it ends.
     pub to: Arc<str>,
@@ -71,7 +71,7 @@ pub struct ExportedEdge {
 /// An attribute as plain data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ExportedAttribute {
-    /// Which.
+    /// Its name.
     pub name: Arc<str>,
     /// Its value.
     pub value: ExportedValue,
@@ -93,9 +93,9 @@ pub enum ExportedValue {
 /// A geometric edge as plain data: the pose of the child in the frame of the parent.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ExportedTransform {
-    /// What the child hangs below.
+    /// The parent.
     pub parent: Arc<str>,
-    /// What hangs.
+    /// The child.
     pub child: Arc<str>,
     /// x, y, z in metres.
     pub translation: [f64; 3],
@@ -107,7 +107,7 @@ pub struct ExportedTransform {
     pub covariance: Option<Arc<Covariance>>,
     /// The version that wrote it.
     pub since: Version,
-    /// The stamped poses of an edge that moves, the one above the newest of them; none for one that stands.
+    /// The stamped poses of a moving child, of which the pose above is the newest; empty for a static one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub samples: Vec<ExportedSample>,
 }
@@ -115,7 +115,7 @@ pub struct ExportedTransform {
 /// A stamped pose as plain data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ExportedSample {
-    /// When.
+    /// The time.
     pub time: Time,
     /// x, y, z in metres.
     pub translation: [f64; 3],
@@ -202,52 +202,53 @@ fn numbers_of(pose: &Pose) -> ([f64; 3], [f64; 4]) {
     ([t.x, t.y, t.z], [q.x, q.y, q.z, q.w])
 }
 
-/// The pose of these numbers. Not normalised: the bits must come back as they were.
+/// The pose of these numbers. It is not normalised, because its bits must stay as they were.
 fn pose_of([x, y, z]: [f64; 3], [i, j, k, w]: [f64; 4], covariance: Option<Arc<Covariance>>) -> Pose {
     let rotation = Unit::new_unchecked(Quaternion::new(w, i, j, k));
     Pose { transform: Isometry3::from_parts(Translation3::new(x, y, z), rotation), covariance }
 }
 
-/// Why plain data is no state of this vocabulary.
+/// Why plain data is not a state of the vocabulary.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the fields are the names that the variant is about")]
 pub enum RestoreError {
-    /// The vocabulary does not have the token.
+    /// The vocabulary has no such token.
     #[error("the vocabulary has no '{name}'")]
     UnknownToken { name: Arc<str> },
-    /// Something hangs on a node that is not there.
+    /// An edge, attribute or transform of a node that does not exist.
     #[error("no node '{name}'")]
     UnknownNode { name: Arc<str> },
     /// Two nodes share an id or a name, or an id is not below `next`.
     #[error("node '{name}' has a name or an id that is not its own")]
     NodeClash { name: Arc<str> },
-    /// The nodes of agents and resources are not those of the vocabulary.
+    /// The node of an agent or a resource of the vocabulary is missing or has another id.
     #[error("'{name}' does not stand for the agent or the resource of that name")]
     NotOfDictionary { name: Arc<str> },
     /// An edge that the vocabulary does not allow.
     #[error("'{label}' does not go from '{from}' to '{to}'")]
     WrongEdge { from: Arc<str>, label: Arc<str>, to: Arc<str> },
-    /// A value of the wrong kind, or an attribute of the wrong holder.
+    /// A value of the wrong kind, an attribute of the wrong holder, or a second value.
     #[error("attribute '{attribute}' does not fit")]
     WrongAttribute { attribute: Arc<str> },
-    /// A transform that is no rigid one, or between nodes that are not geometric, or to a second parent.
+    /// A transform that is not rigid, is between nodes that are not geometric, or gives a second parent.
     #[error("no rigid transform from '{parent}' to '{child}'")]
     WrongTransform { parent: Arc<str>, child: Arc<str> },
-    /// Two hold a resource, or one waits for what nobody has, for two, or in a circle.
+    /// A resource with two holders, or an agent that waits for a free resource, for two, or in a cycle.
     #[error("leases and waits that no graph would have")]
     WrongLeases,
-    /// More commits than a graph can see.
+    /// A version beyond the last possible one.
     #[error("no version {}", found.0)]
     NoVersion { found: Version },
-    /// The transforms are no rooted tree, or a node has more edges than it may.
+    /// The transforms are not a rooted tree, or a node has too many edges of a label.
     #[error(transparent)]
     Unsound(#[from] TransactionError),
 }
 
-/// The last version that a number of a lease can tell from the next; a commit a nanosecond takes a hundred days to it.
+/// The last version that the attribute of a lease represents exactly; at one commit per nanosecond it is reached after
+/// a hundred days.
 const LAST: u64 = 1 << 53;
 
-/// Rebuilds a state, checking that it is one.
+/// Builds the state of an export, and checks every rule.
 pub(crate) fn restore(vocabulary: Arc<Vocabulary>, export: &Export) -> Result<State, RestoreError> {
     if export.version.0 > LAST {
         return Err(RestoreError::NoVersion { found: export.version });

@@ -1,16 +1,17 @@
-//! The journal: every commit on disk, off the commit path, and every version back from there.
+//! The journal: every commit on disk, off the commit path; and every version back from there.
 //!
-//! Problem: what a robot knew and did must outlive the process and be looked at afterwards, and no disk may slow the
-//! robot. Idea: a commit leaves a reference to its delta in a [`feed`]; one thread takes whatever waits as a group,
-//! appends it as one checksummed frame and syncs when the [`Durability`] says so. A journal is a row of segments, each
-//! of which begins with the vocabulary and a whole state, so that old ones can be let go of and any can be read alone.
+//! Problem: what a robot knew and did must outlive the process, for later inspection, and no disk may slow the robot.
+//! Idea: a commit leaves a reference to its delta in a [`feed`]. One thread takes all waiting deltas as a group,
+//! appends them as one checksummed frame, and syncs when the [`Durability`] requires it. A journal is a sequence of
+//! segments. Each begins with the vocabulary and a whole state, so old ones can be deleted and any one can be read
+//! alone.
 //!
-//! Invariants: a journal read back gives each version to the byte, or says which it lacks; a writer waits for no disk,
-//! and no more than [`Settings::waiting_bytes`] wait for one; what is torn at the end is told apart from what was
-//! damaged later; no bytes make the reader panic.
+//! Invariants: a journal that is read back gives each version to the byte, or reports which ones are missing. A writer
+//! waits for no disk, and at most [`Settings::waiting_bytes`] wait for one. A torn end is distinguished from later
+//! damage. No bytes make the reader panic.
 //!
-//! This module is the only one of the crate that knows threads, times and files, and it opens none but those of a
-//! [`Folder`] or those that [`Recording::open`] is asked for.
+//! This module is the only one of the crate that uses threads, clocks and files. It opens only the files of a
+//! [`Folder`] and those that [`Recording::open`] is given.
 
 mod error;
 pub(crate) mod feed;
@@ -38,28 +39,29 @@ use self::writer::Writer;
 use crate::graph::Graph;
 use crate::id::Version;
 
-/// How far a journal is.
+/// The progress of a journal.
 #[derive(Debug, Clone)]
 pub struct Progress {
     /// The newest version in the store.
     pub written: Version,
-    /// The newest version that would outlive a loss of power.
+    /// The newest version that is synced, and so survives a loss of power.
     pub durable: Version,
-    /// How often commits were left out, because the store was too slow or one was larger than a gibibyte.
+    /// The number of gaps: times when commits were left out, because the store was too slow or a commit was larger than
+    /// a gibibyte.
     pub gaps: u64,
 }
 
-/// The store failed or panicked: what was durable is, and nothing more will be written.
+/// The store failed or panicked: what was durable stays so, and nothing more will be written.
 #[derive(Debug, Clone, thiserror::Error)]
 #[error("the journal ends at version {}: {error}", durable.0)]
 pub struct JournalError {
-    /// The newest version that would outlive a loss of power.
+    /// The newest version that is synced, and so survives a loss of power.
     pub durable: Version,
-    /// What the store said, or that it panicked.
+    /// The error of the store, or that it panicked.
     pub error: Arc<io::Error>,
 }
 
-/// A journal being written. When it is dropped, what was committed before is written and synced.
+/// A journal being written. Dropping it writes and syncs what was committed before.
 #[derive(Debug)]
 pub struct Journal {
     feed: Arc<Feed>,
@@ -67,17 +69,17 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// How far it is.
+    /// The progress so far.
     pub fn progress(&self) -> Result<Progress, JournalError> {
         told(self.feed.progress())
     }
 
-    /// Waits until a version that was committed would outlive a loss of power. Asks for a sync at once.
+    /// Waits until a committed version is synced, which it requests at once.
     pub fn wait(&self, version: Version) -> Result<Progress, JournalError> {
         told(self.feed.wait(version))
     }
 
-    /// Writes what was committed before, syncs it, and ends.
+    /// Writes and syncs what was committed before, and ends the journal.
     pub fn close(mut self) -> Result<Progress, JournalError> {
         self.end();
         told(self.feed.progress())
@@ -86,7 +88,7 @@ impl Journal {
     fn end(&mut self) {
         self.feed.end();
         if let Some(thread) = self.thread.take() {
-            // A panic there has been reported by the panic hook; it is no reason for one here.
+            // The panic hook has reported a panic of the thread; it must not cause another one here.
             let _ = thread.join();
         }
     }

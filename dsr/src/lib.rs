@@ -1,14 +1,13 @@
 //! The Deep State Representation: one typed, versioned graph that agents share.
 //!
-//! What the robot perceives and what it does are written with the same tokens, in one graph, and nobody sends
-//! commands: agents watch patterns and write what they do. This crate is that graph. It checks every transaction
-//! against a [`Vocabulary`] and the invariants of both quivers, hands out immutable [`Snapshot`]s, tells
-//! subscribers which matches of their [`Pattern`]s appeared and disappeared, leases exclusive resources, and
-//! lets the [`Reflex`]es of broken activities write in the very commit that broke them.
+//! What the robot perceives and what it does are written with the same tokens, in one graph. No agent sends commands:
+//! agents watch patterns and write what they do. This crate is that graph. It checks every transaction against a
+//! [`Vocabulary`] and the invariants of both quivers, provides immutable [`Snapshot`]s, reports to subscribers which
+//! matches of their [`Pattern`]s appeared and disappeared, leases exclusive resources, and lets the [`Reflex`]es of
+//! broken activities write in the very commit that broke them.
 //!
 //! It reads no clock and no socket: times are arguments, and the same transactions in the same order give the same
-//! bytes. A [`Journal`] writes them to a [`Store`] on a thread of its own, and a [`Recording`] gives every version
-//! back.
+//! bytes. A [`Journal`] writes them to a [`Store`] on a thread of its own, and a [`Recording`] returns every version.
 //!
 //! ```
 //! use dsr::{AgentId, VocabularyBuilder, Graph, Nature, PatternBuilder, Time};
@@ -34,18 +33,18 @@
 //! graph.edit(AgentId::DSR, Time(1), |tx| {
 //!     tx.add_edge("clarc", is, "speaking");
 //! })?;
-//! let change = speakers.try_recv().expect("somebody speaks now");
+//! let change = speakers.try_recv().expect("the robot speaks now");
 //! assert_eq!(change.snapshot.name(change.appeared[0][0]), Some("clarc"));
 //! assert_eq!(change.snapshot.sentences(), ["clarc is speaking"]);
 //! # Ok(())
 //! # }
 //! ```
 //!
-//! Map, from the ground up: `id`, `unit`, `value` → `vocabulary` → `pages`, `block`, `names`, `members`, `state` (what
-//! a snapshot is), `pose`, `track`, `undo` → `transaction` (edits, leases, the tree of transforms), `delta`,
-//! `replay_check`, `replay`, `export` → `chain`, `pattern`, `reflex` → `snapshot`, `diff`, `past`, `sentence` →
-//! `subscription`, `routes`, `left_right` (how readers and writers keep out of each other's way), `graph`, `liveness` →
-//! `journal`.
+//! Map, from the ground up: `id`, `unit`, `value`, `vocabulary` → `pages`, `names`, `members`, `pose`, `track`, `block`
+//! → `mentions` → `state` (one version of the graph: read, written, logged, rolled back) → `lease`, `chain` (read from
+//! a state) → `delta` → `snapshot` → `pattern` → `transaction` (edits, rules, leases, reflexes; `reflex` is their data)
+//! → `replay_check`, `replay`, `export`, `diff`, `past`, `sentence` → `subscription`, `routes` → `left_right` (readers
+//! and writers apart), `graph`, `liveness` → `journal`.
 
 mod block;
 mod chain;

@@ -1,10 +1,10 @@
-//! Who hears of a commit: from what changed to the subscribers whose pattern it may concern.
+//! Routes: from the changes of a commit to the subscribers whose pattern they may concern.
 //!
-//! Problem: a thousand subscribers asked one by one cost more than the commit. Idea: each pattern is listed under
-//! what its atoms need (`index`): the token, the constant node at an end where there is one, else the types of the ends
-//! and a clue of what must hold beside it. A pattern that speaks of a node by name is listed under the node of that
-//! name, and listed anew when one of that name comes or goes. Cost: a few hash look-ups per change, whatever the number
-//! of subscribers.
+//! Problem: asking a thousand subscribers one by one costs more than the commit. Idea: each pattern is listed under
+//! what its atoms need (`index`): the token, and the constant node at an end if there is one, or else the types of the
+//! ends and a clue of what must hold beside the change. A pattern with a named node is listed under the node of that
+//! name, and listed anew when a node of that name is added or removed. Cost: a few hash look-ups per change, whatever
+//! the number of subscribers.
 
 mod index;
 
@@ -19,12 +19,12 @@ use crate::pattern::{Pattern, Route};
 use crate::state::State;
 use crate::subscription::Queue;
 
-/// A place in the list of subscribers.
+/// A position in the list of subscribers.
 type Seat = usize;
 
 struct Subscriber {
     queue: Weak<Queue>,
-    /// `None` for one that wants every commit.
+    /// `None` for a subscriber to every commit.
     pattern: Option<Arc<Pattern>>,
     routes: Vec<Route>,
 }
@@ -36,7 +36,7 @@ pub(crate) struct Routes {
     every: Vec<Seat>,
     index: Index,
     by_name: FxHashMap<Arc<str>, SmallVec<[Seat; 2]>>,
-    /// When there are so many subscribers, those that are gone are looked for.
+    /// At this number of subscribers, dropped ones are removed.
     sweep: usize,
 }
 
@@ -65,7 +65,7 @@ impl Routes {
         self.subscribers[seat] = Some(subscriber);
     }
 
-    /// Calls `tell` for each subscriber that a delta may concern, once; the state is the one after it.
+    /// Calls `tell` once for each subscriber that a delta may concern. `state` is the state after the delta.
     pub(crate) fn concerned(&mut self, delta: &Delta, state: &State, mut tell: impl FnMut(Arc<Queue>)) {
         let mut seats: SmallVec<[Seat; 16]> = self.every.iter().copied().collect();
         let mut anew: SmallVec<[Seat; 2]> = SmallVec::new();
@@ -95,7 +95,7 @@ impl Routes {
         }
     }
 
-    /// The subscribers that are there.
+    /// The queues of all subscribers.
     pub(crate) fn queues(&self) -> impl Iterator<Item = Arc<Queue>> {
         self.subscribers.iter().flatten().filter_map(|subscriber| subscriber.queue.upgrade())
     }

@@ -11,7 +11,7 @@ use crate::value::Value;
 use crate::vocabulary::Vocabulary;
 
 impl Snapshot {
-    /// An edge as a sentence, with underscores as spaces; `None` if it is not there.
+    /// An edge as a sentence, with underscores as spaces; `None` if it does not exist.
     pub fn sentence(&self, edge: EdgeKey) -> Option<String> {
         self.edge(edge.from, edge.label, edge.to)?;
         Some(Teller { snapshot: self, gone: &[] }.edge(edge))
@@ -31,7 +31,7 @@ impl Snapshot {
         }
     }
 
-    /// Where a node is below its parent, as a sentence.
+    /// The place of a node in its parent, as a sentence; `None` without a parent.
     pub fn place_sentence(&self, child: NodeId) -> Option<String> {
         let (parent, pose, _) = self.get(child)?.parent()?;
         Some(Teller { snapshot: self, gone: &[] }.place(parent, child, pose))
@@ -45,8 +45,8 @@ impl Snapshot {
 }
 
 impl Delta {
-    /// Each change as a line; `after` is a snapshot in which the change has been made. What went is in the past
-    /// tense of the graph: "no longer: robot is speaking".
+    /// One sentence for each change. `after` is the state after the delta. A removal begins with "no longer": "no
+    /// longer: robot is speaking".
     pub fn sentences(&self, after: &Snapshot) -> Vec<String> {
         let gone: Vec<_> = self
             .changes

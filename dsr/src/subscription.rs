@@ -1,15 +1,16 @@
-//! Subscriptions: who wants to know gets told, and nobody ever waits for who does not listen.
+//! Subscriptions: every subscriber gets what concerns it, and no writer waits for a subscriber.
 //!
-//! Idea: a commit only puts its delta and a reference to the new state into the queues whose pattern it may concern
-//! (`routes`); the subscriber matches, on its own thread and in its own time, from the changed edge outwards
-//! (`pattern::seed`). Invariant: what a subscriber holds is what matching its pattern from scratch would give.
+//! Idea: a commit only puts its delta, and a reference to the new state, into the queues whose pattern it may concern
+//! (`routes`). The subscriber matches on its own thread and in its own time, from the changed edge outwards
+//! (`pattern::seed`). Invariant: the matches that a subscriber holds are those of matching its pattern from scratch.
 //!
-//! Overflow: a queue that is full is emptied, and from then on keeps one thing, the newest state, until its subscriber
-//! comes for it: so a pattern subscriber misses intermediate matches but never ends up with a wrong set of them, and
-//! one that never comes holds old states only until its queue is full, and commits do not copy around them for ever.
-//! Waking: a blocked `recv` by a condition variable, anything else (an async task) by a callback; both after the
-//! commit's lock and the queue's are given back, so that who wakes finds neither taken. What an emptied queue held is
-//! freed then too.
+//! Overflow: a full queue is emptied, and from then on keeps only the newest state until its subscriber reads it. So a
+//! pattern subscriber may miss intermediate matches but never holds a wrong set of them; and a subscriber that never
+//! reads keeps old states only until its queue is full, so commits do not copy around them for ever.
+//!
+//! Waking: a blocked `recv` is woken by a condition variable, anything else (an async task) by a callback. Both happen
+//! after the commit's lock and the queue's lock are released, so the woken thread finds neither taken. The content of
+//! an emptied queue is freed then, too.
 
 use std::cell::Cell;
 use std::collections::{BTreeSet, VecDeque};
@@ -24,30 +25,30 @@ use crate::id::Version;
 use crate::pattern::{Binding, Fixed, Held, Known, Moves, Pattern, Plans, Slices, Witnesses};
 use crate::snapshot::Snapshot;
 
-/// How many commits a queue holds unless the subscriber says otherwise.
+/// The default capacity of a queue, in commits.
 pub(crate) const CAPACITY: NonZeroUsize = NonZeroUsize::new(1024).expect("not zero");
 
 type Waker = Arc<dyn Fn() + Send + Sync>;
 
-/// A commit, as subscribers get it.
+/// A commit, as subscribers receive it.
 #[derive(Debug, Clone)]
 pub struct Committed {
     /// What changed.
     pub delta: Arc<Delta>,
-    /// The state that it led to.
+    /// The state after it.
     pub snapshot: Snapshot,
 }
 
-/// What a subscription to all deltas gives.
+/// An event of a subscription to all deltas.
 #[derive(Debug, Clone)]
 pub enum Event {
     /// The next commit.
     Committed(Committed),
-    /// Commits were dropped because the queue was full; the next ones follow on this state.
+    /// Commits were dropped because the queue was full. The next event follows this state.
     Lagged {
-        /// How many commits were dropped, this one included.
+        /// The number of commits that were dropped, including the one of this state.
         missed: u64,
-        /// The state to resynchronise from.
+        /// The state from which to continue.
         snapshot: Snapshot,
     },
 }
@@ -62,26 +63,26 @@ impl Event {
     }
 }
 
-/// What a subscriber is told of commits that came since it last looked.
+/// How a subscriber receives the commits since its last read.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Delivery {
-    /// Each commit by itself, in order.
+    /// One by one, in order.
     #[default]
     Each,
-    /// All of them as one: what appeared and went again in between is not told. For who acts on what is, not on what
-    /// was. Only the newest state is kept.
+    /// All of them as one. A match that appeared and disappeared in between is not reported. For subscribers that act
+    /// on the present state, not on its history. Only the newest state is kept.
     Newest,
 }
 
-/// So many that nobody counts them.
+/// Up to this number, witnesses are always kept.
 const FEW: usize = 64;
 
-/// How a subscription's queue is kept.
+/// The settings of a subscription's queue.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Mailbox {
-    /// How many commits it holds; when there are more, the subscriber goes on from the newest state.
+    /// The most commits that it holds. Beyond, the subscriber continues from the newest state.
     pub capacity: NonZeroUsize,
-    /// What the subscriber is told.
+    /// How the subscriber receives commits.
     pub delivery: Delivery,
 }
 
@@ -112,25 +113,25 @@ pub(crate) struct Queue {
 
 #[derive(Default)]
 struct Content {
-    /// With the state after each, or only the last one's.
+    /// Each with the state after it; with [`Delivery::Newest`], only the last one has a state.
     commits: VecDeque<(Arc<Delta>, Option<Snapshot>)>,
-    /// The state before the first of them, until that is taken or missed.
+    /// The state before the first commit, until it is read or missed.
     start: Option<Snapshot>,
     missed: u64,
     closed: bool,
-    /// How many threads wait in `recv`.
+    /// The number of threads that wait in `recv`.
     asleep: u32,
     waker: Option<Waker>,
 }
 
-/// What a queue let go of: to be freed when no lock is held any more.
+/// The old content of a queue, to be freed after the locks are released.
 #[derive(Default)]
 struct Freed {
     commits: VecDeque<(Arc<Delta>, Option<Snapshot>)>,
     start: Option<Snapshot>,
 }
 
-/// What is left to do for a queue when no lock is held any more.
+/// What remains to be done for a queue after the locks are released.
 pub(crate) struct Wake {
     sleeper: Option<Arc<Queue>>,
     waker: Option<Waker>,
@@ -138,7 +139,7 @@ pub(crate) struct Wake {
 }
 
 impl Wake {
-    /// Wakes the subscriber. A callback that panics is its subscriber's loss, not the committer's.
+    /// Wakes the subscriber. The panic of a callback does not reach the committer.
     pub(crate) fn call(self) {
         if let Some(queue) = &self.sleeper {
             queue.ready.notify_all();
@@ -149,7 +150,7 @@ impl Wake {
     }
 }
 
-/// What a queue gives.
+/// What a queue returns.
 enum Told {
     /// These commits led to this state.
     Commits(SmallVec<[Arc<Delta>; 1]>, Snapshot),
@@ -164,7 +165,7 @@ impl Queue {
         Arc::new(Self { content: Mutex::default(), ready: Condvar::new(), mailbox })
     }
 
-    /// Begins with a state. Under the commit lock, before the first commit is told.
+    /// Sets the first state. Called under the commit lock, before the first commit is pushed.
     pub(crate) fn begin(&self, start: Snapshot) {
         self.content().start = Some(start);
     }
@@ -177,11 +178,11 @@ impl Queue {
         self.content().start.take()
     }
 
-    /// Takes note of a commit; gives what to do later.
+    /// Adds a commit. Returns what remains to be done after the locks are released.
     pub(crate) fn push(self: &Arc<Self>, committed: &Committed) -> Option<Wake> {
         let mut content = self.content();
         let mut freed = Freed::default();
-        // Who has not looked yet and wants what is, not what was, begins with this.
+        // A subscriber to the newest state that has not read the first one yet begins with this one instead.
         if self.mailbox.delivery == Delivery::Newest && content.start.is_some() {
             freed.start = content.start.replace(committed.snapshot.clone());
             return self.wake(&content, freed);
@@ -213,11 +214,11 @@ impl Queue {
     }
 
     fn content(&self) -> std::sync::MutexGuard<'_, Content> {
-        // No code of others runs under this lock, so a poisoned one still holds a whole queue.
+        // No callback runs under this lock, so a poisoned lock still guards a consistent queue.
         self.content.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// What is told next; and the first state, if that is of no use any more: to be freed when no lock is held.
+    /// The next item; and the first state, which is no longer needed, to be freed after the lock is released.
     fn pop(content: &mut Content) -> Option<(Told, Option<Snapshot>)> {
         if content.commits.is_empty() {
             return None;
@@ -229,7 +230,7 @@ impl Queue {
     fn next(content: &mut Content) -> Option<Told> {
         let missed = std::mem::take(&mut content.missed);
         let mut deltas = SmallVec::new();
-        // The last state of what is told; in between there may be none.
+        // Commits without a state are delivered together with the next one that has a state.
         while let Some((delta, snapshot)) = content.commits.pop_front() {
             deltas.push(delta);
             if let Some(snapshot) = snapshot {
@@ -272,7 +273,7 @@ impl Queue {
             let pending = !content.commits.is_empty() || content.closed;
             (pending, before)
         };
-        // What a callback owns may commit when it goes: no lock is held here.
+        // Dropping a callback may commit, so no lock is held here.
         drop(before);
         if pending {
             waker();
@@ -286,7 +287,7 @@ impl Queue {
 }
 
 impl Told {
-    /// What a subscriber of deltas gets, whose commits are told one by one.
+    /// As the event of a subscription to all deltas, which receives commits one by one.
     fn event(self) -> Event {
         match self {
             Self::Commits(deltas, snapshot) => match deltas.into_iter().next() {
@@ -304,59 +305,59 @@ pub struct Deltas {
 }
 
 impl Deltas {
-    /// The state on which the first event follows. `None` when that has been taken, or when so many commits wait that
-    /// they will be told as missed: nobody keeps an old state who does not look at it.
+    /// The state before the first event. `None` after the first event was read, or when the queue has overflowed: a
+    /// subscriber that does not read must not keep an old state in memory.
     pub fn start(&self) -> Option<Snapshot> {
         self.queue.start()
     }
 
-    /// The next event, if there is one.
+    /// The next event, if one is waiting.
     pub fn try_recv(&self) -> Option<Event> {
         self.queue.try_recv().map(Told::event)
     }
 
-    /// Waits for the next event; `None` when all handles of the graph are gone.
+    /// Waits for the next event; `None` after all handles of the graph were dropped.
     pub fn recv(&self) -> Option<Event> {
         self.queue.recv().map(Told::event)
     }
 
-    /// Calls `wake` whenever there may be something to receive, and now if there is.
+    /// Calls `wake` whenever there may be something to receive, and at once if there is.
     pub fn on_wake(&self, wake: impl Fn() + Send + Sync + 'static) {
         self.queue.on_wake(&(Arc::new(wake) as Waker));
     }
 
-    /// Whether nothing will ever come again.
+    /// Whether no event will ever come again.
     pub fn is_closed(&self) -> bool {
         self.queue.is_closed()
     }
 }
 
-/// How the matches of a pattern changed.
+/// A change of the matches of a pattern.
 #[derive(Debug, Clone)]
 pub struct MatchChange {
-    /// The version in which they did.
+    /// The version of the change.
     pub version: Version,
-    /// Matches that were not there before, in order.
+    /// The new matches, in order.
     pub appeared: Vec<Binding>,
-    /// Matches that are no longer there, in order.
+    /// The matches that no longer hold, in order.
     pub disappeared: Vec<Binding>,
     /// The state of that version.
     pub snapshot: Snapshot,
-    /// How many commits were not looked at, because the queue was full.
+    /// The number of commits that were dropped because the queue was full.
     pub missed: u64,
 }
 
-/// The matches of a pattern, as they change. The first change has everything that matched at the start.
+/// A subscription to the matches of a pattern. The first change has all matches at the start.
 pub struct Matches {
     queue: Arc<Queue>,
     pattern: Arc<Pattern>,
     held: Held,
     plans: Plans,
-    /// Who keeps what from being a match.
+    /// For each binding that a negated part excludes, the nodes that do so.
     witnesses: Witnesses,
-    /// How much there was to look at when all matches were looked at last.
+    /// The cost of the last matching from scratch, in nodes tried.
     whole: usize,
-    /// Whether anything was looked at yet.
+    /// Whether the first state was read.
     begun: bool,
 }
 
@@ -376,7 +377,7 @@ impl Matches {
         self.held.all()
     }
 
-    /// The next change, if there is one. Commits that change no match are passed over.
+    /// The next change, if one is waiting. Commits that change no match are skipped.
     pub fn try_recv(&mut self) -> Option<MatchChange> {
         loop {
             let told = match self.begin() {
@@ -389,7 +390,7 @@ impl Matches {
         }
     }
 
-    /// Waits for the next change; `None` when all handles of the graph are gone.
+    /// Waits for the next change; `None` after all handles of the graph were dropped.
     pub fn recv(&mut self) -> Option<MatchChange> {
         loop {
             let told = match self.begin() {
@@ -402,7 +403,7 @@ impl Matches {
         }
     }
 
-    /// The state of the beginning, once; the first commit that is told may be the beginning instead.
+    /// The first state, once. After an overflow there is none, and the first item of the queue replaces it.
     fn begin(&mut self) -> Option<Told> {
         if std::mem::replace(&mut self.begun, true) {
             return None;
@@ -410,7 +411,7 @@ impl Matches {
         self.queue.take_start().map(|snapshot| Told::Lagged { missed: 0, snapshot })
     }
 
-    /// Calls `wake` whenever there may be something to receive, and now if there is.
+    /// Calls `wake` whenever there may be something to receive, and at once if there is.
     pub fn on_wake(&self, wake: impl Fn() + Send + Sync + 'static) {
         if !self.begun {
             wake();
@@ -418,7 +419,7 @@ impl Matches {
         self.queue.on_wake(&(Arc::new(wake) as Waker));
     }
 
-    /// Whether nothing will ever come again.
+    /// Whether no event will ever come again.
     pub fn is_closed(&self) -> bool {
         self.begun && self.queue.is_closed()
     }
@@ -432,7 +433,7 @@ impl Matches {
                 (snapshot, missed)
             }
             Told::Commits(deltas, snapshot) => {
-                // What several commits concern is what each of them does, looked at once, in the last one's state.
+                // The slices of several commits are those of each, all matched once in the last state.
                 let deltas = deltas.iter().map(|delta| &**delta);
                 let mut changes = deltas.clone().flat_map(|delta| &delta.changes);
                 if changes.any(|change| matches!(change, Change::NodeRemoved { .. })) {
@@ -451,7 +452,8 @@ impl Matches {
                 }
                 if let Some(moves) = moves {
                     self.witnesses = moves.witnesses.into_inner();
-                    // Of bindings that nobody asks about any more; a look at everything makes no more than it looks at.
+                    // Most of them are then of bindings that are no longer matched: matching from scratch finds at most
+                    // as many witnesses as it tries nodes.
                     if self.witnesses.len() > self.whole.max(FEW) {
                         self.witnesses = Witnesses::default();
                     }
@@ -477,7 +479,7 @@ impl Matches {
         let known = moves.map(|moves| Known { moves, held: &self.held });
         let found = self.pattern.matches_known(state, known.as_ref(), &looked);
         let looked = looked.get() + found.len();
-        // With what is known, it may be less than it will be without.
+        // With knowledge about negated parts, this may cost less than the next time without.
         self.whole = if known.is_some() { self.whole.max(looked) } else { looked };
         let mut now: BTreeSet<_> = found.into_iter().collect();
         let stays = |held: &&Binding| !now.contains(*held) && self.pattern.keeps(state, held);
@@ -491,8 +493,8 @@ impl Matches {
         disappeared.extend(gone);
     }
 
-    /// Looks at slices one by one, as long as that is less than looking at all matches was when it was last done: so
-    /// it never costs twice as much as the better of the two, by that measure.
+    /// Matches slices one by one, as long as this costs less than the last matching from scratch did. So it never costs
+    /// more than twice the better of the two.
     fn match_slices(
         &mut self,
         slices: &[Fixed],
@@ -503,7 +505,7 @@ impl Matches {
     ) {
         let looked = Cell::new(0);
         for (at, fixed) in slices.iter().enumerate() {
-            // A slice is at least one look.
+            // A slice tries at least one node.
             if at > 0 && looked.get() + (slices.len() - at) > self.whole {
                 self.match_all(snapshot, moves, appeared, disappeared);
                 break;
@@ -520,7 +522,7 @@ impl Matches {
         disappeared.sort_unstable();
     }
 
-    /// Holds the matches with these nodes against those held with these nodes.
+    /// Compares the matches with these nodes with the held ones.
     fn match_slice(
         &mut self,
         fixed: &Fixed,

@@ -1,17 +1,16 @@
-//! Worlds of RoboComp's cortex as graphs of ours: its JSON files with `DSRModel` and `symbols`.
+//! Worlds of RoboComp's cortex as graphs: its JSON files with `DSRModel` and `symbols`.
 //!
-//! Problem: their types, labels and attributes are whatever the file has; ours are declared. Idea: the vocabulary is
-//! what the file uses. Node types stand below `object`, geometric where an `RT` link touches one; a label goes between
-//! the types that it goes between; an attribute sits on the one type that has it, or on `object`. Lists of numbers
-//! become one attribute each (`size_0`, `size_1` …), since our attributes hold one value. An `RT` link is a transform:
-//! translation in the file's unit, rotation by the angles about x, y and z as `Rx · Ry · Rz`. Where it keeps a ring of
-//! stamped poses, those of the last ten seconds are samples, at the Unix times of their stamps; a single one is a
-//! transform that stays. What cannot be taken, and what is called otherwise because the name is taken, is in the notes,
-//! with the reason.
+//! Problem: a file of cortex uses any types, labels and attributes; a graph has a declared vocabulary. Idea: declare
+//! what the file uses. Node types are below `object`, and geometric if an `RT` link touches a node of the type. A label
+//! connects the types that it connects in the file. An attribute belongs to the one type that has it, or to `object`. A
+//! list of numbers becomes one attribute per number (`size_0`, `size_1` …), since an attribute holds one value. An `RT`
+//! link is a transform: its translation is in the file's unit, its rotation the angles about x, y and z as `Rx · Ry ·
+//! Rz`. If the link keeps a ring of stamped poses, those of the last ten seconds become samples at the Unix times of
+//! their stamps; a single pose is a static transform. The notes list what is left out or renamed, with the reason.
 //!
-//! Invariant: no file is refused for its names.
+//! Invariant: no file is rejected for its names.
 //!
-//! Source: the format as cortex's `api/dsr_utils.cpp` reads it and `api/dsr_rt_api.cpp` means it.
+//! Source: the format as cortex's `api/dsr_utils.cpp` reads it and `api/dsr_rt_api.cpp` uses it.
 
 mod attributes;
 mod error;
@@ -40,17 +39,17 @@ pub struct CortexWorld {
     model: Model,
 }
 
-/// A world that was taken over.
+/// The graph of a file, with notes.
 #[derive(Debug)]
 pub struct Imported {
     /// The graph, at version 1.
     pub graph: Graph,
-    /// What was left out or renamed, and why.
+    /// What was left out or renamed, with the reason.
     pub notes: Vec<String>,
 }
 
 impl CortexWorld {
-    /// The graph of the file.
+    /// Builds the graph of the file.
     pub fn import(&self, unit: CortexUnit) -> Result<Imported, CortexError> {
         let (mut notes, mut names) = (Vec::new(), Spaces::new());
         let (nodes, ids) = symbols::nodes(&self.model, &mut names.nodes, &mut notes)?;

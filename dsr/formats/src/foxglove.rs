@@ -1,8 +1,9 @@
-//! What Foxglove shows by itself: poses in its 3D panel, sentences in its log panel.
+//! The message schemas that Foxglove shows by itself: poses in its 3D panel, sentences in its log panel.
 //!
-//! Idea: messages of the schemas that it knows by name. A frame that is moved at once is told twice, where it was until
-//! then and where it is, because between two messages Foxglove lets a frame glide; one that is sampled glides with us,
-//! too. Source: Foxglove's schemas `FrameTransforms` and `Log`.
+//! Between two messages Foxglove interpolates the pose of a frame. A moving frame is interpolated in the graph too. A
+//! static frame that is moved at once is therefore written twice: its old pose until then, and its new one.
+//!
+//! Source: Foxglove's schemas `FrameTransforms` and `Log`.
 
 use dsr::{Change, Delta, ExportedTransform, NodeId, Pose, Snapshot, Time};
 use serde::Serialize;
@@ -70,14 +71,14 @@ struct Transform {
     rotation: Quaternion,
 }
 
-/// Where frames are.
+/// Poses of frames.
 #[derive(Serialize)]
 pub(super) struct Transforms {
     transforms: Vec<Transform>,
 }
 
 impl Transforms {
-    /// All that a state has.
+    /// All poses of a state.
     pub(super) fn of_state(snapshot: &Snapshot) -> Option<Self> {
         let of = |transform: &ExportedTransform| {
             let at = |time, [x, y, z]: [f64; 3], [i, j, k, w]: [f64; 4]| Transform {
@@ -94,8 +95,8 @@ impl Transforms {
         Self::some(snapshot.export().transforms.iter().flat_map(of).collect())
     }
 
-    /// Those that a commit moved; the names are those of the state after it. A frame that was taken off its parent
-    /// stays where it was: Foxglove has no word for that.
+    /// The poses that a commit changed. `names` is the state after it. A removed transform is not written, because the
+    /// schema has no way to express it.
     pub(super) fn of_commit(delta: &Delta, names: &Snapshot) -> Option<Self> {
         let at = |time: Time, parent: NodeId, child: NodeId, pose: &Pose| {
             let (place, turn) = (&pose.transform.translation.vector, &pose.transform.rotation.coords);
@@ -140,7 +141,8 @@ pub(super) struct Log<'a> {
 }
 
 impl<'a> Log<'a> {
-    /// What a commit says. What moves frames only is for debugging, a reflex that fires a warning.
+    /// The sentences of a commit. A commit that only moves frames has the level debug, one in which a reflex fired the
+    /// level warning.
     pub(super) fn of_commit(delta: &Delta, sentences: &[String], writer: &'a str) -> Self {
         let moves = |change: &Change| {
             matches!(change, Change::TransformChanged { .. } | Change::TransformSampled { .. })

@@ -68,7 +68,7 @@ pub fn write_mcap(recording: &Recording, output: impl Write + Seek) -> Result<u6
     Ok(output.count)
 }
 
-/// The file, with its channels.
+/// The output, with its channels.
 struct Output<W: Write + Seek> {
     writer: mcap::Writer<W>,
     states: u16,

@@ -1,4 +1,4 @@
-//! What can be wrong with a journal that is read.
+//! Faults of a journal that is read.
 
 use std::io;
 use std::path::PathBuf;
@@ -7,60 +7,60 @@ use std::sync::Arc;
 use crate::id::{Time, Version};
 use crate::replay::ReplayError;
 
-/// Why there is nothing to read, or not that.
+/// Why a recording, or a version of it, cannot be read.
 #[derive(Debug, thiserror::Error)]
 #[expect(missing_docs, reason = "the fields are what the variant is about")]
 pub enum RecordingError {
     /// A file or a folder that cannot be read.
     #[error("cannot read `{}`: {error}", path.display())]
     Unreadable { path: PathBuf, error: io::Error },
-    /// There is no segment, or nothing that begins as one.
+    /// There is no segment.
     #[error("no state of a journal")]
     Empty,
-    /// No segment has a state that can be read; the damage that says most about why.
+    /// No segment has a readable state; `damage` is the most likely cause.
     #[error("{damage}; there is no state that can be read")]
     Damaged { damage: Damage },
     /// The journal has no such version.
     #[error("no version {}: there are versions {} to {}", asked.0, first.0, last.0)]
     NoVersion { asked: Version, first: Version, last: Version },
-    /// The journal has versions before and after it.
+    /// The journal has earlier and later versions, but not this one.
     #[error("version {} was not recorded: version {} follows on {}", asked.0, next.0, before.0)]
     NotRecorded { asked: Version, before: Version, next: Version },
-    /// Everything was committed after that time.
+    /// All versions were committed after that time.
     #[error("nothing was recorded at {} ns or before: the earliest state is of {} ns", asked.0, earliest.0)]
     NoTime { asked: Time, earliest: Time },
-    /// Bytes with a right checksum that do not continue what was before them.
+    /// Bytes with a valid checksum that do not continue what precedes them.
     #[error("`{segment}`, byte {offset}: {error}")]
     Misfit { segment: Arc<str>, offset: usize, error: ReplayError },
-    /// A file is no longer what it was when the recording was opened.
+    /// A file has changed since the recording was opened.
     #[error("`{segment}` changed while it was read")]
     Changed { segment: Arc<str> },
 }
 
-/// What cannot be read of a segment, or why it is left out.
+/// A fault of a segment, or why it is left out.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[expect(missing_docs, reason = "the fields are what the variant is about")]
 pub enum Damage {
-    /// What was being written when the process or the machine stopped. It was never durable.
+    /// A record that was being written when the process or the machine stopped. It was never durable.
     #[error("`{segment}` ends in a torn record at byte {offset}: {bytes} bytes cut")]
     Torn { segment: Arc<str>, offset: usize, bytes: usize },
-    /// What was on the disk is no longer what it was.
+    /// The bytes on the disk have changed.
     #[error("`{segment}` is corrupt at byte {offset}; what follows in it cannot be read")]
     Corrupt { segment: Arc<str>, offset: usize },
-    /// It was being begun when the process or the machine stopped, or is so at this moment.
+    /// The process or the machine stopped while the segment was begun, or it is being begun at this moment.
     #[error("`{segment}` ends before its state does: there is nothing to read in it")]
     Unfinished { segment: Arc<str> },
-    /// It is of a graph with other tokens than the newest segment.
+    /// It has another vocabulary than the newest segment.
     #[error("`{segment}` has another vocabulary than the segments behind it and is left out")]
     OtherDictionary { segment: Arc<str> },
-    /// Who wrote the segments behind it did not go on from its end.
+    /// The segments after it do not continue from its end.
     #[error("`{segment}` goes to version {}, the segments behind it begin at {}: it is of another history \
         and left out", last.0, next.0)]
     OtherHistory { segment: Arc<str>, last: Version, next: Version },
-    /// A segment of another format.
+    /// It has a format that this program does not know.
     #[error("`{segment}` has format {format}, which this program does not know")]
     Format { segment: Arc<str>, format: u32 },
-    /// A file that the system does not give.
+    /// The system cannot read the file.
     #[error("cannot read `{segment}`: {error}")]
     Unreadable { segment: Arc<str>, error: io::ErrorKind },
 }

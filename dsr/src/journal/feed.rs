@@ -1,10 +1,10 @@
 //! The feed: what commits hand to the journal's thread.
 //!
 //! Problem: a disk that stalls must slow no writer and fill no memory. Idea: a commit leaves a reference to its delta
-//! and goes on. When more wait than the limit allows, nothing more is taken in, and the thread begins anew with a whole
-//! state as soon as it can: what is missing is a gap in the history, never a wrong state. Invariant: what was taken in
-//! follows without gaps on what was handed out before, and what waits and what the thread holds stay below the limit
-//! together.
+//! and continues. When more deltas wait than the limit allows, further ones are dropped, and the thread begins again
+//! with a whole state as soon as it can: the history then has a gap, but never a wrong state. Invariant: what was
+//! accepted follows without gaps on what was handed out before; the deltas that wait and those that the thread holds
+//! are together below the limit.
 
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -15,15 +15,15 @@ use crate::pose::{Covariance, Pose};
 use crate::snapshot::Snapshot;
 use crate::state::State;
 
-/// Between the commits and the thread.
+/// The queue between the commits and the thread.
 #[derive(Debug)]
 pub(crate) struct Feed {
     waiting: Mutex<Waiting>,
-    /// Something came for a thread that waits.
+    /// Signals work to the thread.
     came: Condvar,
-    /// Something was written, for whoever waits for a version.
+    /// Signals progress to callers that wait for a version.
     went: Condvar,
-    /// The most bytes of deltas that may wait or be in the thread's hands.
+    /// The most bytes of deltas that may wait or be held by the thread.
     limit: usize,
 }
 
@@ -31,28 +31,28 @@ pub(crate) struct Feed {
 struct Waiting {
     deltas: Vec<Arc<Delta>>,
     bytes: usize,
-    /// Bytes of what was handed out last: the thread holds it until the disk has taken it, and then comes again.
+    /// The bytes of the last group handed out; the thread holds it until the disk has it, and then returns.
     held: usize,
-    /// Commits are not taken in until the thread has taken a state.
+    /// Commits are dropped until the thread has taken a state.
     overflowed: bool,
-    /// The thread sleeps.
+    /// The thread is waiting.
     asleep: bool,
-    /// Somebody waits for this version to be on the disk.
+    /// A caller waits for this version to be synced.
     wanted: Version,
     end: Option<End>,
     done: Progress,
 }
 
-/// Why nothing more will come.
+/// Why no more commits will come.
 #[derive(Debug, Clone)]
 enum End {
-    /// The graph is gone; this was its last state.
+    /// The graph was dropped; this was its last state.
     Graph(Snapshot),
     /// The journal is closed, or has failed.
     Journal,
 }
 
-/// How far the thread has come.
+/// The progress of the thread.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Progress {
     pub(super) written: Version,
@@ -63,33 +63,34 @@ pub(super) struct Progress {
     pub(super) over: bool,
 }
 
-/// What the thread is handed.
+/// Work for the thread.
 #[derive(Debug, Default)]
 pub(super) struct Work {
     pub(super) deltas: Vec<Arc<Delta>>,
-    /// Commits were lost: begin anew.
+    /// Commits were dropped: begin again with a whole state.
     pub(super) overflowed: bool,
-    /// Somebody waits for this version to be on the disk.
+    /// A caller waits for this version to be synced.
     pub(super) wanted: Version,
     pub(super) last: Option<Last>,
 }
 
-/// What still waited when the thread began anew.
+/// What was waiting when the thread began again.
 #[derive(Debug)]
 pub(crate) struct Rest {
     pub(super) deltas: Vec<Arc<Delta>>,
-    /// Commits were left out between these and the state of now. It may have come to that since the thread looked last.
+    /// Whether commits were dropped between these and the present state; this may have happened since the thread's last
+    /// look.
     pub(super) overflowed: bool,
 }
 
-/// Nothing more will come.
+/// No more commits will come.
 #[derive(Debug)]
 pub(super) struct Last {
-    /// The last state of a graph that is gone.
+    /// The last state of a graph that was dropped.
     pub(super) state: Option<Snapshot>,
 }
 
-/// About what a delta takes in memory, texts left out.
+/// The approximate size of a delta in memory, without texts.
 fn size(delta: &Delta) -> usize {
     let covariances = delta.changes.iter().flat_map(poses).filter(|pose| pose.covariance.is_some()).count();
     size_of::<Delta>()
@@ -125,7 +126,7 @@ impl Feed {
         self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Takes a commit in. Called under the commit lock; false if nobody will read it.
+    /// Accepts a commit. Called under the commit lock; false if the journal has ended.
     pub(crate) fn push(&self, delta: &Arc<Delta>) -> bool {
         let mut waiting = self.lock();
         if waiting.end.is_some() {
@@ -145,20 +146,20 @@ impl Feed {
         true
     }
 
-    /// The graph is gone.
+    /// Ends the feed because the graph is dropped.
     pub(crate) fn close(&self, state: &Arc<State>) {
         let mut waiting = self.lock();
         waiting.end.get_or_insert_with(|| End::Graph(Snapshot::new(Arc::clone(state))));
         self.came.notify_one();
     }
 
-    /// Nothing more is wanted.
+    /// Ends the feed because the journal has ended.
     pub(super) fn end(&self) {
         self.lock().end.get_or_insert(End::Journal);
         self.came.notify_one();
     }
 
-    /// Waits for something to do, at most until `until`. What was handed out before is gone.
+    /// Waits for work, at most until `until`. The previous group counts as written.
     pub(super) fn take(&self, until: Option<Instant>, spare: Vec<Arc<Delta>>) -> Work {
         let mut waiting = self.lock();
         waiting.held = 0;
@@ -190,7 +191,7 @@ impl Feed {
         }
     }
 
-    /// What still waits; from here on everything is taken in again. Called under the commit lock.
+    /// Takes what is waiting; from here on commits are accepted again. Called under the commit lock.
     pub(crate) fn restart(&self) -> Rest {
         let mut waiting = self.lock();
         waiting.held = std::mem::take(&mut waiting.bytes);
@@ -200,7 +201,7 @@ impl Feed {
         }
     }
 
-    /// Says how far the thread is.
+    /// Reports the progress of the thread.
     pub(super) fn report(&self, progress: &Progress) {
         self.lock().done = progress.clone();
         self.went.notify_all();
@@ -210,7 +211,7 @@ impl Feed {
         self.lock().done.clone()
     }
 
-    /// Waits until a version is on the disk, or never will be.
+    /// Waits until a version is synced, or never will be.
     pub(super) fn wait(&self, version: Version) -> Progress {
         let mut waiting = self.lock();
         waiting.wanted = waiting.wanted.max(version);

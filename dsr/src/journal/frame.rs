@@ -1,20 +1,20 @@
-//! Frames: groups of records with a length and two checksums, so that what a crash or a disk did to a file is seen.
+//! Frames: groups of records with a length and two checksums, by which damage from a crash or a disk is found.
 //!
-//! A header is 28 bytes: marker, kind, length and checksum of the payload, how much of the file was known to be on the
-//! disk when the frame was written, and a checksum of all that. After a bad frame the file is searched for good
-//! headers: one that says that the bad frame was on the disk by then makes it a corruption; none makes it the torn tail
-//! of a crash, even if the file system kept blocks behind a lost one.
+//! A header is 28 bytes: marker, kind, length and checksum of the payload, the number of bytes of the file that were
+//! known to be synced when the frame was written, and a checksum of all these. After a bad frame, the file is searched
+//! for good headers. If one reports that the bad frame had been synced, the frame is corrupt; otherwise it is the torn
+//! tail of a crash, even if the file system kept blocks after a lost one.
 //!
 //! Cost: one pass over the bytes.
 
-/// Begins each header.
+/// The marker at the start of each header.
 const MARKER: [u8; 4] = [0xd5, b'D', b'S', b'R'];
-/// Bytes of a header.
+/// The length of a header in bytes.
 pub(super) const HEADER: usize = 28;
-/// The most bytes of a payload: none longer is written, so one in a header is a lie.
+/// The most bytes of a payload. None longer is written, so a header with a larger number is invalid.
 pub(super) const LONGEST: u32 = 1 << 30;
 
-/// What a frame holds.
+/// The kind of a frame's content.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     /// The number of the format and the vocabulary. The first frame of a segment.
@@ -63,16 +63,16 @@ impl Frame {
     }
 }
 
-/// What is wrong at the end of what can be read.
+/// Why the bytes after the last good frame cannot be read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Flaw {
-    /// What was being written when the process or the machine stopped.
+    /// A frame that was being written when the process or the machine stopped.
     Torn(usize),
-    /// What had been on the disk and no longer is what it was.
+    /// A frame that had been synced and has changed.
     Corrupt(usize),
 }
 
-/// The header for a payload, in a segment of which `synced` bytes are on the disk.
+/// The header for a payload, in a segment with `synced` bytes synced.
 pub(super) fn header(kind: Kind, payload: &[u8], synced: u64) -> [u8; HEADER] {
     let mut header = [0; HEADER];
     let length = u32::try_from(payload.len()).expect("the writer refuses what is longer than LONGEST");
@@ -103,7 +103,7 @@ fn read_header(bytes: &[u8], offset: usize) -> Option<Header> {
     Some(Header { frame, sum: number(12)?, synced: u64::from_le_bytes(header[16..24].try_into().ok()?) })
 }
 
-/// The good frames from the beginning, and what is wrong behind them.
+/// The good frames from the beginning, and the flaw after them, if any.
 pub(super) fn scan(bytes: &[u8]) -> (Vec<Frame>, Option<Flaw>) {
     let (mut frames, mut offset) = (Vec::new(), 0);
     while offset < bytes.len() {
@@ -117,7 +117,7 @@ pub(super) fn scan(bytes: &[u8]) -> (Vec<Frame>, Option<Flaw>) {
     (frames, None)
 }
 
-/// Whether a later header says that what begins at `offset` was on the disk.
+/// Whether a later header reports that the bytes at `offset` had been synced.
 fn flaw(bytes: &[u8], offset: usize) -> Flaw {
     let later = (offset + 1..bytes.len()).filter(|&at| bytes[at] == MARKER[0]);
     let known = later.filter_map(|at| read_header(bytes, at)).any(|header| {

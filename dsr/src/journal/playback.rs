@@ -1,7 +1,7 @@
-//! Going through a recording, version by version.
+//! Replaying a recording, version by version.
 //!
-//! Invariant: a replay gives what was recorded or an error, whatever the bytes; it holds one segment's bytes and one
-//! state. Cost: a state, and each delta once.
+//! Invariant: a replay returns what was recorded, or an error, whatever the bytes. Cost: the memory of one segment's
+//! bytes and one state; each delta is decoded once.
 
 use std::borrow::Cow;
 use std::slice;
@@ -18,12 +18,12 @@ use crate::replay;
 use crate::snapshot::Snapshot;
 use crate::state::State;
 
-/// What a replay met.
+/// A step of a replay.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Played {
     /// A commit.
     Commit(Delta),
-    /// Versions after the first up to the second that were not recorded.
+    /// Versions that were not recorded: those after `from`, before the state at `to`.
     Jump {
         /// The version before.
         from: Version,
@@ -32,7 +32,7 @@ pub enum Played {
     },
 }
 
-/// Goes through a recording, version by version.
+/// A replay of a recording, version by version.
 #[derive(Debug)]
 pub struct Replay<'r> {
     segments: &'r [Segment],
@@ -40,7 +40,7 @@ pub struct Replay<'r> {
     bytes: Cow<'r, [u8]>,
     /// The next frame.
     frame: usize,
-    /// What is left of the present one.
+    /// The unread bytes of the present frame.
     rest: std::ops::Range<usize>,
     state: Arc<State>,
 }
@@ -67,17 +67,17 @@ impl<'r> Replay<'r> {
         Ok(Self { segments, segment, bytes, frame, rest: 0..0, state: Arc::new(state) })
     }
 
-    /// The version where it is.
+    /// The present version.
     pub fn version(&self) -> Version {
         self.state.version
     }
 
-    /// The state where it is.
+    /// The present state.
     pub fn snapshot(&self) -> Snapshot {
         Snapshot::new(Arc::clone(&self.state))
     }
 
-    /// Goes to the next frame if the present one is through; whether the segment has another delta.
+    /// Goes to the next frame after the end of the present one. Returns whether the segment has another delta.
     fn fill(&mut self) -> bool {
         let frames = self.segments.get(self.segment).map_or(&[][..], |s| &s.frames);
         while self.rest.is_empty() {
@@ -88,7 +88,7 @@ impl<'r> Replay<'r> {
         true
     }
 
-    /// Goes on until it is at a version, or to the first one after it that there is; false if there is none.
+    /// Replays up to a version, or to the next recorded one after it. Returns false at the end of the recording.
     pub(super) fn advance(&mut self, version: Version) -> Result<bool, RecordingError> {
         while self.version() < version {
             match self.step()? {
@@ -99,7 +99,7 @@ impl<'r> Replay<'r> {
         Ok(true)
     }
 
-    /// The newest version of a frame of this segment that is not later than a time.
+    /// The newest version in a frame of this segment with this time or an earlier one.
     pub(super) fn newest(&self, frame: usize, time: Time) -> Result<Option<Version>, RecordingError> {
         let Some(segment) = self.segments.get(self.segment) else { return Ok(None) };
         let Some(frame) = segment.frames.get(frame) else { return Ok(None) };
@@ -118,7 +118,7 @@ impl<'r> Replay<'r> {
         Ok(newest)
     }
 
-    /// The delta at the beginning of the rest, and where the one after it begins.
+    /// The next delta, and the offset of the one after it.
     fn delta(&self) -> Result<(Delta, usize), RecordingError> {
         let rest = self.bytes.get(self.rest.clone()).unwrap_or(&[]);
         let (delta, after) = record::delta(rest)
@@ -127,7 +127,8 @@ impl<'r> Replay<'r> {
     }
 
     fn step(&mut self) -> Result<Option<Played>, RecordingError> {
-        // As many segments as there were starts without a commit may begin where the last one ended.
+        // A journal that ends without a commit leaves a segment that begins and ends where the previous one ended;
+        // there may be any number of these.
         while !self.fill() {
             let from = self.version();
             if self.segment + 1 >= self.segments.len() {
@@ -152,9 +153,9 @@ impl<'r> Replay<'r> {
     }
 }
 
-/// Whether a segment ends with the state with which another one begins.
+/// Whether a segment ends with the state with which another begins.
 pub(super) fn leads_to(before: &Segment, after: &Segment) -> Result<bool, RecordingError> {
-    // Version and time are parts of the state, and known.
+    // Version and time are part of the state and are known already.
     if before.last != after.first {
         return Ok(false);
     }
@@ -164,7 +165,7 @@ pub(super) fn leads_to(before: &Segment, after: &Segment) -> Result<bool, Record
     Ok(before.snapshot().export() == after.snapshot().export())
 }
 
-/// After an error there is nothing more.
+/// After an error the iterator ends.
 impl Iterator for Replay<'_> {
     type Item = Result<Played, RecordingError>;
 

@@ -1,7 +1,7 @@
-//! What frames hold, as bytes: postcard, one record after the other.
+//! Records: the content of frames as bytes, in postcard, one record after the other.
 //!
-//! A state is written as its export, part by part, so that a large one is never a second time in memory; reading
-//! goes through the checks of an export, so that bytes which are no state of the vocabulary are refused by name.
+//! A state is written as its export, part by part, so a large one is never in memory twice. Reading goes through the
+//! checks of an export, so bytes that are not a state of the vocabulary are rejected with an error.
 
 use std::sync::Arc;
 
@@ -16,10 +16,10 @@ use crate::pose::Covariance;
 use crate::snapshot::Snapshot;
 use crate::vocabulary::Vocabulary;
 
-/// The number of the format. Another one is refused.
+/// The number of the format. A segment with another number is rejected.
 const FORMAT: u32 = 2;
 
-/// A part of a state. The types of the export leave empty lists out, which only formats with names can do.
+/// A part of a state. The types of the export omit empty lists, which only self-describing formats support.
 #[derive(Serialize, Deserialize)]
 enum Part {
     Head(Version, Time, NodeId),
@@ -32,7 +32,7 @@ enum Part {
 /// Translation, rotation and covariance.
 type Placed = ([f64; 3], [f64; 4], Option<Arc<Covariance>>);
 
-/// Why bytes with the right checksum are not what they should be.
+/// Why bytes with a valid checksum are invalid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Malformed {
     Format(u32),
@@ -40,11 +40,11 @@ pub(super) enum Malformed {
 }
 
 fn put(record: &impl Serialize, bytes: &mut Vec<u8>) {
-    // Writing to memory cannot fail, and these types are all of a known length.
+    // Writing to memory cannot fail, and all these types have a known length.
     let _ = postcard::to_io(record, bytes);
 }
 
-/// `goes_on`: the same journal wrote the segment before.
+/// The first record of a segment. `goes_on`: the same journal wrote the previous segment.
 pub(super) fn put_start(goes_on: bool, vocabulary: &Vocabulary, bytes: &mut Vec<u8>) {
     put(&(FORMAT, goes_on, vocabulary), bytes);
 }
@@ -53,7 +53,7 @@ pub(super) fn put_delta(delta: &Delta, bytes: &mut Vec<u8>) {
     put(delta, bytes);
 }
 
-/// Whether the journal goes on with this segment, and the bytes of the vocabulary.
+/// Whether the segment continues one of the same journal, and the bytes of the vocabulary.
 pub(super) fn start(payload: &[u8]) -> Result<(bool, &[u8]), Malformed> {
     let (format, rest) = postcard::take_from_bytes::<u32>(payload).map_err(|_| Malformed::Bytes)?;
     if format != FORMAT {
@@ -66,7 +66,7 @@ pub(super) fn vocabulary(bytes: &[u8]) -> Result<Vocabulary, Malformed> {
     postcard::from_bytes(bytes).map_err(|_| Malformed::Bytes)
 }
 
-/// Hands the state over part by part; `full` is asked after each and may take the bytes away.
+/// Writes the state part by part. `full` is called after each and may take the bytes.
 pub(super) fn put_state<E>(
     snapshot: &Snapshot,
     bytes: &mut Vec<u8>,
@@ -91,7 +91,7 @@ pub(super) fn put_state<E>(
     Ok(())
 }
 
-/// Gathers a state from its frames.
+/// Collects a state from its frames.
 #[derive(Debug, Default)]
 pub(super) struct Gathered {
     export: Option<Export>,
@@ -99,7 +99,7 @@ pub(super) struct Gathered {
 }
 
 impl Gathered {
-    /// Takes the parts of one frame.
+    /// Adds the parts of one frame.
     pub(super) fn take(&mut self, mut payload: &[u8]) -> Result<(), Malformed> {
         while !payload.is_empty() {
             let (part, rest) = postcard::take_from_bytes(payload).map_err(|_| Malformed::Bytes)?;
@@ -145,7 +145,7 @@ impl Gathered {
         Some(())
     }
 
-    /// The state, if it came as a whole.
+    /// The state, if it is complete.
     pub(super) fn whole(self) -> Option<Export> {
         self.export.filter(|_| self.ended)
     }
@@ -173,7 +173,7 @@ pub(super) fn ends(mut payload: &[u8], is_first: bool) -> Result<bool, Malformed
     Ok(ended)
 }
 
-/// The first delta of the bytes, and what is behind it.
+/// The first delta of the bytes, and the bytes after it.
 pub(super) fn delta(bytes: &[u8]) -> Result<(Delta, &[u8]), Malformed> {
     postcard::take_from_bytes(bytes).map_err(|_| Malformed::Bytes)
 }

@@ -1,18 +1,17 @@
 //! Reading a journal: which versions it has, and each of them, to the byte.
 //!
-//! A recording checks all bytes when it is opened and keeps none of files: a segment is read again for a version that
-//! lies in it. What cannot be read is a [`Damage`] with its place, and everything before it, and from the next segment
-//! on, stays readable.
+//! Opening a recording checks all bytes and keeps none of those from files: a segment is read again for a version in
+//! it. A fault is a [`Damage`] with its place; everything before it stays readable, and so do the following segments.
 //!
-//! Invariant: in a recording versions rise, and where a segment ends with the version with which the next begins, it
-//! ends with its state. The history is the one that ends in the newest segment: who begins anew, or goes on from an
-//! older version, in the same folder begins another, and the segments that do not lead to the newest are named, left
-//! out, and can be read alone. What is not seen: a segment that ends before the next begins may be of another history
-//! with the same vocabulary; nothing was recorded in between by which to tell, and a replay shows a
-//! [`Played::Jump`](super::Played::Jump) there.
+//! Invariant: versions rise. If a segment ends with the version with which the next one begins, it ends with the same
+//! state. The history is the one that ends in the newest segment. A program that begins anew in the same folder, or
+//! continues from an older version, begins another history; the segments that do not lead to the newest one are
+//! reported and left out, and can be read alone. One case is not detected: a segment that ends before the next one
+//! begins may belong to another history with the same vocabulary. Nothing was recorded in between that could tell; a
+//! replay reports a [`Played::Jump`](super::Played::Jump) there.
 //!
-//! Cost: opening is one pass over the bytes, and a replay of the segments that meet, one at a time; a version is its
-//! segment's state and the deltas up to it.
+//! Cost: opening is one pass over the bytes, and a replay of each segment that another program has continued. A version
+//! costs its segment's state and the deltas up to it.
 
 use std::io;
 use std::path::Path;
@@ -28,10 +27,10 @@ use crate::id::{Time, Version};
 use crate::snapshot::Snapshot;
 use crate::vocabulary::Vocabulary;
 
-/// How often a folder is looked at again whose segments were all let go of between its names and their bytes.
+/// How often a folder is listed again if all its segments were deleted between listing and reading them.
 const TRIES: u32 = 8;
 
-/// A journal that was written.
+/// A journal, for reading.
 #[derive(Debug)]
 pub struct Recording {
     vocabulary: Arc<Vocabulary>,
@@ -40,7 +39,7 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// Reads a segment's file, or a folder of them. A journal that lets go of segments meanwhile does not disturb it.
+    /// Reads the file of a segment, or a folder of them. A journal may delete segments meanwhile.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, RecordingError> {
         let path = path.as_ref();
         let unreadable = |error| RecordingError::Unreadable { path: path.to_owned(), error };
@@ -61,7 +60,7 @@ impl Recording {
             }
             tries += 1;
             match Self::of(reader) {
-                // All that there was may have been let go of since the names were read.
+                // All segments may have been deleted since they were listed.
                 Err(RecordingError::Empty) if gone && tries < TRIES => {}
                 done => return done,
             }
@@ -72,7 +71,7 @@ impl Recording {
     pub fn read(segments: impl IntoIterator<Item = Vec<u8>>) -> Result<Self, RecordingError> {
         let mut reader = Reader::default();
         for (number, bytes) in segments.into_iter().enumerate() {
-            // One of a `Memory` that was let go of.
+            // A deleted segment of a `Memory` is empty.
             if !bytes.is_empty() {
                 reader.segment(&format!("segment {number}"), &bytes, || Source::Bytes(bytes.clone()));
             }
@@ -83,13 +82,13 @@ impl Recording {
     fn of(reader: Reader) -> Result<Self, RecordingError> {
         let (segments, damage) = reader.done();
         let Some(newest) = segments.last() else {
-            // What became of the disk says more than what a crash left.
+            // Damage of the disk explains more than the leftovers of a crash.
             let told = |damage: &Damage| match damage {
                 Damage::Corrupt { .. } | Damage::Unreadable { .. } => 0,
                 Damage::Format { .. } => 1,
                 _ => 2,
             };
-            // A file with nothing but a torn end may be anything.
+            // A file with only a torn end may be any file.
             let known = damage.into_iter().filter(|damage| !matches!(damage, Damage::Torn { .. }));
             let first = known.min_by_key(told);
             return Err(first.map_or(RecordingError::Empty, |damage| RecordingError::Damaged { damage }));
@@ -102,17 +101,17 @@ impl Recording {
         &self.vocabulary
     }
 
-    /// What could not be read.
+    /// The faults that were found.
     pub fn damage(&self) -> &[Damage] {
         &self.damage
     }
 
-    /// The oldest version there is, and its time.
+    /// The oldest version, and its time.
     pub fn first(&self) -> (Version, Time) {
         self.segments.first().map_or_else(Default::default, |segment| segment.first)
     }
 
-    /// The newest version there is, and its time.
+    /// The newest version, and its time.
     pub fn last(&self) -> (Version, Time) {
         self.segments.last().map_or_else(Default::default, |segment| segment.last)
     }
@@ -129,8 +128,8 @@ impl Recording {
         Ok(replay.snapshot())
     }
 
-    /// The newest version that was committed at a time or before, as a state. Times are those that committers gave;
-    /// versions order, not they, so there may be a version before it that was committed later.
+    /// The state at the newest version whose commit has this time or an earlier one. Committers give the times, which
+    /// need not rise with the versions: an older version may have a later time.
     pub fn at_time(&self, time: Time) -> Result<Snapshot, RecordingError> {
         for (at, segment) in self.segments.iter().enumerate().rev() {
             let early = |earliest: &Option<Time>| earliest.is_some_and(|earliest| earliest <= time);
@@ -145,24 +144,24 @@ impl Recording {
         Err(RecordingError::NoTime { asked: time, earliest: times.min().copied().unwrap_or_default() })
     }
 
-    /// All versions from the oldest on.
+    /// Replays all versions, from the oldest on.
     pub fn replay(&self) -> Result<Replay<'_>, RecordingError> {
         Replay::new(&self.segments, 0)
     }
 
-    /// All versions from this one on, or from the next one if it was not recorded.
+    /// Replays the versions from this one on, or from the next recorded one.
     pub fn replay_from(&self, version: Version) -> Result<Replay<'_>, RecordingError> {
         let mut replay = Replay::new(&self.segments, self.find(version)?)?;
         replay.advance(version)?;
         Ok(replay)
     }
 
-    /// A graph that goes on from the newest version.
+    /// A graph that continues from the newest version.
     pub fn resume(&self) -> Result<Graph, RecordingError> {
         Ok(Graph::from_snapshot(&self.at(self.last().0)?))
     }
 
-    /// The last segment that begins at a version or before, if there is one as late.
+    /// The last segment that begins at this version or before it, if the recording reaches it.
     fn find(&self, version: Version) -> Result<usize, RecordingError> {
         let (first, last) = (self.first().0, self.last().0);
         let found = self.segments.iter().rposition(|segment| segment.first.0 <= version);

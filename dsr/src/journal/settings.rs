@@ -3,11 +3,11 @@
 use std::num::NonZeroU64;
 use std::time::Duration;
 
-/// When what was committed is synced, so that it outlives a loss of power. What was written outlives the process in any
+/// When commits are synced, and so survive a loss of power. What was written survives the end of the process in any
 /// case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Durability {
-    /// At once: each group of commits, which is one commit if the disk is faster than they come.
+    /// Each group of commits at once. A group is one commit if the disk is fast enough.
     Each,
     /// At most this long after the commit.
     Every(Duration),
@@ -18,19 +18,19 @@ pub enum Durability {
 pub struct Settings {
     /// When commits are synced.
     pub durability: Durability,
-    /// Bytes of deltas after which a segment is closed and one begun with the state of then.
+    /// The bytes of deltas after which a segment is closed and another one begins with the present state.
     pub segment_bytes: u64,
-    /// How many segments are kept, the newest ones, however many journals wrote them to the same place; all, if `None`.
-    /// A robot that is restarted every day needs no more room than one that is not.
+    /// The number of segments to keep, the newest ones, including those of earlier journals in the same place; `None`
+    /// for all. So a robot that is restarted every day needs no more room than one that is not.
     pub segments: Option<NonZeroU64>,
-    /// How many bytes of deltas may wait for the disk, those being written included (texts, which the graph shares, not
-    /// counted). When it stalls for longer, commits are left out, and the journal goes on with a whole state in a new
-    /// segment.
+    /// The most bytes of deltas that may wait for the disk, including those being written and excluding texts, which
+    /// the graph shares. When the disk stalls for longer, commits are left out, and the journal continues with a whole
+    /// state in a new segment.
     pub waiting_bytes: usize,
 }
 
 impl Default for Settings {
-    /// Synced every 20 ms, segments of 64 MiB, all kept, 64 MiB may wait.
+    /// A sync every 20 ms, segments of 64 MiB, all of them kept, 64 MiB may wait.
     fn default() -> Self {
         Self {
             durability: Durability::Every(Duration::from_millis(20)),

@@ -1,7 +1,7 @@
-//! Where a journal goes: numbered segments, one after the other.
+//! Stores: where a journal goes, as numbered segments.
 //!
-//! Invariant: in a [`Folder`] a file has the name of a segment only once a whole state is on the disk in it; until then
-//! `.part` stands behind the name. So starts that die, or find the disk full, never push out what can be read.
+//! Invariant: in a [`Folder`], a file has the name of a segment only once a whole state is synced in it; until then its
+//! name ends in `.part`. So a start that dies, or finds the disk full, never replaces segments that can be read.
 
 use std::fs::File;
 use std::io::{self, Write as _};
@@ -11,16 +11,16 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// Takes the bytes of a journal. Called by the journal's thread only.
 pub trait Store: Send + 'static {
-    /// Begins the segment of that number: what is appended from now on goes there. The one before was synced.
+    /// Begins the segment of that number, to which later appends go. The previous one is synced.
     fn begin(&mut self, number: u64) -> io::Result<()>;
     /// Appends to the segment.
     fn append(&mut self, bytes: &[u8]) -> io::Result<()>;
-    /// Returns when everything that was appended would outlive a loss of power. The first one after `begin` says that
-    /// the state with which the segment begins is there as a whole.
+    /// Returns when everything that was appended would survive a loss of power. The first sync after `begin` comes when
+    /// the state with which the segment begins is complete.
     fn sync(&mut self) -> io::Result<()>;
-    /// Lets go of the oldest segments until there are only so many, those of earlier journals in the same place
-    /// included. Called when the state with which the newest one begins is on the disk. One whose own state never was
-    /// does not count, and is let go of in any case.
+    /// Deletes the oldest segments, including those of earlier journals in the same place, until `count` are left.
+    /// Called when the first state of the newest segment is synced. A segment without a whole state does not count and
+    /// is always deleted.
     fn keep(&mut self, newest: NonZeroU64) -> io::Result<()>;
 }
 
@@ -29,19 +29,19 @@ fn name(number: u64) -> String {
     format!("{number:08}.dsr")
 }
 
-/// What stands behind the name of a segment until its state is on the disk.
+/// The suffix of a segment's name until its state is synced.
 const PART: &str = ".part";
 
-/// How far a segment came.
+/// The stage of a segment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Stage {
-    /// Its state may be torn, or be written at this moment.
+    /// Its state may be torn, or is being written at this moment.
     Part,
-    /// Its state is on the disk.
+    /// Its state is synced.
     Whole,
 }
 
-/// The segments in a folder, by number. Other files are none, whatever they hold: `0.dsr` is somebody's copy.
+/// The segments in a folder, by number. Files with other names are not segments: `0.dsr` may be a user's copy.
 fn staged(folder: &Path) -> io::Result<Vec<(u64, Stage, PathBuf)>> {
     let mut found = Vec::new();
     for entry in std::fs::read_dir(folder)? {
@@ -57,13 +57,13 @@ fn staged(folder: &Path) -> io::Result<Vec<(u64, Stage, PathBuf)>> {
     Ok(found)
 }
 
-/// The segments in a folder, by number, those that were only begun among them: after a crash the state of one may be
-/// there as a whole without its name.
+/// The segments in a folder, by number, including those that were only begun: after a crash, one may have a whole state
+/// but not yet its final name.
 pub(super) fn segments(folder: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(staged(folder)?.into_iter().map(|(.., path)| path).collect())
 }
 
-/// Removes a file that may be gone already.
+/// Removes a file, if it still exists.
 fn remove(path: &Path) -> io::Result<()> {
     match std::fs::remove_file(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
@@ -71,7 +71,7 @@ fn remove(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Syncs the names in a folder, which must outlive a loss of power, too. Not every system can.
+/// Syncs the names in a folder, which must survive a loss of power, too. Not every system supports it.
 fn sync_names(folder: &Path) {
     let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     if let Ok(folder) = File::open(here) {
@@ -79,20 +79,20 @@ fn sync_names(folder: &Path) {
     }
 }
 
-/// A folder with a file for each segment: `00000000.dsr` and so on, `00000000.dsr.part` until its state is on the disk.
+/// A folder with a file for each segment: `00000000.dsr` and so on, `00000000.dsr.part` until its state is synced.
 #[derive(Debug)]
 pub struct Folder {
     path: PathBuf,
-    /// Added to the numbers: a journal that goes on leaves the files of the one before alone.
+    /// An offset for the numbers, so that a new journal does not overwrite the files of an earlier one.
     offset: u64,
     file: Option<File>,
-    /// The number of the segment that has not got its name yet.
+    /// The number of the segment that does not have its final name yet.
     part: Option<u64>,
 }
 
 impl Folder {
-    /// A folder, made if it is not there. Files of an earlier journal in it stay, unless there come to be more than
-    /// [`Settings::segments`](super::Settings::segments); this one writes behind them.
+    /// Opens a folder, or creates it. The files of earlier journals in it stay, up to the limit of
+    /// [`Settings::segments`](super::Settings::segments); the new journal continues their numbers.
     pub fn new(path: impl Into<PathBuf>) -> io::Result<Self> {
         let path = path.into();
         let made = path.ancestors().take_while(|folder| !folder.as_os_str().is_empty() && !folder.exists());
@@ -103,7 +103,7 @@ impl Folder {
         Ok(Self { path, offset, file: None, part: None })
     }
 
-    /// Whether no journal was there before.
+    /// Whether the folder had no journal before.
     pub fn is_fresh(&self) -> bool {
         self.offset == 0
     }
@@ -123,7 +123,8 @@ impl Store for Folder {
         let whole = self.path.join(name(number));
         let part = self.part_of(number);
         let file = File::create_new(&part)?;
-        // Another journal in this folder: looked for once this one has the number, so that they cannot pass each other.
+        // Look for another journal in this folder after this one has taken its number, so that two cannot miss each
+        // other.
         if whole.exists() {
             remove(&part)?;
             return Err(io::ErrorKind::AlreadyExists.into());
@@ -164,19 +165,19 @@ impl Store for Folder {
     }
 }
 
-/// How many of so many are too many.
+/// The number of segments above the limit.
 fn surplus(segments: usize, kept: NonZeroU64) -> usize {
     segments.saturating_sub(usize::try_from(kept.get()).unwrap_or(usize::MAX))
 }
 
-/// Segments in memory: for tests, and for whoever sends them elsewhere. Clones are the same store.
+/// Segments in memory: for tests, and for programs that send them elsewhere. Clones are the same store.
 #[derive(Debug, Clone, Default)]
 pub struct Memory {
     segments: Arc<Mutex<Vec<Vec<u8>>>>,
 }
 
 impl Memory {
-    /// The segments so far; those that were let go of are empty.
+    /// The segments so far; deleted ones are empty.
     pub fn segments(&self) -> Vec<Vec<u8>> {
         self.segments.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }

@@ -1,4 +1,4 @@
-//! The journal's thread: takes what waits as one group, writes it, syncs when it is time, begins segments.
+//! The journal's thread: takes the waiting deltas as one group, writes them, syncs when due, and begins segments.
 
 use std::io;
 use std::sync::Arc;
@@ -22,32 +22,32 @@ pub(super) struct Writer<S> {
     pub(super) feed: Arc<Feed>,
     pub(super) graph: Observed,
     segment: Segment,
-    /// When what was written last has to be on the disk.
+    /// The time by which the last write must be synced.
     due: Option<Instant>,
     progress: Progress,
     buffer: Vec<u8>,
     /// The most bytes of a record, so that it fits into a frame with those before it.
     longest: usize,
-    /// A commit could not be written, so that none after it can be before a whole state is.
+    /// A commit could not be written, so the next record must be a whole state.
     broken: bool,
-    /// It ended as it should, or said why not.
+    /// The thread has ended normally or has reported its error.
     ended: bool,
 }
 
 /// The segment being written.
 #[derive(Default)]
 struct Segment {
-    /// How many were begun.
+    /// The number of segments begun.
     begun: u64,
-    /// Its bytes, and how many of them are on the disk.
+    /// Its bytes, and the number of them that are synced.
     bytes: u64,
     synced: u64,
     /// The bytes of its deltas.
     deltas: u64,
 }
 
-/// However the thread ends, by a panic of the store too, commits leave nothing for it any more, nobody waits for it,
-/// and what was not written is not told as written.
+/// When the thread ends, also by a panic of the store, commits stop leaving deltas for it, no caller waits for it any
+/// more, and nothing unwritten is reported as written.
 impl<S> Drop for Writer<S> {
     fn drop(&mut self) {
         self.feed.end();
@@ -77,7 +77,7 @@ impl<S: Store> Writer<S> {
         }
     }
 
-    /// Writes until the graph or the journal is gone, or the store fails.
+    /// Writes until the graph or the journal is dropped, or the store fails.
     pub(super) fn run(mut self, first: Snapshot) {
         if let Err(error) = self.work(first) {
             self.progress.error = Some(Arc::new(error));
@@ -109,7 +109,7 @@ impl<S: Store> Writer<S> {
         }
     }
 
-    /// Begins a segment with the state of now, after what led there.
+    /// Begins a segment with the present state, after writing the deltas that lead to it.
     fn rotate(&mut self) -> io::Result<()> {
         let Some((rest, state)) = self.graph.restart(&self.feed) else { return Ok(()) };
         self.deltas(&rest.deltas)?;
@@ -159,7 +159,7 @@ impl<S: Store> Writer<S> {
         let mut buffer = std::mem::take(&mut self.buffer);
         buffer.clear();
         for delta in deltas {
-            // A state taken while a delta waited has it already.
+            // A state that was taken while a delta waited already includes it.
             if delta.version <= self.progress.written {
                 continue;
             }
@@ -184,7 +184,7 @@ impl<S: Store> Writer<S> {
         if self.due.is_none() && self.progress.durable < self.progress.written {
             self.due = match self.settings.durability {
                 Durability::Each => Some(Instant::now()),
-                // None, which is never, where it lies beyond what there is of time.
+                // `None` means never: the time is beyond what `Instant` can hold.
                 Durability::Every(time) => Instant::now().checked_add(time),
             };
         }
@@ -226,7 +226,8 @@ mod tests {
     use crate::journal::{Memory, Recording};
     use crate::vocabulary::{Nature, VocabularyBuilder};
 
-    /// A commit that no frame can hold is a gap, and what comes after it is there; so is a node an error.
+    /// A commit that is too large for a frame is a gap, and later commits are recorded; a node that is too large is an
+    /// error.
     #[test]
     fn what_is_too_long_for_a_frame_is_left_out_and_told() {
         let mut builder = VocabularyBuilder::new();

@@ -1,4 +1,4 @@
-//! Writing a pattern down: variables first, parts in any order, mistakes reported when it is built.
+//! Building a pattern in code: variables first, parts in any order; mistakes are reported by `build`.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ pub struct PatternBuilder<'d> {
 }
 
 impl<'d> PatternBuilder<'d> {
-    /// The pattern that always has one match, for vocabulary `vocabulary`.
+    /// An empty pattern, which always has one match.
     pub fn new(vocabulary: &'d Vocabulary) -> Self {
         Self {
             vocabulary,
@@ -30,7 +30,8 @@ impl<'d> PatternBuilder<'d> {
         }
     }
 
-    /// Declares a variable for nodes of a type: of the pattern, or local to the negated part being written.
+    /// Declares a variable for nodes of a type: a variable of the pattern, or a local variable of the negated part that
+    /// is being written.
     pub fn variable(&mut self, name: &str, node_type: TypeId) -> Variable {
         let (scope, index) = if self.open.len() == 1 {
             self.variables.push((name.into(), node_type));
@@ -39,13 +40,13 @@ impl<'d> PatternBuilder<'d> {
             self.locals.push(node_type);
             (Scope::Local, self.locals.len() - 1)
         };
-        // Beyond u16 the pattern has too many variables anyway, which `build` reports.
+        // A pattern with more variables than a u16 can count is too large, which `build` reports.
         let variable = Variable { scope, index: u16::try_from(index).unwrap_or(u16::MAX) };
         self.top().variables.push(Term::Variable(variable));
         variable
     }
 
-    /// The edge must be there.
+    /// The edge must exist.
     pub fn edge(&mut self, from: impl Into<Term>, label: LabelId, to: impl Into<Term>) -> &mut Self {
         self.add(Atom::Edge { from: from.into(), label, to: to.into() })
     }
@@ -55,8 +56,8 @@ impl<'d> PatternBuilder<'d> {
         self.add(Atom::Present { holder: carrier(holder.into()), attribute })
     }
 
-    /// The attribute must have a value that compares so. Equal to a node variable that nothing else binds, it
-    /// binds the variable.
+    /// The comparison with the value of the attribute must hold. If the attribute must equal a node variable that no
+    /// other part binds, this part binds it.
     pub fn guard(
         &mut self,
         holder: impl Into<HolderTerm>,
@@ -77,14 +78,14 @@ impl<'d> PatternBuilder<'d> {
         self.add(Atom::Distinct(a.into(), b.into()))
     }
 
-    /// The node must be of the type. A variable's own type says the same where it begins; this says it of a variable
-    /// from outside in a negated part, and of constants.
+    /// The node must be of the type. Use this for constants, and in a negated part for variables from outside of it;
+    /// other variables have their type from their declaration.
     pub fn is_a(&mut self, node: impl Into<Term>, node_type: TypeId) -> &mut Self {
         self.add(Atom::IsA(node.into(), node_type))
     }
 
-    /// The distance between the origins of the two frames must compare so. Does not hold between nodes that no
-    /// kinematic chain connects.
+    /// The comparison with the distance between the origins of the two frames must hold. It does not hold between nodes
+    /// that no kinematic chain connects.
     pub fn distance(
         &mut self,
         from: impl Into<Term>,
@@ -95,8 +96,9 @@ impl<'d> PatternBuilder<'d> {
         self.metric(Metric::Distance, from, to, comparison, metres)
     }
 
-    /// The metric between the two frames must compare so. With hysteresis, subscriptions remember which matches they
-    /// have; whoever asks once has no history, and gets those that would appear. See [`Threshold`] for negated parts.
+    /// The comparison with the metric between the two frames must hold. With hysteresis, a subscription remembers the
+    /// matches that it has; a single query has no history, and returns the matches that would appear. See [`Threshold`]
+    /// for negated parts.
     pub fn metric(
         &mut self,
         metric: Metric,
@@ -109,14 +111,14 @@ impl<'d> PatternBuilder<'d> {
         self.add(Atom::Metric { metric, from: from.into(), to: to.into(), comparison, limit })
     }
 
-    /// The distance must be no more than the attribute of `from` says, in metres.
+    /// The distance must be at most the attribute of `from`, in metres.
     pub fn reachable(&mut self, from: impl Into<Term>, to: impl Into<Term>, reach: AttributeId) -> &mut Self {
         let (metric, comparison) = (Metric::Distance, Comparison::LessOrEqual);
         let limit = Limit::Attribute(reach);
         self.add(Atom::Metric { metric, from: from.into(), to: to.into(), comparison, limit })
     }
 
-    /// What `write` writes, as a conjunction with its own local variables, must have no match. Nests.
+    /// The conjunction that `write` adds, with its own local variables, must have no match. Negated parts may nest.
     pub fn without<R>(&mut self, write: impl FnOnce(&mut Self) -> R) -> R {
         self.open.push(Conjunction { variables: Vec::new(), atoms: Vec::new() });
         let result = write(self);

@@ -1,5 +1,4 @@
-//! From what was written to what can be matched: terms become slots, and what the vocabulary could never allow
-//! is refused now rather than never matched.
+//! Compiling a pattern: terms become slots, and parts that the vocabulary can never satisfy are rejected.
 
 use std::sync::Arc;
 
@@ -20,57 +19,57 @@ type Name = Arc<str>;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the fields are the names that the variant is about")]
 pub enum PatternError {
-    /// More variables and constants than a pattern may have.
+    /// Too many variables and constants.
     #[error("a pattern may have {SLOTS} variables and constants, not {count}")]
     TooLarge { count: usize },
-    /// More atoms, or deeper negated parts, than a pattern may have.
+    /// Too many atoms, or negated parts that nest too deeply.
     #[error("a pattern may have {ATOMS} atoms, and negated parts {DEEPEST} deep")]
     TooManyParts,
-    /// A number that is infinite or none.
+    /// A number that is infinite or not a number.
     #[error("attribute '{attribute}' is held against a number that is not finite")]
     NotFinite { attribute: Name },
-    /// The type is of another vocabulary.
+    /// The vocabulary has no such type.
     #[error("no type {id}")]
     UnknownType { id: TypeId },
-    /// The label is of another vocabulary.
+    /// The vocabulary has no such label.
     #[error("no label {id}")]
     UnknownLabel { id: LabelId },
-    /// The attribute is of another vocabulary.
+    /// The vocabulary has no such attribute.
     #[error("no attribute {id}")]
     UnknownAttribute { id: AttributeId },
-    /// A local variable outside the negated part that declares it, or a variable of another pattern.
+    /// A local variable outside of the negated part that declares it, or a variable of another pattern.
     #[error("a variable is used outside its part")]
     OutOfScope { variable: Variable },
-    /// A variable that no part declares, or two, or a part that is not its own. A builder makes none.
+    /// A variable that no part declares, or more than one, or the wrong one. A builder never does this.
     #[error("a variable is not declared once, in its own part")]
     Misdeclared { variable: Variable },
-    /// No signature of the label fits these types.
+    /// No signature of the label allows these types.
     #[error("'{label}' never goes from a '{from}' to a '{to}'")]
     WrongSignature { label: Name, from: Name, to: Name },
-    /// The attribute is never on that holder.
+    /// The attribute is declared for other holders.
     #[error("attribute '{attribute}' is never there")]
     WrongHolder { attribute: Name },
-    /// The two sides can never be compared so.
+    /// The two sides cannot be compared in this way.
     #[error("attribute '{attribute}' is a {kind}, it cannot be compared so")]
     WrongKind { attribute: Name, kind: Kind },
-    /// A number that is none, or one that is passed on the way out before the other on the way in.
-    #[error("no threshold: appears at {}, disappears at {}", threshold.appears, threshold.disappears)]
+    /// A threshold that is not a finite number, or a threshold to disappear that is stricter than the one to appear.
+    #[error("invalid threshold: appears at {}, disappears at {}", threshold.appears, threshold.disappears)]
     WrongThreshold { threshold: Threshold },
-    /// A node of two types of which none is below the other.
+    /// A node of two types, neither of which is a subtype of the other.
     #[error("a '{first}' is never a '{second}'")]
     Disjoint { first: Name, second: Name },
-    /// A distance to something without a place.
+    /// A metric to a node that has no pose.
     #[error("a '{node_type}' is never geometric")]
     NotGeometric { node_type: Name },
 }
 
-/// How many atoms a pattern may have, those of its negated parts among them: matching goes one deeper for each.
+/// The most atoms in a pattern, including its negated parts: matching recurses once for each.
 const ATOMS: usize = 1_024;
 
-/// How deeply negated parts may nest.
+/// The deepest nesting of negated parts.
 const DEEPEST: usize = 64;
 
-/// Before anything walks the parts by calling itself.
+/// Checks the size before any recursion over the parts.
 fn bounded(body: &Conjunction<Term>) -> Result<(), PatternError> {
     let (mut atoms, mut parts) = (0, vec![(body, 0)]);
     while let Some((part, depth)) = parts.pop() {
@@ -125,7 +124,7 @@ fn compile(vocabulary: &Vocabulary, source: PatternSource) -> Result<Pattern, Pa
         return Err(PatternError::TooLarge { count });
     }
     if !constants.is_empty() {
-        // A constant's node may come or go, and its type is not known here.
+        // The node of a constant may be added or removed, and its type is not known here.
         vocabulary.types().for_each(|id| mentions.add_type(id));
     }
     let mut bound = Mask::default();
@@ -163,11 +162,11 @@ struct Checker<'d> {
     types: Vec<TypeId>,
     tops: usize,
     constants: Vec<Constant>,
-    /// The variables that may be used here.
+    /// The variables that are visible here.
     visible: Mask,
-    /// Those that some part so far has declared.
+    /// The variables that have been declared so far.
     declared: Mask,
-    /// In how many parts the present one lies.
+    /// The number of parts around the present one.
     depth: usize,
     mentions: Mentions,
     remembers: bool,
@@ -212,8 +211,8 @@ impl Checker<'_> {
             }
             Atom::Distinct(a, b) => Atom::Distinct(self.term(a)?, self.term(b)?),
             Atom::IsA(node, id) => {
-                // A node has one type as long as it is there, so the types of the variables, and all types where there
-                // are constants, mention already what can change this.
+                // The type of a node never changes. So this atom changes only when nodes are added or removed, and the
+                // mentions already include the types of the variables, and all types if the pattern has constants.
                 self.vocabulary.type_name(*id).ok_or(PatternError::UnknownType { id: *id })?;
                 let slot = self.term(node)?;
                 if let Some(declared) = self.type_of(slot).filter(|_| !self.may_be(slot, *id)) {
@@ -239,12 +238,12 @@ impl Checker<'_> {
         })
     }
 
-    /// Whether it gives a variable a type that it has anyway.
+    /// Whether the atom gives a variable a type that it has anyway.
     fn says_nothing(&self, atom: &Atom<Slot>) -> bool {
         matches!(*atom, Atom::IsA(slot, id) if self.type_of(slot).is_some_and(|own| self.vocabulary.is_a(own, id)))
     }
 
-    /// Whether a metric can be held against this.
+    /// Checks the right-hand side of a metric.
     fn limit(&mut self, from: &Term, comparison: Comparison, limit: Limit) -> Result<(), PatternError> {
         match limit {
             Limit::Threshold(threshold) => {
@@ -254,7 +253,7 @@ impl Checker<'_> {
                     Comparison::Greater | Comparison::GreaterOrEqual => appears >= disappears,
                     Comparison::Equal | Comparison::NotEqual => appears == disappears,
                 };
-                // Of the same numbers nothing is to be remembered.
+                // Equal thresholds have no hysteresis.
                 self.remembers |= appears != disappears;
                 let finite = appears.is_finite() && disappears.is_finite();
                 if ordered && finite { Ok(()) } else { Err(PatternError::WrongThreshold { threshold }) }
@@ -365,7 +364,7 @@ impl Checker<'_> {
         }
     }
 
-    /// The slot of a term that may be used here.
+    /// The slot of a term that is visible here.
     fn term(&mut self, term: &Term) -> Result<Slot, PatternError> {
         let constant = match term {
             Term::Variable(variable) => {
@@ -391,7 +390,7 @@ impl Checker<'_> {
         if index >= SLOTS { Err(PatternError::TooLarge { count: index + 1 }) } else { Ok(slot_at(index)) }
     }
 
-    /// The slot of a variable, unless it is of another, larger pattern.
+    /// The slot of a variable, unless it belongs to another, larger pattern.
     fn slot_of(&self, variable: Variable) -> Result<Slot, PatternError> {
         let index = usize::from(variable.index);
         let (slot, end) = match variable.scope {
@@ -416,7 +415,7 @@ impl Checker<'_> {
         self.types.get(usize::from(slot.0)).copied()
     }
 
-    /// Whether what stands in the slot could be of the type; of a constant anything can be said.
+    /// Whether the node of the slot can be of the type. A constant can be of any type.
     fn may_be(&self, slot: Slot, node_type: TypeId) -> bool {
         self.type_of(slot).is_none_or(|id| self.vocabulary.overlap(id, node_type))
     }

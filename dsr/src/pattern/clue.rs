@@ -1,13 +1,14 @@
-//! What must hold beside a change for it to concern a pattern: one thing per seed, so that a commit finds the few
-//! patterns that it concerns among many by looking up what is there, not by asking each.
+//! Clues: what must hold beside a change for it to concern a pattern.
 //!
-//! Idea: an attribute that is held against a constant matters only when it comes to that constant or leaves it. An
-//! edge matters only if its ends are of the types that the pattern wants, and if what the pattern says of them beside
-//! the edge holds: an attribute with a certain value, or another edge with a certain label.
+//! Problem: a commit should find the few patterns that it concerns among many by look-ups, not by asking each pattern.
+//! Idea: each seed has a clue. An attribute that is compared with a constant matters only when its value reaches that
+//! constant or leaves it. An edge matters only if its ends have the types of the pattern, and if another requirement of
+//! the pattern at one of its ends holds: an attribute with a certain value, or another edge with a certain label.
 //!
-//! Invariant: if a delta makes a match appear or disappear, at least one of its changes is passed by the clue of one of
-//! its seeds. A part of the match that holds after the delta is found there. One that does not was changed by the same
-//! delta: an attribute's own seed is passed by its old value, and labels that the delta touches count as there.
+//! Invariant: if a delta makes a match appear or disappear, at least one of its changes passes the clue of one of its
+//! seeds. A requirement that holds after the delta is found in the state. One that does not hold any more was changed
+//! by the same delta: an attribute passes its own clue by its old value, and edges that the delta removes count as
+//! present.
 
 use std::hash::{Hash, Hasher};
 
@@ -19,21 +20,21 @@ use super::term::Comparison;
 use crate::id::{AttributeId, LabelId};
 use crate::value::Value;
 
-/// One of the ends of an edge.
+/// One end of an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Tip {
     From,
     To,
 }
 
-/// Which way an edge beside the changed one goes, seen from the node that they share.
+/// The direction of an edge beside the changed one, seen from the node that they share.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Way {
     Out,
     In,
 }
 
-/// A hash of a value: the same for equal ones. Two that share one only cost a look.
+/// A hash of a value: equal values have equal hashes. A collision costs one needless match.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct ValueKey(u64);
 
@@ -41,7 +42,7 @@ impl ValueKey {
     pub(crate) fn of(value: &Value) -> Self {
         let mut hasher = FxHasher::default();
         match value {
-            // Zero and minus zero are equal, and their sum is zero.
+            // Zero and minus zero are equal; adding zero makes their bits equal.
             Value::Number(number) => (0_u8, (number + 0.0).to_bits()).hash(&mut hasher),
             Value::Text(text) => (1_u8, text).hash(&mut hasher),
             Value::Bool(truth) => (2_u8, truth).hash(&mut hasher),
@@ -51,7 +52,7 @@ impl ValueKey {
     }
 }
 
-/// A number in the order of numbers; patterns hold no infinite or undefined ones against anything.
+/// A finite number as an integer with the same order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct Ordered(i64);
 
@@ -60,7 +61,7 @@ impl Ordered {
     pub(crate) const MOST: Self = Self(i64::MAX);
 
     pub(crate) fn of(number: f64) -> Self {
-        // The bits of negative numbers count downwards; see `f64::total_cmp`.
+        // The bits of negative numbers are in reverse order; see `f64::total_cmp`.
         let bits = (number + 0.0).to_bits().cast_signed();
         Self(bits ^ ((bits >> 63).cast_unsigned() >> 1).cast_signed())
     }
@@ -71,15 +72,15 @@ impl Ordered {
 pub(crate) enum Clue {
     /// Any change of the token.
     Any,
-    /// The attribute comes to this value or leaves it.
+    /// The attribute reaches this value or leaves it.
     Is(ValueKey),
-    /// The attribute crosses this number; true above it.
+    /// The attribute crosses this number; the guard holds above it.
     Above(Ordered),
-    /// The attribute crosses this number; true below it.
+    /// The attribute crosses this number; the guard holds below it.
     Below(Ordered),
     /// At this end of the edge, the attribute has this value.
     With(Tip, AttributeId, ValueKey),
-    /// At this end of the edge, there is another one.
+    /// At this end of the edge, another edge exists.
     Beside(Tip, LabelId, Way),
 }
 
@@ -97,8 +98,8 @@ pub(super) fn of_guard(comparison: Comparison, operand: &Right<Slot>) -> Clue {
     }
 }
 
-/// The clue of the edge that is the atom `own` of the innermost of these conjunctions: the first value, else the first
-/// edge, that any of them wants at one of its ends.
+/// The clue of the edge that is atom `own` of the innermost of these conjunctions: the first attribute value that one
+/// of them requires at an end of the edge, or else the first other edge.
 pub(super) fn of_edge(ends: (Slot, Slot), own: usize, around: &[&Conjunction<Slot>]) -> Clue {
     let tip = |slot: Slot| match slot {
         slot if slot == ends.0 => Some(Tip::From),

@@ -1,4 +1,4 @@
-//! A compiled pattern: what matching needs, worked out once.
+//! A compiled pattern: everything that matching needs, computed once.
 
 use std::ops::Deref;
 use std::sync::Arc;
@@ -32,18 +32,18 @@ impl Serialize for Pattern {
 #[derive(Debug, Clone)]
 pub struct Pattern {
     pub(super) source: Arc<PatternSource>,
-    /// Names and types of the top-level variables, which have the first slots.
+    /// The names and types of the top-level variables, which have the first slots.
     pub(super) variables: Vec<(Arc<str>, TypeId)>,
-    /// Types of the local variables, which have the next slots.
+    /// The types of the local variables, which have the next slots.
     pub(super) locals: Vec<TypeId>,
     /// The constants, which have the last slots.
     pub(super) constants: Vec<Constant>,
     pub(super) body: Conjunction<Slot>,
-    /// Where joins begin when something changes.
+    /// The seeds, from which joins begin after a change.
     pub(super) seeds: Vec<Seedling>,
-    /// The ends of each metric, where joins begin when something moves.
+    /// The ends of each metric, from which joins begin after a move.
     pub(super) measured: Vec<[End; 2]>,
-    /// The negated parts that can be judged by what has moved in them.
+    /// The negated parts that can be judged by the frames that have moved.
     pub(super) parts: Vec<Part>,
     /// The join order when no variable is fixed.
     pub(super) plan: Vec<Step>,
@@ -60,17 +60,17 @@ impl Pattern {
         self.variables.iter().map(|(name, node_type)| (&**name, *node_type))
     }
 
-    /// Where a match has the node of a variable: of the pattern's own, not of a negated part or of another pattern.
+    /// The position of a variable in a match; `None` for a local variable or one of another pattern.
     pub(super) fn place_of(&self, variable: Variable) -> Option<usize> {
         variable.position().filter(|&at| at < self.variables.len())
     }
 
-    /// Whether a match gives the variable a node.
+    /// Whether a match has a node for the variable.
     pub(crate) fn gives(&self, variable: Variable) -> bool {
         self.place_of(variable).is_some()
     }
 
-    /// How it was written.
+    /// The pattern as it was written.
     pub fn source(&self) -> &Arc<PatternSource> {
         &self.source
     }
@@ -81,12 +81,12 @@ impl Pattern {
         Some(Variable { scope: Scope::Top, index: u16::try_from(at).ok()? })
     }
 
-    /// The tokens on which the matches depend: a delta that touches none of them changes no match.
+    /// The tokens on which the matches depend: a delta that changes none of them changes no match.
     pub fn mentions(&self) -> &Mentions {
         &self.mentions
     }
 
-    /// What stands for constants in a state; [`NodeId::NOWHERE`] for a name that no node has.
+    /// The nodes of the constants in a state; [`NodeId::NOWHERE`] for a name that no node has.
     pub(super) fn constants_in(&self, state: &State) -> impl Iterator<Item = NodeId> {
         self.constants.iter().map(move |constant| match constant {
             Constant::Node(id) => *id,
@@ -94,7 +94,7 @@ impl Pattern {
         })
     }
 
-    /// What stands for a slot in a state, if it is a constant.
+    /// The node of a slot in a state, if the slot is a constant.
     pub(super) fn constant(&self, slot: Slot, state: &State) -> Option<NodeId> {
         let at = usize::from(slot.0).checked_sub(self.variables.len() + self.locals.len())?;
         self.constants.get(at).map(|constant| match constant {
@@ -103,7 +103,7 @@ impl Pattern {
         })
     }
 
-    /// The names of nodes that the pattern speaks of.
+    /// The names of the nodes that are constants of the pattern.
     pub(crate) fn names(&self) -> impl Iterator<Item = &std::sync::Arc<str>> {
         self.constants.iter().filter_map(|constant| match constant {
             Constant::Named(name) => Some(name),
@@ -111,7 +111,7 @@ impl Pattern {
         })
     }
 
-    /// The slot of a variable of the pattern itself.
+    /// The slot of a top-level variable.
     pub(super) fn variable_slot(&self, at: usize) -> Slot {
         slot(at)
     }

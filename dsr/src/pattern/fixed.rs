@@ -7,7 +7,7 @@ use crate::id::NodeId;
 /// Nodes for some of the variables.
 pub(crate) type Fixed = SmallVec<[(usize, NodeId); 2]>;
 
-/// The matches that a delta may concern.
+/// The matches that a delta may have changed: all, or those with these nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Slices {
     All,

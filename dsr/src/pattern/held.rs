@@ -1,4 +1,4 @@
-//! The matches that a subscriber has, found by any of their nodes.
+//! The matches that a subscriber has, indexed by each of their nodes.
 
 use std::collections::BTreeSet;
 
@@ -7,9 +7,10 @@ use rustc_hash::FxHashMap;
 use super::compiled::{Binding, Pattern};
 use crate::id::NodeId;
 
+/// The matches that a subscriber has.
 pub(crate) struct Held {
     all: BTreeSet<Binding>,
-    /// Per variable, what is held by its node.
+    /// For each variable, the matches by its node.
     by_node: Vec<FxHashMap<NodeId, BTreeSet<Binding>>>,
 }
 
@@ -22,10 +23,10 @@ impl Held {
         &self.all
     }
 
-    /// Those that have these nodes there.
+    /// The matches with these nodes.
     pub(crate) fn with<'h>(&'h self, fixed: &'h [(usize, NodeId)]) -> impl Iterator<Item = &'h Binding> {
         let sets = fixed.iter().map(|(at, node)| self.by_node[*at].get(node));
-        // The smallest of the sets that all of them are in; one that is empty says that there are none.
+        // Search the smallest of the sets; if one of them is empty, there is no match.
         let smallest = sets.min_by_key(|set| set.map_or(0, BTreeSet::len));
         let among = smallest.unwrap_or(Some(&self.all)).into_iter().flatten();
         among.filter(|binding| fixed.iter().all(|(at, node)| binding[*at] == *node))

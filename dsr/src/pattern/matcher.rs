@@ -1,6 +1,6 @@
-//! Running a join: depth first along the steps, with one array of slots and no allocation per step.
+//! Matching: a depth-first join along the steps of a plan, with one array of slots and no allocation per step.
 //!
-//! Cost: the product of the fan-outs along the walks; a scan costs the nodes of the variable's type.
+//! Cost: the product of the fan-outs along the walks; a scan costs the number of nodes of the variable's type.
 
 use std::cell::Cell;
 use std::ops::ControlFlow;
@@ -19,8 +19,8 @@ use crate::snapshot::Snapshot;
 use crate::state::State;
 use crate::value::Value;
 
-/// Which of the two numbers of a threshold counts: what it takes for a match to appear, or to stay. Under a negation it
-/// is the other way round, since what is hard to find there is easy to be without.
+/// Which of the two thresholds of a metric counts: the one to appear or the one to disappear. A negation swaps them,
+/// because a negated part that is harder to satisfy makes the pattern easier to satisfy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Strictness {
     Appears,
@@ -42,8 +42,8 @@ impl Pattern {
         self.matches_with(snapshot, &[])
     }
 
-    /// All matches that give these variables these nodes, in order. None gives a node to a local variable or to one
-    /// that only a larger pattern has; to fix these is a mistake of the caller, and stops a debug build.
+    /// All matches with these nodes for these variables, in order. A local variable, or one of a larger pattern, has no
+    /// node in a match: to fix one is a bug of the caller, which a debug build catches.
     pub fn matches_with(&self, snapshot: &Snapshot, fixed: &[(Variable, NodeId)]) -> Vec<Binding> {
         let mut found = Vec::new();
         let count = self.variables.len();
@@ -55,7 +55,7 @@ impl Pattern {
         found
     }
 
-    /// All matches, in order. Counts what is looked at.
+    /// All matches, in order. Adds the number of nodes tried to `looked`.
     pub(crate) fn matches_known(
         &self,
         state: &State,
@@ -74,8 +74,8 @@ impl Pattern {
         found
     }
 
-    /// The matches that give these variables these nodes, in order, by a join order that is kept for the next time.
-    /// Counts what is looked at.
+    /// The matches with these nodes for these variables, in order. The join order is kept in `plans`. Adds the number
+    /// of nodes tried to `looked`.
     pub(crate) fn matches_of(
         &self,
         state: &State,
@@ -108,7 +108,7 @@ impl Pattern {
         found
     }
 
-    /// Whether a match that is held stays one, which a threshold with hysteresis may allow where it would not appear.
+    /// Whether a held match stays by the threshold to disappear, although it would not appear.
     pub(crate) fn keeps(&self, state: &State, held: &Binding) -> bool {
         if !self.remembers {
             return false;
@@ -136,12 +136,12 @@ impl Pattern {
         bound
     }
 
-    /// Whether there is a match.
+    /// Whether the pattern has a match.
     pub fn holds(&self, snapshot: &Snapshot) -> bool {
         self.holds_in(snapshot.state(), &[])
     }
 
-    /// Whether there is a match that gives these variables these nodes, as [`Pattern::matches_with`] has them.
+    /// Whether the pattern has a match with these nodes for these variables; see [`Pattern::matches_with`].
     pub fn holds_with(&self, snapshot: &Snapshot, fixed: &[(Variable, NodeId)]) -> bool {
         self.holds_in(snapshot.state(), fixed)
     }
@@ -160,7 +160,7 @@ impl Pattern {
             let own = self.place_of(variable);
             debug_assert!(own.is_some(), "a local variable, or one of another pattern, cannot be fixed");
             let Some(at) = own else { return ControlFlow::Continue(()) };
-            // Fixed twice to different nodes, or to a node of another type: no match.
+            // A variable fixed to two nodes, or to a node of another type, has no match.
             if (bound.contains(slot(at)) && slots[at] != node) || !run.admits(slot(at), node) {
                 return ControlFlow::Continue(());
             }
@@ -184,9 +184,9 @@ struct Run<'a> {
     pattern: &'a Pattern,
     state: &'a State,
     strictness: Strictness,
-    /// What is known of negated parts.
+    /// What is known about negated parts.
     known: Option<&'a Known<'a>>,
-    /// How many nodes have been tried for a variable.
+    /// The number of nodes that have been tried.
     looked: &'a Cell<usize>,
 }
 
@@ -203,7 +203,7 @@ impl Run<'_> {
                 let negated = Run { strictness: self.strictness.negated(), known: None, ..*self };
                 let node = |slot| get(slots, slot);
                 let judge = self.known.and_then(|known| Some((known, known.judge(self.pattern, *at, node)?)));
-                // Locals bound inside are not read outside, so the slots can be shared.
+                // Local variables are not read outside of the part, so it can use the same array of slots.
                 let blocked = match judge {
                     Some((_, Judge::Suspects(part, suspects))) => {
                         suspects.iter().try_for_each(|&(own, node)| {
@@ -252,7 +252,7 @@ impl Run<'_> {
         ControlFlow::Continue(())
     }
 
-    /// Looks for a match of a negated part, first at the one that was found last.
+    /// Searches a negated part for a match, beginning with the witness that the last search found.
     fn search(
         &self,
         part: &Part,
@@ -294,7 +294,7 @@ impl Run<'_> {
         self.steps(rest, slots, emit)
     }
 
-    /// Whether the node is there and of the variable's type.
+    /// Whether the node exists and has the variable's type.
     fn admits(&self, slot: Slot, node: NodeId) -> bool {
         match (self.pattern.type_of(slot), self.state.node(node)) {
             (Some(wanted), Some(node)) => self.state.vocabulary.is_a(node.node_type(), wanted),

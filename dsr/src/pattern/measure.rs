@@ -1,4 +1,4 @@
-//! The ends of the metrics of a pattern: which frames may stand there.
+//! The ends of the metrics of a pattern: which frames may be there.
 
 use super::slot::Slot;
 use super::source::{Atom, Conjunction};
@@ -9,7 +9,7 @@ use crate::vocabulary::{Nature, Vocabulary};
 #[derive(Debug, Clone)]
 pub(super) struct End {
     pub(super) slot: Slot,
-    /// The types of the frames that a variable may be; none for a constant.
+    /// The exact types of the frames that a variable may be; empty for a constant.
     pub(super) types: Box<[TypeId]>,
 }
 
@@ -23,7 +23,8 @@ impl End {
     }
 }
 
-/// The ends of each metric in a conjunction and in its negated parts. A frame is always as far from itself.
+/// Collects the ends of each metric in a conjunction and in its negated parts. A metric from a frame to itself never
+/// changes.
 pub(super) fn measured(
     part: &Conjunction<Slot>,
     type_of: &impl Fn(Slot) -> Option<TypeId>,

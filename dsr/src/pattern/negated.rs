@@ -1,15 +1,15 @@
-//! What is negated, judged by what has moved in it.
+//! Negated parts, judged by the frames that have moved.
 //!
-//! Problem: "a robot with nobody near" is lost by one person of a thousand who takes a step, but to judge it is to look
-//! for somebody near among all of them. Idea: while a match is held, it is known that nobody was. So only somebody who
-//! has moved can be near now, and to look at those is enough. Of what was searched and is no match, somebody who was
-//! near is remembered: as long as they are, nobody else has to be looked for.
+//! Problem: a single step of one person among a thousand can break "a robot with no person near", but judging that from
+//! scratch looks at all persons. Idea: while a match is held, it is known that no person was near before. So only a
+//! person who has moved can be near now, and only those are checked. For a binding that is not a match, remember one
+//! person who was near (a witness): as long as that person is near, the others need no look.
 //!
-//! Invariant: it is enough where a match with the same nodes for the variables that the part has from outside is held,
-//! the deltas since have touched the part by moves alone, and nothing has moved that it measures from outside. With two
-//! numbers a match may be held that would not appear, so that says nothing about others: then the match must be the
-//! very one. Otherwise the whole part is searched. Who is remembered is judged again each time. Cost: an entry per
-//! binding that such a part keeps from being a match, as what is held costs one per match.
+//! Invariant: the moved frames are enough if all of the following hold. A match is held with the same nodes for the
+//! variables that the part has from outside. The deltas since then changed the part by moves alone. No frame that the
+//! part measures from outside has moved. With hysteresis, a match may be held that would not appear, so it says nothing
+//! about other bindings: then it must be the very match that is judged. Otherwise the whole part is searched. A witness
+//! is checked again each time. Cost: one entry per binding that such a part excludes, as a held match costs one.
 
 use std::cell::RefCell;
 
@@ -25,20 +25,20 @@ use super::slot::Slot;
 use crate::id::NodeId;
 use crate::state::State;
 
-/// A frame that has moved, as one of a part's own variables, by its place among them.
+/// A frame that has moved and can stand for one of a part's own variables: the position of the variable, and the frame.
 type Suspect = (usize, NodeId);
 
-/// What has moved in each part of a pattern; nothing where more than moves has touched it.
+/// The moved frames of each part of a pattern; `None` for a part that changed by more than moves.
 #[derive(Default)]
 pub(crate) struct Moves<'s> {
     parts: SmallVec<[Option<SmallVec<[Suspect; 4]>>; 2]>,
     groups: Option<Groups<'s>>,
-    /// Lent for one look.
+    /// Lent by the subscriber for one update.
     pub(crate) witnesses: RefCell<Witnesses>,
 }
 
 impl<'s> Moves<'s> {
-    /// Of a pattern of which these parts have been touched by other changes.
+    /// The moves of a pattern; the parts in `touched` have changed by more than moves.
     pub(super) fn new(
         pattern: &Pattern,
         touched: &[usize],
@@ -57,20 +57,20 @@ impl<'s> Moves<'s> {
                 found.extend(groups.moved()?.filter(fits).map(|node| (own, node)));
                 most += end.types.iter().map(|&exact| state.count_exactly(exact)).sum::<usize>();
             }
-            // To search the part is to look at no more than these.
+            // Beyond this number, a search of the part looks at fewer frames.
             (found.len() < most || found.is_empty()).then_some(found)
         };
         Self { parts: pattern.parts.iter().map(suspects).collect(), groups, witnesses: RefCell::default() }
     }
 }
 
-/// A negated part with nodes for what it has from outside.
+/// A negated part, with nodes for its variables from outside.
 pub(super) type Case = (usize, Fixed);
 
 /// Nodes for a part's own variables.
 pub(super) type Witness = SmallVec<[NodeId; 2]>;
 
-/// Who was found in negated parts when they were searched last.
+/// The witnesses that the last search of each negated part found.
 #[derive(Debug, Default)]
 pub(crate) struct Witnesses(FxHashMap<Case, Witness>);
 
@@ -90,28 +90,28 @@ impl Witnesses {
         self.0.len()
     }
 
-    /// Lets go of cases of nodes that are no longer there.
+    /// Drops the cases whose nodes have been removed.
     pub(crate) fn forget(&mut self, state: &State) {
         self.0.retain(|(_, outer), _| outer.iter().all(|(_, node)| state.node(*node).is_some()));
     }
 }
 
-/// What is known while matches are looked for.
+/// What is known while matching.
 pub(crate) struct Known<'a> {
     pub(crate) moves: &'a Moves<'a>,
     pub(crate) held: &'a Held,
 }
 
-/// How a part is to be judged.
+/// How to judge a part.
 pub(super) enum Judge<'a> {
-    /// It is enough to look at these.
+    /// Check these frames only.
     Suspects(&'a Part, &'a [Suspect]),
-    /// By a search.
+    /// Search the part.
     Search(&'a Part, Case),
 }
 
 impl<'a> Known<'a> {
-    /// How to judge a part of the pattern, if anything is known of it; `node` is what stands in a slot.
+    /// How to judge a part of the pattern, if it is one of `Pattern::parts`; `node` returns the node in a slot.
     pub(super) fn judge(
         &'a self,
         pattern: &'a Pattern,

@@ -1,4 +1,4 @@
-//! The negated parts of a pattern that can be judged by what has moved in them; `negated` does so.
+//! The negated parts of a pattern that can be judged by the frames that have moved; `negated` judges them.
 
 use super::measure::End;
 use super::plan::{Step, free, plan};
@@ -7,23 +7,23 @@ use super::source::{Atom, Conjunction, Limit};
 use crate::id::TypeId;
 use crate::vocabulary::Vocabulary;
 
-/// A negated part of a pattern, not of another part, that measures something of its own.
+/// A negated part at the top level of a pattern that measures one of its own variables.
 #[derive(Debug, Clone)]
 pub(super) struct Part {
-    /// Which part of the pattern it is.
+    /// Its position among the atoms of the pattern.
     pub(super) at: usize,
-    /// The pattern's variables in it.
+    /// The variables of the pattern that it uses.
     pub(super) outer: Vec<usize>,
-    /// The ends of its metrics that are given from outside.
+    /// The ends of its metrics that are bound from outside.
     pub(super) anchors: Vec<Slot>,
-    /// Those that are variables of its own, and the join order where one is given besides what comes from outside.
+    /// The ends of its metrics that are its own variables, each with the join order that begins with it bound.
     pub(super) own: Vec<(End, Vec<Step>)>,
-    /// Its own variables, and the order of its atoms where all of them are given.
+    /// Its own variables, and below the order of its atoms when all variables are bound.
     pub(super) locals: Vec<Slot>,
     pub(super) judgement: Vec<Step>,
 }
 
-/// The parts of a pattern with so many variables; the slots of its constants are those in the mask.
+/// The parts of a pattern; `constants` are the slots of its constants.
 pub(super) fn parts(
     body: &Conjunction<Slot>,
     constants: Mask,

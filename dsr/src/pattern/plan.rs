@@ -1,8 +1,8 @@
-//! The join order: what to look at next, decided once per pattern and set of fixed variables.
+//! The join order: which part to look at next, decided once per pattern and set of fixed variables.
 //!
-//! Idea: greedy, from bound to unbound. A part whose variables are all bound filters at once; else a part with
-//! one bound end walks along an edge or a reference; else the variable that most parts wait for is drawn from the
-//! nodes of its type. Invariant: when a step runs, every slot it reads is bound.
+//! Idea: greedy, from bound to unbound. A part whose variables are all bound filters at once. Otherwise a part with one
+//! bound end walks along an edge or a reference. Otherwise the variable that occurs in most remaining parts takes each
+//! node of its type. Invariant: when a step runs, every slot that it reads is bound.
 
 use super::slot::{Mask, Slot};
 use super::source::{Atom, Carrier, Conjunction, Right};
@@ -12,7 +12,7 @@ use crate::id::{AttributeId, LabelId};
 /// One step of a join.
 #[derive(Debug, Clone)]
 pub(super) enum Step {
-    /// Filter: the part, all of whose slots are bound. Never a negated one.
+    /// Filter: a part whose slots are all bound. Never a negated one.
     Check(Atom<Slot>),
     /// Bind `to` to the ends of the edges that leave `from`.
     Forward { from: Slot, label: LabelId, to: Slot },
@@ -22,8 +22,7 @@ pub(super) enum Step {
     Follow { holder: Carrier<Slot>, attribute: AttributeId, to: Slot },
     /// Bind the variable to every node of its type.
     Scan(Slot),
-    /// Filter: the steps must have no match.
-    /// The part is the atom there.
+    /// Filter: the steps of the negated part, which is atom `at`, must have no match.
     Without { at: usize, steps: Vec<Step> },
 }
 
@@ -53,7 +52,7 @@ pub(super) fn plan(part: &Conjunction<Slot>, mut bound: Mask) -> Vec<Step> {
         }
         let unbound = part.variables.iter().copied().filter(|&slot| !bound.contains(slot));
         let wanted = |slot: &Slot| waiting.iter().filter(|(_, atom)| free(atom).contains(*slot)).count();
-        // The first of the most wanted, so that the order of declaration breaks ties.
+        // Ties are broken by the order of declaration.
         let Some(slot) = unbound.rev().max_by_key(wanted) else { break };
         steps.push(Step::Scan(slot));
         bound.insert(slot);
@@ -62,7 +61,7 @@ pub(super) fn plan(part: &Conjunction<Slot>, mut bound: Mask) -> Vec<Step> {
     steps
 }
 
-/// The step and the slot by which a part binds its one unbound slot, if it can.
+/// The step by which a part binds its one unbound slot, and that slot, if it can.
 fn walk(atom: &Atom<Slot>, bound: Mask) -> Option<(Step, Slot)> {
     match *atom {
         Atom::Edge { from, label, to } => match (bound.contains(from), bound.contains(to)) {
@@ -79,7 +78,7 @@ fn walk(atom: &Atom<Slot>, bound: Mask) -> Option<(Step, Slot)> {
     }
 }
 
-/// The slots that a part reads, without the local variables of negated parts.
+/// The slots that a part reads, except the local variables of negated parts.
 pub(super) fn free(atom: &Atom<Slot>) -> Mask {
     let pair = |a: Slot, b: Slot| {
         let mut mask = Mask::default();
@@ -119,6 +118,6 @@ fn carried(holder: &Carrier<Slot>) -> Mask {
     mask
 }
 
-/// Join orders that a subscriber has needed, by what was fixed.
+/// The join orders that a subscriber has needed so far, by the variables that were fixed.
 #[derive(Debug, Default)]
 pub(crate) struct Plans(pub(super) Vec<(Mask, Vec<Step>)>);

@@ -1,23 +1,23 @@
-//! Which distances may have changed: the tree of frames falls into rigid groups.
+//! Which metrics may have changed: the tree of frames is divided into rigid groups.
 //!
-//! Problem: when an edge of the kinematic tree changes, matching every pattern with a distance again costs what the
+//! Problem: when an edge of the kinematic tree changes, matching every pattern with a metric again costs as much as the
 //! graph is large, although a person who takes a step changes one distance in a thousand. Idea: label each frame with
-//! the lowest changed edge at or above it, or none. What lies between two frames is their two ways up without what
-//! these share, so it has a changed edge if and only if their labels differ. Frames with one label are a rigid group:
-//! whatever is measured inside of it is what it was, and only pairs across two groups are looked at again. A join
-//! begins at the frames of all groups but one, since each such pair has an end there; the one left out is the largest.
-//! So a person who moves is one beginning, and a floor that moves with all that stand on it is none for those who
-//! measure between these.
+//! the lowest changed edge at or above it, if any. The chain between two frames consists of their two paths to the root
+//! without the part that these share, so it contains a changed edge if and only if their labels differ. Frames with the
+//! same label are a rigid group: the metrics inside of it have not changed, and only pairs across two groups are
+//! computed again. Each such pair has an end outside of any given group, so joins begin at the frames of all groups but
+//! the largest one. A person who moves is one beginning. A floor that moves with everything on it is none, for patterns
+//! that measure between things on it.
 //!
 //! Invariant: labels in the state after the changes are enough. A frame without a label has the same edges above it as
-//! before; two with the same label have the same edges up to it. This holds over several deltas, with the frames of
-//! all.
+//! before; two frames with the same label have the same edges up to the labelled one. This holds for several deltas
+//! together, with the moved frames of all.
 //!
-//! Cost: no more than a full match, which the caller gives as a budget, and no more than the frames that the pattern
-//! measures. Mostly the frames below the changed edges are few, and are walked; where they are more than the frames
-//! that could be measured, the labels of those are looked up from below instead; where these are too many as well, all
-//! matches are looked at. No history of distances is kept, so a frame that moves without crossing anything costs the
-//! same.
+//! Cost: at most that of matching from scratch, which the caller gives as the budget, and at most the number of frames
+//! that the pattern measures. Usually few frames are below the changed edges, and all of them are walked. If they are
+//! more than the frames that the pattern can measure, the labels of the latter are looked up from below. If these are
+//! too many as well, all matches are computed again. No history of distances is kept, so a frame that moves without
+//! crossing a threshold costs the same.
 
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
@@ -29,8 +29,8 @@ use crate::delta::Change;
 use crate::id::{NodeId, TypeId};
 use crate::state::State;
 
-/// The frame whose edge to its parent a change gives, takes or moves, if any and if it is still there. What is told of
-/// earlier times moves nothing now.
+/// The frame whose edge to its parent is added, removed or moved by a change, if the frame still exists. A sample older
+/// than the newest one moves nothing now.
 pub(crate) fn moved(change: &Change, state: &State) -> Option<NodeId> {
     let child = match *change {
         Change::TransformAdded { child, .. }
@@ -44,10 +44,10 @@ pub(crate) fn moved(change: &Change, state: &State) -> Option<NodeId> {
     state.node(child).map(|_| child)
 }
 
-/// The lowest changed edge at or above a frame, by the frame below it.
+/// The lowest changed edge at or above a frame, named by the child of that edge.
 type Label = Option<NodeId>;
 
-/// The frames of some ends, by group.
+/// For each group, the number of frames at either end.
 type Tally = FxHashMap<Label, [usize; 2]>;
 
 pub(super) struct Groups<'s> {
@@ -55,12 +55,12 @@ pub(super) struct Groups<'s> {
     /// The frames whose edge to their parent has changed, ascending.
     moved: SmallVec<[NodeId; 4]>,
     labels: FxHashMap<NodeId, Label>,
-    /// Whether each frame that has a label is in `labels`.
+    /// Whether every frame with a label is in `labels`.
     complete: bool,
 }
 
 impl<'s> Groups<'s> {
-    /// Walks down from the changed edges, to at most so many frames.
+    /// Walks down from the changed edges, to at most `most` frames.
     pub(super) fn new(mut moved: SmallVec<[NodeId; 4]>, state: &'s State, most: usize) -> Self {
         moved.sort_unstable();
         moved.dedup();
@@ -73,18 +73,18 @@ impl<'s> Groups<'s> {
             }
             labels.insert(frame, Some(label));
             let children = state.children(frame).iter();
-            // Those that have moved themselves begin groups of their own.
+            // A child that has moved itself begins another group.
             below.extend(children.filter(|child| moved.binary_search(child).is_err()).map(|&c| (c, label)));
         }
         Self { state, moved, labels, complete }
     }
 
-    /// The frames below changed edges; nothing if these were too many to be walked.
+    /// The frames below changed edges; `None` if they were too many to walk.
     pub(super) fn moved(&self) -> Option<impl Iterator<Item = NodeId>> {
         self.complete.then(|| self.labels.keys().copied())
     }
 
-    /// Whether the frame is below a changed edge, if it was possible to walk all.
+    /// Whether the frame is known to be below a changed edge.
     pub(super) fn has_moved(&self, frame: NodeId) -> bool {
         self.labels.contains_key(&frame)
     }
@@ -112,7 +112,7 @@ impl<'s> Groups<'s> {
     }
 }
 
-/// The frames that may stand at an end.
+/// The frames that may be at one end of a metric.
 enum Domain<'e> {
     Constant(NodeId),
     Types(&'e [TypeId]),
@@ -147,8 +147,8 @@ impl Pattern {
         self.constant(end.slot, state).map_or(Domain::Types(&end.types), Domain::Constant)
     }
 
-    /// Adds the matches that changed edges above these frames may concern. No more are added than the budget allows:
-    /// beyond it, all are. Gives the groups, if anything has moved.
+    /// Adds the slices that the moved frames may have changed: as many as the budget allows, or else all matches.
+    /// Returns the groups, if anything has moved.
     pub(super) fn apart<'s>(
         &self,
         moved: SmallVec<[NodeId; 4]>,
@@ -173,7 +173,7 @@ impl Pattern {
         Some(groups)
     }
 
-    /// The beginnings of joins for one metric.
+    /// Adds the slices for one metric.
     fn across(
         &self,
         ends: &[End; 2],
@@ -194,13 +194,14 @@ impl Pattern {
         } else {
             return Reach::All;
         };
-        // Where an end is no variable of the pattern itself, a beginning there says nothing about the match.
+        // An end that is not a top-level variable cannot fix a slice.
         let speaks = [0, 1].map(|side| usize::from(ends[side].slot.0) < self.variables.len());
         let outside = |inside: &[usize; 2], side: usize| totals[side] - inside[side];
         let useful =
             |inside: &&[usize; 2]| [0, 1].iter().all(|&side| speaks[side] || outside(inside, side) == 0);
         let cost = |inside: &[usize; 2]| outside(inside, 0) + outside(inside, 1);
-        // The cheapest; among equals the frames that have not moved, which need not be looked for.
+        // Leave out the group that makes the rest cheapest; among equals the frames that have not moved, which need no
+        // search.
         let best = tally
             .iter()
             .filter(|(_, inside)| useful(inside))
@@ -214,7 +215,7 @@ impl Pattern {
         if scanned > budget {
             return Reach::All;
         }
-        // Where an end says nothing, the group left out has all that may stand there.
+        // The group that is left out contains every frame of an end that cannot fix a slice.
         for (side, domain) in domains.iter().enumerate().filter(|(side, _)| speaks[*side]) {
             let at = usize::from(ends[side].slot.0);
             let mut begin = |node| slices.push(Fixed::from_slice(&[(at, node)]));
@@ -234,7 +235,7 @@ enum Reach {
     All,
 }
 
-/// Counts what is in each group where all that moved is known.
+/// Counts the frames of each group, when all moved frames are known.
 fn below(domains: &[Domain<'_>; 2], totals: [usize; 2], groups: &Groups<'_>) -> Tally {
     let mut tally = Tally::default();
     let mut rest = totals;
@@ -250,7 +251,7 @@ fn below(domains: &[Domain<'_>; 2], totals: [usize; 2], groups: &Groups<'_>) -> 
     tally
 }
 
-/// Counts what is in each group by looking at every frame that may be measured.
+/// Counts the frames of each group by looking up every frame that may be measured.
 fn above(domains: &[Domain<'_>; 2], groups: &mut Groups<'_>) -> Tally {
     let mut tally = Tally::default();
     for (side, domain) in domains.iter().enumerate() {

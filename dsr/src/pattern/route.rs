@@ -6,32 +6,32 @@ use super::seed::{Seed, Seedling};
 use crate::id::{AttributeId, LabelId, NodeId, TypeId};
 use crate::state::State;
 
-/// What a change must touch to concern a pattern.
+/// What a change must touch to concern a pattern: a key of the index in `crate::routes`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum Route {
-    /// An edge between nodes of these types, where the clue holds.
+    /// An edge between nodes of these types, if the clue holds.
     Edge(LabelId, TypeId, TypeId, Clue),
     LabelFrom(LabelId, NodeId),
     LabelTo(LabelId, NodeId),
     Attribute(AttributeId),
     AttributeAt(AttributeId, NodeId),
-    /// The attribute has, or had, this value.
+    /// The attribute gets or loses this value.
     AttributeIs(AttributeId, ValueKey),
-    /// The attribute crosses the number, and what is above matters, or what is below.
+    /// The attribute crosses the number, upwards or downwards.
     Above(AttributeId, Ordered),
     Below(AttributeId, Ordered),
     Type(TypeId),
-    /// The coming and going of a node.
+    /// The node is added or removed.
     Node(NodeId),
-    /// Where a frame of exactly this type is, or that frame.
+    /// A frame of exactly this type moves.
     MovedType(TypeId),
     Moved(NodeId),
-    /// Where any frame is.
+    /// Any frame moves.
     Transforms,
 }
 
 impl Pattern {
-    /// The routes by which changes reach the pattern, with the constants of this state.
+    /// The routes of the pattern, with the constants resolved in this state.
     pub(crate) fn routes(&self, state: &State) -> Vec<Route> {
         let mut routes = Vec::new();
         let attribute_of = |attribute, clue| match clue {

@@ -1,17 +1,17 @@
-//! From a change to the matches that it may concern: where a join begins at the changed edge.
+//! Seeds: the atoms of a pattern, from which a join begins when something changes.
 //!
-//! Problem: matching a pattern again for each commit costs what the graph is large; the commit changed an edge. Idea:
-//! a match can only come or go if one of its atoms, at the nodes of the match, changed. So each atom is a seed: the
-//! change gives nodes to the variables of that atom, and only matches that have them there are looked at again. An
-//! atom of a negated part gives nodes to those of its variables that the pattern has outside.
+//! Problem: matching a pattern from scratch after each commit costs as much as the graph is large, although the commit
+//! changed one edge. Idea: a match can only appear or disappear if one of its atoms changed at the nodes of the match.
+//! So each atom is a seed: a change fixes the variables of that atom, and only matches with these nodes are computed
+//! again. An atom of a negated part fixes those of its variables that are declared outside of it.
 //!
-//! Invariant: matches outside the slices of a delta are the same before and after it. Where a change gives no variable
-//! a node (a constant comes or goes, a negated part shares no variable with the atom), all matches are looked at again.
-//! Which frames a metric begins at is a matter of its own (`rigid`). A variable that an edge or an attribute binds
-//! needs no seed of its own for nodes that come and go, because their edges and attributes come and go with them.
+//! Invariant: matches outside the slices of a delta are the same before and after it. If a change fixes no variable (a
+//! constant is added or removed, a negated part shares no variable with the atom), all matches are computed again. For
+//! metrics see `rigid`. A variable that an edge or an attribute binds needs no seed for added and removed nodes,
+//! because their edges and attributes are added and removed with them.
 //!
-//! Source: the semi-naive evaluation of Datalog (Bancilhon and Ramakrishnan, SIGMOD 1986), with single changes as
-//! the deltas.
+//! Source: the semi-naive evaluation of Datalog (Bancilhon and Ramakrishnan, SIGMOD 1986), with single changes as the
+//! deltas.
 
 use super::clue::{self, Clue};
 use super::slot::{Mask, Slot};
@@ -19,7 +19,7 @@ use super::source::{Atom, Carrier, Conjunction, Limit, Right};
 use super::term::Comparison;
 use crate::id::{AttributeId, LabelId};
 
-/// An atom as the beginning of a join.
+/// An atom from which a join begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Seed {
     Edge {
@@ -37,16 +37,16 @@ pub(super) enum Seed {
         from: Slot,
         to: Slot,
     },
-    /// A variable that nothing but its type binds.
+    /// A variable that only its type binds.
     Loose(Slot),
 }
 
-/// An atom as a seed, and where in the pattern it is.
+/// A seed with its clue and its place in the pattern.
 #[derive(Debug, Clone)]
 pub(super) struct Seedling {
     pub(super) seed: Seed,
     pub(super) clue: Clue,
-    /// The negated part of the pattern in which it is, if it is in one.
+    /// The negated part that contains it, if any.
     pub(super) part: Option<usize>,
 }
 
@@ -57,7 +57,7 @@ pub(super) fn seedlings(body: &Conjunction<Slot>) -> Vec<Seedling> {
     found
 }
 
-/// The seeds of the last of these conjunctions, which stand within each other, and of the negated parts in it.
+/// Collects the seeds of the innermost of these nested conjunctions, and of the negated parts in it.
 fn seeds(around: &[&Conjunction<Slot>], inside: Option<usize>, all: &mut Vec<Seedling>) {
     let mut found = Vec::new();
     let into = &mut found;
@@ -91,7 +91,7 @@ fn seeds(around: &[&Conjunction<Slot>], inside: Option<usize>, all: &mut Vec<See
                 }
             }
             Atom::Without(inner) => seeds(&[around, &[inner]].concat(), inside.or(Some(at)), all),
-            // A node is of its type from when it comes to when it goes, which is what `Loose` is for.
+            // The type of a node never changes; `Loose` is the seed for nodes that are added or removed.
             Atom::Distinct(..) | Atom::IsA(..) => {}
         }
     }

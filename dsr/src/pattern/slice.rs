@@ -13,9 +13,9 @@ use crate::id::{Holder, NodeId};
 use crate::state::State;
 
 impl Pattern {
-    /// The matches that deltas may concern, and what has moved in negated parts, if that is enough to judge them by;
-    /// the state is the one after the last of them. Finding them costs no more than the budget beside what the deltas
-    /// are long.
+    /// The matches that deltas may have changed; and, for negated parts that can be judged by it, what has moved in
+    /// them. `state` is the state after the last delta. Cost: linear in the length of the deltas, plus at most
+    /// `budget`.
     pub(crate) fn slices<'d, 's>(
         &self,
         deltas: impl IntoIterator<Item = &'d Delta>,
@@ -40,7 +40,7 @@ impl Pattern {
         }
         slices.sort_unstable();
         slices.dedup();
-        // One without any node comes first.
+        // A slice that fixes no node is sorted first.
         let all = slices.first().is_some_and(SmallVec::is_empty);
         let mut found = if all { Slices::All } else { Slices::These(slices) };
         if all && self.parts.is_empty() {
@@ -55,7 +55,7 @@ impl Pattern {
         (found, moves)
     }
 
-    /// Whether a node that the pattern speaks of comes or goes.
+    /// Whether the change adds or removes a node that is a constant of the pattern.
     fn concerns_constant(&self, change: &Change) -> bool {
         let (Change::NodeAdded { node, name, .. } | Change::NodeRemoved { node, name, .. }) = change else {
             return false;
@@ -99,7 +99,7 @@ impl Pattern {
         }
     }
 
-    /// Gives the nodes to the variables of the pattern, unless a constant is another node.
+    /// The slice that fixes these slots, unless one of them is a constant with another node.
     fn fix(&self, ends: &[(Slot, NodeId)], state: &State) -> Growth {
         let mut fixed = Fixed::new();
         for &(slot, node) in ends {

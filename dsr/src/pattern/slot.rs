@@ -1,6 +1,6 @@
-//! Slots: where the node of each variable and constant of a compiled pattern is kept while matching.
+//! Slots: the places for the nodes of variables and constants while a compiled pattern is matched.
 
-/// Where the node of a variable or of a constant is kept while matching.
+/// The place for the node of a variable or a constant while matching.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Slot(pub(super) u8);
 

@@ -10,16 +10,16 @@ use super::term::{Comparison, Metric, Term, Threshold};
 use crate::id::{AttributeId, LabelId, TypeId};
 use crate::value::Value;
 
-/// What a metric is held against.
+/// The right-hand side of a metric.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Limit {
     Threshold(Threshold),
-    /// An attribute of the first node.
+    /// The value of this attribute of the first node.
     Attribute(AttributeId),
 }
 
-/// A part of a conjunction. Terms are slots once compiled.
+/// A part of a conjunction. `T` is a term as written, or a slot when compiled.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Atom<T> {
@@ -47,7 +47,7 @@ pub(super) enum Right<T> {
     Attribute(Carrier<T>, AttributeId),
 }
 
-/// Parts that must all hold, with the variables that begin here.
+/// Parts that must all hold, with the variables that are declared here.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Conjunction<T> {
     pub(super) variables: Vec<T>,
@@ -55,8 +55,8 @@ pub(super) struct Conjunction<T> {
 }
 
 /// A pattern as it was written, without a vocabulary: plain data, for files and other processes.
-/// [`PatternSource::build`] checks it as a [`PatternBuilder`] does. The format must limit how deeply it nests, as
-/// JSON's reader does.
+/// [`PatternSource::build`] checks it as a [`PatternBuilder`](super::PatternBuilder) does. The reader of the format
+/// must limit the depth of nesting, as that of JSON does.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct PatternSource {
     /// Names and types of the top-level variables.

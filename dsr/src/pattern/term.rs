@@ -28,7 +28,7 @@ pub(super) enum Scope {
     Local,
 }
 
-/// What may stand where a node is meant.
+/// A term that stands for a node.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Term {
@@ -36,7 +36,7 @@ pub enum Term {
     Variable(Variable),
     /// A node, by id.
     Node(NodeId),
-    /// A node, by name, looked up in each snapshot.
+    /// A node, by name; the name is looked up in each snapshot.
     Named(Arc<str>),
 }
 
@@ -58,14 +58,14 @@ impl From<&str> for Term {
     }
 }
 
-/// What carries an attribute in a pattern.
+/// The holder of an attribute in a pattern.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[expect(missing_docs, reason = "the fields are the terms of the variant")]
 pub enum HolderTerm {
     /// A node.
     Node(Term),
-    /// An edge, which thereby must exist.
+    /// An edge, which must exist.
     Edge { from: Term, label: LabelId, to: Term },
 }
 
@@ -87,7 +87,7 @@ impl<T: Into<Term>> From<T> for HolderTerm {
     }
 }
 
-/// How two values are compared. Order is for numbers only.
+/// How two values are compared. Only numbers are ordered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[expect(missing_docs, reason = "the names say it")]
@@ -106,7 +106,7 @@ pub enum Comparison {
 pub enum Operand {
     /// A constant.
     Value(Value),
-    /// A node; with [`Comparison::Equal`], a variable that is not bound yet is bound to the attribute's value.
+    /// A node. With [`Comparison::Equal`], a variable that is not bound yet is bound to the attribute's value.
     Term(Term),
     /// Another attribute.
     Attribute(HolderTerm, AttributeId),
@@ -142,25 +142,27 @@ impl From<Term> for Operand {
     }
 }
 
-/// What is measured between two frames, when it is asked for.
+/// A measure between two frames, computed while matching.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Metric {
     /// Between the origins, in metres.
     Distance,
-    /// How far the origin of the second is off the x axis of the first, in its plane and to either side, in radians.
+    /// The angle between the x axis of the first frame and the direction to the origin of the second, in the plane of
+    /// the first, in radians. It is the same to either side.
     Bearing,
 }
 
-/// A number that a metric is held against. With hysteresis there are two, so that somebody who stands at the limit does
-/// not come and go with each measurement: in the band between them a match stays what it was, there or not; without a
-/// history it is not there. In a negated part this is so for the match of the pattern around it: "nobody near" appears
-/// when everybody has passed the second number, and stays until somebody has passed the first.
+/// The threshold of a metric. With hysteresis there are two: the threshold to appear and the threshold to disappear, so
+/// that a person at the limit does not make a match appear and disappear with each measurement. Between the two, a
+/// match stays as it was, present or absent; without a history it is absent. In a negated part, the hysteresis is that
+/// of the match of the whole pattern: "no person near" appears when every person has passed the second threshold, and
+/// disappears when one has passed the first.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Threshold {
-    /// What is measured begins to compare so when the comparison holds with this.
+    /// A match appears when the comparison holds with this number.
     pub appears: f64,
-    /// It has ceased to when the comparison no longer holds with this, which is no stricter.
+    /// A match disappears when the comparison no longer holds with this number, which must not be stricter.
     pub disappears: f64,
 }
 

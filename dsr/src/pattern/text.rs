@@ -1,12 +1,19 @@
-//! Patterns as text, for people who ask: `(and (is_with ?who clarc) (not (is clarc speaking)) (> (score ?test) 3))`.
+//! Patterns as text: `(and (is_with ?who clarc) (not (is clarc speaking)) (> (score ?test) 3))`.
 //!
-//! A word with `?` is a variable, any other names a node. `(LABEL a b)` is an edge, `(TYPE a)` says what a node is (a
-//! variable of which nothing is said may be anything; of two types that overlap the narrower counts), `(ATTRIBUTE a)`
-//! or `(ATTRIBUTE a b)` says that an attribute of a node or of an edge has a value, `(= (ATTRIBUTE a) VALUE)` and `!=`,
-//! `<`, `<=`, `>`, `>=` compare it with a number, `true`, `false`, a `"text"`, a node or another attribute; `(<
-//! (distance a b) 1.5)` compares metres, `(< (bearing a b) 0.3)` radians, with two numbers the first to come and the
-//! second to go by, `(<= (distance a b) (ATTRIBUTE a))` says that `a` reaches `b`; `(distinct a b)` compares two nodes.
-//! `(and …)` and `(not …)` nest; a variable that stands only inside a `not` is local to it.
+//! A word with `?` is a variable; any other word names a node.
+//!
+//! - `(LABEL a b)` is an edge.
+//! - `(TYPE a)` gives the type of a node. A variable without a type may be any node; of two types, the narrower one
+//!   counts.
+//! - `(ATTRIBUTE a)` and `(ATTRIBUTE a b)` say that an attribute of a node or an edge has a value.
+//! - `(= (ATTRIBUTE a) VALUE)`, and `!=`, `<`, `<=`, `>`, `>=`, compare it with a number, `true`, `false`, a `"text"`,
+//!   a node or another attribute.
+//! - `(< (distance a b) 1.5)` compares metres, `(< (bearing a b) 0.3)` radians. A second number is the threshold to
+//!   disappear (hysteresis).
+//! - `(<= (distance a b) (ATTRIBUTE a))` says that `a` reaches `b`.
+//! - `(distinct a b)` says that two nodes differ.
+//!
+//! `(and …)` and `(not …)` nest. A variable that occurs only inside a `not` is local to it.
 
 use std::collections::BTreeMap;
 
@@ -19,17 +26,17 @@ use crate::id::{AttributeId, TypeId};
 use crate::value::{Kind, Value};
 use crate::vocabulary::{HolderType, Vocabulary};
 
-/// Why a text is no pattern, with the byte where it goes wrong.
+/// Why a text is not a pattern, with the byte of the fault.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the fields are what the variant is about")]
 pub enum PatternTextError {
-    /// Parentheses or quotes that do not match, or something behind the end.
+    /// Unbalanced parentheses or quotes, or text after the end.
     #[error("byte {at}: {wanted} is missing")]
     Missing { at: usize, wanted: &'static str },
-    /// Deeper than anybody would write.
+    /// Parts that nest too deeply.
     #[error("byte {at}: nested too deeply")]
     TooDeep { at: usize },
-    /// What begins a part is no token of the vocabulary and no word of the language.
+    /// The first word of a part is neither a token of the vocabulary nor a word of the language.
     #[error(
         "byte {at}: `{word}` is no label, attribute or type, and not one of `and`, `not`, `distinct`, `=`, `<` …"
     )]
@@ -37,18 +44,18 @@ pub enum PatternTextError {
     /// A part with too many or too few words.
     #[error("byte {at}: `{word}` takes {wanted}")]
     Arity { at: usize, word: String, wanted: &'static str },
-    /// Something else belongs there.
+    /// Another kind of word is required there.
     #[error("byte {at}: {wanted} belongs here")]
     Expected { at: usize, wanted: &'static str },
-    /// A node of two types of which none is below the other.
+    /// A node of two types, neither of which is a subtype of the other.
     #[error("byte {at}: `{word}` is a `{first}` and so never a `{second}`")]
     Disjoint { at: usize, word: String, first: String, second: String },
-    /// It says what the vocabulary never allows.
+    /// The vocabulary never allows this part.
     #[error("byte {at}: {error}")]
     Wrong { at: usize, error: PatternError },
 }
 
-/// How deeply parts may nest.
+/// The deepest nesting of parts.
 const DEEPEST: usize = 32;
 
 #[derive(Debug)]
@@ -67,8 +74,8 @@ impl Form<'_> {
 }
 
 impl Pattern {
-    /// Reads a pattern, in the language of `pelea dsr query`, as the head of this module has it (`docs/dsr.md`).
-    /// Variables are those that stand outside of any `not`, in their order.
+    /// Parses a pattern in the language of `pelea dsr query` (`docs/dsr.md`). Its variables are those that occur
+    /// outside of any `not`, in order of occurrence.
     pub fn parse(vocabulary: &Vocabulary, text: &str) -> Result<Self, PatternTextError> {
         let mut reader = Reader { text, at: 0 };
         let form = reader.form(0)?;
@@ -88,7 +95,8 @@ impl Pattern {
         if !matches!(done, Err(PatternTextError::Wrong { .. })) {
             return done;
         }
-        // The part is named with which it first goes wrong; more parts make nothing right.
+        // Report the first part that makes the pattern wrong. Adding parts never makes a wrong pattern right, so a
+        // binary search finds it.
         let (mut least, mut most) = (0, written);
         while least < most {
             let middle = least.midpoint(most);
@@ -151,16 +159,16 @@ impl<'t> Reader<'t> {
 
 struct Writer<'d, 't> {
     vocabulary: &'d Vocabulary,
-    /// The variables that may stand here, with their types.
+    /// The visible variables.
     known: BTreeMap<&'t str, (Variable, TypeId)>,
-    /// How many parts are to be written, and were.
+    /// The number of parts to write, and the number written.
     limit: usize,
     written: usize,
-    /// Where the last one that was written begins.
+    /// The byte at which the last written part begins.
     last: usize,
 }
 
-/// The word that begins a list, and what is behind it.
+/// The first word of a list, and the rest.
 fn split<'f, 't>(form: &'f Form<'t>) -> Result<(usize, &'t str, &'f [Form<'t>]), PatternTextError> {
     let wanted = "a part such as `(LABEL a b)`";
     match form {
@@ -172,7 +180,8 @@ fn split<'f, 't>(form: &'f Form<'t>) -> Result<(usize, &'t str, &'f [Form<'t>]),
     }
 }
 
-/// The type and the node of `(TYPE a)`. Where a word names several things, a label and an attribute come first.
+/// The type and the node of `(TYPE a)`. A word that names several things is a label first, then an attribute, then a
+/// type.
 fn typed<'f, 't>(forms: &'f [Form<'t>], vocabulary: &Vocabulary) -> Option<(TypeId, &'f Form<'t>)> {
     let [Form::Word(_, head), node] = forms else { return None };
     let is_other = vocabulary.label(head).is_some() || vocabulary.attribute(head).is_some();
@@ -180,10 +189,10 @@ fn typed<'f, 't>(forms: &'f [Form<'t>], vocabulary: &Vocabulary) -> Option<(Type
     Some((node_type, node))
 }
 
-/// The variables that stand in forms outside of any `not`, and the narrowest type that each is given there.
+/// The variables that occur outside of any `not`, each with the narrowest type that it has there.
 fn variables<'t>(forms: &[Form<'t>], vocabulary: &Vocabulary, found: &mut Vec<(&'t str, TypeId)>) {
     for form in forms {
-        // More than a pattern may have, so that there is no use in looking for the rest.
+        // The pattern has too many variables already; the rest do not matter.
         if found.len() > SLOTS {
             return;
         }
@@ -318,8 +327,8 @@ impl<'d, 't> Writer<'d, 't> {
         Ok(())
     }
 
-    /// A metric against a number, against two (one to come, one to go by), or a distance against how far the first
-    /// reaches.
+    /// A metric compared with a threshold, with two thresholds (hysteresis: the one to appear, the one to disappear),
+    /// or, for a distance, with the reach of the first node.
     fn metric(
         &self,
         builder: &mut PatternBuilder<'d>,
@@ -411,7 +420,7 @@ impl<'d, 't> Writer<'d, 't> {
     }
 }
 
-/// What is measured between which forms.
+/// A metric and the forms between which it is measured.
 struct Measured<'f, 't> {
     metric: Metric,
     from: &'f Form<'t>,

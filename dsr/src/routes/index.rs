@@ -1,9 +1,9 @@
-//! From what changed to who is listed under it.
+//! The index of routes: from a change to the subscribers that are listed under it.
 //!
 //! Routes with a constant node are keys of one table. Edges without one are sorted by label, then by the types that the
-//! pattern wants at both ends, then by clue; attributes by the value or the number that they are held against. Which
-//! pairs of types a pair of nodes fits is found once and kept. Cost of a change: a look-up per attribute and per label
-//! at the nodes that it touches, and only if some pattern asks for them.
+//! pattern requires at both ends, then by clue; attributes are sorted by the value or number with which they are
+//! compared. Which pairs of required types a pair of exact types satisfies is computed once and kept. Cost of a change:
+//! one look-up per attribute and per label at the nodes that it touches, and only if some pattern mentions them.
 
 use std::collections::BTreeMap;
 
@@ -21,12 +21,12 @@ use crate::vocabulary::Vocabulary;
 
 type Seats = SmallVec<[Seat; 2]>;
 
-/// How many frames a commit walks for each subscriber that it may thereby leave alone: as many as take the time of
-/// waking a parked one. Measured at a load of 8: a commit that wakes one takes 5.8 µs, one that tells nobody 1.3, and a
-/// thousand frames take 7.6.
+/// The number of frames that a commit walks for each subscriber that it may so avoid to wake: as many as take the time
+/// of waking a parked thread. Measured at a load of 8: a commit that wakes one subscriber takes 5.8 µs, one that wakes
+/// none 1.3 µs, and walking a thousand frames 7.6 µs.
 const FRAMES: usize = 512;
 
-/// What a delta takes away, by node: looked for once, however many edges it changes.
+/// The removals of a delta, by node: collected once, however many edges it changes.
 pub(super) struct Gone {
     edges: Vec<(NodeId, LabelId, Way)>,
     nodes: Vec<(NodeId, TypeId)>,
@@ -45,11 +45,11 @@ impl Gone {
             Change::NodeRemoved { node, node_type, .. } => Some((*node, *node_type)),
             _ => None,
         });
-        // A delta lists them in their order.
+        // A delta lists them in order.
         Self { edges: ends, nodes: nodes.collect() }
     }
 
-    /// What a node was that went.
+    /// The type of a removed node.
     fn type_of(&self, node: NodeId) -> Option<TypeId> {
         let at = self.nodes.binary_search_by_key(&node, |(other, _)| *other).ok()?;
         Some(self.nodes[at].1)
@@ -75,12 +75,12 @@ pub(super) struct Index {
     thresholds: FxHashMap<AttributeId, Thresholds>,
 }
 
-/// The edges of one label that patterns want with variables at both ends.
+/// The routes of edges with one label and variables at both ends.
 #[derive(Default)]
 struct Fan {
-    /// By the types that are wanted at the ends.
+    /// By the types that the patterns require at the ends.
     classes: FxHashMap<Ends, Class>,
-    /// Which of them nodes of exactly these types fit.
+    /// For nodes of exactly these types, the classes whose types they satisfy.
     fitting: FxHashMap<Ends, SmallVec<[Ends; 2]>>,
 }
 
@@ -142,7 +142,7 @@ impl Index {
         if !list.is_empty() {
             return;
         }
-        // Nothing is kept of what nobody asks for.
+        // Entries without a subscriber are removed.
         match route {
             Route::Edge(label, from, to, clue) => {
                 let Some(fan) = self.labels.get_mut(&label) else { return };
@@ -174,8 +174,8 @@ impl Index {
         }
     }
 
-    /// Tells the seats that a change of a delta may concern; the state is the one after it. Some more than once. For
-    /// what moves see [`Index::find_moved`].
+    /// Calls `tell` with the seats that a change of a delta may concern; some may come more than once. `state` is the
+    /// state after the delta. For moves see [`Index::find_moved`].
     pub(super) fn find(
         &mut self,
         change: &Change,
@@ -211,9 +211,9 @@ impl Index {
         }
     }
 
-    /// Tells the seats that the moves of a delta may concern: who measures something that hangs below one of the
-    /// changed edges, as one end of each metric that they change does. Where more hangs there than is worth walking,
-    /// all who measure are told.
+    /// Calls `tell` with the seats that the moves of a delta may concern: those of patterns that measure a frame below
+    /// a changed edge, because a metric that changes has an end there. If more frames are below than are worth walking,
+    /// with the seats of all patterns that measure.
     pub(super) fn find_moved(&self, delta: &Delta, state: &State, mut tell: impl FnMut(&[Seat])) {
         let Some(all) = self.plain.get(&Route::Transforms) else { return };
         let mut frames: SmallVec<[NodeId; 16]> =
@@ -265,7 +265,7 @@ impl Index {
         let Some(thresholds) = self.thresholds.get(&attribute) else { return };
         let number = |value: Option<&Value>| value.and_then(Value::as_number).map(Ordered::of);
         let (old, new) = (number(old), number(new));
-        // An attribute that is not there is on neither side: as if it came from, or went to, the end of all numbers.
+        // An absent attribute is on neither side of a threshold: it counts as beyond the largest or smallest number.
         let crossed = |absent: Ordered| {
             let (old, new) = (old.unwrap_or(absent), new.unwrap_or(absent));
             old.min(new)..=old.max(new)
@@ -278,7 +278,7 @@ impl Index {
 impl Fan {
     fn find(&mut self, edge: EdgeKey, gone: &Gone, state: &State, tell: &mut impl FnMut(&[Seat])) {
         let (from, to) = (state.node(edge.from), state.node(edge.to));
-        // An end that is not there any more went in the same commit.
+        // An end that no longer exists was removed in the same commit.
         let exact = |id, node: Option<Node<'_>>| node.map(Node::node_type).or_else(|| gone.type_of(id));
         let Some(exact) = exact(edge.from, from).zip(exact(edge.to, to)) else { return };
         let fitting = self.fitting.entry(exact).or_insert_with(|| {
@@ -289,7 +289,7 @@ impl Fan {
             let Some(class) = self.classes.get(wanted) else { continue };
             tell(&class.any);
             let (Some(from), Some(to)) = (from, to) else {
-                // What stood beside a node that went is not known any more: whatever the clue, it is told.
+                // What a removed node had beside the edge is no longer known, so every clue passes.
                 class.with.values().chain(class.beside.values()).for_each(|seats| tell(seats));
                 continue;
             };
@@ -314,7 +314,7 @@ impl Fan {
                         look(*label, Way::In);
                         incoming = &incoming[incoming.partition_point(|(other, _)| other == label)..];
                     }
-                    // An edge that went in the same delta is not there any more, but counts.
+                    // An edge that the same delta removed counts as present.
                     gone.at(id).for_each(|(label, way)| look(label, way));
                 }
             }

@@ -1,8 +1,8 @@
-//! The attributes of the file as attributes of ours.
+//! The attributes of the file as attributes of a vocabulary.
 //!
-//! Problem: theirs are named by whoever writes them, on any holder and with any value; ours are declared once, with
-//! holder and kind, and share one space of names. Idea: what is one attribute is decided by where it sits, its name in
-//! the file, its place in a list and its kind; only then each gets a name, those first that can keep their own.
+//! Problem: cortex puts attributes of any name on any holder, with any value; ours are declared once, with holder and
+//! kind, and share one name space. Idea: an attribute is identified by its holder, its name in the file, its position
+//! in a list and its kind. Only then each one gets a name, those that can keep their own name first.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,7 +13,7 @@ use super::kinds::Kinds;
 use super::names::Names;
 use super::symbols::{Edge, Found, Node};
 
-/// What an attribute sits on.
+/// The holder of an attribute.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 enum Place {
     Nodes,
@@ -54,10 +54,10 @@ impl Sort {
     }
 }
 
-/// An attribute but for its kind.
+/// An attribute without its kind.
 type Stem = (Place, String, Option<usize>);
 
-/// The types on which an attribute is found.
+/// The types on which an attribute occurs.
 #[derive(Default)]
 struct Uses {
     nodes: BTreeSet<TypeId>,
@@ -76,7 +76,7 @@ impl Attributes {
         self.0.get(&(stem(Place::Links(label.to_owned()), found), Sort::of(&found.value))).copied()
     }
 
-    /// Declares what is used.
+    /// Declares the attributes that the file uses.
     pub(super) fn declare(
         builder: &mut VocabularyBuilder,
         (nodes, edges): (&[Node], &[Edge]),
@@ -101,7 +101,7 @@ impl Attributes {
         }
         let mut sorts: BTreeMap<&Stem, usize> = BTreeMap::new();
         uses.keys().for_each(|(stem, _)| *sorts.entry(stem).or_default() += 1);
-        // One name with several kinds of values, of a link or from a list is made, and has to give way.
+        // A name that is composed (because of several kinds, a link or a list) gives way to one that is not.
         let is_made = |stem: &Stem| sorts[stem] > 1 || stem.0 != Place::Nodes || stem.2.is_some();
         let mut ordered: Vec<_> = uses.iter().collect();
         ordered.sort_by_key(|((stem, _), _)| is_made(stem));
@@ -129,7 +129,7 @@ impl Attributes {
                 Place::Links(label) => {
                     let ends = only(&uses.ends);
                     if ends.is_none() {
-                        // On edges between several types: the label must go between all.
+                        // The attribute is on edges between several types, so the label must allow all of them.
                         builder.label(&kinds.label_names[label], TypeId::OBJECT, TypeId::OBJECT)?;
                     }
                     let ends = ends.unwrap_or((TypeId::OBJECT, TypeId::OBJECT));

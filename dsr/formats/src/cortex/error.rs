@@ -2,7 +2,7 @@
 
 use dsr::{TransactionError, VocabularyError};
 
-/// Why a file is no world of ours.
+/// Why a file of cortex cannot become a graph.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[expect(missing_docs, reason = "the fields are what the variant is about")]
 pub enum CortexError {
@@ -12,10 +12,10 @@ pub enum CortexError {
     /// An RT link without three numbers each.
     #[error("link `RT` from `{parent}` to `{child}` has no translation and rotation of three numbers")]
     NoPose { parent: String, child: String },
-    /// Tokens that no vocabulary has.
+    /// Tokens that a vocabulary rejects.
     #[error(transparent)]
     Vocabulary(#[from] VocabularyError),
-    /// Not a graph that keeps the invariants: a second root, a cycle, a second parent.
+    /// Links that break an invariant of the graph: a second root, a cycle, a second parent.
     #[error(transparent)]
     Transaction(#[from] TransactionError),
 }

@@ -1,4 +1,4 @@
-//! The file as it is: symbols with links, and attributes of numbered types.
+//! The file as written: symbols with links, and attributes with numbered types.
 
 use std::collections::BTreeMap;
 
@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use dsr::NewValue;
 
-/// Lists longer than this are data, such as images, and not attributes.
+/// Longer lists are data, such as images, not attributes.
 const LONGEST: usize = 16;
-/// Largest whole number that a double holds exactly.
+/// Above this, a double does not hold every whole number exactly.
 const EXACT: f64 = 9_007_199_254_740_992.0;
 
 #[derive(Debug, Clone, Deserialize, Serialize)]
@@ -40,7 +40,7 @@ pub(super) struct Link {
 
 pub(super) type Attributes = BTreeMap<String, Content>;
 
-/// A 64-bit number, which they write as a string.
+/// A 64-bit number, which cortex writes as a string.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Deserialize, Serialize)]
 #[serde(untagged)]
 pub(super) enum Number {
@@ -79,7 +79,7 @@ impl Plain {
     pub(super) fn number(&self) -> Option<f64> {
         let number = match self {
             Self::Number(number) => Some(*number),
-            // They write a comma where the locale has one.
+            // Cortex writes a decimal comma if the locale has one.
             Self::Text(text) => text.replace(',', ".").parse().ok(),
             Self::Bool(_) | Self::List(_) | Self::Nothing(_) => None,
         };
@@ -92,7 +92,7 @@ impl Plain {
 }
 
 impl Content {
-    /// The values of ours, with their places where it is a list.
+    /// The values, each with its position if it is a list.
     pub(super) fn values(&self) -> Result<Vec<(Option<usize>, NewValue)>, &'static str> {
         let one = |value| Ok(vec![(None, value)]);
         match (self.kind, &self.value) {

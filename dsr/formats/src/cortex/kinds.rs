@@ -1,4 +1,4 @@
-//! The types and labels of the file as types and labels of ours.
+//! The types and labels of the file as types and labels of a vocabulary.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,10 +8,10 @@ use super::error::CortexError;
 use super::names::Names;
 use super::symbols::{Edge, Joint, Node};
 
-/// Who writes in a world that was taken over.
+/// The agent that writes in an imported world.
 pub(super) const AGENT: &str = "cortex";
 
-/// The names that every graph has, and those that are given out.
+/// The names that are taken: those that every graph has, and those given so far.
 pub(super) struct Spaces {
     pub(super) nodes: Names,
     pub(super) types: Names,
@@ -25,7 +25,7 @@ impl Spaces {
         let own: &Vocabulary = &own;
         let agents = own.agents().filter_map(|id| own.agent_name(id)).map(ToString::to_string);
         Self {
-            // Our agents are nodes, too.
+            // Agents are nodes, too.
             nodes: Names::new("node", agents.chain([AGENT.to_owned()])),
             types: Names::new("type", own.types().filter_map(|id| own.type_name(id))),
             labels: Names::new("label", own.labels().filter_map(|id| own.label_name(id))),
@@ -34,7 +34,7 @@ impl Spaces {
     }
 }
 
-/// What the file's types and labels have become.
+/// The ids of the file's types and labels.
 #[derive(Default)]
 pub(super) struct Kinds {
     pub(super) types: BTreeMap<String, TypeId>,

@@ -1,29 +1,29 @@
-//! Names of the file as names of ours, each once.
+//! Names of the file as unique names of the graph.
 //!
-//! Problem: every vocabulary has tokens of its own, and what is one name in the file may be two of ours or the other
-//! way round. Idea: whoever asks first gets the name; the next gets it with a number, and a note. Cost: a look-up per
-//! name, since it is remembered how far the numbers of a name have come.
+//! Problem: every vocabulary has tokens of its own, and one name in the file may become two of ours, or the reverse.
+//! Idea: the first use gets the name; later ones get it with a number, and a note. Cost: one look-up per name, since
+//! the next free number of each name is kept.
 
 use std::collections::BTreeMap;
 
-/// The names of one sort that are taken.
+/// The names of one kind that are taken.
 pub(super) struct Names {
-    /// What these are names of, for notes.
+    /// The kind, for notes.
     what: &'static str,
-    /// The next number to try behind each.
+    /// For each taken name, the next number to try after it.
     taken: BTreeMap<String, usize>,
-    /// How many of them every graph has.
+    /// The names that every graph has.
     own: Vec<String>,
 }
 
 impl Names {
-    /// With the names that every graph has.
+    /// Begins with the names that every graph has.
     pub(super) fn new(what: &'static str, own: impl IntoIterator<Item = impl ToString>) -> Self {
         let own: Vec<_> = own.into_iter().map(|name| name.to_string()).collect();
         Self { what, taken: own.iter().map(|name| (name.clone(), 2)).collect(), own }
     }
 
-    /// The name if it is free, else one like it.
+    /// The wanted name if it is free, or else a similar one.
     pub(super) fn give(&mut self, wanted: &str, notes: &mut Vec<String>) -> String {
         let is_own = wanted.is_empty() || self.own.iter().any(|own| own == wanted);
         let base = if is_own { format!("cortex_{wanted}") } else { wanted.to_owned() };

@@ -1,8 +1,8 @@
-//! The poses of an `RT` link: one, or a ring of them with their times.
+//! The poses of an `RT` link: a single one, or a ring of stamped ones.
 //!
-//! Problem: where a ring keeps its newest pose is told by `rt_head_index`, but with some versions of cortex that is the
-//! block which was written last, with others the one which is written next. Idea: the stamps tell it by themselves; the
-//! head counts only where there are none. A stamp of zero is a block that was never written.
+//! Problem: `rt_head_index` points to the newest pose of a ring; with some versions of cortex that is the block which
+//! was written last, with others the block which is written next. Idea: the stamps alone give the order; the head
+//! matters only without stamps. A block with a stamp of zero was never written.
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
@@ -10,22 +10,22 @@ use dsr::{HORIZON, Time};
 
 use super::file::Link;
 
-/// The unit of the file's translations.
+/// The unit of a file's translations.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum CortexUnit {
-    /// RoboComp's own.
+    /// The unit of RoboComp.
     #[default]
     Millimetres,
-    /// Some files'.
+    /// The unit of some files.
     Metres,
 }
 
 /// Numbers in a block.
 const BLOCK: usize = 3;
-/// Their stamps are milliseconds.
+/// Stamps of cortex are milliseconds.
 const MILLISECOND: u64 = 1_000_000;
 
-/// The attributes of a link that say so.
+/// The attributes of a link that describe its pose.
 pub(super) const NAMES: [&str; 6] = [
     "rt_translation",
     "rt_rotation_euler_xyz",
@@ -35,14 +35,14 @@ pub(super) const NAMES: [&str; 6] = [
     "rotation_euler_xyz",
 ];
 
-/// Where a link says that its child is.
+/// The pose of a link's child.
 pub(super) enum Placed {
     Still(Isometry3<f64>),
-    /// At these times, at least two, in their order.
+    /// At least two poses, in order of time.
     Moves(Vec<(Time, Isometry3<f64>)>),
 }
 
-/// What a link says; `None` if it has no three numbers each.
+/// The pose of a link; `None` if translation or rotation is not three numbers.
 pub(super) fn placed(link: &Link, unit: CortexUnit) -> Option<Placed> {
     let numbers = |name: &str| link.attribute.get(name)?.value.numbers();
     // Older files have names without `rt_`.
@@ -71,11 +71,11 @@ pub(super) fn placed(link: &Link, unit: CortexUnit) -> Option<Placed> {
         if time < newest.saturating_sub(HORIZON.0) {
             continue;
         }
-        // Of two of one millisecond the later counts.
+        // Of two poses in one millisecond, the later one counts.
         moves.pop_if(|(before, _)| before.0 == time);
         moves.push((Time(time), pose));
     }
-    // What was written once is a mounting, which holds at any time.
+    // A single pose is a mounting, which holds at all times.
     Some(if moves.len() > 1 { Placed::Moves(moves) } else { Placed::Still(last) })
 }
 
@@ -86,7 +86,7 @@ fn isometry(translation: [f64; 3], [a, b, c]: [f64; 3], unit: CortexUnit) -> Iso
     Isometry3::from_parts(Translation3::from(translation.map(|number| number * scale)), rotation)
 }
 
-/// A number that counts.
+/// A non-negative number as an integer.
 fn whole(number: f64) -> Option<u64> {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative; saturates")]
     (number >= 0.0).then_some(number as u64)

@@ -9,22 +9,22 @@ use super::file::{self, Model};
 use super::names::Names;
 use super::ring::{self, CortexUnit, Placed};
 
-/// A value of the file.
+/// An attribute value of the file.
 pub(super) struct Found {
     pub(super) name: String,
-    /// Its place, in a list.
+    /// Its position, if it is in a list.
     pub(super) at: Option<usize>,
     pub(super) value: NewValue,
 }
 
-/// A symbol, by the type that the file gives it.
+/// A symbol, with the type that the file gives it.
 pub(super) struct Node {
     pub(super) name: String,
     pub(super) kind: String,
     pub(super) values: Vec<Found>,
 }
 
-/// A link that is no transform, between two of the nodes, by the label that the file gives it.
+/// A link between two nodes that is not a transform, with the label that the file gives it.
 pub(super) struct Edge {
     pub(super) from: usize,
     pub(super) label: String,
@@ -32,7 +32,7 @@ pub(super) struct Edge {
     pub(super) values: Vec<Found>,
 }
 
-/// Where the child of an `RT` link is.
+/// An `RT` link.
 pub(super) struct Joint {
     pub(super) parent: usize,
     pub(super) child: usize,
@@ -71,7 +71,7 @@ pub(super) fn links(
     let (mut seen, mut hung) = (BTreeSet::new(), BTreeSet::new());
     for link in model.symbols.values().flat_map(|symbol| &symbol.links) {
         let (src, dst, label) = (link.src.text(), link.dst.text(), link.label.clone());
-        // Cortex passes over these with a warning, too.
+        // Cortex skips these with a warning, too.
         let (Some(&from), Some(&to)) = (ids.get(&src), ids.get(&dst)) else {
             let missing = if ids.contains_key(&src) { &dst } else { &src };
             notes.push(format!(

@@ -1,16 +1,15 @@
-//! Where nodes, lines and their labels stand in a picture: in rows, so that lines point down and nothing lies on
-//! anything.
+//! The layout of a picture: nodes in rows, so that lines point down, and no label or node covers another.
 //!
-//! Problem: a line that spans several rows would run through what stands between, and labels would lie on each other.
-//! Idea: the layered method. Lines that close a cycle are turned round and a node stands below whatever points at it; a
-//! line has a cell in each row that it passes, and between any two rows of nodes there is a row for labels, so a label
-//! has a cell of its own. Rows are ordered by the mean place of their neighbours, up and down, and the order with the
-//! fewest crossings is kept. Then each row is moved as near to its neighbours as the widths allow, long lines most of
-//! all, which for a row is a regression under an order, solved exactly by pooling what would overlap. Layout crates for
-//! Rust either ask for graphviz or abort on graphs that they do not like.
+//! Problem: a line that spans several rows would run through the nodes in between, and labels would cover each other.
+//! Idea: the layered method. Lines that close a cycle are reversed, and each node is placed below the nodes that point
+//! at it. A line has a cell in each row that it passes. Between two rows of nodes is a row for labels, so each label
+//! has a cell of its own. Rows are ordered by the mean position of their neighbours, up and down, and the order with
+//! the fewest crossings is kept. Then each row is moved as near to its neighbours as the widths allow, long lines with
+//! the most weight; for one row this is a regression under an order constraint, which pooling solves exactly. The Rust
+//! crates for layout either call graphviz or abort on some graphs.
 //!
-//! Cost: sweeps times cells, and cells are at most the lines times the rows; beyond [`MOST`] a line has a cell for its
-//! label only and runs behind what is in its way.
+//! Cost: the number of sweeps times the number of cells; the cells are at most the lines times the rows. Beyond
+//! [`MOST`] cells, a line has a cell for its label only and runs behind what is in its way.
 //!
 //! Source: Sugiyama, Tagawa & Toda, "Methods for visual understanding of hierarchical system structures", IEEE SMC
 //! 1981; Gansner, Koutsofios, North & Vo, "A technique for drawing directed graphs", IEEE TSE 19, 1993, §4 (weights);
@@ -25,14 +24,14 @@ const LABEL: f64 = 18.0;
 /// Between nodes, and between lines, side by side.
 const APART: f64 = 28.0;
 const NEAR: f64 = 12.0;
-/// Least and most between two rows.
+/// The least and the most distance between two rows.
 const GAP: (f64, f64) = (24.0, 90.0);
-/// Around everything.
+/// The margin around the picture.
 const MARGIN: f64 = 30.0;
-/// Between two lines at a node.
+/// The distance between two lines at a node.
 const PORT: f64 = 14.0;
 
-/// A line to be laid out.
+/// A line to lay out.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Line {
     pub(super) from: usize,
@@ -43,7 +42,7 @@ pub(super) struct Line {
 
 pub(super) type Point = (f64, f64);
 
-/// Where a line runs: from point to point, in straight lines where these are above each other and in curves else.
+/// The course of a line: straight between points above each other, curved otherwise.
 pub(super) struct Run {
     pub(super) points: Vec<Point>,
     /// The middle of its label.
@@ -57,12 +56,12 @@ pub(super) struct Layout {
     pub(super) size: Point,
 }
 
-/// What takes room in a row: a node, or a line that passes.
+/// An item of a row: a node, or a line that passes.
 struct Cell {
     row: usize,
     width: f64,
     x: f64,
-    /// Its neighbours above and below, with how much they draw.
+    /// Its neighbours above and below, each with a weight.
     near: Vec<(usize, f64)>,
     is_node: bool,
 }
@@ -118,7 +117,7 @@ impl Cell {
     }
 }
 
-/// How far down each node stands: below whatever points at it, cycles cut where a walk closes them.
+/// The rank of each node: below every node that points at it. A cycle is cut where a walk closes it.
 fn ranks(count: usize, lines: &[Line]) -> Vec<usize> {
     let mut out = vec![Vec::new(); count];
     for line in lines {
@@ -154,14 +153,14 @@ fn ranks(count: usize, lines: &[Line]) -> Vec<usize> {
             }
         }
     }
-    // A line that was turned round leads from a node of the path to one that was done before it, as all others do.
+    // A reversed line, like all others, now leads from a node of the path to one that was done before it.
     let mut rank = vec![0; count];
     for &node in order.iter().rev() {
         for &to in &forward[node] {
             rank[to] = rank[to].max(rank[node] + 1);
         }
     }
-    // A node that nothing points at stands just above the first that it points at.
+    // A node without incoming lines is placed just above the first node that it points at.
     let mut has_above = vec![false; count];
     forward.iter().flatten().for_each(|&to| has_above[to] = true);
     for node in (0..count).filter(|&node| !has_above[node]) {
@@ -170,7 +169,7 @@ fn ranks(count: usize, lines: &[Line]) -> Vec<usize> {
     rank
 }
 
-/// A line as the cells from its upper end to its lower one, and which of them is its label's.
+/// A line as the cells from its upper to its lower end, and the cell of its label.
 struct Chain {
     cells: Vec<usize>,
     label: usize,
@@ -212,7 +211,7 @@ fn chains(cells: &mut Vec<Cell>, lines: &[Line]) -> Vec<Chain> {
     chains
 }
 
-/// Puts each row in an order in which neighbours are near each other.
+/// Orders each row so that neighbours are near each other.
 fn order(rows: &mut Vec<Vec<usize>>, cells: &[Cell]) {
     let mut place = vec![0.0; cells.len()];
     #[expect(clippy::cast_precision_loss, reason = "places in a picture")]
@@ -238,7 +237,7 @@ fn order(rows: &mut Vec<Vec<usize>>, cells: &[Cell]) {
             rows[at] = keyed.into_iter().map(|(_, cell)| cell).collect();
             settle(&rows[at], &mut place);
         }
-        // Of many, crossings are not counted: the last order is as good as any.
+        // In a large graph crossings are not counted; the last order is kept.
         let found = if is_small { crossings(rows, cells, &place) } else { 0 };
         if found < best.0 || !is_small {
             best = (found, rows.clone());
@@ -247,7 +246,7 @@ fn order(rows: &mut Vec<Vec<usize>>, cells: &[Cell]) {
     *rows = best.1;
 }
 
-/// How many lines cross between rows that follow each other.
+/// The number of crossings between consecutive rows.
 fn crossings(rows: &[Vec<usize>], cells: &[Cell], place: &[f64]) -> usize {
     let mut count = 0;
     for row in rows {
@@ -282,7 +281,7 @@ fn straighten(rows: &[Vec<usize>], cells: &mut [Cell]) {
     for sweep in 0..SWEEPS {
         for step in 0..rows.len() {
             let row = &rows[if sweep % 2 == 0 { step } else { rows.len() - 1 - step }];
-            // Blocks of cells that touch: where the first would be, how much they weigh, how many they are.
+            // Blocks of touching cells: the position of the first, the weight, the number of cells.
             let mut blocks: Vec<(f64, f64, usize)> = Vec::new();
             let mut offsets = Vec::with_capacity(row.len());
             for (at, &cell) in row.iter().enumerate() {
@@ -308,8 +307,8 @@ fn straighten(rows: &[Vec<usize>], cells: &mut [Cell]) {
     }
 }
 
-/// Where a cell would be without the others of its row, and how much it matters. A node, in the middle of its
-/// neighbours. A line, straight on from the row that was moved before: so a long one has its bends in few places.
+/// The position that a cell would have alone in its row, and its weight. A node: in the middle of its neighbours. A
+/// line: straight on from the row that was moved before, so that a long line has few bends.
 fn wanted(cell: &Cell, cells: &[Cell], is_down: bool) -> (f64, f64) {
     let all = cell.near.iter().map(|(_, weight)| weight).sum();
     let before = |other: usize| cell.is_node || (cells[other].row < cell.row) == is_down;
@@ -318,7 +317,8 @@ fn wanted(cell: &Cell, cells: &[Cell], is_down: bool) -> (f64, f64) {
     (sum / weight, all)
 }
 
-/// The middle of each row, and where the last one ends: rows between which lines go far to the side are further apart.
+/// The middle of each row, and the end of the last one. Rows are further apart if lines between them go far to the
+/// side.
 fn heights(rows: &[Vec<usize>], cells: &[Cell]) -> (Vec<f64>, f64) {
     let (mut middles, mut y) = (Vec::with_capacity(rows.len()), MARGIN);
     for row in rows {
@@ -333,7 +333,7 @@ fn heights(rows: &[Vec<usize>], cells: &[Cell]) -> (Vec<f64>, f64) {
         let gap = (row.iter().map(aside).fold(0.0, f64::max) * 0.15).clamp(GAP.0, GAP.1);
         y += if row.is_empty() { 0.0 } else { 2.0 * half + gap };
     }
-    // Nodes without lines have the row of the first ones, in a graph without lines too.
+    // Nodes without lines have the first row, also in a graph without lines.
     if middles.is_empty() {
         middles.push(y);
     }
@@ -341,7 +341,7 @@ fn heights(rows: &[Vec<usize>], cells: &[Cell]) -> (Vec<f64>, f64) {
 }
 
 fn runs(cells: &[Cell], chains: &[Chain], lines: &[Line], middles: &[f64]) -> Vec<Run> {
-    // At a node, lines stand side by side in the order in which they leave.
+    // At a node, lines are side by side in the order in which they leave.
     let mut sides: Vec<[Vec<(f64, usize)>; 2]> = cells.iter().map(|_| [Vec::new(), Vec::new()]).collect();
     for (line, chain) in chains.iter().enumerate() {
         if let ([upper, second, ..], [.., before, lower]) = (&chain.cells[..], &chain.cells[..]) {
@@ -401,7 +401,7 @@ mod tests {
     }
 
     proptest! {
-        /// Nothing lies on anything, no line runs through a node or another label, and all is in the picture.
+        /// Nothing overlaps, no line runs through a node or another label, and everything is in the picture.
         #[test]
         fn everything_has_its_place(
             widths in prop::collection::vec(40.0..140.0_f64, 1..14),
