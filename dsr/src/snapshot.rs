@@ -200,15 +200,6 @@ impl Snapshot {
         self.state.cell(holder.into(), attribute).map(|cell| &cell.value)
     }
 
-    /// An attribute with the version that wrote it.
-    pub fn attribute_view(
-        &self,
-        holder: impl Into<Holder>,
-        attribute: AttributeId,
-    ) -> Option<AttributeView<'_>> {
-        self.state.cell(holder.into(), attribute).map(Cell::view)
-    }
-
     /// The pose of frame `to` in frame `from`, by the newest pose of each edge between them. It maps coordinates of
     /// `to` into `from`; see the README.
     pub fn transform(&self, from: NodeId, to: NodeId) -> Result<Isometry3<f64>, ChainError> {

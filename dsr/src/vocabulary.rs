@@ -174,7 +174,7 @@ impl Vocabulary {
     }
 
     /// The name of a resource.
-    pub fn resource_name(&self, id: ResourceId) -> Option<&Arc<str>> {
+    pub(crate) fn resource_name(&self, id: ResourceId) -> Option<&Arc<str>> {
         self.resources.get(id.index())
     }
 
@@ -217,12 +217,12 @@ impl Vocabulary {
     }
 
     /// Whether a node can be of both types. In a tree of types, one must then be a subtype of the other.
-    pub fn overlap(&self, a: TypeId, b: TypeId) -> bool {
+    pub(crate) fn overlap(&self, a: TypeId, b: TypeId) -> bool {
         self.is_a(a, b) || self.is_a(b, a)
     }
 
     /// Whether nodes of this type may take part in the geometric quiver.
-    pub fn nature(&self, id: TypeId) -> Option<Nature> {
+    pub(crate) fn nature(&self, id: TypeId) -> Option<Nature> {
         self.types.get(id.index()).map(|entry| entry.nature)
     }
 
@@ -232,7 +232,7 @@ impl Vocabulary {
     }
 
     /// Whether the label may go from a node of type `from` to a node of type `to`.
-    pub fn allows(&self, label: LabelId, from: TypeId, to: TypeId) -> bool {
+    pub(crate) fn allows(&self, label: LabelId, from: TypeId, to: TypeId) -> bool {
         self.signatures(label).iter().any(|s| self.is_a(from, s.from) && self.is_a(to, s.to))
     }
 
@@ -252,7 +252,7 @@ impl Vocabulary {
     }
 
     /// The most edges of the label that a node may have.
-    pub fn degree(&self, label: LabelId) -> Degree {
+    pub(crate) fn degree(&self, label: LabelId) -> Degree {
         self.labels.get(label.index()).map_or(Degree::default(), |entry| entry.degree)
     }
 
@@ -267,12 +267,12 @@ impl Vocabulary {
     }
 
     /// The node that stands for an agent in every graph of this vocabulary.
-    pub fn agent_node(&self, id: AgentId) -> Option<NodeId> {
+    pub(crate) fn agent_node(&self, id: AgentId) -> Option<NodeId> {
         (id.index() < self.agents.len()).then_some(NodeId(id.0))
     }
 
     /// The agent for which a node stands.
-    pub fn agent_of(&self, node: NodeId) -> Option<AgentId> {
+    pub(crate) fn agent_of(&self, node: NodeId) -> Option<AgentId> {
         (node.index() < self.agents.len()).then_some(AgentId(node.0))
     }
 
@@ -282,26 +282,14 @@ impl Vocabulary {
     }
 
     /// The resource for which a node stands.
-    pub fn resource_of(&self, node: NodeId) -> Option<ResourceId> {
+    pub(crate) fn resource_of(&self, node: NodeId) -> Option<ResourceId> {
         let index = node.index().checked_sub(self.agents.len())?;
         (index < self.resources.len()).then(|| ResourceId::at(index))
     }
 
     /// Whether `writer` may write `token` between nodes of these names and types. For an attribute or the
     /// existence of a node, `from` is the node itself and `to` is `None`.
-    pub fn may_write(
-        &self,
-        writer: AgentId,
-        token: Token,
-        from: (&str, TypeId),
-        to: Option<(&str, TypeId)>,
-    ) -> bool {
-        let (first, second) = (|| from.0, || to.map_or("", |(name, _)| name));
-        let to = to.map(|(_, node_type)| (&second as NameOf<'_>, node_type));
-        self.permits(writer, token, (&first, from.1), to)
-    }
-
-    /// Like [`Vocabulary::may_write`], with names that are looked up only if a permission is for a named node.
+    /// A name is looked up only if a permission is for a named node.
     pub(crate) fn permits(
         &self,
         writer: AgentId,
