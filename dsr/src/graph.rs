@@ -276,7 +276,7 @@ impl Graph {
     pub fn subscribe_deltas_with(&self, capacity: NonZeroUsize) -> Deltas {
         let queue = Queue::new(capacity.into());
         self.register(&queue, None);
-        Deltas { queue }
+        Deltas::new(queue)
     }
 
     /// Under the commit lock, so that no commit falls between the snapshot and the first event.
