@@ -14,7 +14,7 @@
 use crate::{Model, Step};
 use planner::{
     Attempt, Budget, Distance, OperatorId, Outcome, Preference, Query, Repaired, Report, SearchConfiguration,
-    State, UnsolvableReason, Way, Words, explain, repair, solve,
+    State, UnsolvableReason, Way, Wording, explain, repair, solve,
 };
 use serde::Serialize;
 
@@ -204,7 +204,7 @@ fn unsolvable(
     budget: &Budget<'_>,
 ) -> String {
     let explanation = explain(model.domain(), model.problem(), model.task(), query, reason, budget);
-    let words = Words::new(model.task(), &explanation);
+    let words = Wording::new(model.task(), &explanation);
     let mut why = words.sentence();
     let (chain, lines) = (words.chain(), words.lines());
     let reasons = match chain.as_slice() {

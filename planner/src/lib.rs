@@ -65,6 +65,6 @@ pub use task::{
     Literals, LiteralsRef, Mutexes, ObjectValue, Operator, Operators, State, Task, Variable,
 };
 pub use unsolvability::{
-    Exclusive, Explanation, Extent, Giver, Hindrance, Nearest, Need, Never, NeverCompares, Part, Pattern,
-    Reason, ReasonId, Space, Wanted, Why, Words, explain,
+    Achiever, Exclusive, Explanation, Extent, Literal, Nearest, Need, Never, NeverCompares, Obstruction,
+    Part, Pattern, Reason, ReasonId, Space, Why, Wording, explain,
 };

@@ -6,7 +6,9 @@
 //! only where some terms are equal, and the candidate says so). So it is a bound of one that is kept;
 //! of larger numbers nothing is said.
 
-use super::{Change, Happening, Invariant, Member, Proviso, changes};
+use super::{Invariant, Member, Proviso};
+use crate::changes::{Change, changes};
+use crate::happening::Happening;
 use pddl::model::{Atom, Condition, ConditionKind, Domain, Term, TypeSet, VariableId, Variables};
 
 /// What surely holds: atoms, and terms that differ.

@@ -8,14 +8,14 @@
 //! hold unless parameters are equal ([`conditional_invariants`]).
 //!
 //! ```
-//! use analysis::invariants::{Counts, Happening, invariants};
+//! use analysis::happening::happenings;
+//! use analysis::invariants::invariants;
 //!
 //! let source = pddl::Source::new("d", "(define (domain hall) (:predicates (at ?x ?y))
 //!     (:action go :parameters (?x ?from ?to) :precondition (at ?x ?from)
 //!      :effect (and (not (at ?x ?from)) (at ?x ?to))))");
 //! let domain = pddl::parse_domain(&source, &[]).model.expect("a correct domain");
-//! let happenings: Vec<Happening> = domain.actions.iter().map(Happening::of_action).collect();
-//! let found = invariants(&domain, &happenings);
+//! let found = invariants(&domain, &happenings(&domain));
 //! assert_eq!(found.len(), 1);
 //! assert_eq!((&found[0].members[0].parameters[..], found[0].members[0].counted), (&[0][..], Some(1)));
 //! ```
@@ -25,14 +25,11 @@
 //! | `synthesis` | candidates, and how they are mended |
 //! | `balance` | whether a candidate's number can grow |
 //! | `counts` | the numbers in a problem's initial state |
-//! | `changes` | an effect without its connectives |
 
 mod balance;
-mod changes;
 mod counts;
 mod synthesis;
 
 pub use balance::{differ, literals};
-pub use changes::{Change, Context, changes};
 pub use counts::Counts;
-pub use synthesis::{Happening, Invariant, Member, Proviso, conditional_invariants, invariants};
+pub use synthesis::{Invariant, Member, Proviso, conditional_invariants, invariants};

@@ -15,9 +15,12 @@
 //! parameters are equal, Helmert splits the candidate by an inequality; we keep it under the proviso that
 //! no such instance is ever applied, and whoever knows the instances decides.
 
-use super::balance::{Moves, Verdict, judge};
-use pddl::model::{Action, Condition, Domain, Effect, PredicateId, Term, Variables};
 use std::collections::VecDeque;
+
+use pddl::model::{Domain, PredicateId, Term};
+
+use super::balance::{Moves, Verdict, judge};
+use crate::happening::Happening;
 
 /// Candidates that are looked at.
 const CANDIDATES: usize = 300;
@@ -25,28 +28,6 @@ const CANDIDATES: usize = 300;
 const PARTS: usize = 6;
 /// Comparisons of changes, over all candidates.
 const WORK: usize = 400_000;
-
-/// Something that changes the state at one time.
-#[derive(Clone, Debug)]
-pub struct Happening<'a> {
-    /// The variables of its schema.
-    pub variables: &'a Variables,
-    /// What surely holds just before, with no other happening between.
-    pub just_before: Vec<&'a Condition>,
-    /// What it does.
-    pub effects: Vec<&'a Effect>,
-}
-
-impl<'a> Happening<'a> {
-    /// An action that takes no time.
-    pub fn of_action(action: &'a Action) -> Self {
-        Self {
-            variables: &action.variables,
-            just_before: vec![&action.precondition],
-            effects: vec![&action.effect],
-        }
-    }
-}
 
 /// A predicate of an invariant.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -168,6 +149,7 @@ fn search(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::happening::happenings;
 
     const BLOCKS: &str = "(define (domain blocks)
       (:predicates (on ?x ?y) (table ?x) (clear ?x) (free) (held ?x))
@@ -182,7 +164,7 @@ mod tests {
 
     fn found(domain: &str) -> Vec<String> {
         let domain = pddl::parse_domain(&pddl::Source::new("domain", domain), &[]).model.expect("correct");
-        let happenings: Vec<Happening<'_>> = domain.actions.iter().map(Happening::of_action).collect();
+        let happenings = happenings(&domain);
         let member = |m: &Member| {
             let mut arguments = vec!["_".to_owned(); m.parameters.len() + usize::from(m.counted.is_some())];
             m.parameters.iter().enumerate().for_each(|(i, &at)| arguments[at] = i.to_string());
@@ -219,7 +201,7 @@ mod tests {
              (:action turn :parameters (?p) :precondition (in ?p)
               :effect (and (not (in ?p)) (out ?p))))";
         let domain = pddl::parse_domain(&pddl::Source::new("domain", source), &[]).model.expect("correct");
-        let happenings: Vec<Happening<'_>> = domain.actions.iter().map(Happening::of_action).collect();
+        let happenings = happenings(&domain);
         let found = conditional_invariants(&domain, &happenings, &mut |_| true);
         let whole = found.iter().find(|(i, _)| i.members.len() == 3).expect("open, in and out of one place");
         let [proviso] = &whole.1[..] else { panic!("{:?}", whole.1) };

@@ -18,8 +18,8 @@
 use crate::render::{At, PlaceRecord};
 use crate::task::TaskFiles;
 use planner::{
-    Budget, Explanation, Extent, FactId, Giver, Hindrance, Need, Never, NeverCompares, Number, Query, Reason,
-    ReasonId, Task, UnsolvableReason, Why, Words, explain,
+    Achiever, Budget, Explanation, Extent, FactId, Need, Never, NeverCompares, Number, Obstruction, Query,
+    Reason, ReasonId, Task, UnsolvableReason, Why, Wording, explain,
 };
 use serde::Serialize;
 
@@ -42,8 +42,8 @@ impl<'a> Unsolvable<'a> {
     }
 
     /// The same in words.
-    pub(crate) fn words(&self) -> Words<'_> {
-        Words::new(self.task, &self.explanation)
+    pub(crate) fn words(&self) -> Wording<'_> {
+        Wording::new(self.task, &self.explanation)
     }
 
     /// As data.
@@ -102,31 +102,31 @@ impl<'a> Unsolvable<'a> {
     fn reason_record(&self, reason: &Reason) -> ReasonRecord {
         let literal = self.words().wanted(&reason.wanted);
         let (why, givers, more) = match &reason.why {
-            Why::NothingGives => ("nothing_gives_it", Vec::new(), 0),
+            Why::NothingAchieves => ("nothing_gives_it", Vec::new(), 0),
             Why::Unexplored => ("not_looked_at", Vec::new(), 0),
-            Why::Givers { givers, more } => {
-                ("givers", givers.iter().map(|giver| self.giver_record(giver)).collect(), *more)
+            Why::Achievers { achievers, more } => {
+                ("givers", achievers.iter().map(|achiever| self.giver_record(achiever)).collect(), *more)
             }
         };
         ReasonRecord { literal, why, givers, more }
     }
 
-    fn giver_record(&self, giver: &Giver) -> GiverRecord {
-        let (why, needs, together) = match &giver.hindrance {
-            Hindrance::Needs(needs) => {
+    fn giver_record(&self, achiever: &Achiever) -> GiverRecord {
+        let (why, needs, together) = match &achiever.obstruction {
+            Obstruction::Needs(needs) => {
                 let needs = needs.iter().map(|need| match need {
                     Need::Literal(id) => self.literal(*id),
                     Need::Number(own) => number(own),
                 });
                 ("needs", needs.collect(), Vec::new())
             }
-            Hindrance::NeverTogether(all) => {
+            Obstruction::NeverTogether(all) => {
                 ("never_together", Vec::new(), all.iter().map(|wanted| self.words().wanted(wanted)).collect())
             }
-            Hindrance::NeverApplies => ("never_applies", Vec::new(), Vec::new()),
-            Hindrance::Excluded => ("excluded", Vec::new(), Vec::new()),
+            Obstruction::NeverApplies => ("never_applies", Vec::new(), Vec::new()),
+            Obstruction::Excluded => ("excluded", Vec::new(), Vec::new()),
         };
-        GiverRecord { by: self.words().giver(giver), why, needs, together }
+        GiverRecord { by: self.words().achiever(achiever), why, needs, together }
     }
 }
 

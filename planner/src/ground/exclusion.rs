@@ -16,7 +16,8 @@ use super::normalise::Normalised;
 use super::relax::{Bindings, Reached};
 use crate::ids::id32;
 use crate::task::{AtomTable, RowKeys, Rows, ValuePredicates};
-use analysis::invariants::{Happening, Invariant, Member, Proviso, conditional_invariants};
+use analysis::happening::Happening;
+use analysis::invariants::{Invariant, Member, Proviso, conditional_invariants};
 use budget::{Interrupted, Meter};
 use pddl::model::{Domain, PredicateId, Term};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -44,7 +45,8 @@ impl Exclusions {
         if problem.objects.iter().any(|o| o.types.0.len() > 1) {
             return Ok(Self::default());
         }
-        let happenings: Vec<Happening<'_>> = domain.actions.iter().map(Happening::of_action).collect();
+        let happenings: Vec<Happening<'_>> =
+            domain.actions.enumerate().map(|(id, action)| Happening::of_action(id, action)).collect();
         let candidates =
             conditional_invariants(domain, &happenings, &mut |work| meter.spend(64 * work).is_ok());
         meter.spend(0)?;

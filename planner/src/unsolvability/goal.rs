@@ -4,12 +4,12 @@
 //! universal part by one instance; an existential one as a whole, its variables open, or by all its instances.
 //! Cost: bounded instances.
 
-use super::needs::{Binding, Compared};
 use super::oracle::Oracle;
-use super::ranges::Ranges;
 use super::reasons::Reasons;
-use super::{MOST, Never, Part, Wanted};
+use super::{MOST, Never, Part};
 use crate::ids::{FactId, id32};
+use analysis::intervals::{Ranges, Reachable};
+use analysis::{Binding, Compared, Literal};
 use pddl::model::{Condition, ConditionKind, ObjectId, VariableId};
 
 /// Instances of a quantified part.
@@ -22,7 +22,7 @@ pub(super) struct Walk<'a> {
 
 impl<'a> Walk<'a> {
     fn binding(&self) -> Binding<'a> {
-        Binding::new(&self.oracle.problem.goal_variables)
+        Binding::new(&self.oracle.instance.problem.goal_variables)
     }
 
     /// The conjuncts that are never so.
@@ -30,7 +30,7 @@ impl<'a> Walk<'a> {
         // What was noted of a part that is possible after all must not be told.
         let mut noted = reasons.without_nodes();
         let mut found = Vec::new();
-        let goal = &self.oracle.problem.goal;
+        let goal = &self.oracle.instance.problem.goal;
         self.conjuncts(goal, true, &mut |part, positive| {
             if let Some(never) = self.refuted(part, positive, &mut self.binding(), &mut noted) {
                 found.push(Part { span: part.span, never });
@@ -49,7 +49,7 @@ impl<'a> Walk<'a> {
     pub(super) fn required(&self) -> Vec<FactId> {
         let mut found = Vec::new();
         let binding = self.binding();
-        self.conjuncts(&self.oracle.problem.goal, true, &mut |part, positive| {
+        self.conjuncts(&self.oracle.instance.problem.goal, true, &mut |part, positive| {
             if let (ConditionKind::Atom(atom), true) = (&part.kind, positive) {
                 let arguments: Result<Vec<_>, _> = binding.pattern(atom).arguments.into_iter().collect();
                 found.extend(arguments.ok().and_then(|a| self.oracle.task.fact(atom.predicate, &a)));
@@ -119,15 +119,15 @@ impl<'a> Walk<'a> {
                 found
             }
             (ConditionKind::Atom(atom), _) => {
-                let wanted = Wanted { pattern: binding.pattern(atom), positive };
-                (!self.oracle.may_be(&wanted)).then(|| vec![Never::Literal(reasons.of(&wanted))])
+                let wanted = Literal { pattern: binding.pattern(atom), positive };
+                (!self.oracle.may_hold(&wanted)).then(|| vec![Never::Literal(reasons.of(&wanted))])
             }
             (ConditionKind::Same(left, right), _) => {
                 let both = (binding.term(*left), binding.term(*right));
                 plain(matches!(both, (Ok(left), Ok(right)) if (left == right) != positive))
             }
             (ConditionKind::HasType(term, types), _) => {
-                plain(binding.term(*term).is_ok_and(|o| self.oracle.is_of(o, types) != positive))
+                plain(binding.term(*term).is_ok_and(|o| self.oracle.instance.is_of(o, types) != positive))
             }
             (ConditionKind::Compare(comparison, left, right), true) => {
                 let compared = Compared { comparison: *comparison, left, right };
@@ -145,11 +145,11 @@ impl<'a> Walk<'a> {
         binding: &mut Binding<'_>,
         visit: &mut dyn FnMut(&mut Binding<'_>) -> bool,
     ) -> Option<bool> {
-        let problem = self.oracle.problem;
+        let problem = self.oracle.instance.problem;
         let objects = |v: &VariableId| {
-            let types = &binding.variables[*v].types;
+            let types = &binding.variables()[*v].types;
             let all = (0..id32(problem.objects.len())).map(ObjectId);
-            all.filter(|&o| self.oracle.is_of(o, types)).collect::<Vec<_>>()
+            all.filter(|&o| self.oracle.instance.is_of(o, types)).collect::<Vec<_>>()
         };
         let ranges: Vec<Vec<ObjectId>> = variables.iter().map(objects).collect();
         let count = ranges.iter().try_fold(1_usize, |n, range| n.checked_mul(range.len()))?;

@@ -13,55 +13,36 @@
 mod bans;
 mod breadth;
 mod goal;
-mod needs;
 mod oracle;
-mod ranges;
 mod reasons;
 mod space;
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test")]
 mod tests;
-mod words;
+mod wording;
 
-pub use ranges::{Extent, NeverCompares};
-pub use reasons::{Giver, Hindrance, Need, Reason, ReasonId, Why};
+pub use analysis::intervals::{Extent, NeverCompares};
+pub use analysis::{Literal, Pattern};
+pub use reasons::{Achiever, Need, Obstruction, Reason, ReasonId, Why};
 pub use space::{Nearest, Space};
-pub use words::Words;
+pub use wording::Wording;
 
 use crate::ids::{FactId, OperatorId};
 use crate::search::{Query, UnsolvableReason};
 use crate::task::{Impossible, Operator, State, Task};
+use analysis::intervals::Ranges;
+use analysis::{Binding, Instance, Needs, Values};
 use budget::Budget;
 use goal::Walk;
-use needs::{Binding, Needs};
 use oracle::Oracle;
 use pddl::Span;
-use pddl::model::{Action, ConditionKind, Domain, Name, ObjectId, PredicateId, Problem};
-use ranges::Ranges;
+use pddl::model::{Action, ConditionKind, Domain, Problem};
 use reasons::Reasons;
 
 /// Parts of the goal, groups and pairs that are told.
 const MOST: usize = 32;
 /// Operators whose comparisons are looked at.
 const OPERATORS: usize = 5_000;
-
-/// An atom with open arguments.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Pattern {
-    /// Its predicate.
-    pub predicate: PredicateId,
-    /// Its arguments: an object, or the variable that stands for any.
-    pub arguments: Vec<Result<ObjectId, Name>>,
-}
-
-/// An atom that is wanted, true or false.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Wanted {
-    /// Which.
-    pub pattern: Pattern,
-    /// Whether it shall hold.
-    pub positive: bool,
-}
 
 /// A part of the goal that no reachable state satisfies.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -123,10 +104,12 @@ pub fn explain(
     reason: &UnsolvableReason,
     budget: &Budget<'_>,
 ) -> Explanation {
-    let first = Oracle::new(domain, problem, task, *query, &[]);
-    let never = out_of_range(&first);
-    let oracle = if never.is_empty() { first } else { Oracle::new(domain, problem, task, *query, &never) };
-    let ranges = Ranges::new(&oracle);
+    let instance = Instance { domain, problem };
+    let values = values(instance, task, query.state);
+    let first = Oracle::new(instance, task, *query, &[]);
+    let never = out_of_range(&first, &values);
+    let oracle = if never.is_empty() { first } else { Oracle::new(instance, task, *query, &never) };
+    let ranges = Ranges::new(instance, &values, &oracle);
     let mut reasons = Reasons::new(&oracle, &ranges, budget);
     let walk = Walk { oracle: &oracle, ranges: &ranges };
     let parts = walk.parts(&mut reasons);
@@ -138,9 +121,19 @@ pub fn explain(
     Explanation { parts, reasons: reasons.finish(), exclusive, space }
 }
 
+/// The numbers in a state.
+fn values(instance: Instance<'_>, task: &Task, state: &State) -> Values {
+    let mut values = Values::initial(instance.domain, instance.problem);
+    if !state.is_exact() {
+        values.mark_incomplete();
+    }
+    task.numbers(state).for_each(|(fluent, value)| values.set(fluent, value));
+    values
+}
+
 /// Operators that need a comparison that never holds.
-fn out_of_range(oracle: &Oracle<'_>) -> Vec<OperatorId> {
-    let (domain, task) = (oracle.domain, oracle.task);
+fn out_of_range(oracle: &Oracle<'_>, values: &Values) -> Vec<OperatorId> {
+    let (domain, task) = (oracle.instance.domain, oracle.task);
     let compares = |action: &Action| {
         let mut compares = false;
         action.precondition.each(&mut |part| compares |= matches!(part.kind, ConditionKind::Compare(..)));
@@ -150,16 +143,13 @@ fn out_of_range(oracle: &Oracle<'_>) -> Vec<OperatorId> {
     if !compares.contains(&true) {
         return Vec::new();
     }
-    let ranges = Ranges::new(oracle);
+    let ranges = Ranges::new(oracle.instance, values, oracle);
     let candidates = task.operators().enumerate().filter(|(_, o)| compares[o.action.0 as usize]);
     let never = |operator: &Operator| {
         let Action { variables, precondition, .. } = &domain.actions[operator.action];
         let mut binding = Binding::new(variables);
-        for (parameter, &object) in variables.parameter_ids().zip(operator.arguments) {
-            binding.set(parameter, Some(object));
-        }
-        let mut needs = Needs::default();
-        needs.add(precondition, true, &binding, oracle);
+        binding.set_parameters(operator.arguments);
+        let needs = Needs::of([precondition], &binding, oracle.instance);
         needs.comparisons.iter().any(|compared| ranges.never(compared, &binding).is_some())
     };
     candidates.take(OPERATORS).filter(|(_, operator)| never(operator)).map(|(id, _)| id).collect()

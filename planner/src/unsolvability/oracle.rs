@@ -4,17 +4,17 @@
 //! that nothing deletes; one more exploration of the grounded relaxation from the query's state adds what only
 //! shows there. Invariant: what may hold in a reachable state is never denied.
 
-use super::Wanted;
 use crate::heuristics::{Combine, Costs, Explorer};
 use crate::ids::{FactId, OperatorId, id32};
 use crate::search::{Bound, Job, Query, SearchMeter, Shared};
 use crate::task::{AtomStatus, Literals, LiteralsRef, Task};
+use analysis::intervals::Reachable;
+use analysis::{Instance, Literal};
 use budget::Budget;
-use pddl::model::{ActionId, Domain, EffectKind, Idx, Name, ObjectId, PredicateId, Problem, TypeSet};
+use pddl::model::{ActionId, EffectKind, Idx, Name, ObjectId, PredicateId};
 
 pub(super) struct Oracle<'a> {
-    pub(super) domain: &'a Domain,
-    pub(super) problem: &'a Problem,
+    pub(super) instance: Instance<'a>,
     pub(super) task: &'a Task,
     /// From where, and without what.
     pub(super) query: Query<'a>,
@@ -31,12 +31,12 @@ pub(super) struct Oracle<'a> {
 impl<'a> Oracle<'a> {
     /// `never` are operators that are known never to apply.
     pub(super) fn new(
-        domain: &'a Domain,
-        problem: &'a Problem,
+        instance: Instance<'a>,
         task: &'a Task,
         query: Query<'a>,
         never: &[OperatorId],
     ) -> Self {
+        let domain = instance.domain;
         let excluded = [query.excluded, never].concat();
         let without = Query { excluded: &excluded, ..query };
         let (barred, meter) = (without.barred(task), SearchMeter::new(Budget::default()));
@@ -78,25 +78,11 @@ impl<'a> Oracle<'a> {
             });
         }
         domain.axioms.iter().for_each(|axiom| is_static[axiom.predicate.index()] = false);
-        Self { domain, problem, task, query, possible, is_static, may_fail, may_apply }
-    }
-
-    /// Whether some reachable state may have it so; `false` is proven.
-    pub(super) fn may_be(&self, wanted: &Wanted) -> bool {
-        if wanted.positive {
-            return self.matches(wanted).next().is_some();
-        }
-        let arguments: Result<Vec<ObjectId>, _> = wanted.pattern.arguments.iter().cloned().collect();
-        let Ok(arguments) = arguments else { return true };
-        match self.task.status(wanted.pattern.predicate, &arguments) {
-            AtomStatus::AlwaysTrue => false,
-            AtomStatus::Fact(fact) => self.may_fail[fact.index()],
-            AtomStatus::NeverTrue | AtomStatus::Irrelevant => true,
-        }
+        Self { instance, task, query, possible, is_static, may_fail, may_apply }
     }
 
     /// The arguments of the atoms that may hold and fit.
-    pub(super) fn matches<'s>(&'s self, wanted: &'s Wanted) -> impl Iterator<Item = &'s [u32]> {
+    pub(super) fn matches<'s>(&'s self, wanted: &'s Literal) -> impl Iterator<Item = &'s [u32]> {
         let atoms = self.possible.get(wanted.pattern.predicate.index()).map_or(&[][..], Vec::as_slice);
         atoms.iter().map(|&atom| self.task.atoms.row(atom)).filter(|row| fits(wanted, row))
     }
@@ -125,15 +111,25 @@ impl<'a> Oracle<'a> {
     pub(super) fn is_static(&self, predicate: PredicateId) -> bool {
         self.is_static.get(predicate.index()).copied().unwrap_or(false)
     }
+}
 
-    /// Whether an object is of some types.
-    pub(super) fn is_of(&self, object: ObjectId, types: &TypeSet) -> bool {
-        self.problem.objects[object].types.0.iter().any(|&t| self.domain.types.is_in(t, types))
+impl Reachable for Oracle<'_> {
+    fn may_hold(&self, wanted: &Literal) -> bool {
+        if wanted.positive {
+            return self.matches(wanted).next().is_some();
+        }
+        let arguments: Result<Vec<ObjectId>, _> = wanted.pattern.arguments.iter().cloned().collect();
+        let Ok(arguments) = arguments else { return true };
+        match self.task.status(wanted.pattern.predicate, &arguments) {
+            AtomStatus::AlwaysTrue => false,
+            AtomStatus::Fact(fact) => self.may_fail[fact.index()],
+            AtomStatus::NeverTrue | AtomStatus::Irrelevant => true,
+        }
     }
 }
 
 /// Whether a row fits, equal variables being equal objects.
-fn fits(wanted: &Wanted, row: &[u32]) -> bool {
+fn fits(wanted: &Literal, row: &[u32]) -> bool {
     let arguments = &wanted.pattern.arguments;
     arguments.iter().zip(row).enumerate().all(|(i, (argument, &object))| match argument {
         Ok(own) => own.0 == object,

@@ -3,24 +3,23 @@
 //! Idea: of a literal that the oracle denies, every effect (or axiom) that would give it is denied, too: it needs
 //! a literal that is never so, or a comparison that never holds, or its conditions never come together. Each
 //! literal is a node of one graph, looked at once, breadth first; a cycle is an edge to a node that is known. Where
-//! no single condition of a giver is denied, its static conditions are joined, and each instance that these leave is
+//! no single condition of an achiever is denied, its static conditions are joined, and each instance that these leave is
 //! asked by itself; where that is not enough, all its conditions are. Of the query's bans only those are told that keep
-//! an instance that lacks nothing else. Cost: bounded nodes, givers of each and rows of a join; what is beyond is counted.
+//! an instance that lacks nothing else. Cost: bounded nodes, achievers of each and rows of a join; what is beyond is counted.
 
 use super::bans::Bans;
-use super::needs::{Binding, Needs};
 use super::oracle::Oracle;
-use super::ranges::{NeverCompares, Ranges};
-use super::{Pattern, Wanted};
 use crate::ids::id32;
-use analysis::invariants::{Change, changes};
+use analysis::changes::{Change, changes};
+use analysis::intervals::{NeverCompares, Ranges, Reachable};
+use analysis::{Binding, Literal, Needs};
 use budget::Budget;
 use pddl::model::{Action, ActionId, Axiom, Condition, Name, ObjectId};
 use std::cell::OnceCell;
 
 /// Literals that are looked at.
 const REASONS: usize = 48;
-/// Givers told of each literal.
+/// Achievers told of each literal.
 const GIVERS: usize = 8;
 /// Rows looked at in a join, and instances told apart.
 const ROWS: usize = 20_000;
@@ -34,7 +33,7 @@ pub struct ReasonId(pub u32);
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Reason {
     /// The literal.
-    pub wanted: Wanted,
+    pub wanted: Literal,
     /// Why it is never so.
     pub why: Why,
 }
@@ -43,11 +42,11 @@ pub struct Reason {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Why {
     /// No action and no axiom gives it, and it is not so to begin with.
-    NothingGives,
+    NothingAchieves,
     /// Whatever would give it never does.
-    Givers {
+    Achievers {
         /// What would.
-        givers: Vec<Giver>,
+        achievers: Vec<Achiever>,
         /// How many more there are.
         more: usize,
     },
@@ -57,22 +56,22 @@ pub enum Why {
 
 /// What would give a literal.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Giver {
+pub struct Achiever {
     /// The action; `None` for an axiom of the wanted predicate.
     pub action: Option<ActionId>,
     /// Its parameters, as far as they are known.
     pub arguments: Vec<Result<ObjectId, Name>>,
     /// What is in its way.
-    pub hindrance: Hindrance,
+    pub obstruction: Obstruction,
 }
 
-/// What is in the way of a giver.
+/// What is in the way of an achiever.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Hindrance {
+pub enum Obstruction {
     /// Each of these is enough.
     Needs(Vec<Need>),
     /// Each of these may be so at some time, for some objects, but never all for the same ones.
-    NeverTogether(Vec<Wanted>),
+    NeverTogether(Vec<Literal>),
     /// Its conditions never hold together.
     NeverApplies,
     /// The query excludes it, and nothing else is known to be in its way.
@@ -105,9 +104,9 @@ struct Candidate<'a> {
 }
 
 impl Candidate<'_> {
-    fn denied(&self, binding: &Binding<'_>, hindrance: Hindered) -> Denied {
+    fn denied(&self, binding: &Binding<'_>, obstruction: Obstructed) -> Denied {
         let arguments = if self.action.is_some() { binding.parameters() } else { Vec::new() };
-        Denied { action: self.action, arguments, hindrance }
+        Denied { action: self.action, arguments, obstruction }
     }
 }
 
@@ -123,7 +122,7 @@ impl<'a> Reasons<'a> {
     }
 
     /// The node of a literal that the oracle denies.
-    pub(super) fn of(&mut self, wanted: &Wanted) -> ReasonId {
+    pub(super) fn of(&mut self, wanted: &Literal) -> ReasonId {
         let known = self.found.iter().position(|reason| reason.wanted == *wanted);
         ReasonId(id32(known.unwrap_or_else(|| {
             self.found.push(Reason { wanted: wanted.clone(), why: Why::Unexplored });
@@ -131,7 +130,7 @@ impl<'a> Reasons<'a> {
         })))
     }
 
-    pub(super) fn wanted(&self, id: ReasonId) -> &Wanted {
+    pub(super) fn wanted(&self, id: ReasonId) -> &Literal {
         &self.found[id.0 as usize].wanted
     }
 
@@ -146,35 +145,38 @@ impl<'a> Reasons<'a> {
         self.found
     }
 
-    fn why(&mut self, wanted: &Wanted) -> Why {
-        // Values of object fluents are predicates that the domain does not have, and a negated axiom has no giver.
-        let predicates = &self.oracle.domain.predicates;
+    fn why(&mut self, wanted: &Literal) -> Why {
+        // Values of object fluents are predicates that the domain does not have, and a negated axiom has no achiever.
+        let predicates = &self.oracle.instance.domain.predicates;
         let is_known = (wanted.pattern.predicate.0 as usize) < predicates.len();
         if !is_known || (!wanted.positive && predicates[wanted.pattern.predicate].derived) {
             return Why::Unexplored;
         }
-        let mut givers = Vec::new();
+        let mut achievers = Vec::new();
         for candidate in self.candidates(wanted) {
-            givers.extend(self.hindered(&candidate));
+            achievers.extend(self.hindered(&candidate));
         }
-        if givers.is_empty() {
-            return Why::NothingGives;
+        if achievers.is_empty() {
+            return Why::NothingAchieves;
         }
         // Those that lack one thing say most.
-        givers.sort_by_key(|giver| match &giver.hindrance {
-            Hindered::Needs(needs) => needs.len(),
-            Hindered::Excluded => 0,
-            Hindered::NeverTogether(_) => usize::MAX - 1,
-            Hindered::NeverApplies => usize::MAX,
+        achievers.sort_by_key(|achiever| match &achiever.obstruction {
+            Obstructed::Needs(needs) => needs.len(),
+            Obstructed::Excluded => 0,
+            Obstructed::NeverTogether(_) => usize::MAX - 1,
+            Obstructed::NeverApplies => usize::MAX,
         });
-        let more = givers.len().saturating_sub(GIVERS);
-        givers.truncate(GIVERS);
-        Why::Givers { givers: givers.into_iter().map(|giver| self.told(giver)).collect(), more }
+        let more = achievers.len().saturating_sub(GIVERS);
+        achievers.truncate(GIVERS);
+        Why::Achievers {
+            achievers: achievers.into_iter().map(|achiever| self.told(achiever)).collect(),
+            more,
+        }
     }
 
-    fn told(&mut self, giver: Denied) -> Giver {
-        let hindrance = match giver.hindrance {
-            Hindered::Needs(needs) => Hindrance::Needs(
+    fn told(&mut self, achiever: Denied) -> Achiever {
+        let obstruction = match achiever.obstruction {
+            Obstructed::Needs(needs) => Obstruction::Needs(
                 needs
                     .into_iter()
                     .map(|need| match need {
@@ -183,18 +185,18 @@ impl<'a> Reasons<'a> {
                     })
                     .collect(),
             ),
-            Hindered::NeverTogether(all) => Hindrance::NeverTogether(all),
-            Hindered::NeverApplies => Hindrance::NeverApplies,
-            Hindered::Excluded => Hindrance::Excluded,
+            Obstructed::NeverTogether(all) => Obstruction::NeverTogether(all),
+            Obstructed::NeverApplies => Obstruction::NeverApplies,
+            Obstructed::Excluded => Obstruction::Excluded,
         };
-        Giver { action: giver.action, arguments: giver.arguments, hindrance }
+        Achiever { action: achiever.action, arguments: achiever.arguments, obstruction }
     }
 
     /// Every effect and axiom that would give it.
-    fn candidates(&self, wanted: &Wanted) -> Vec<Candidate<'a>> {
+    fn candidates(&self, wanted: &Literal) -> Vec<Candidate<'a>> {
         let oracle = self.oracle;
         let mut found = Vec::new();
-        for (id, action) in oracle.domain.actions.enumerate() {
+        for (id, action) in oracle.instance.domain.actions.enumerate() {
             let Action { variables, precondition, effect, .. } = action;
             changes(effect, &mut |context, change| {
                 let atom = match change {
@@ -202,7 +204,7 @@ impl<'a> Reasons<'a> {
                     Change::Delete(atom) if !wanted.positive => atom,
                     _ => return,
                 };
-                let unified = Binding::new(variables).unified(atom, &wanted.pattern, oracle);
+                let unified = Binding::new(variables).unified(atom, &wanted.pattern, oracle.instance);
                 if let Some(binding) = unified {
                     let conditions =
                         std::iter::once(precondition).chain(context.when.iter().copied()).collect();
@@ -210,26 +212,27 @@ impl<'a> Reasons<'a> {
                 }
             });
         }
-        let axioms = oracle.domain.axioms.iter().filter(|axiom| axiom.predicate == wanted.pattern.predicate);
+        let axioms =
+            oracle.instance.domain.axioms.iter().filter(|axiom| axiom.predicate == wanted.pattern.predicate);
         for Axiom { variables, body, .. } in axioms {
             let terms: Vec<_> = variables.parameter_ids().map(pddl::model::Term::Variable).collect();
             let arguments = &wanted.pattern.arguments;
-            if let Some(binding) = Binding::new(variables).unified_terms(&terms, arguments, oracle) {
+            if let Some(binding) = Binding::new(variables).unified_terms(&terms, arguments, oracle.instance) {
                 found.push(Candidate { action: None, binding, conditions: vec![body] });
             }
         }
         found
     }
 
-    /// What is in the way of a giver, or of each instance of it.
+    /// What is in the way of an achiever, or of each instance of it.
     fn hindered(&self, candidate: &Candidate<'a>) -> Vec<Denied> {
         let Some(needs) = self.needs(candidate, &candidate.binding) else { return Vec::new() };
-        let denied = |binding: &Binding<'_>, hindrance: Hindered| candidate.denied(binding, hindrance);
+        let denied = |binding: &Binding<'_>, obstruction: Obstructed| candidate.denied(binding, obstruction);
         let lacking = self.lacking(&needs, &candidate.binding);
         if !lacking.is_empty() {
-            return vec![denied(&candidate.binding, Hindered::Needs(lacking))];
+            return vec![denied(&candidate.binding, Obstructed::Needs(lacking))];
         }
-        let (fixed, others): (Vec<&Wanted>, Vec<&Wanted>) = needs
+        let (fixed, others): (Vec<&Literal>, Vec<&Literal>) = needs
             .literals
             .iter()
             .filter(|wanted| wanted.positive)
@@ -242,13 +245,13 @@ impl<'a> Reasons<'a> {
         let Some(rows) = join.all(&fixed, &candidate.binding, INSTANCES) else { return together() };
         let mut found = Vec::new();
         for row in &rows {
-            // An instance that equality or types rule out is no giver.
+            // An instance that equality or types rule out is no achiever.
             let Some(needs) = self.needs(candidate, row) else { continue };
             let lacking = self.lacking(&needs, row);
             if lacking.is_empty() {
                 return together();
             }
-            let new = denied(row, Hindered::Needs(lacking));
+            let new = denied(row, Obstructed::Needs(lacking));
             if !found.contains(&new) {
                 found.push(new);
             }
@@ -256,9 +259,9 @@ impl<'a> Reasons<'a> {
         if found.is_empty() { together() } else { found }
     }
 
-    /// What is in the way of each instance that the literals leave, where no single need of the giver is denied.
-    fn each(&self, candidate: &Candidate<'a>, literals: &[&Wanted]) -> Vec<Denied> {
-        let denied = |binding: &Binding<'_>, hindrance: Hindered| candidate.denied(binding, hindrance);
+    /// What is in the way of each instance that the literals leave, where no single need of the achiever is denied.
+    fn each(&self, candidate: &Candidate<'a>, literals: &[&Literal]) -> Vec<Denied> {
+        let denied = |binding: &Binding<'_>, obstruction: Obstructed| candidate.denied(binding, obstruction);
         let mut join = Join { oracle: self.oracle, rows: 0 };
         let rows = join.all(literals, &candidate.binding, INSTANCES);
         let rows = rows.unwrap_or_else(|| vec![candidate.binding.clone()]);
@@ -269,11 +272,11 @@ impl<'a> Reasons<'a> {
             let mut new = Vec::new();
             if lacking.is_empty() {
                 new = self.excluded(candidate, row);
-                if new.iter().all(|new| new.hindrance != Hindered::Excluded) {
-                    open.push(denied(row, Hindered::NeverApplies));
+                if new.iter().all(|new| new.obstruction != Obstructed::Excluded) {
+                    open.push(denied(row, Obstructed::NeverApplies));
                 }
             } else {
-                new.push(denied(row, Hindered::Needs(lacking)));
+                new.push(denied(row, Obstructed::Needs(lacking)));
             }
             for new in new {
                 if !found.contains(&new) {
@@ -282,17 +285,17 @@ impl<'a> Reasons<'a> {
             }
         }
         // What nothing but a ban keeps from applying must not be among what never applies.
-        let bars = found.iter().any(|found| found.hindrance == Hindered::Excluded);
+        let bars = found.iter().any(|found| found.obstruction == Obstructed::Excluded);
         if bars {
             open.dedup();
             found.extend(open);
         } else if !open.is_empty() || found.is_empty() {
-            found.push(denied(&candidate.binding, Hindered::NeverApplies));
+            found.push(denied(&candidate.binding, Obstructed::NeverApplies));
         }
         found
     }
 
-    /// The instances of a giver that the query excludes: what they lack, or that nothing else is in their way. What is
+    /// The instances of an achiever that the query excludes: what they lack, or that nothing else is in their way. What is
     /// in the way of others is left out.
     fn excluded(&self, candidate: &Candidate<'a>, binding: &Binding<'a>) -> Vec<Denied> {
         let Some(action) = candidate.action else { return Vec::new() };
@@ -300,20 +303,18 @@ impl<'a> Reasons<'a> {
         let mut found: Vec<Denied> = Vec::new();
         for (operator, arguments) in self.oracle.excluded(action, &wanted) {
             let mut binding = binding.clone();
-            for (parameter, &object) in binding.variables.parameter_ids().zip(arguments) {
-                binding.set(parameter, Some(object));
-            }
+            binding.set_parameters(arguments);
             let Some(needs) = self.needs(candidate, &binding) else { continue };
             let lacking = self.lacking(&needs, &binding);
             let bans = || self.bans.get_or_init(|| Bans::visit(self.oracle, self.budget));
-            let hindrance = if !lacking.is_empty() {
-                Hindered::Needs(lacking)
+            let obstruction = if !lacking.is_empty() {
+                Obstructed::Needs(lacking)
             } else if self.oracle.may_apply(operator) && bans().may_bar(operator) {
-                Hindered::Excluded
+                Obstructed::Excluded
             } else {
                 continue;
             };
-            let new = candidate.denied(&binding, hindrance);
+            let new = candidate.denied(&binding, obstruction);
             if !found.contains(&new) {
                 found.push(new);
             }
@@ -322,14 +323,14 @@ impl<'a> Reasons<'a> {
     }
 
     fn needs(&self, candidate: &Candidate<'a>, binding: &Binding<'_>) -> Option<Needs<'a>> {
-        let mut needs = Needs::default();
-        candidate.conditions.iter().for_each(|c| needs.add(c, true, binding, self.oracle));
+        let conditions = candidate.conditions.iter().copied();
+        let needs = Needs::of(conditions, binding, self.oracle.instance);
         (!needs.is_false).then_some(needs)
     }
 
     fn lacking(&self, needs: &Needs<'_>, binding: &Binding<'_>) -> Vec<Lacks> {
         let mut lacking: Vec<Lacks> = Vec::new();
-        for wanted in needs.literals.iter().filter(|wanted| !self.oracle.may_be(wanted)) {
+        for wanted in needs.literals.iter().filter(|wanted| !self.oracle.may_hold(wanted)) {
             let lack = Lacks::Literal(wanted.clone());
             if !lacking.contains(&lack) {
                 lacking.push(lack);
@@ -343,11 +344,11 @@ impl<'a> Reasons<'a> {
     /// The first conditions of which it is known that no objects satisfy all.
     fn never_together(
         &self,
-        fixed: &[&Wanted],
-        others: &[&Wanted],
+        fixed: &[&Literal],
+        others: &[&Literal],
         candidate: &Candidate<'_>,
-    ) -> Option<Hindered> {
-        let mut all: Vec<&Wanted> = fixed.to_vec();
+    ) -> Option<Obstructed> {
+        let mut all: Vec<&Literal> = fixed.to_vec();
         all.extend(others);
         let mut join = Join { oracle: self.oracle, rows: 0 };
         for count in 2..=all.len() {
@@ -355,7 +356,7 @@ impl<'a> Reasons<'a> {
                 // One that is found says that there are some; none where the limit was reached says nothing.
                 Some(rows) if rows.is_empty() => {
                     let together = all[..count].iter().map(|&w| w.clone()).collect();
-                    return Some(Hindered::NeverTogether(together));
+                    return Some(Obstructed::NeverTogether(together));
                 }
                 _ if join.rows >= ROWS => break,
                 _ => {}
@@ -365,25 +366,25 @@ impl<'a> Reasons<'a> {
     }
 }
 
-/// A giver before its needs have nodes.
+/// A achiever before its needs have nodes.
 #[derive(PartialEq)]
 struct Denied {
     action: Option<ActionId>,
     arguments: Vec<Result<ObjectId, Name>>,
-    hindrance: Hindered,
+    obstruction: Obstructed,
 }
 
 #[derive(PartialEq)]
-enum Hindered {
+enum Obstructed {
     Needs(Vec<Lacks>),
-    NeverTogether(Vec<Wanted>),
+    NeverTogether(Vec<Literal>),
     NeverApplies,
     Excluded,
 }
 
 #[derive(PartialEq)]
 enum Lacks {
-    Literal(Wanted),
+    Literal(Literal),
     Number(NeverCompares),
 }
 
@@ -397,7 +398,7 @@ impl Join<'_> {
     /// All bindings that satisfy the literals; `None` if there are more than `most`, or it takes too long.
     fn all<'v>(
         &mut self,
-        literals: &[&Wanted],
+        literals: &[&Literal],
         binding: &Binding<'v>,
         most: usize,
     ) -> Option<Vec<Binding<'v>>> {
@@ -406,7 +407,7 @@ impl Join<'_> {
             let is_last = i + 1 == literals.len();
             let mut next = Vec::new();
             for binding in &found {
-                let here = under(wanted, binding);
+                let here = binding.literal(wanted);
                 for row in self.oracle.matches(&here) {
                     self.rows += 1;
                     if self.rows >= ROWS || (is_last && next.len() >= most) {
@@ -415,7 +416,7 @@ impl Join<'_> {
                     let mut bound = binding.clone();
                     let open = here.pattern.arguments.iter().zip(row);
                     let fits = open.into_iter().all(|(argument, &object)| match argument {
-                        Err(name) => bound.set_named(name, ObjectId(object), self.oracle),
+                        Err(name) => bound.set_named(name, ObjectId(object), self.oracle.instance),
                         Ok(_) => true,
                     });
                     if fits {
@@ -427,14 +428,4 @@ impl Join<'_> {
         }
         Some(found)
     }
-}
-
-/// The literal with what is bound by now.
-fn under(wanted: &Wanted, binding: &Binding<'_>) -> Wanted {
-    let argument = |argument: &Result<ObjectId, Name>| match argument {
-        Ok(object) => Ok(*object),
-        Err(name) => binding.named(name).ok_or_else(|| name.clone()),
-    };
-    let arguments = wanted.pattern.arguments.iter().map(argument).collect();
-    Wanted { pattern: Pattern { predicate: wanted.pattern.predicate, arguments }, positive: wanted.positive }
 }

@@ -1,6 +1,6 @@
 //! Explanations of small tasks, and of random ones held against all their states.
 
-use super::{Explanation, Extent, Giver, Hindrance, Need, Never, Wanted, Why, Words, explain};
+use super::{Achiever, Explanation, Extent, Literal, Need, Never, Obstruction, Why, Wording, explain};
 use crate::ids::OperatorId;
 use crate::lifted_tests::{OBJECTS, PREDICATES, atom_name, bit, lifted_task};
 use crate::random_numbers;
@@ -39,12 +39,12 @@ impl Grounded {
         explain(&self.domain, &self.problem, &self.task, &query, &reason, &Budget::default())
     }
 
-    fn name(&self, wanted: &Wanted) -> String {
+    fn name(&self, wanted: &Literal) -> String {
         let name = self.task.pattern_name(&wanted.pattern);
         if wanted.positive { name } else { format!("(not {name})") }
     }
 
-    /// The explanation, a line for each goal and giver.
+    /// The explanation, a line for each goal and achiever.
     fn lines(&self) -> Vec<String> {
         let explanation = self.explained();
         let number = |n: &super::NeverCompares| format!("{}: {} {:?}", n.comparison, n.measured, n.extent);
@@ -60,16 +60,16 @@ impl Grounded {
         for reason in &explanation.reasons {
             let wanted = self.name(&reason.wanted);
             match &reason.why {
-                Why::NothingGives => lines.push(format!("nothing gives {wanted}")),
+                Why::NothingAchieves => lines.push(format!("nothing gives {wanted}")),
                 Why::Unexplored => lines.push(wanted),
-                Why::Givers { givers, more } => {
-                    for giver in givers {
-                        let by = giver.action.map_or_else(
+                Why::Achievers { achievers, more } => {
+                    for achiever in achievers {
+                        let by = achiever.action.map_or_else(
                             || "axiom".to_owned(),
-                            |action| self.task.schema_name(action, &giver.arguments),
+                            |action| self.task.schema_name(action, &achiever.arguments),
                         );
-                        let why = match &giver.hindrance {
-                            Hindrance::Needs(needs) => needs
+                        let why = match &achiever.obstruction {
+                            Obstruction::Needs(needs) => needs
                                 .iter()
                                 .map(|need| match need {
                                     Need::Literal(id) => self.name(&explanation.reason(*id).wanted),
@@ -77,12 +77,12 @@ impl Grounded {
                                 })
                                 .collect::<Vec<_>>()
                                 .join(" "),
-                            Hindrance::NeverTogether(all) => {
+                            Obstruction::NeverTogether(all) => {
                                 let all: Vec<_> = all.iter().map(|w| self.name(w)).collect();
                                 format!("never together {}", all.join(" "))
                             }
-                            Hindrance::NeverApplies => "never".to_owned(),
-                            Hindrance::Excluded => "excluded".to_owned(),
+                            Obstruction::NeverApplies => "never".to_owned(),
+                            Obstruction::Excluded => "excluded".to_owned(),
                         };
                         lines.push(format!("{wanted} by {by}: {why}"));
                     }
@@ -187,7 +187,7 @@ fn a_ban_is_told_only_where_nothing_else_is_in_the_way() {
     let check = |seen: &[&str], expected: &[&str]| {
         let facts = task.facts().ids().filter(|&f| seen.contains(&task.fact_name(f).as_str()));
         let explanation = model.explained_from(&task.state(facts), &[barred]);
-        assert_eq!(Words::new(task, &explanation).chain(), expected);
+        assert_eq!(Wording::new(task, &explanation).chain(), expected);
     };
     check(
         &["(charged s1)", "(broken s1)"],
@@ -264,7 +264,7 @@ fn an_exhausted_space_tells_how_near_it_came() {
 }
 
 /// All bindings of a list of patterns' variables over the objects.
-fn bindings(all: &[Wanted]) -> Vec<BTreeMap<String, u32>> {
+fn bindings(all: &[Literal]) -> Vec<BTreeMap<String, u32>> {
     let mut found = vec![BTreeMap::new()];
     for name in all.iter().flat_map(|w| &w.pattern.arguments).filter_map(|a| a.as_ref().err()) {
         if found[0].contains_key(name.as_str()) {
@@ -297,7 +297,7 @@ fn reachable_without(task: &Task, first: &State, excluded: &[OperatorId]) -> Vec
     states
 }
 
-/// The givers that are said to be excluded, and are not, or would apply in none of the states.
+/// The achievers that are said to be excluded, and are not, or would apply in none of the states.
 fn not_barred(
     explanation: &Explanation,
     task: &Task,
@@ -307,21 +307,23 @@ fn not_barred(
     if states.len() > super::bans::STATES as usize {
         return Vec::new();
     }
-    let givers = explanation.reasons.iter().filter_map(|reason| match &reason.why {
-        Why::Givers { givers, .. } => Some(givers),
+    let achievers = explanation.reasons.iter().filter_map(|reason| match &reason.why {
+        Why::Achievers { achievers, .. } => Some(achievers),
         _ => None,
     });
-    let bars = |giver: &Giver, o: OperatorId| {
-        let arguments: Result<Vec<ObjectId>, _> = giver.arguments.iter().cloned().collect();
+    let bars = |achiever: &Achiever, o: OperatorId| {
+        let arguments: Result<Vec<ObjectId>, _> = achiever.arguments.iter().cloned().collect();
         let operator = task.operator(o);
-        giver.action == Some(operator.action)
+        achiever.action == Some(operator.action)
             && arguments.is_ok_and(|arguments| arguments == operator.arguments)
             && states.iter().any(|state| task.applicable(state).contains(&o))
     };
-    givers
+    achievers
         .flatten()
-        .filter(|giver| giver.hindrance == Hindrance::Excluded && !excluded.iter().any(|&o| bars(giver, o)))
-        .map(|giver| format!("{giver:?}"))
+        .filter(|achiever| {
+            achiever.obstruction == Obstruction::Excluded && !excluded.iter().any(|&o| bars(achiever, o))
+        })
+        .map(|achiever| format!("{achiever:?}"))
         .collect()
 }
 
@@ -332,7 +334,7 @@ proptest! {
         let model = model(&domain, &problem);
         let explanation = model.explained();
         let states = lifted.reachable();
-        let holds = |state: u32, wanted: &Wanted, binding: &BTreeMap<String, u32>| {
+        let holds = |state: u32, wanted: &Literal, binding: &BTreeMap<String, u32>| {
             let arguments = wanted.pattern.arguments.iter().map(|a| match a {
                 Ok(object) => object.0 as usize,
                 Err(name) => binding[name.as_str()] as usize,
@@ -342,14 +344,14 @@ proptest! {
             let arguments: Vec<usize> = arguments.collect();
             (state & bit(predicate, &arguments) != 0) == wanted.positive
         };
-        let ever = |wanted: &Wanted, binding: &BTreeMap<String, u32>| states.iter().any(|&s| holds(s, wanted, binding));
+        let ever = |wanted: &Literal, binding: &BTreeMap<String, u32>| states.iter().any(|&s| holds(s, wanted, binding));
         for reason in &explanation.reasons {
             for binding in bindings(std::slice::from_ref(&reason.wanted)) {
                 prop_assert!(!ever(&reason.wanted, &binding), "{} {:?}", model.name(&reason.wanted), binding);
             }
-            let Why::Givers { givers, .. } = &reason.why else { continue };
-            for giver in givers {
-                if let Hindrance::NeverTogether(all) = &giver.hindrance {
+            let Why::Achievers { achievers, .. } = &reason.why else { continue };
+            for achiever in achievers {
+                if let Obstruction::NeverTogether(all) = &achiever.obstruction {
                     for binding in bindings(all) {
                         prop_assert!(!all.iter().all(|wanted| ever(wanted, &binding)), "{reason:?}");
                     }
@@ -441,7 +443,7 @@ proptest! {
         }
         let space = explanation.space.as_ref().unwrap();
         prop_assert_eq!(space.states as usize, states.len());
-        let is_so = |wanted: &Wanted, state: &State| {
+        let is_so = |wanted: &Literal, state: &State| {
             let arguments: Vec<_> = wanted.pattern.arguments.iter().map(|a| a.clone().unwrap()).collect();
             task.fact(wanted.pattern.predicate, &arguments).is_some_and(|f| state.contains(f) == wanted.positive)
         };

@@ -26,39 +26,30 @@
 //! | `view` | what a lint sees of a domain and a problem |
 //! | `text` | the sections and keys of a file, for lints about how something is written |
 //! | `usage` | what names what |
-//! | `schema`, `walk`, `shape` | what bodies say, part by part, whatever they belong to |
+//! | `schema`, `shape` | everything that has variables and a body, as one thing |
 //! | `declarations` | W07: declarations, requirements, names |
 //! | `logic` | W08: conditions, effects, initial states, goals |
 //! | `semantics` | W0850 on: what never happens, and why |
 //! | `hierarchy` | W09: tasks and methods |
-//! | `happening` | what changes the state, as one list |
-//! | `numbers` | which values fluents may take |
-//! | `reachability` | what can become true, and why something cannot |
-//! | `analysis` | these, computed once for all that ask |
+//! | `analysis` | mutexes, intervals and reachability of the crate `analysis`, computed once for all lints |
+//! | `features` | which features of the language the lints know |
 
 mod allow;
 mod analysis;
 mod declarations;
+mod features;
 mod finding;
-mod happening;
 mod hierarchy;
 mod lint;
 mod linter;
 mod logic;
-mod numbers;
-mod reachability;
 mod registry;
 mod schema;
 mod semantics;
 mod shape;
-#[cfg(test)]
-mod soundness_tests;
-#[cfg(test)]
-mod test_support;
 mod text;
 mod usage;
 mod view;
-mod walk;
 
 pub use finding::{Edit, Finding, Fix, Place};
 pub use lint::{Level, Lint};

@@ -6,7 +6,7 @@ use pddl::model::{
     EffectKind, Event, Given, Method, Process, SubtaskHead, TaskNetwork, Term, TimeSpecifier, Variables,
 };
 
-use crate::walk::{self, Part, Polarity};
+use analysis::walk::{self, Part, Polarity};
 
 /// Something with variables and a body.
 #[derive(Clone, Copy)]

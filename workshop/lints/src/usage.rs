@@ -7,7 +7,7 @@ use pddl::model::{
 };
 
 use crate::schema::{Schema, network};
-use crate::walk::{self, Part, Polarity};
+use analysis::walk::{self, Part, Polarity};
 
 /// What conditions and effects do with a predicate.
 #[derive(Clone, Copy, Debug, Default)]

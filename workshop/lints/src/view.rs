@@ -2,43 +2,17 @@
 
 use std::cell::OnceCell;
 
-use pddl::model::{Domain, Feature, Problem};
+use pddl::model::{Domain, Problem};
 use pddl::syntax::{self, Tree};
 use pddl::{Source, Span};
 
 use crate::allow::Allows;
 use crate::analysis::Analysis;
+use crate::features::{all_is_seen, all_of_problem_is_seen};
 use crate::linter::File;
-use crate::reachability::Words;
 use crate::schema::Schema;
 use crate::usage::Usage;
-
-/// Whether lints see all that the domain says: what the language will have one day is unknown to them until it is
-/// named here.
-pub(crate) fn all_is_seen(domain: &Domain) -> bool {
-    domain.unsupported.is_empty() && domain.features().iter().all(|(feature, _)| is_seen(*feature))
-}
-
-/// The same of a problem.
-pub(crate) fn all_of_problem_is_seen(problem: &Problem) -> bool {
-    problem.unsupported.is_empty() && problem.features().iter().all(|(feature, _)| is_seen(*feature))
-}
-
-fn is_seen(feature: Feature) -> bool {
-    matches!(
-        feature,
-        Feature::Preferences
-            | Feature::TrajectoryConstraints
-            | Feature::TimedInitials
-            | Feature::NetworkConstraints
-            | Feature::TypePredicates
-            | Feature::Processes
-            | Feature::Events
-            | Feature::ContinuousEffects
-            | Feature::ConditionsAcrossTimes
-            | Feature::DurationAtEnd
-    )
-}
+use analysis::reachability::Wording;
 
 /// A domain.
 pub(crate) struct DomainView<'a> {
@@ -72,14 +46,14 @@ impl<'a> DomainView<'a> {
         all_is_seen(self.domain)
     }
 
-    /// What reasons are worded with.
-    pub(crate) fn words(&self) -> Words<'a> {
-        Words { domain: self.domain, problem: None, domain_source: self.source, problem_source: None }
+    /// The models and texts that reasons quote.
+    pub(crate) fn wording(&self) -> Wording<'a> {
+        Wording { domain: self.domain, problem: None, domain_source: self.source, problem_source: None }
     }
 
     /// What can happen in some problem.
     pub(crate) fn analysis(&self) -> &Analysis<'a> {
-        self.analysis.get_or_init(|| Analysis::new(&self.words()))
+        self.analysis.get_or_init(|| Analysis::new(&self.wording()))
     }
 
     /// Whether it only declares: for others that import it.
@@ -128,15 +102,15 @@ impl<'a, 'd> ProblemView<'a, 'd> {
         self.usage.get_or_init(|| Usage::of_problem(self.domain.domain, self.problem))
     }
 
-    /// What reasons are worded with.
-    pub(crate) fn words(&self) -> Words<'a> {
+    /// The models and texts that reasons quote.
+    pub(crate) fn wording(&self) -> Wording<'a> {
         let (problem, problem_source) = (Some(self.problem), Some(self.source));
-        Words { domain: self.domain.domain, problem, domain_source: self.domain.source, problem_source }
+        Wording { domain: self.domain.domain, problem, domain_source: self.domain.source, problem_source }
     }
 
     /// What can happen in this problem.
     pub(crate) fn analysis(&self) -> &Analysis<'a> {
-        self.analysis.get_or_init(|| Analysis::new(&self.words()))
+        self.analysis.get_or_init(|| Analysis::new(&self.wording()))
     }
 
     /// Whether both models hold all that their texts say.

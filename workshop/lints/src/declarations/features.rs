@@ -13,7 +13,7 @@ use pddl::{FileKind, Span};
 
 use crate::text;
 use crate::view::{DomainView, ProblemView, is_here};
-use crate::walk::Part;
+use analysis::walk::Part;
 
 /// A part of the language where it is used first.
 #[derive(Clone, Debug)]

@@ -6,8 +6,8 @@ use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::schema::Schema;
 use crate::view::DomainView;
-use crate::walk::Part;
 use crate::{Finding, Level, Lint, Place};
+use analysis::walk::Part;
 
 pub(crate) static LINT: Lint = Lint {
     name: "unconstrained-parameter",

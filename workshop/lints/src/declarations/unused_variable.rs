@@ -5,8 +5,8 @@ use pddl::model::{Idx, Term, VariableId, Variables};
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::{DomainView, ProblemView};
-use crate::walk::{self, Part, Polarity};
 use crate::{Finding, Level, Lint, Place};
+use analysis::walk::{self, Part, Polarity};
 
 pub(crate) static LINT: Lint = Lint {
     name: "unused-variable",

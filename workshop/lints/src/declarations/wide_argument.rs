@@ -5,8 +5,8 @@ use pddl::model::{Domain, Name, Term, Variables};
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::DomainView;
-use crate::walk::Part;
 use crate::{Finding, Level, Lint, Place};
+use analysis::walk::Part;
 
 pub(crate) static LINT: Lint = Lint {
     name: "wide-argument",

@@ -5,8 +5,8 @@ use pddl::model::{Term, TimeSpecifier};
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::DomainView;
-use crate::walk::{self, Part, Polarity};
 use crate::{Finding, Level, Lint, Place};
+use analysis::walk::{self, Part, Polarity};
 
 pub(crate) static LINT: Lint = Lint {
     name: "early-result",

@@ -6,8 +6,8 @@ use super::changes::Changes;
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::DomainView;
-use crate::walk::{self, Part, Polarity};
 use crate::{Finding, Level, Lint, Place};
+use analysis::walk::{self, Part, Polarity};
 
 pub(crate) static LINT: Lint = Lint {
     name: "static-when",

@@ -5,8 +5,8 @@ use pddl::model::{AssignOperator, IndexVec};
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::{ProblemView, is_here};
-use crate::walk::Part;
 use crate::{Finding, Level, Lint, Place};
+use analysis::walk::Part;
 
 pub(crate) static LINT: Lint = Lint {
     name: "uninitialised-function",

@@ -1,13 +1,13 @@
 //! Two conditions that exclude each other.
 
-use analysis::invariants::{Change, changes, literals};
+use analysis::changes::{Change, changes};
+use analysis::happening::{Schema, happenings};
+use analysis::invariants::literals;
+use analysis::text::shortened;
 use pddl::model::{Condition, Term, Variables};
 
-use crate::analysis::place;
 use crate::finding::Findings;
-use crate::happening::happenings;
 use crate::lint::{Check, explanation};
-use crate::reachability::{Schema, shortened};
 use crate::view::{ProblemView, is_here};
 use crate::{Finding, Level, Lint, Place};
 
@@ -56,7 +56,7 @@ fn judge(
     else {
         return false;
     };
-    if !is_here(b.span) || !is_here(place(domain, schema)) {
+    if !is_here(b.span) || !is_here(schema.span(domain)) {
         return true;
     }
     let term = |t: &Term| match t {
@@ -69,7 +69,7 @@ fn judge(
         "`{}` and `{}` of {} never hold together: {reason}",
         text(a.span),
         text(b.span),
-        view.words().schema(schema)
+        view.wording().schema(schema)
     );
     found.report(
         Finding::new(&LINT, Place::domain(b.span), message).label(Place::domain(a.span), "excludes it"),

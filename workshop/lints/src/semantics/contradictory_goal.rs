@@ -5,9 +5,9 @@ use pddl::model::Term;
 
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
-use crate::reachability::shortened;
 use crate::view::ProblemView;
 use crate::{Finding, Level, Lint, Place};
+use analysis::text::shortened;
 
 use super::exclusion::{find, words};
 

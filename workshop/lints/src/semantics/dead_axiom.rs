@@ -1,23 +1,20 @@
 //! An axiom whose body never holds.
 
 use crate::lint::{Check, explanation};
-use crate::reachability::Schema;
 use crate::{Level, Lint};
+use analysis::happening::Schema;
 
-use super::dead::{Wording, in_domain, in_problem};
+use super::dead::{Verdict, in_domain, in_problem};
 
 pub(crate) static LINT: Lint = Lint {
     name: "dead-axiom",
     level: Level::Default,
     explanation: explanation!("W0851"),
     checks: &[
-        Check::Domain(|view, found| in_domain(view, &WORDING, found)),
-        Check::Problem(|view, found| in_problem(view, &WORDING, found)),
+        Check::Domain(|view, found| in_domain(view, &VERDICT, found)),
+        Check::Problem(|view, found| in_problem(view, &VERDICT, found)),
     ],
 };
 
-static WORDING: Wording = Wording {
-    lint: &LINT,
-    about: |o| matches!(o.schema, Schema::Axiom(_)),
-    verdict: "never derives anything",
-};
+static VERDICT: Verdict =
+    Verdict { lint: &LINT, about: |o| matches!(o.schema, Schema::Axiom(_)), text: "never derives anything" };

@@ -1,15 +1,16 @@
 //! A divisor that is zero for ever.
 
-use analysis::invariants::{Change, changes};
+use analysis::Number;
+use analysis::changes::{Change, changes};
 use pddl::model::{ArithmeticOperator, AssignedValue, Condition, ConditionKind, Expression, ExpressionKind};
 
 use crate::finding::Findings;
-use crate::happening::happenings;
 use crate::lint::{Check, explanation};
-use crate::numbers::{Interval, Numbers, Value};
-use crate::reachability::shortened;
 use crate::view::{DomainView, ProblemView, is_here};
 use crate::{Finding, Level, Lint, Place};
+use analysis::happening::happenings;
+use analysis::intervals::{Hulls, Interval, Value};
+use analysis::text::shortened;
 
 pub(crate) static LINT: Lint = Lint {
     name: "division-by-zero",
@@ -20,23 +21,23 @@ pub(crate) static LINT: Lint = Lint {
 
 fn in_domain(view: &DomainView<'_>, found: &mut Findings) {
     if view.is_complete() {
-        check(view, &view.analysis().numbers, found);
+        check(view, &view.analysis().hulls, found);
     }
 }
 
 fn in_problem(view: &ProblemView<'_, '_>, found: &mut Findings) {
     if view.is_complete() {
-        check(view.domain, &view.analysis().numbers, found);
+        check(view.domain, &view.analysis().hulls, found);
     }
 }
 
-fn check(view: &DomainView<'_>, numbers: &Numbers, found: &mut Findings) {
+fn check(view: &DomainView<'_>, hulls: &Hulls, found: &mut Findings) {
     let mut look = |expression: &Expression| {
         expression.each(&mut |part| {
             let ExpressionKind::Arithmetic(ArithmeticOperator::Divide, operands) = &part.kind else { return };
             for divisor in operands.iter().skip(1) {
-                let zero = Value::In(Interval::point(0.0));
-                if numbers.hull(divisor) == zero && is_here(divisor.span) {
+                let zero = Value::In(Interval::point(Number::ZERO));
+                if hulls.hull(divisor) == zero && is_here(divisor.span) {
                     let text = shortened(view.source.slice(divisor.span));
                     let message = format!("division by `{text}`, which is always 0");
                     found.report(Finding::new(&LINT, Place::domain(divisor.span), message));

@@ -5,7 +5,7 @@ use pddl::model::{Atom, Domain, ObjectId, Term, Variables};
 use rustc_hash::FxHashMap;
 
 use crate::analysis::{Analysis, Exclusion};
-use crate::reachability::listed;
+use analysis::text::listed;
 
 /// Atoms of one instance that another one is compared with.
 const MOST: usize = 16;
@@ -64,5 +64,5 @@ pub(crate) fn words(invariant: &Invariant, domain: &Domain, parameters: &[String
         format!("`({})`", arguments.join(" "))
     };
     let atoms: Vec<String> = invariant.members.iter().map(atom).collect();
-    format!("at most one of {} holds at a time", listed(&atoms))
+    format!("at most one of {} holds at a time", listed(&atoms, "and"))
 }

@@ -2,11 +2,11 @@
 
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
-use crate::reachability::Nature;
 use crate::view::ProblemView;
 use crate::{Level, Lint};
+use analysis::reachability::RootCause;
 
-use super::dead::{Wording, report};
+use super::dead::{Verdict, report};
 
 pub(crate) static LINT: Lint = Lint {
     name: "idle-schema",
@@ -15,8 +15,8 @@ pub(crate) static LINT: Lint = Lint {
     checks: &[Check::Problem(check)],
 };
 
-static WORDING: Wording = Wording { lint: &LINT, about: |_| true, verdict: "has no data in any problem" };
+static VERDICT: Verdict = Verdict { lint: &LINT, about: |_| true, text: "has no data in any problem" };
 
 fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
-    report(view.analysis(), &view.words(), &WORDING, &|dead| dead.nature == Nature::Data, found);
+    report(view.analysis(), &view.wording(), &VERDICT, &|dead| dead.root_cause == RootCause::Data, found);
 }

@@ -2,7 +2,6 @@
 
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
-use crate::reachability::Schema;
 use crate::view::ProblemView;
 use crate::{Finding, Level, Lint, Place};
 
@@ -15,9 +14,8 @@ pub(crate) static LINT: Lint = Lint {
 
 fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
     let Some((_, network)) = &view.problem.htn else { return };
-    for subtask in &view.analysis().impossible {
-        let Schema::Initial(at) = subtask.schema else { continue };
-        let Some(task) = network.subtasks.get(at) else { continue };
+    for subtask in &view.analysis().never.impossible {
+        let Some(task) = network.subtasks.get(subtask.subtask) else { continue };
         let message = format!("this task can never be carried out: {}", subtask.reason);
         found.report(Finding::new(&LINT, Place::problem(task.span), message));
     }

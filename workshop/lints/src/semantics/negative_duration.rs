@@ -4,9 +4,10 @@ use pddl::model::{Comparison, DurationConstraint, ExpressionKind, FluentValue};
 
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
-use crate::numbers::{Interval, Numbers, Value};
 use crate::view::{DomainView, ProblemView, is_here};
 use crate::{Finding, Level, Lint, Place};
+use analysis::Number;
+use analysis::intervals::{Hulls, Interval, Value};
 
 pub(crate) static LINT: Lint = Lint {
     name: "negative-duration",
@@ -15,9 +16,11 @@ pub(crate) static LINT: Lint = Lint {
     checks: &[Check::Domain(in_domain), Check::Problem(in_problem)],
 };
 
+const ZERO: Interval = Interval::point(Number::ZERO);
+
 fn in_domain(view: &DomainView<'_>, found: &mut Findings) {
     if view.is_complete() {
-        certain(view, &view.analysis().numbers, found);
+        certain(view, &view.analysis().hulls, found);
     }
 }
 
@@ -25,13 +28,15 @@ fn in_problem(view: &ProblemView<'_, '_>, found: &mut Findings) {
     if !view.is_complete() {
         return;
     }
-    let numbers = &view.analysis().numbers;
-    certain(view.domain, numbers, found);
+    let hulls = &view.analysis().hulls;
+    certain(view.domain, hulls, found);
     for action in &view.domain.domain.durative_actions {
         for bound in action.duration.iter().filter(|c| bounds_above(c)) {
             let ExpressionKind::Fluent(application) = &bound.bound.kind else { continue };
-            let some = numbers.of(application.function).is_some_and(|i| i.low < 0.0 && i.high >= 0.0);
-            if !some || numbers.changes(application.function) {
+            let some = hulls
+                .of(application.function)
+                .is_some_and(|i| i.may(Comparison::Less, ZERO) && i.may(Comparison::GreaterEqual, ZERO));
+            if !some || hulls.changes(application.function) {
                 continue;
             }
             let negative = view.problem.fluents.iter().find(|f| {
@@ -52,18 +57,21 @@ fn bounds_above(constraint: &DurationConstraint) -> bool {
 }
 
 /// What is so for all arguments and in all states.
-fn certain(view: &DomainView<'_>, numbers: &Numbers, found: &mut Findings) {
+fn certain(view: &DomainView<'_>, hulls: &Hulls, found: &mut Findings) {
     for action in &view.domain.durative_actions {
         let bounds: Vec<(&DurationConstraint, Interval)> = action
             .duration
             .iter()
-            .filter_map(|c| match numbers.hull(&c.bound) {
+            .filter_map(|c| match hulls.hull(&c.bound) {
                 Value::In(interval) => Some((c, interval)),
                 Value::Undefined => None,
             })
             .collect();
         for (constraint, interval) in &bounds {
-            if bounds_above(constraint) && interval.high < 0.0 && is_here(constraint.span) {
+            if bounds_above(constraint)
+                && !interval.may(Comparison::GreaterEqual, ZERO)
+                && is_here(constraint.span)
+            {
                 let message = format!("the duration of action `{}` is negative", action.name);
                 found.report(
                     Finding::new(&LINT, Place::domain(constraint.span), message)
@@ -75,7 +83,9 @@ fn certain(view: &DomainView<'_>, numbers: &Numbers, found: &mut Findings) {
             bounds.iter().filter(|(c, _)| !matches!(c.comparison, Comparison::LessEqual | Comparison::Less))
         {
             for (high, at_most) in bounds.iter().filter(|(c, _)| bounds_above(c)) {
-                if at_least.low > at_most.high && at_most.high >= 0.0 && is_here(high.span) {
+                let leaves_none = !at_least.may(Comparison::LessEqual, *at_most);
+                let is_negative = !at_most.may(Comparison::GreaterEqual, ZERO);
+                if leaves_none && !is_negative && is_here(high.span) {
                     let message = format!("no duration of action `{}` keeps both bounds", action.name);
                     let finding = Finding::new(&LINT, Place::domain(high.span), message);
                     found.report(finding.label(Place::domain(low.span), format!("{at_least}")));

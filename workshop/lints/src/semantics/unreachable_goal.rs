@@ -14,8 +14,7 @@ pub(crate) static LINT: Lint = Lint {
 
 fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
     let objects = &view.problem.objects;
-    for unreachable in &view.analysis().goals {
-        let goal = &unreachable.goal;
+    for goal in &view.analysis().never.goals {
         let span = goal.condition.span;
         let with: Vec<String> = goal
             .values
@@ -23,7 +22,7 @@ fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
             .map(|&(v, o)| format!("`?{}` = `{}`", view.problem.goal_variables[v].name, objects[o].name))
             .collect();
         let with = if with.is_empty() { String::new() } else { format!(" for {}", with.join(", ")) };
-        let message = format!("the goal can never be reached{with}: {}", unreachable.reason);
+        let message = format!("the goal can never be reached{with}: {}", goal.reason);
         found.report(Finding::new(&LINT, Place::problem(span), message));
     }
 }

@@ -1,81 +1,54 @@
-//! What can ever become true and which actions can ever apply, if nothing were ever undone.
+//! The fixpoint: rules are applied until nothing new follows.
 //!
-//! Problem: an action that can never apply, a goal out of reach, an axiom that never fires are
-//! mistakes that reading a domain does not show. Idea: drop the deletes, take every negated atom that
-//! could be deleted and every number that could be changed far enough as true, and compute all
-//! reachable atoms as a Datalog fixpoint, semi-naively: each new row is joined with those before it.
-//! Invariant: what a real plan reaches is reached here, so that "unreachable" is a proof and
-//! "reachable" none. Cost: bounded by a budget of join steps; past it there is no answer, and no
-//! warning.
-//!
-//! Source: Hoffmann & Nebel, "The FF planning system", JAIR 2001 (delete relaxation); Helmert,
-//! "Concise finite-domain representations", AIJ 2009, §6 (as Datalog); Ullman, "Principles of
-//! database and knowledge-base systems", 1989, ch. 3 (semi-naive evaluation).
-
-mod compile;
-mod database;
-mod evaluate;
-mod join;
-mod relax;
-mod rule;
-mod text;
-mod why;
-mod world;
+//! Idea: semi-naive evaluation. Each new row triggers the rules that have an atom of its relation, and is joined with the
+//! rows before it. A binding for which only a whole condition fails waits until there is more. Cost: one unit of work for
+//! each step of a join.
 
 use std::rc::Rc;
 
+use budget::{Interrupted, Meter};
 use rustc_hash::FxHashSet;
 
-use crate::numbers::Numbers;
+use super::compile::{self, Compiled};
+use super::database::{Indices, RelationId, Rows};
+use super::join::{self, Join, Sink, Step};
+use super::rule::{Check, Origin, Rule};
+use super::world::{UNBOUND, World, with_row};
+use crate::intervals::Hulls;
 
-use compile::Compiled;
-use database::{Indices, RelationId, Rows};
-use join::{Exhausted, Join, Sink, Step};
-use rule::Rule;
-pub(crate) use rule::{Origin, Part, Schema};
-pub(crate) use text::{Words, listed, shortened};
-pub(crate) use why::{Cause, DeadGoal, Link, Nature, Piece};
-pub(crate) use world::World;
-use world::{UNBOUND, with_row};
-
-/// Join steps before there is no answer: some 50 ms when optimised.
+/// Join steps before the analysis gives up: some 50 ms when optimised.
 const STEPS: u64 = 4_000_000;
-/// Join steps of all questions for reasons together.
-const REASONS: u64 = 3_000_000;
 /// What a new row costs, in steps: it goes into the relation and all its indices, each somewhere else in memory.
-const ROW: u64 = 1;
+const ROW: usize = 1;
 
 /// The fixpoint.
-pub(crate) struct Reachability<'a> {
-    compiled: Compiled<'a>,
-    indices: Indices,
+pub(super) struct Reachability<'a> {
+    pub(super) compiled: Compiled<'a>,
+    pub(super) indices: Indices,
     /// By rule.
     fired: Vec<bool>,
-    left: u64,
-    /// Steps that questions may still take.
-    reasons: u64,
 }
 
 impl<'a> Reachability<'a> {
     /// Computes it; `None` if the budget does not suffice.
-    pub(crate) fn new(world: &Rc<World<'a>>, numbers: &Rc<Numbers>) -> Option<Self> {
-        let compiled = compile::compile(world, numbers);
-        let mut all =
-            Self { compiled, indices: Indices::default(), fired: Vec::new(), left: STEPS, reasons: REASONS };
-        all.saturate(0).ok()?;
+    pub(super) fn new(world: World<'a>, hulls: &Rc<Hulls>) -> Option<Self> {
+        let compiled = compile::compile(&Rc::new(world), hulls);
+        let mut all = Self { compiled, indices: Indices::default(), fired: Vec::new() };
+        let meter = Meter::of_work(STEPS);
+        all.saturate(0, &meter).ok()?;
         let first = all.compiled.rules.len();
         all.compiled.hierarchy();
-        all.saturate(first).ok()?;
+        all.saturate(first, &meter).ok()?;
         Some(all)
     }
 
-    /// Possible values of fluents.
-    pub(crate) fn numbers(&self) -> &Numbers {
-        &self.compiled.evaluator.numbers
+    /// The values that numeric fluents can take.
+    pub(super) fn hulls(&self) -> &Hulls {
+        &self.compiled.evaluator.hulls
     }
 
-    /// Everything that may fire and never does.
-    pub(crate) fn silent(&self) -> Vec<&Origin> {
+    /// All origins of rules that never fire.
+    pub(super) fn silent(&self) -> Vec<&Origin> {
         let fired: FxHashSet<&Origin> = self
             .compiled
             .rules
@@ -87,9 +60,9 @@ impl<'a> Reachability<'a> {
         self.compiled.origins.iter().filter(|o| !fired.contains(o)).collect()
     }
 
-    /// Runs the rules from `first` on to their fixpoint; what others derive is complete by then.
-    fn saturate(&mut self, first: usize) -> Result<(), Exhausted> {
-        let Self { compiled: Compiled { evaluator, rows, rules, .. }, indices, fired, left, .. } = self;
+    /// Applies the rules from `first` on until nothing new follows. What the rules before derive is complete by then.
+    fn saturate(&mut self, first: usize, meter: &Meter<'_>) -> Result<(), Interrupted> {
+        let Self { compiled: Compiled { evaluator, rows, rules, .. }, indices, fired } = self;
         fired.resize(rules.len(), false);
         let mut changing = vec![false; rows.relations()];
         for head in rules[first..].iter().flat_map(|r| &r.heads) {
@@ -133,19 +106,19 @@ impl<'a> Reachability<'a> {
                 Derive { number: r, rule, fired: &mut fired[r], queue: &mut queue, pending: &mut pending };
             let mut binding = vec![UNBOUND; rule.slots.len()];
             let (steps, sink) = (&steps[..], &mut sink);
-            Join { rule, steps, rows, indices, evaluator, left, sink }.run(0, false, &mut binding)?;
+            Join { rule, steps, rows, indices, evaluator, meter, sink }.run(0, false, &mut binding)?;
         }
         let mut next = 0;
         let mut binding = Vec::new();
         loop {
             while let Some(&(relation, row)) = queue.get(next) {
                 next += 1;
-                *left = left.checked_sub(ROW).ok_or(Exhausted)?;
+                meter.spend(ROW)?;
                 indices.publish(rows, relation, row);
                 published[relation.0 as usize] = row + 1;
                 for trigger in &mut triggers[relation.0 as usize] {
                     let rule = &rules[trigger.rule];
-                    *left = left.checked_sub(1).ok_or(Exhausted)?;
+                    meter.spend(1)?;
                     binding.clear();
                     binding.resize(rule.slots.len(), UNBOUND);
                     if !join::unify(
@@ -166,18 +139,22 @@ impl<'a> Reachability<'a> {
                     let (number, fired) = (trigger.rule, &mut fired[trigger.rule]);
                     let mut sink = Derive { number, rule, fired, queue: &mut queue, pending: &mut pending };
                     let (steps, sink) = (&steps[..], &mut sink);
-                    Join { rule, steps, rows, indices, evaluator, left, sink }.run(0, false, &mut binding)?;
+                    Join { rule, steps, rows, indices, evaluator, meter, sink }.run(
+                        0,
+                        false,
+                        &mut binding,
+                    )?;
                 }
             }
-            // What waited for a residual check may hold now that there is more.
+            // A residual check that failed may hold now that there are more rows.
             let mut moved = false;
             let waiting: Vec<_> = pending.drain().collect();
             for (r, binding) in waiting {
                 let rule = &rules[r];
                 let mut values = binding.to_vec();
                 let mut holds = true;
-                for check in rule.checks.iter().filter(|c| matches!(c, rule::Check::Residual(..))) {
-                    holds = holds && evaluator.check(rows, check, &rule.slots, &mut values, left)?;
+                for check in rule.checks.iter().filter(|c| matches!(c, Check::Residual(..))) {
+                    holds = holds && evaluator.check(rows, check, &rule.slots, &mut values, meter)?;
                 }
                 if holds {
                     moved = true;
@@ -198,14 +175,14 @@ fn visible(rows: &Rows, changing: &[bool], published: &[u32], relation: Relation
     if changing[relation.0 as usize] { published[relation.0 as usize] } else { rows.count(relation) }
 }
 
-/// An atom of a rule that a new row may match, and the plan from there, made when first needed.
+/// An atom of a rule that a new row may match, and the plan from there, made when it is first needed.
 struct Trigger {
     rule: usize,
     atom: usize,
     steps: Option<Rc<[Step]>>,
 }
 
-/// Puts what follows into the database.
+/// Adds the heads of a rule to the database.
 struct Derive<'a> {
     number: usize,
     rule: &'a Rule,

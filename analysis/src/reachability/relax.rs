@@ -10,7 +10,7 @@ use std::rc::Rc;
 
 use pddl::model::{Condition, ConditionKind, Expression, ExpressionKind, Idx, Term};
 
-use crate::numbers::{Expected, Numbers};
+use crate::intervals::{Expected, Hulls, Interval};
 use crate::walk::Polarity;
 
 use super::database::RelationId;
@@ -59,7 +59,7 @@ pub(crate) struct Relaxer<'a> {
     pub(crate) predicates: &'a [RelationId],
     pub(crate) fluents: &'a [RelationId],
     pub(crate) known: &'a [Knowledge],
-    pub(crate) numbers: &'a Numbers,
+    pub(crate) hulls: &'a Hulls,
 }
 
 impl Relaxer<'_> {
@@ -143,7 +143,7 @@ impl Relaxer<'_> {
         expression.each(&mut |part| {
             known &= match &part.kind {
                 ExpressionKind::Fluent(application) => {
-                    self.numbers.of(application.function) != Some(crate::numbers::Interval::ALL)
+                    self.hulls.of(application.function) != Some(Interval::ALL)
                 }
                 ExpressionKind::Number(_) | ExpressionKind::Arithmetic(..) => true,
                 _ => false,

@@ -6,6 +6,8 @@
 //! heads are known already. Invariant: a plan visits every solution up to those that differ only in
 //! slots that no head names.
 
+use budget::{Interrupted, Meter};
+
 use super::database::{Indices, RelationId, Rows};
 use super::evaluate::Evaluator;
 use super::relax::slots_of;
@@ -26,10 +28,6 @@ pub(crate) enum Step {
     /// From here on one solution is enough.
     Decided,
 }
-
-/// The steps were too many.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Exhausted;
 
 /// Plans a rule whose `bound` slots have values; `trigger` is joined already.
 pub(crate) fn plan(
@@ -117,7 +115,7 @@ pub(crate) fn plan(
     }
 }
 
-/// Who asks for solutions.
+/// The consumer of solutions.
 pub(crate) trait Sink {
     /// Whether solutions are wanted with these values of the heads' slots.
     fn wanted(&mut self, rows: &Rows, binding: &[u32]) -> bool;
@@ -134,8 +132,8 @@ pub(crate) struct Join<'a, S> {
     pub(crate) rows: &'a mut Rows,
     pub(crate) indices: &'a Indices,
     pub(crate) evaluator: &'a Evaluator<'a>,
-    /// Steps that may still be made.
-    pub(crate) left: &'a mut u64,
+    /// Counts steps.
+    pub(crate) meter: &'a Meter<'a>,
     pub(crate) sink: &'a mut S,
 }
 
@@ -146,10 +144,10 @@ impl<S: Sink> Join<'_, S> {
         at: usize,
         decided: bool,
         binding: &mut Vec<u32>,
-    ) -> Result<bool, Exhausted> {
+    ) -> Result<bool, Interrupted> {
         let steps = self.steps;
         let Some(step) = steps.get(at) else { return Ok(true) };
-        *self.left = self.left.checked_sub(1).ok_or(Exhausted)?;
+        self.meter.spend(1)?;
         match step {
             Step::Decided => {
                 if !self.sink.wanted(self.rows, binding) {
@@ -163,7 +161,7 @@ impl<S: Sink> Join<'_, S> {
             }
             Step::Check(check) => {
                 let check = &self.rule.checks[*check];
-                if self.evaluator.check(self.rows, check, &self.rule.slots, binding, self.left)? {
+                if self.evaluator.check(self.rows, check, &self.rule.slots, binding, self.meter)? {
                     return self.run(at + 1, decided, binding);
                 }
                 if matches!(check, Check::Residual(..)) {
@@ -190,7 +188,7 @@ impl<S: Sink> Join<'_, S> {
                         break;
                     }
                 }
-                // A solution stays readable for whoever asked for it.
+                // A solution stays in the binding for the caller to read.
                 if !(any && decided) {
                     binding[*slot] = UNBOUND;
                 }
@@ -202,7 +200,7 @@ impl<S: Sink> Join<'_, S> {
                 let candidates = self.indices.bucket(*index, &value);
                 let mut any = false;
                 for candidate in candidates {
-                    *self.left = self.left.checked_sub(1).ok_or(Exhausted)?;
+                    self.meter.spend(1)?;
                     binds.iter().for_each(|&s| binding[s] = UNBOUND);
                     let row = self.rows.row(pattern.relation, candidate);
                     if unify(self.rule, &pattern.arguments, row, binding) {

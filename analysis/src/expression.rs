@@ -1,53 +1,74 @@
-//! Expressions over fluents, linear as long as they can be.
+//! Expressions over numeric fluents, linear as long as they can be.
 //!
 //! Idea: sums and products by constants are kept as coefficients, so that equal conditions written
 //! differently are one, and how an effect moves a condition can be read off. Products of fluents and
 //! divisions by them stay trees. Invariant: a fluent that cancels out keeps its term with coefficient
 //! 0, because without its value the expression has none.
 
-use super::{NoValue, Number};
+use crate::number::Number;
+
+/// Why an expression has no value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoValue {
+    /// A fluent without a value, or a division by zero.
+    Undefined,
+    /// More digits than we keep.
+    Overflow,
+}
 
 /// What joins the parts of a tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Operator {
+pub enum Operator {
+    /// A sum.
     Add,
+    /// A product.
     Multiply,
+    /// A quotient.
     Divide,
 }
 
 /// A weighted sum.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(crate) struct Linear<V> {
+pub struct Linear<V> {
     /// Sorted by fluent, each once.
-    pub(crate) terms: Vec<(V, Number)>,
-    pub(crate) constant: Number,
+    pub terms: Vec<(V, Number)>,
+    /// What is added to them.
+    pub constant: Number,
 }
 
 /// An expression over fluents `V`.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Expression<V> {
+pub enum Expression<V> {
+    /// A weighted sum.
     Linear(Linear<V>),
+    /// Anything else.
     Tree(Operator, Vec<Expression<V>>),
 }
 
 impl<V: Clone + Ord> Expression<V> {
-    pub(crate) fn constant(value: Number) -> Self {
+    /// A number.
+    pub fn constant(value: Number) -> Self {
         Self::Linear(Linear { terms: Vec::new(), constant: value })
     }
 
-    pub(crate) fn fluent(fluent: V) -> Self {
+    /// A fluent.
+    pub fn fluent(fluent: V) -> Self {
         Self::Linear(Linear { terms: vec![(fluent, Number::ONE)], constant: Number::ZERO })
     }
 
     /// Its value if no fluent occurs.
-    pub(crate) fn as_constant(&self) -> Option<Number> {
+    pub fn as_constant(&self) -> Option<Number> {
         match self {
             Self::Linear(linear) if linear.terms.is_empty() => Some(linear.constant),
             _ => None,
         }
     }
 
-    pub(crate) fn plus(self, other: Self) -> Result<Self, NoValue> {
+    /// Their sum.
+    ///
+    /// # Errors
+    /// [`NoValue`] where a coefficient does not fit.
+    pub fn plus(self, other: Self) -> Result<Self, NoValue> {
         let (left, right) = match (self, other) {
             (Self::Linear(left), Self::Linear(right)) => (left, right),
             (left, right) => return Ok(Self::Tree(Operator::Add, vec![left, right])),
@@ -71,7 +92,11 @@ impl<V: Clone + Ord> Expression<V> {
         Ok(Self::Linear(sum))
     }
 
-    pub(crate) fn times(self, other: Self) -> Result<Self, NoValue> {
+    /// Their product.
+    ///
+    /// # Errors
+    /// [`NoValue`] where a coefficient does not fit.
+    pub fn times(self, other: Self) -> Result<Self, NoValue> {
         match (self, other) {
             (a, b) if a.as_constant().is_none() && b.as_constant().is_none() => {
                 Ok(Self::Tree(Operator::Multiply, vec![a, b]))
@@ -89,15 +114,27 @@ impl<V: Clone + Ord> Expression<V> {
         }
     }
 
-    pub(crate) fn negated(self) -> Result<Self, NoValue> {
+    /// The expression with the other sign.
+    ///
+    /// # Errors
+    /// [`NoValue`] where a coefficient does not fit.
+    pub fn negated(self) -> Result<Self, NoValue> {
         self.times(Self::constant(Number::integer(-1)))
     }
 
-    pub(crate) fn minus(self, other: Self) -> Result<Self, NoValue> {
+    /// Their difference.
+    ///
+    /// # Errors
+    /// [`NoValue`] where a coefficient does not fit.
+    pub fn minus(self, other: Self) -> Result<Self, NoValue> {
         self.plus(other.negated()?)
     }
 
-    pub(crate) fn over(self, other: Self) -> Result<Self, NoValue> {
+    /// Their quotient.
+    ///
+    /// # Errors
+    /// [`NoValue`] for a division by the number 0, and where a coefficient does not fit.
+    pub fn over(self, other: Self) -> Result<Self, NoValue> {
         match other.as_constant() {
             Some(by) if by.is_zero() => Err(NoValue::Undefined),
             Some(by) => self.times(Self::constant(by.inverse().ok_or(NoValue::Overflow)?)),
@@ -106,7 +143,7 @@ impl<V: Clone + Ord> Expression<V> {
     }
 
     /// The same over other names for the fluents.
-    pub(crate) fn map<W: Clone + Ord>(&self, f: &mut impl FnMut(&V) -> W) -> Expression<W> {
+    pub fn map<W: Clone + Ord>(&self, f: &mut impl FnMut(&V) -> W) -> Expression<W> {
         match self {
             Self::Linear(linear) => {
                 let mut terms: Vec<(W, Number)> = linear.terms.iter().map(|(v, c)| (f(v), *c)).collect();
@@ -120,7 +157,7 @@ impl<V: Clone + Ord> Expression<V> {
     }
 
     /// Visits every fluent, possibly more than once.
-    pub(crate) fn each_fluent(&self, f: &mut impl FnMut(&V)) {
+    pub fn each_fluent(&self, f: &mut impl FnMut(&V)) {
         match self {
             Self::Linear(linear) => linear.terms.iter().for_each(|(v, _)| f(v)),
             Self::Tree(_, parts) => parts.iter().for_each(|part| part.each_fluent(f)),
@@ -128,7 +165,7 @@ impl<V: Clone + Ord> Expression<V> {
     }
 
     /// Whether it may have no value although all fluents have one.
-    pub(crate) fn divides(&self) -> bool {
+    pub fn divides(&self) -> bool {
         match self {
             Self::Linear(_) => false,
             Self::Tree(Operator::Divide, _) => true,
@@ -136,8 +173,11 @@ impl<V: Clone + Ord> Expression<V> {
         }
     }
 
-    /// Its value where `value` knows the fluents'.
-    pub(crate) fn evaluate(&self, value: &impl Fn(&V) -> Option<Number>) -> Result<Number, NoValue> {
+    /// Its value where `value` gives the fluents' values.
+    ///
+    /// # Errors
+    /// [`NoValue`] where a fluent has no value, a divisor is 0, or a number does not fit.
+    pub fn evaluate(&self, value: &impl Fn(&V) -> Option<Number>) -> Result<Number, NoValue> {
         match self {
             Self::Linear(linear) => linear.terms.iter().try_fold(linear.constant, |sum, (v, coefficient)| {
                 let value = value(v).ok_or(NoValue::Undefined)?;
@@ -164,7 +204,8 @@ impl<V: Clone + Ord> Expression<V> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Expression, NoValue, Number};
+    use super::{Expression, NoValue};
+    use crate::number::Number;
 
     fn fluent(name: &'static str) -> Expression<&'static str> {
         Expression::fluent(name)

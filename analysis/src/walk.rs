@@ -1,6 +1,6 @@
 //! Conditions, effects and expressions, part by part, from left to right.
 //!
-//! Lints match on [`Part`] instead of on the model's forms, so that a new form is added here once.
+//! Callers match on [`Part`] instead of the model's forms, so that a new form is added here only.
 
 use pddl::model::{
     Application, AssignOperator, AssignedValue, Atom, Condition, ConditionKind, Constraint, ConstraintKind,
@@ -10,7 +10,7 @@ use pddl::model::{
 
 /// Whether something must be true or must be false for the whole to hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Polarity {
+pub enum Polarity {
     /// Under an even number of negations.
     Positive,
     /// Under an odd number.
@@ -18,7 +18,8 @@ pub(crate) enum Polarity {
 }
 
 impl Polarity {
-    pub(crate) fn opposite(self) -> Self {
+    /// The other one.
+    pub fn opposite(self) -> Self {
         match self {
             Self::Positive => Self::Negative,
             Self::Negative => Self::Positive,
@@ -26,9 +27,9 @@ impl Polarity {
     }
 }
 
-/// Something that a body says.
+/// A part of a body.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Part<'a> {
+pub enum Part<'a> {
     /// A condition asks for an atom.
     Needs(&'a Atom, Polarity),
     /// An effect makes it true.
@@ -50,8 +51,8 @@ pub(crate) enum Part<'a> {
 }
 
 impl Part<'_> {
-    /// The terms that it holds.
-    pub(crate) fn terms(&self) -> &[Term] {
+    /// The terms in it.
+    pub fn terms(&self) -> &[Term] {
         match self {
             Self::Needs(atom, _) | Self::Adds(atom) | Self::Deletes(atom) => &atom.arguments,
             Self::Reads(application) | Self::Writes(_, application) => &application.arguments,
@@ -61,7 +62,8 @@ impl Part<'_> {
     }
 }
 
-pub(crate) fn condition<'a>(of: &'a Condition, polarity: Polarity, f: &mut dyn FnMut(Part<'a>)) {
+/// The parts of a condition.
+pub fn condition<'a>(of: &'a Condition, polarity: Polarity, f: &mut dyn FnMut(Part<'a>)) {
     match &of.kind {
         ConditionKind::And(parts) | ConditionKind::Or(parts) => {
             parts.iter().for_each(|part| condition(part, polarity, f));
@@ -92,17 +94,17 @@ pub(crate) fn condition<'a>(of: &'a Condition, polarity: Polarity, f: &mut dyn F
     }
 }
 
-/// A preference whose body holds `what`.
-pub(crate) fn preference<'a, T>(of: &'a Preference<T>, what: &'a Condition, f: &mut dyn FnMut(Part<'a>)) {
+/// The parts of a preference; `what` is the condition in its body.
+pub fn preference<'a, T>(of: &'a Preference<T>, what: &'a Condition, f: &mut dyn FnMut(Part<'a>)) {
     if !of.forall.is_empty() {
         f(Part::Binds(&of.forall));
     }
     condition(what, Polarity::Positive, f);
 }
 
-/// All that trajectory constraints ask for. Whether a condition below an operator must be true or false depends on
-/// the operator (`sometime-before` asks for neither alone), so that polarity counts only for plain negations.
-pub(crate) fn constraints<'a>(of: &'a Constraints, f: &mut dyn FnMut(Part<'a>)) {
+/// The parts of trajectory constraints. Whether a condition below an operator must be true or false depends on the
+/// operator (`sometime-before` asks for neither alone), so that polarity counts plain negations only.
+pub fn constraints<'a>(of: &'a Constraints, f: &mut dyn FnMut(Part<'a>)) {
     of.hard.iter().for_each(|c| constraint(c, Polarity::Positive, f));
     for preference in &of.preferences {
         if !preference.forall.is_empty() {
@@ -143,7 +145,8 @@ fn constraint<'a>(of: &'a Constraint, polarity: Polarity, f: &mut dyn FnMut(Part
     }
 }
 
-pub(crate) fn effect<'a>(of: &'a Effect, f: &mut dyn FnMut(Part<'a>)) {
+/// The parts of an effect.
+pub fn effect<'a>(of: &'a Effect, f: &mut dyn FnMut(Part<'a>)) {
     match &of.kind {
         EffectKind::And(parts) => parts.iter().for_each(|part| effect(part, f)),
         EffectKind::Add(atom) => f(Part::Adds(atom)),
@@ -167,7 +170,8 @@ pub(crate) fn effect<'a>(of: &'a Effect, f: &mut dyn FnMut(Part<'a>)) {
     }
 }
 
-pub(crate) fn expression<'a>(of: &'a Expression, f: &mut dyn FnMut(Part<'a>)) {
+/// The parts of an expression.
+pub fn expression<'a>(of: &'a Expression, f: &mut dyn FnMut(Part<'a>)) {
     match &of.kind {
         ExpressionKind::Fluent(application) => f(Part::Reads(application)),
         ExpressionKind::Arithmetic(_, operands) => operands.iter().for_each(|operand| expression(operand, f)),

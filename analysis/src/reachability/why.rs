@@ -1,27 +1,33 @@
-//! Why something never fires: from what it needs, along what could make that true, to the root.
+//! Why something never fires: from what it needs, along the rules that could make that true, to the root.
 //!
-//! Problem: "can never apply" is of no use without the reason, and a single mistake silences
-//! everything behind it. Idea: of the atoms and checks of a rule find a smallest part that no binding
-//! satisfies. If it is one atom, ask the rules that could make it true, with the values that it gives
-//! them; if nothing could, that is the root. Cost: a join per atom and step of the chain, each with a
-//! budget, and all together with one; without an answer the chain ends with what is known.
+//! Problem: "can never apply" is of no use without the reason, and a single mistake silences everything behind it. Idea:
+//! among the atoms and checks of a rule, find a smallest part that no binding satisfies. If it is one atom, ask the rules
+//! that could make it true, with the values that it gives them; if there are none, that atom is the root. Cost: a join
+//! for each atom and each step of the chain, each with a budget, and one budget for all. Where a budget ends, the chain
+//! ends with what is known.
 //!
 //! Source: minimal unsatisfiable parts by deletion: Chinneck & Dravnieks, "Locating minimal
 //! infeasible constraint sets in linear programs", ORSA Journal on Computing 1991.
 
 use std::rc::Rc;
 
-use pddl::model::{Condition, Domain, ExpressionKind, ObjectId, Term, TypeSet, VariableId, Variables};
+use pddl::model::{Condition, ExpressionKind, ObjectId, Term, TypeSet, VariableId};
 
-use super::Reachability;
+use budget::Meter;
+
 use super::compile::{Compiled, goal_rules, goals};
 use super::database::{RelationId, Rows};
+use super::fixpoint::Reachability;
 use super::join::{Join, Sink, plan, unify};
-use super::rule::{Check, Origin, Part, Pattern, Rule, Schema};
+use super::rule::{Check, Origin, Pattern, Rule};
 use super::world::{UNBOUND, resolve};
+use crate::happening::{Phase, Schema};
+use crate::intervals::Hulls;
 
 /// Join steps for one question.
 const STEPS: u64 = 300_000;
+/// Join steps for all questions together.
+const REASONS: u64 = 3_000_000;
 /// Links of a chain.
 const DEPTH: usize = 8;
 /// Makers that are followed at each link.
@@ -29,7 +35,7 @@ const WIDTH: usize = 6;
 
 /// Part of a condition, with the values that are known.
 #[derive(Clone, Debug)]
-pub(crate) enum Piece {
+pub(super) enum Piece {
     /// An atom.
     Atom(Pattern, Rc<[u32]>),
     /// A side condition.
@@ -38,7 +44,7 @@ pub(crate) enum Piece {
 
 /// Why a rule does not fire.
 #[derive(Clone, Debug)]
-pub(crate) enum Cause {
+pub(super) enum Cause {
     /// There is no object for a parameter.
     NoObject(TypeSet),
     /// No initial fact is like it, and no effect could make one.
@@ -57,11 +63,11 @@ pub(crate) enum Cause {
 
 /// One step of the explanation.
 #[derive(Clone, Debug)]
-pub(crate) struct Link {
+pub(super) struct Link {
     /// What does not fire.
-    pub(crate) origin: Origin,
+    pub(super) origin: Origin,
     /// Why.
-    pub(crate) cause: Cause,
+    pub(super) cause: Cause,
 }
 
 struct Exists(bool);
@@ -79,19 +85,40 @@ impl Sink for Exists {
 type Trail = Vec<(RelationId, Vec<u32>)>;
 
 /// A conjunct of the goal that can never hold.
-pub(crate) struct DeadGoal<'a> {
+pub(super) struct DeadGoal<'a> {
     /// The conjunct.
-    pub(crate) condition: &'a Condition,
+    pub(super) condition: &'a Condition,
     /// The objects that a `forall` around it gives to its slots.
-    pub(crate) values: Vec<(VariableId, ObjectId)>,
+    pub(super) values: Vec<(VariableId, ObjectId)>,
     /// Why.
-    pub(crate) chain: Vec<Link>,
+    pub(super) chain: Vec<Link>,
 }
 
-impl<'a> Reachability<'a> {
+/// Answers why something never fires, within one budget for all questions.
+pub(super) struct Explainer<'a> {
+    reachability: Reachability<'a>,
+    /// Steps that questions may still take.
+    left: u64,
+}
+
+impl<'a> Explainer<'a> {
+    /// Of a fixpoint.
+    pub(super) fn new(reachability: Reachability<'a>) -> Self {
+        Self { reachability, left: REASONS }
+    }
+
+    /// The values that numeric fluents can take.
+    pub(super) fn hulls(&self) -> &Hulls {
+        self.reachability.hulls()
+    }
+
+    fn compiled(&self) -> &Compiled<'a> {
+        &self.reachability.compiled
+    }
+
     /// Why a part of a schema never fires.
-    pub(crate) fn why(&mut self, origin: &Origin) -> Vec<Link> {
-        let rule = self.compiled.rules.iter().find(|r| r.origin == *origin).cloned();
+    pub(super) fn why(&mut self, origin: &Origin) -> Vec<Link> {
+        let rule = self.compiled().rules.iter().find(|r| r.origin == *origin).cloned();
         let Some(rule) = rule else {
             return vec![Link { origin: origin.clone(), cause: Cause::False }];
         };
@@ -100,11 +127,11 @@ impl<'a> Reachability<'a> {
     }
 
     /// The conjuncts of the goal that can never hold, at most `limit` of them.
-    pub(crate) fn dead_goals(&mut self, limit: usize) -> Vec<DeadGoal<'a>> {
-        let Some(problem) = self.compiled.evaluator.world.problem else { return Vec::new() };
+    pub(super) fn dead_goals(&mut self, limit: usize) -> Vec<DeadGoal<'a>> {
+        let Some(problem) = self.compiled().evaluator.world.problem else { return Vec::new() };
         let mut dead = Vec::new();
-        for (i, (condition, values)) in goals(&self.compiled.evaluator.world).into_iter().enumerate() {
-            let rules = goal_rules(&self.compiled, i, condition, &problem.goal_variables);
+        for (i, (condition, values)) in goals(&self.compiled().evaluator.world).into_iter().enumerate() {
+            let rules = goal_rules(self.compiled(), i, condition, &problem.goal_variables);
             let mut given = vec![UNBOUND; problem.goal_variables.slots.len()];
             for (variable, object) in &values {
                 given[variable.0 as usize] = object.0;
@@ -116,7 +143,7 @@ impl<'a> Reachability<'a> {
             let chain = match rules.first() {
                 Some(rule) => self.explain(rule, &given, &mut Vec::new()),
                 None => {
-                    let origin = Origin { schema: Schema::Goal(i), part: Part::Whole, when: None };
+                    let origin = Origin { schema: Schema::Goal(i), phase: Phase::Whole, when: None };
                     vec![Link { origin, cause: Cause::False }]
                 }
             };
@@ -130,21 +157,17 @@ impl<'a> Reachability<'a> {
 
     /// Whether some binding satisfies the rule; `None` if that takes too long.
     fn satisfiable(&mut self, rule: &Rule, given: &[u32]) -> Option<bool> {
-        let Compiled { evaluator, rows, .. } = &mut self.compiled;
+        let Reachability { compiled: Compiled { evaluator, rows, .. }, indices, .. } = &mut self.reachability;
         let mut bound: Vec<bool> = given.iter().map(|&g| g != UNBOUND).collect();
         let changing = vec![false; rows.relations()];
         let count = |relation: RelationId| rows.count(relation);
-        let steps = plan(rule, &mut bound, None, &changing, rows, &mut self.indices, &count);
-        let granted = STEPS.min(self.reasons);
-        let (mut left, mut sink) = (granted, Exists(false));
-        let (steps, sink_) = (&steps[..], &mut sink);
-        let indices = &self.indices;
-        let whole = Join { rule, steps, rows, indices, evaluator, left: &mut left, sink: sink_ }.run(
-            0,
-            false,
-            &mut given.to_vec(),
-        );
-        self.reasons -= granted - left;
+        let steps = plan(rule, &mut bound, None, &changing, rows, indices, &count);
+        let meter = Meter::of_work(STEPS.min(self.left));
+        let mut sink = Exists(false);
+        let join =
+            &mut Join { rule, steps: &steps, rows, indices, evaluator, meter: &meter, sink: &mut sink };
+        let whole = join.run(0, false, &mut given.to_vec());
+        self.left = self.left.saturating_sub(meter.work());
         whole.ok()?;
         Some(sink.0)
     }
@@ -154,7 +177,10 @@ impl<'a> Reachability<'a> {
         let empty = (0..rule.parameters).find(|&s| given[s] == UNBOUND && rule.slots[s].objects.is_empty());
         if let Some(slot) = empty {
             let variable = VariableId(u32::try_from(slot).expect("slots are few"));
-            let types = variables(self.compiled.evaluator.world.domain, &rule.origin.schema)
+            let types = rule
+                .origin
+                .schema
+                .variables(self.compiled().evaluator.world.domain)
                 .and_then(|v| v.slots.get(variable))
                 .map_or_else(TypeSet::any, |v| v.types.clone());
             return link(Cause::NoObject(types));
@@ -244,7 +270,7 @@ impl<'a> Reachability<'a> {
     /// The rules that could make an atom true, with the values that it gives them.
     fn makers(&self, pattern: &Pattern, given: &[u32], of: &Rule) -> Vec<(Rule, Vec<u32>)> {
         let mut makers = Vec::new();
-        for rule in &self.compiled.rules {
+        for rule in &self.compiled().rules {
             for head in rule.heads.iter().filter(|h| h.relation == pattern.relation) {
                 let mut values = vec![UNBOUND; rule.slots.len()];
                 let mut narrowed = rule.clone();
@@ -277,33 +303,33 @@ impl<'a> Reachability<'a> {
     }
 
     /// What a chain of causes ends in.
-    pub(crate) fn nature(&self, chain: &[Link]) -> Nature {
+    pub(super) fn root_cause(&self, chain: &[Link]) -> RootCause {
         let makes = |p: &Pattern| {
-            self.compiled.rules.iter().any(|r| r.heads.iter().any(|h| h.relation == p.relation))
+            self.compiled().rules.iter().any(|r| r.heads.iter().any(|h| h.relation == p.relation))
         };
         let pieces = match chain.last().map(|l| &l.cause) {
-            Some(Cause::NoObject(..)) => return Nature::Data,
+            Some(Cause::NoObject(..)) => return RootCause::Data,
             Some(Cause::NothingMakes(Piece::Atom(pattern, _)))
-                if self.compiled.rows.count(pattern.relation) == 0 && !makes(pattern) =>
+                if self.compiled().rows.count(pattern.relation) == 0 && !makes(pattern) =>
             {
-                return Nature::Declared;
+                return RootCause::Declared;
             }
             Some(Cause::NothingMakes(Piece::Atom(pattern, _)))
-                if self.compiled.rows.count(pattern.relation) > 0 =>
+                if self.compiled().rows.count(pattern.relation) > 0 =>
             {
-                return if makes(pattern) { Nature::Facts } else { Nature::Data };
+                return if makes(pattern) { RootCause::Facts } else { RootCause::Data };
             }
             // A task that only its own methods carry out: an endless recursion, which another lint says.
             Some(Cause::Circle(Piece::Atom(pattern, _), _))
                 if matches!(self.name(pattern.relation), Some(Named::Task(_))) =>
             {
-                return Nature::Declared;
+                return RootCause::Declared;
             }
             Some(Cause::NothingMakes(piece)) => std::slice::from_ref(piece),
             Some(Cause::NeverTogether(pieces)) => pieces,
-            _ => return Nature::Domain,
+            _ => return RootCause::Domain,
         };
-        let numbers = &self.compiled.evaluator.numbers;
+        let hulls = self.hulls();
         let fixed = |piece: &Piece| match piece {
             Piece::Atom(pattern, _) => !makes(pattern),
             Piece::Check(Check::Compare(_, _, sides, _), _) => {
@@ -311,7 +337,7 @@ impl<'a> Reachability<'a> {
                 for side in [&sides.0, &sides.1] {
                     side.each(&mut |part| {
                         if let ExpressionKind::Fluent(application) = &part.kind {
-                            fixed &= !numbers.changes(application.function);
+                            fixed &= !hulls.changes(application.function);
                         }
                     });
                 }
@@ -320,32 +346,32 @@ impl<'a> Reachability<'a> {
             Piece::Check(Check::Residual(..), _) => false,
             Piece::Check(..) => true,
         };
-        if pieces.iter().all(fixed) { Nature::Data } else { Nature::Domain }
+        if pieces.iter().all(fixed) { RootCause::Data } else { RootCause::Domain }
     }
 
     /// The predicate behind a relation.
-    pub(crate) fn predicate(&self, relation: RelationId) -> Option<pddl::model::PredicateId> {
-        let at = self.compiled.evaluator.predicates.iter().position(|&r| r == relation)?;
+    pub(super) fn predicate(&self, relation: RelationId) -> Option<pddl::model::PredicateId> {
+        let at = self.compiled().evaluator.predicates.iter().position(|&r| r == relation)?;
         Some(pddl::model::PredicateId(u32::try_from(at).ok()?))
     }
 
     /// What a relation is called.
-    pub(crate) fn name(&self, relation: RelationId) -> Option<Named> {
+    pub(super) fn name(&self, relation: RelationId) -> Option<Named> {
         use pddl::model::{FunctionId, TaskId};
         let find = |all: &[RelationId]| u32::try_from(all.iter().position(|&r| r == relation)?).ok();
         if let Some(predicate) = self.predicate(relation) {
             return Some(Named::Predicate(predicate));
         }
-        if let Some(function) = find(&self.compiled.evaluator.fluents) {
+        if let Some(function) = find(&self.compiled().evaluator.fluents) {
             return Some(Named::Function(FunctionId(function)));
         }
-        find(&self.compiled.tasks).map(|t| Named::Task(TaskId(t)))
+        find(&self.compiled().tasks).map(|t| Named::Task(TaskId(t)))
     }
 }
 
-/// Who is to blame.
+/// What something unreachable comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Nature {
+pub enum RootCause {
     /// The problem's objects and facts that nothing changes: another problem may have others.
     Data,
     /// A predicate that nothing makes true and that no fact has, a task without an end: other lints say it.
@@ -358,25 +384,13 @@ pub(crate) enum Nature {
 
 /// What a relation stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Named {
+pub(super) enum Named {
     /// A predicate.
     Predicate(pddl::model::PredicateId),
     /// An object fluent; the last argument is its value.
     Function(pddl::model::FunctionId),
     /// A task that can be decomposed.
     Task(pddl::model::TaskId),
-}
-
-/// The variables of a schema; a goal's are the problem's.
-pub(crate) fn variables<'d>(domain: &'d Domain, schema: &Schema) -> Option<&'d Variables> {
-    Some(match schema {
-        Schema::Action(id) => &domain.actions[*id].variables,
-        Schema::Durative(id) => &domain.durative_actions[*id].variables,
-        Schema::Axiom(i) => &domain.axioms[*i].variables,
-        Schema::Method(id) => &domain.methods[*id].variables,
-        Schema::Event(id) => &domain.events[*id].variables,
-        _ => return None,
-    })
 }
 
 /// The rule with some of its atoms and checks only, without heads.

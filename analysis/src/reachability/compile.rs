@@ -7,20 +7,20 @@
 
 use std::rc::Rc;
 
-use analysis::invariants::{Change, changes};
+use crate::changes::{Change, changes};
 use pddl::model::{
     AssignedValue, Condition, FluentFact, FluentValue, FunctionValue, Idx, ObjectId, PredicateId,
     SubtaskHead, TaskNetwork, Term, TimedChange, VariableId, Variables,
 };
 
-use crate::happening::{Happening, happenings};
-use crate::numbers::Numbers;
+use crate::happening::{Happening, Phase, Schema, happenings};
+use crate::intervals::Hulls;
 use crate::walk::Polarity;
 
 use super::database::{RelationId, Rows};
 use super::evaluate::Evaluator;
 use super::relax::{Conjunction, Knowledge, Relaxer, free_slots, slots_of};
-use super::rule::{Check, Origin, Part, Pattern, Rule, Schema};
+use super::rule::{Check, Origin, Pattern, Rule};
 use super::world::{Range, World};
 
 /// Everything that evaluation starts with.
@@ -34,7 +34,7 @@ pub(crate) struct Compiled<'a> {
 }
 
 /// The rules of all but the hierarchy.
-pub(crate) fn compile<'a>(world: &Rc<World<'a>>, numbers: &Rc<Numbers>) -> Compiled<'a> {
+pub(crate) fn compile<'a>(world: &Rc<World<'a>>, hulls: &Rc<Hulls>) -> Compiled<'a> {
     let domain = world.domain;
     let mut rows = Rows::default();
     let predicates: Vec<_> = domain.predicates.iter().map(|p| rows.declare(p.variables.parameters)).collect();
@@ -70,14 +70,14 @@ pub(crate) fn compile<'a>(world: &Rc<World<'a>>, numbers: &Rc<Numbers>) -> Compi
         known[relation.0 as usize] = Knowledge::Deletable;
     }
     load(world, &predicates, &fluents, &mut rows);
-    let (world, numbers) = (Rc::clone(world), Rc::clone(numbers));
-    let evaluator = Evaluator { world, numbers, predicates, fluents, known };
+    let (world, hulls) = (Rc::clone(world), Rc::clone(hulls));
+    let evaluator = Evaluator { world, hulls, predicates, fluents, known };
     let mut compiled = Compiled { evaluator, rows, tasks, rules: Vec::new(), origins: Vec::new() };
     for happening in &happenings {
         compiled.happening(happening);
     }
     for (i, axiom) in domain.axioms.iter().enumerate() {
-        let origin = Origin { schema: Schema::Axiom(i), part: Part::Whole, when: None };
+        let origin = Origin { schema: Schema::Axiom(i), phase: Phase::Whole, when: None };
         let slots = compiled.slots(&axiom.variables);
         let arguments = axiom.variables.parameter_ids().map(Term::Variable).collect();
         let head = compiled.pattern(axiom.predicate, arguments, axiom.span);
@@ -121,8 +121,8 @@ fn load(world: &World<'_>, predicates: &[RelationId], fluents: &[RelationId], ro
 
 impl Compiled<'_> {
     fn relaxer(&self) -> Relaxer<'_> {
-        let Evaluator { predicates, fluents, known, numbers, .. } = &self.evaluator;
-        Relaxer { predicates, fluents, known, numbers }
+        let Evaluator { predicates, fluents, known, hulls, .. } = &self.evaluator;
+        Relaxer { predicates, fluents, known, hulls }
     }
 
     pub(crate) fn slots(&self, variables: &Variables) -> Rc<[Rc<Range>]> {
@@ -164,7 +164,7 @@ impl Compiled<'_> {
         for (when, heads) in groups {
             let origin = Origin {
                 schema: happening.schema.clone(),
-                part: happening.part.clone(),
+                phase: happening.phase.clone(),
                 when: when.last().map(|c| c.span),
             };
             let mut body = base.clone();
@@ -219,7 +219,7 @@ impl Compiled<'_> {
     pub(crate) fn hierarchy(&mut self) {
         let (domain, problem) = (self.evaluator.world.domain, self.evaluator.world.problem);
         for (id, method) in domain.methods.enumerate() {
-            let origin = Origin { schema: Schema::Method(id), part: Part::Whole, when: None };
+            let origin = Origin { schema: Schema::Method(id), phase: Phase::Whole, when: None };
             let head = Pattern {
                 relation: self.tasks[method.task.index()],
                 arguments: method.task_arguments.clone(),
@@ -229,7 +229,7 @@ impl Compiled<'_> {
         }
         if let Some((variables, network)) = problem.and_then(|p| p.htn.as_ref()) {
             for subtask in 0..network.subtasks.len() {
-                let origin = Origin { schema: Schema::Initial(subtask), part: Part::Whole, when: None };
+                let origin = Origin { schema: Schema::Initial(subtask), phase: Phase::Whole, when: None };
                 let subtasks = vec![network.subtasks[subtask].clone()];
                 let constraints = network.constraints.clone();
                 let one = TaskNetwork { subtasks, constraints, ..TaskNetwork::default() };
@@ -416,7 +416,7 @@ pub(crate) fn goal_rules(
     variables: &Variables,
 ) -> Vec<Rule> {
     let slots = compiled.slots(variables);
-    let origin = Origin { schema: Schema::Goal(number), part: Part::Whole, when: None };
+    let origin = Origin { schema: Schema::Goal(number), phase: Phase::Whole, when: None };
     let alternatives = compiled.relaxer().relax(goal, Polarity::Positive).into_iter();
     let rule = |Conjunction { body, checks }| {
         let needs = checks.iter().map(needs).collect();

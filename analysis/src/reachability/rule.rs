@@ -3,56 +3,23 @@
 use std::rc::Rc;
 
 use pddl::Span;
-use pddl::model::{
-    ActionId, Comparison, Condition, DurativeActionId, EventId, Expression, MethodId, Name, Term,
-};
+use pddl::model::{Comparison, Condition, Expression, Term};
 
+use crate::happening::{Phase, Schema};
 use crate::walk::Polarity;
 
 use super::database::RelationId;
 use super::world::Range;
 
-/// What a rule stands for.
+/// A rule's origin: a phase of a schema, or a conditional effect in it.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(crate) enum Schema {
-    /// An instantaneous action.
-    Action(ActionId),
-    /// A durative action.
-    Durative(DurativeActionId),
-    /// An axiom, by position.
-    Axiom(usize),
-    /// An event of PDDL+.
-    Event(EventId),
-    /// A method.
-    Method(MethodId),
-    /// A conjunct of the goal, by position.
-    Goal(usize),
-    /// A subtask of the problem's network, by position.
-    Initial(usize),
-}
-
-/// Which part of a schema.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(crate) enum Part {
-    /// An action, an axiom, a method: all of it.
-    Whole,
-    /// The start of a durative action.
-    Start,
-    /// Its end.
-    End,
-    /// Another outcome of an agent's rule.
-    Outcome(Name),
-}
-
-/// A rule's origin: a part of a schema, or a conditional effect in it.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(crate) struct Origin {
+pub struct Origin {
     /// The schema.
-    pub(crate) schema: Schema,
-    /// The part.
-    pub(crate) part: Part,
+    pub schema: Schema,
+    /// The phase.
+    pub phase: Phase,
     /// The condition of the conditional effect.
-    pub(crate) when: Option<Span>,
+    pub when: Option<Span>,
 }
 
 /// A relation applied to terms.

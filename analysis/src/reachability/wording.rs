@@ -1,40 +1,45 @@
-//! Chains of causes in words.
+//! Chains of causes as text.
 
 use std::fmt::Write as _;
 
 use pddl::Source;
 use pddl::model::{Domain, ExpressionKind, Idx, Problem, Term, TypeSet, Variables};
 
+use crate::happening::{Phase, Schema};
+use crate::text::{listed, shortened};
 use crate::walk::Polarity;
 
-use super::Reachability;
-use super::rule::{Check, Origin, Part, Pattern, Schema};
-use super::why::{Cause, Link, Named, Piece, variables};
+use super::rule::{Check, Origin, Pattern};
+use super::why::{Cause, Explainer, Link, Named, Piece};
 use super::world::UNBOUND;
 
-/// What words are taken from.
-#[derive(Clone, Copy)]
-pub(crate) struct Words<'a> {
-    pub(crate) domain: &'a Domain,
-    pub(crate) problem: Option<&'a Problem>,
-    pub(crate) domain_source: &'a Source,
-    pub(crate) problem_source: Option<&'a Source>,
+/// The models and texts that the wording quotes.
+#[derive(Clone, Copy, Debug)]
+pub struct Wording<'a> {
+    /// The domain.
+    pub domain: &'a Domain,
+    /// The problem, if there is one.
+    pub problem: Option<&'a Problem>,
+    /// The domain's text.
+    pub domain_source: &'a Source,
+    /// The problem's text.
+    pub problem_source: Option<&'a Source>,
 }
 
-impl Words<'_> {
+impl Wording<'_> {
     /// What to call an origin: ``action `go` ``.
-    pub(crate) fn title(&self, origin: &Origin) -> String {
+    pub fn title(&self, origin: &Origin) -> String {
         let schema = self.schema(&origin.schema);
-        let part = match &origin.part {
-            Part::End => format!("the end of {schema}"),
-            Part::Outcome(name) => format!("the outcome `{name}` of {schema}"),
-            Part::Whole | Part::Start => schema,
+        let part = match &origin.phase {
+            Phase::End => format!("the end of {schema}"),
+            Phase::Outcome(name) => format!("the outcome `{name}` of {schema}"),
+            Phase::Whole | Phase::Start => schema,
         };
         if origin.when.is_some() { format!("a conditional effect of {part}") } else { part }
     }
 
     /// What to call a schema.
-    pub(crate) fn schema(&self, schema: &Schema) -> String {
+    pub fn schema(&self, schema: &Schema) -> String {
         match schema {
             Schema::Action(id) => format!("action `{}`", self.domain.actions[*id].name),
             Schema::Durative(id) => format!("action `{}`", self.domain.durative_actions[*id].name),
@@ -52,7 +57,7 @@ impl Words<'_> {
         match schema {
             Schema::Goal(_) => self.problem.map(|p| &p.goal_variables),
             Schema::Initial(_) => self.problem.and_then(|p| p.htn.as_ref()).map(|(v, _)| v),
-            _ => variables(self.domain, schema),
+            _ => schema.variables(self.domain),
         }
     }
 
@@ -65,7 +70,7 @@ impl Words<'_> {
     }
 
     /// `a` or `a or b`, by name.
-    pub(crate) fn types(&self, types: &TypeSet) -> String {
+    pub fn types(&self, types: &TypeSet) -> String {
         let names: Vec<_> = types.0.iter().map(|&t| format!("`{}`", self.domain.types[t].name)).collect();
         names.join(" or ")
     }
@@ -95,31 +100,21 @@ impl Words<'_> {
     }
 }
 
-/// One line, not too long.
-pub(crate) fn shortened(text: &str) -> String {
-    const MOST: usize = 60;
-    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    match line.char_indices().nth(MOST) {
-        Some((end, _)) => format!("{}…", &line[..end]),
-        None => line,
-    }
-}
-
-impl Reachability<'_> {
+impl Explainer<'_> {
     fn pattern(
         &self,
-        words: &Words<'_>,
+        wording: &Wording<'_>,
         schema: &Schema,
         pattern: &Pattern,
         given: &[u32],
         typed: bool,
     ) -> String {
-        let term = |&t: &Term| words.term(schema, t, given, typed);
+        let term = |&t: &Term| wording.term(schema, t, given, typed);
         let mut arguments: Vec<String> = pattern.arguments.iter().map(term).collect();
         let (name, value) = match self.name(pattern.relation) {
-            Some(Named::Predicate(p)) => (&words.domain.predicates[p].name, None),
-            Some(Named::Task(t)) => (&words.domain.tasks[t].name, None),
-            Some(Named::Function(f)) => (&words.domain.functions[f].name, arguments.pop()),
+            Some(Named::Predicate(p)) => (&wording.domain.predicates[p].name, None),
+            Some(Named::Task(t)) => (&wording.domain.tasks[t].name, None),
+            Some(Named::Function(f)) => (&wording.domain.functions[f].name, arguments.pop()),
             None => return "?".to_owned(),
         };
         arguments.insert(0, name.to_string());
@@ -128,65 +123,70 @@ impl Reachability<'_> {
     }
 
     /// A piece as PDDL.
-    pub(crate) fn piece(&self, words: &Words<'_>, schema: &Schema, piece: &Piece, typed: bool) -> String {
-        let term = |t: Term, given: &[u32]| words.term(schema, t, given, typed);
+    pub(super) fn piece(&self, wording: &Wording<'_>, schema: &Schema, piece: &Piece, typed: bool) -> String {
+        let term = |t: Term, given: &[u32]| wording.term(schema, t, given, typed);
         match piece {
-            Piece::Atom(pattern, given) => self.pattern(words, schema, pattern, given, typed),
+            Piece::Atom(pattern, given) => self.pattern(wording, schema, pattern, given, typed),
             Piece::Check(check, given) => match check {
                 Check::Same(a, b) => format!("(= {} {})", term(*a, given), term(*b, given)),
                 Check::Different(a, b) => format!("(not (= {} {}))", term(*a, given), term(*b, given)),
-                Check::Absent(p) => format!("(not {})", self.pattern(words, schema, p, given, typed)),
+                Check::Absent(p) => format!("(not {})", self.pattern(wording, schema, p, given, typed)),
                 Check::Compare(polarity, _, _, span) => match polarity {
-                    Polarity::Positive => words.text(schema, *span),
-                    Polarity::Negative => format!("(not {})", words.text(schema, *span)),
+                    Polarity::Positive => wording.text(schema, *span),
+                    Polarity::Negative => format!("(not {})", wording.text(schema, *span)),
                 },
                 Check::Residual(polarity, condition) => match polarity {
-                    Polarity::Positive => words.text(schema, condition.span),
-                    Polarity::Negative => format!("(not {})", words.text(schema, condition.span)),
+                    Polarity::Positive => wording.text(schema, condition.span),
+                    Polarity::Negative => format!("(not {})", wording.text(schema, condition.span)),
                 },
             },
         }
     }
 
     /// Why, as the end of a sentence that has named the first link's origin.
-    pub(crate) fn reason(&self, words: &Words<'_>, chain: &[Link]) -> String {
+    pub(super) fn reason(&self, wording: &Wording<'_>, chain: &[Link]) -> String {
         let mut text = String::new();
         for (i, link) in chain.iter().enumerate() {
             let schema = &link.origin.schema;
-            let needs =
-                if i == 0 { "it needs".to_owned() } else { format!("; {} needs", words.title(&link.origin)) };
+            let needs = if i == 0 {
+                "it needs".to_owned()
+            } else {
+                format!("; {} needs", wording.title(&link.origin))
+            };
             text += &match &link.cause {
                 Cause::NoObject(types) => {
                     let has = if i == 0 {
                         "there".to_owned()
                     } else {
-                        format!("; for {} there", words.title(&link.origin))
+                        format!("; for {} there", wording.title(&link.origin))
                     };
-                    format!("{has} is no object of type {}", words.types(types))
+                    format!("{has} is no object of type {}", wording.types(types))
                 }
                 Cause::NothingMakes(piece @ Piece::Atom(pattern, _)) => {
-                    let atom = self.piece(words, schema, piece, true);
+                    let atom = self.piece(wording, schema, piece, true);
                     match self.name(pattern.relation) {
                         Some(Named::Task(_)) => format!("{needs} `{atom}`, which no method can carry out"),
-                        Some(Named::Predicate(p)) if words.domain.predicates[p].derived => {
+                        Some(Named::Predicate(p)) if wording.domain.predicates[p].derived => {
                             format!("{needs} `{atom}`, which no axiom derives")
                         }
                         _ => format!("{needs} `{atom}`, which no initial fact and no effect makes true"),
                     }
                 }
-                Cause::NothingMakes(piece) => format!("{needs} `{}`", self.piece(words, schema, piece, true)),
+                Cause::NothingMakes(piece) => {
+                    format!("{needs} `{}`", self.piece(wording, schema, piece, true))
+                }
                 Cause::OnlyMadeBy(piece, by) => {
-                    let atom = self.piece(words, schema, piece, true);
+                    let atom = self.piece(wording, schema, piece, true);
                     let verb = self.verb(piece);
                     match by.as_slice() {
-                        [one] => format!("{needs} `{atom}`, which only {} {verb}", words.title(one)),
+                        [one] => format!("{needs} `{atom}`, which only {} {verb}", wording.title(one)),
                         [first, rest @ ..] => {
                             let others = if rest.len() == 1 {
                                 "one more".to_owned()
                             } else {
                                 format!("{} more", rest.len())
                             };
-                            let first = words.title(first);
+                            let first = wording.title(first);
                             format!(
                                 "{needs} `{atom}`, which only {first} and {others} could {}",
                                 self.infinitive(piece)
@@ -196,19 +196,24 @@ impl Reachability<'_> {
                     }
                 }
                 Cause::Circle(piece, by) => {
-                    let atom = self.piece(words, schema, piece, true);
-                    let who: Vec<String> = by.iter().take(2).map(|o| words.title(o)).collect();
+                    let atom = self.piece(wording, schema, piece, true);
+                    let who: Vec<String> = by.iter().take(2).map(|o| wording.title(o)).collect();
                     let (who, verb) = (who.join(" and "), self.infinitive(piece));
                     format!("{needs} `{atom}`, which only {who} could {verb}, and that needs it first")
                 }
                 Cause::NeverTogether(pieces) => {
-                    let pieces: Vec<String> =
-                        pieces.iter().map(|p| format!("`{}`", self.piece(words, schema, p, false))).collect();
+                    let pieces: Vec<String> = pieces
+                        .iter()
+                        .map(|p| format!("`{}`", self.piece(wording, schema, p, false)))
+                        .collect();
                     match pieces.as_slice() {
                         [one] => {
-                            format!("{needs} {one}, which can never hold{}", self.values(words, &link.cause))
+                            format!(
+                                "{needs} {one}, which can never hold{}",
+                                self.values(wording, &link.cause)
+                            )
                         }
-                        _ => format!("{needs} {}, which never hold together", listed(&pieces)),
+                        _ => format!("{needs} {}, which never hold together", listed(&pieces, "and")),
                     }
                 }
                 Cause::False => format!("{needs} what is false in any case"),
@@ -220,7 +225,7 @@ impl Reachability<'_> {
     }
 
     /// What the functions of a comparison may be.
-    fn values(&self, words: &Words<'_>, cause: &Cause) -> String {
+    fn values(&self, wording: &Wording<'_>, cause: &Cause) -> String {
         let Cause::NeverTogether(pieces) = cause else { return String::new() };
         let [Piece::Check(Check::Compare(_, _, sides, _), _)] = pieces.as_slice() else {
             return String::new();
@@ -229,8 +234,8 @@ impl Reachability<'_> {
         for side in [&sides.0, &sides.1] {
             side.each(&mut |part| {
                 if let ExpressionKind::Fluent(application) = &part.kind {
-                    let name = &words.domain.functions[application.function].name;
-                    let text = match self.numbers().of(application.function) {
+                    let name = &wording.domain.functions[application.function].name;
+                    let text = match self.hulls().of(application.function) {
                         Some(interval) => format!("`{name}` is {interval}"),
                         None => format!("`{name}` never has a value"),
                     };
@@ -240,7 +245,7 @@ impl Reachability<'_> {
                 }
             });
         }
-        if known.is_empty() { String::new() } else { format!(": {}", listed(&known)) }
+        if known.is_empty() { String::new() } else { format!(": {}", listed(&known, "and")) }
     }
 
     fn verb(&self, piece: &Piece) -> &'static str {
@@ -255,14 +260,5 @@ impl Reachability<'_> {
             Piece::Atom(p, _) if matches!(self.name(p.relation), Some(Named::Task(_))) => "carry out",
             _ => "make true",
         }
-    }
-}
-
-/// `a`, `a and b`, `a, b and c`.
-pub(crate) fn listed(items: &[String]) -> String {
-    match items {
-        [] => String::new(),
-        [one] => one.clone(),
-        [rest @ .., last] => format!("{} and {last}", rest.join(", ")),
     }
 }

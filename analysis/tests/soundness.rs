@@ -3,21 +3,34 @@
 //! The tasks are searched exhaustively, by an interpreter that shares nothing with the analyses.
 
 use std::cell::Cell;
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::rc::Rc;
 
-use pddl::Source;
+use analysis::happening::{Phase, Schema, happenings};
+use analysis::intervals::Hulls;
+use analysis::invariants::{Counts, Invariant, invariants};
+use analysis::reachability::{Origin, Summary, Wording};
 use pddl::model::{
     Action, AssignOperator, AssignedValue, Comparison, Condition, ConditionKind, Domain, Effect, EffectKind,
     Expression, ExpressionKind, Idx, ObjectId, PredicateId, Problem, Term, VariableId, Variables,
 };
+use pddl::{Source, parse_domain, parse_problem};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
-use crate::analysis::Analysis;
-use crate::reachability::{Origin, Part, Schema, Words};
-use crate::test_support::both;
+/// A domain and a problem that have no errors.
+fn both(domain: &str, problem: &str) -> (Domain, Problem) {
+    let source = Source::new("domain", domain);
+    let parsed = parse_domain(&source, &[]);
+    let said: String = parsed.diagnostics.iter().map(|d| d.describe(&source)).collect();
+    let domain = parsed.model.unwrap_or_else(|| panic!("{said}"));
+    let source = Source::new("problem", problem);
+    let parsed = parse_problem(&source, &domain);
+    let said: String = parsed.diagnostics.iter().map(|d| d.describe(&source)).collect();
+    (domain, parsed.model.unwrap_or_else(|| panic!("{said}")))
+}
 
-/// States of one task that are looked at.
+/// States of one task that are explored.
 const STATES: usize = 400;
 
 /// Decisions out of random bytes.
@@ -279,7 +292,7 @@ fn explore(domain: &Domain, problem: &Problem) -> (Vec<State>, BTreeSet<Origin>)
                 }
                 let mut whens = Vec::new();
                 let next = run.apply(action, binding, &state, &mut whens);
-                let whole = Origin { schema: Schema::Action(id), part: Part::Whole, when: None };
+                let whole = Origin { schema: Schema::Action(id), phase: Phase::Whole, when: None };
                 happened.extend(whens.into_iter().map(|w| Origin { when: Some(w), ..whole.clone() }));
                 happened.insert(whole);
                 if seen.len() < STATES && seen.insert(next.clone()) {
@@ -305,48 +318,51 @@ fn what_is_called_impossible_never_happens() {
             let (domain, problem) = both(&domain_text, &problem_text);
             let (domain_source, problem_source) =
                 (Source::new("domain", &*domain_text), Source::new("problem", &*problem_text));
-            let words = Words {
+            let wording = Wording {
                 domain: &domain,
                 problem: Some(&problem),
                 domain_source: &domain_source,
                 problem_source: Some(&problem_source),
             };
-            let analysis = Analysis::new(&words);
+            let hulls = Rc::new(Hulls::new(&domain, Some(&problem)));
+            let summary = Summary::new(&wording, &hulls).expect("the task is small");
+            let found = invariants(&domain, &happenings(&domain)).into_iter();
+            let found: Vec<(Invariant, Counts)> =
+                found.filter_map(|i| Counts::new(&i, &problem).map(|counts| (i, counts))).collect();
             let (states, happened) = explore(&domain, &problem);
-            for origin in &analysis.silent {
+            for origin in &summary.silent {
                 prop_assert!(
                     !happened.contains(origin),
                     "{} happens\n{domain_text}\n{problem_text}",
-                    words.title(origin)
+                    wording.title(origin)
                 );
             }
             let run = Interpreter { domain: &domain, problem: &problem };
-            for goal in &analysis.goals {
+            for goal in &summary.goals {
                 let mut binding = vec![u32::MAX; problem.goal_variables.slots.len()];
-                goal.goal.values.iter().for_each(|&(v, o)| binding[v.index()] = o.0);
-                let holds = |s: &State| run.holds(goal.goal.condition, &problem.goal_variables, &binding, s);
+                goal.values.iter().for_each(|&(v, o)| binding[v.index()] = o.0);
+                let holds = |s: &State| run.holds(goal.condition, &problem.goal_variables, &binding, s);
                 prop_assert!(!states.iter().any(holds), "{}\n{domain_text}\n{problem_text}", goal.reason);
             }
-            for exclusion in &analysis.exclusions {
+            for (invariant, counts) in &found {
                 for state in &states {
-                    let mut counts = std::collections::BTreeMap::new();
+                    let mut held = BTreeMap::new();
                     for (predicate, arguments) in &state.0 {
-                        let Some(member) = exclusion.invariant.member(PredicateId(*predicate)) else {
+                        let Some(member) = invariant.member(PredicateId(*predicate)) else {
                             continue;
                         };
                         let arguments: Vec<ObjectId> = arguments.iter().map(|&o| ObjectId(o)).collect();
-                        *counts.entry(member.instance(&arguments)).or_insert(0) += 1;
+                        *held.entry(member.instance(&arguments)).or_insert(0) += 1;
                     }
-                    for (instance, count) in counts {
-                        let said = crate::semantics::exclusion::words(&exclusion.invariant, &domain, &[]);
-                        let kept = count <= 1 || !exclusion.counts.is_exclusive(&instance);
-                        prop_assert!(kept, "{said}\n{domain_text}\n{problem_text}");
+                    for (instance, count) in held {
+                        let kept = count <= 1 || !counts.is_exclusive(&instance);
+                        prop_assert!(kept, "{invariant:?}\n{domain_text}\n{problem_text}");
                     }
                 }
             }
-            exclusions.set(exclusions.get() + analysis.exclusions.len());
-            silent.set(silent.get() + analysis.silent.len());
-            goals.set(goals.get() + analysis.goals.len());
+            exclusions.set(exclusions.get() + found.len());
+            silent.set(silent.get() + summary.silent.len());
+            goals.set(goals.get() + summary.goals.len());
             Ok(())
         })
         .unwrap_or_else(|e| panic!("{e}"));

@@ -5,13 +5,13 @@
 
 use std::rc::Rc;
 
+use budget::{Interrupted, Meter};
 use pddl::model::{Condition, ConditionKind, Idx, Term, VariableId};
 
-use crate::numbers::Numbers;
+use crate::intervals::Hulls;
 use crate::walk::Polarity;
 
 use super::database::{RelationId, Rows};
-use super::join::Exhausted;
 use super::relax::{Knowledge, expected};
 use super::rule::Check;
 use super::world::{Range, UNBOUND, World, resolve, with_row};
@@ -19,7 +19,7 @@ use super::world::{Range, UNBOUND, World, resolve, with_row};
 /// What conditions are evaluated with, beside the rows.
 pub(crate) struct Evaluator<'a> {
     pub(crate) world: Rc<World<'a>>,
-    pub(crate) numbers: Rc<Numbers>,
+    pub(crate) hulls: Rc<Hulls>,
     pub(crate) predicates: Vec<RelationId>,
     pub(crate) fluents: Vec<RelationId>,
     pub(crate) known: Vec<Knowledge>,
@@ -33,8 +33,8 @@ impl Evaluator<'_> {
         check: &Check,
         slots: &[Rc<Range>],
         binding: &mut Vec<u32>,
-        left: &mut u64,
-    ) -> Result<bool, Exhausted> {
+        meter: &Meter<'_>,
+    ) -> Result<bool, Interrupted> {
         Ok(match check {
             Check::Same(a, b) => resolve(*a, binding) == resolve(*b, binding),
             Check::Different(a, b) => {
@@ -46,10 +46,10 @@ impl Evaluator<'_> {
             }
             Check::Compare(polarity, comparison, sides, _) => {
                 let object = |t: Term| Some(resolve(t, binding)).filter(|&o| o != UNBOUND);
-                self.numbers.may(expected(*polarity), *comparison, (&sides.0, &sides.1), &object)
+                self.hulls.may(expected(*polarity), *comparison, (&sides.0, &sides.1), &object)
             }
             Check::Residual(polarity, condition) => {
-                self.holds(rows, condition, *polarity, slots, binding, left)?
+                self.holds(rows, condition, *polarity, slots, binding, meter)?
             }
         })
     }
@@ -61,11 +61,11 @@ impl Evaluator<'_> {
         polarity: Polarity,
         slots: &[Rc<Range>],
         binding: &mut Vec<u32>,
-        left: &mut u64,
-    ) -> Result<bool, Exhausted> {
-        *left = left.checked_sub(1).ok_or(Exhausted)?;
-        let mut each = |part: &Condition, polarity, binding: &mut Vec<u32>| {
-            self.holds(rows, part, polarity, slots, binding, left)
+        meter: &Meter<'_>,
+    ) -> Result<bool, Interrupted> {
+        meter.spend(1)?;
+        let each = |part: &Condition, polarity, binding: &mut Vec<u32>| {
+            self.holds(rows, part, polarity, slots, binding, meter)
         };
         match (&condition.kind, polarity) {
             (ConditionKind::And(parts), Polarity::Positive)
@@ -95,11 +95,11 @@ impl Evaluator<'_> {
             }
             (ConditionKind::Exists(variables, inner), Polarity::Positive)
             | (ConditionKind::Forall(variables, inner), Polarity::Negative) => {
-                self.quantified(rows, variables, inner, polarity, true, slots, binding, left)
+                self.quantified(rows, variables, inner, polarity, true, slots, binding, meter)
             }
             (ConditionKind::Exists(variables, inner), Polarity::Negative)
             | (ConditionKind::Forall(variables, inner), Polarity::Positive) => {
-                self.quantified(rows, variables, inner, polarity, false, slots, binding, left)
+                self.quantified(rows, variables, inner, polarity, false, slots, binding, meter)
             }
             (ConditionKind::Atom(atom), _) => {
                 let relation = self.predicates[atom.predicate.index()];
@@ -119,7 +119,7 @@ impl Evaluator<'_> {
             }
             (ConditionKind::Compare(comparison, a, b), _) => {
                 let object = |t: Term| Some(resolve(t, binding)).filter(|&o| o != UNBOUND);
-                Ok(self.numbers.may(expected(polarity), *comparison, (a, b), &object))
+                Ok(self.hulls.may(expected(polarity), *comparison, (a, b), &object))
             }
         }
     }
@@ -142,10 +142,10 @@ impl Evaluator<'_> {
         wanted: bool,
         slots: &[Rc<Range>],
         binding: &mut Vec<u32>,
-        left: &mut u64,
-    ) -> Result<bool, Exhausted> {
+        meter: &Meter<'_>,
+    ) -> Result<bool, Interrupted> {
         let Some((first, rest)) = variables.split_first() else {
-            return self.holds(rows, inner, polarity, slots, binding, left);
+            return self.holds(rows, inner, polarity, slots, binding, meter);
         };
         let slot = first.index();
         let before = binding[slot];
@@ -156,7 +156,7 @@ impl Evaluator<'_> {
                 continue;
             }
             binding[slot] = object;
-            if self.quantified(rows, rest, inner, polarity, wanted, slots, binding, left)? == wanted {
+            if self.quantified(rows, rest, inner, polarity, wanted, slots, binding, meter)? == wanted {
                 result = wanted;
                 break;
             }

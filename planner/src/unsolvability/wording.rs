@@ -5,10 +5,11 @@
 //! Cost: lines and names of a list are bounded.
 
 use super::{
-    Explanation, Extent, Giver, Hindrance, Need, Never, NeverCompares, ReasonId, Space, Wanted, Why,
+    Achiever, Explanation, Extent, Literal, Need, Never, NeverCompares, Obstruction, ReasonId, Space, Why,
 };
 use crate::ids::FactId;
 use crate::task::Task;
+use analysis::text::listed;
 
 /// Lines of a tree, and names in a list.
 const LINES: usize = 40;
@@ -16,12 +17,12 @@ const NAMES: usize = 12;
 
 /// An explanation with the names of its task.
 #[derive(Clone, Copy, Debug)]
-pub struct Words<'a> {
+pub struct Wording<'a> {
     task: &'a Task,
     explanation: &'a Explanation,
 }
 
-impl<'a> Words<'a> {
+impl<'a> Wording<'a> {
     /// Of an explanation of a task.
     pub fn new(task: &'a Task, explanation: &'a Explanation) -> Self {
         Self { task, explanation }
@@ -89,7 +90,7 @@ impl<'a> Words<'a> {
     /// The shortest way from the goal down to what the query excludes or, where there is nothing of that, to what nothing
     /// gives: a line for each literal on it. Empty where the goal's parts are no literals.
     pub fn chain(&self) -> Vec<String> {
-        let mut above: Vec<Option<(ReasonId, &Giver)>> = vec![None; self.explanation.reasons.len()];
+        let mut above: Vec<Option<(ReasonId, &Achiever)>> = vec![None; self.explanation.reasons.len()];
         let parts = self.explanation.parts.iter().flat_map(|part| &part.never);
         let mut order: Vec<ReasonId> = Vec::new();
         for never in parts {
@@ -102,57 +103,59 @@ impl<'a> Words<'a> {
         let mut next = 0;
         while let Some(&id) = order.get(next) {
             next += 1;
-            let Why::Givers { givers, .. } = &self.explanation.reason(id).why else { continue };
-            for giver in givers {
-                for lacking in needed(giver) {
+            let Why::Achievers { achievers, .. } = &self.explanation.reason(id).why else { continue };
+            for achiever in achievers {
+                for lacking in needed(achiever) {
                     if !order.contains(&lacking) {
                         order.push(lacking);
-                        above[lacking.0 as usize] = Some((id, giver));
+                        above[lacking.0 as usize] = Some((id, achiever));
                     }
                 }
             }
         }
         let excluded = |id: &ReasonId| match &self.explanation.reason(*id).why {
-            Why::Givers { givers, .. } => givers.iter().find(|giver| giver.hindrance == Hindrance::Excluded),
+            Why::Achievers { achievers, .. } => {
+                achievers.iter().find(|achiever| achiever.obstruction == Obstruction::Excluded)
+            }
             _ => None,
         };
-        let is_not_given = |id: &&ReasonId| self.explanation.reason(**id).why == Why::NothingGives;
+        let is_not_given = |id: &&ReasonId| self.explanation.reason(**id).why == Why::NothingAchieves;
         let wanted = |id: ReasonId| &self.explanation.reason(id).wanted;
         let name = |id: ReasonId| self.wanted(wanted(id));
         let end = order.iter().find_map(|id| Some((*id, self.hindered(&name(*id), excluded(id)?, name))));
         let end = end.or_else(|| order.iter().find(is_not_given).map(|&id| (id, self.not_given(wanted(id)))));
         let Some((mut at, line)) = end else { return Vec::new() };
         let mut lines = vec![line];
-        while let Some((id, giver)) = above[at.0 as usize] {
-            lines.push(self.hindered(&name(id), giver, name));
+        while let Some((id, achiever)) = above[at.0 as usize] {
+            lines.push(self.hindered(&name(id), achiever, name));
             at = id;
         }
         lines.reverse();
         lines
     }
 
-    /// What is in the way of a giver, in a line.
-    fn hindered(&self, wanted: &str, giver: &Giver, name: impl Fn(ReasonId) -> String) -> String {
-        let by = self.giver(giver).unwrap_or_else(|| "its axiom".to_owned());
+    /// What is in the way of an achiever, in a line.
+    fn hindered(&self, wanted: &str, achiever: &Achiever, name: impl Fn(ReasonId) -> String) -> String {
+        let by = self.achiever(achiever).unwrap_or_else(|| "its axiom".to_owned());
         let head = format!("{wanted} by {by}");
-        match &giver.hindrance {
-            Hindrance::Needs(needs) => {
+        match &achiever.obstruction {
+            Obstruction::Needs(needs) => {
                 let all = needs.iter().map(|need| match need {
                     Need::Literal(id) => name(*id),
                     Need::Number(own) => format!("{}, but {}", own.comparison, bounded(own)),
                 });
                 format!("{head} needs {}", listed(&all.collect::<Vec<_>>(), "and"))
             }
-            Hindrance::NeverTogether(all) => {
+            Obstruction::NeverTogether(all) => {
                 let all: Vec<String> = all.iter().map(|wanted| self.wanted(wanted)).collect();
                 format!("{head} needs {}, never for the same objects", listed(&all, "and"))
             }
-            Hindrance::NeverApplies => format!("{head}, but what it needs never holds together"),
-            Hindrance::Excluded => format!("{head}, which may not be used"),
+            Obstruction::NeverApplies => format!("{head}, but what it needs never holds together"),
+            Obstruction::Excluded => format!("{head}, which may not be used"),
         }
     }
 
-    fn not_given(&self, wanted: &Wanted) -> String {
+    fn not_given(&self, wanted: &Literal) -> String {
         let name = self.task.pattern_name(&wanted.pattern);
         if wanted.positive { format!("nothing gives {name}") } else { format!("nothing takes {name} away") }
     }
@@ -194,7 +197,7 @@ impl<'a> Words<'a> {
     }
 
     /// A literal, as PDDL writes it.
-    pub fn wanted(&self, wanted: &Wanted) -> String {
+    pub fn wanted(&self, wanted: &Literal) -> String {
         let name = self.task.pattern_name(&wanted.pattern);
         if wanted.positive { name } else { format!("(not {name})") }
     }
@@ -211,14 +214,14 @@ impl<'a> Words<'a> {
     }
 
     /// The action with what is known of its parameters; `None` for an axiom.
-    pub fn giver(&self, giver: &Giver) -> Option<String> {
-        giver.action.map(|action| self.task.schema_name(action, &giver.arguments))
+    pub fn achiever(&self, achiever: &Achiever) -> Option<String> {
+        achiever.action.map(|action| self.task.schema_name(action, &achiever.arguments))
     }
 }
 
 /// Reasons as lines, each reason once.
 struct Tree<'a> {
-    of: &'a Words<'a>,
+    of: &'a Wording<'a>,
     shown: Vec<bool>,
     lines: Vec<String>,
 }
@@ -232,11 +235,11 @@ impl Tree<'_> {
         let reason = of.explanation.reason(id);
         let (indent, wanted) = ("  ".repeat(depth), of.wanted(&reason.wanted));
         match &reason.why {
-            Why::NothingGives => self.lines.push(format!("{indent}{}", of.not_given(&reason.wanted))),
+            Why::NothingAchieves => self.lines.push(format!("{indent}{}", of.not_given(&reason.wanted))),
             Why::Unexplored => self.lines.push(format!("{indent}{wanted} is never true")),
-            Why::Givers { givers, more } => {
-                for giver in givers {
-                    self.giver(&wanted, giver, depth);
+            Why::Achievers { achievers, more } => {
+                for achiever in achievers {
+                    self.achiever(&wanted, achiever, depth);
                 }
                 if *more > 0 {
                     self.lines.push(format!("{indent}{wanted}: and {more} more ways, all barred"));
@@ -245,24 +248,24 @@ impl Tree<'_> {
         }
     }
 
-    fn giver(&mut self, wanted: &str, giver: &Giver, depth: usize) {
+    fn achiever(&mut self, wanted: &str, achiever: &Achiever, depth: usize) {
         let of = self.of;
         let name = |id: ReasonId| {
             let name = of.wanted(&of.explanation.reason(id).wanted);
             if self.shown[id.0 as usize] { format!("{name} (see above)") } else { name }
         };
-        let line = of.hindered(wanted, giver, name);
+        let line = of.hindered(wanted, achiever, name);
         self.lines.push(format!("{}{line}", "  ".repeat(depth)));
-        for id in needed(giver) {
+        for id in needed(achiever) {
             self.reason(id, depth + 1);
         }
     }
 }
 
-/// The literals that a giver lacks.
-fn needed(giver: &Giver) -> impl Iterator<Item = ReasonId> {
-    let needs = match &giver.hindrance {
-        Hindrance::Needs(needs) => needs.as_slice(),
+/// The literals that an achiever lacks.
+fn needed(achiever: &Achiever) -> impl Iterator<Item = ReasonId> {
+    let needs = match &achiever.obstruction {
+        Obstruction::Needs(needs) => needs.as_slice(),
         _ => &[],
     };
     needs.iter().filter_map(|need| match need {
@@ -280,15 +283,6 @@ fn bounded(never: &NeverCompares) -> String {
         Extent::Below(bound) => format!("{measured} stays below {bound}"),
         Extent::AtLeast(bound) => format!("{measured} never gets below {bound}"),
         Extent::Above(bound) => format!("{measured} stays above {bound}"),
-    }
-}
-
-/// `a, b and c`.
-fn listed(all: &[String], last: &str) -> String {
-    match all {
-        [] => String::new(),
-        [one] => one.clone(),
-        [before @ .., one] => format!("{} {last} {one}", before.join(", ")),
     }
 }
 
