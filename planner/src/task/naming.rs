@@ -4,7 +4,7 @@ use super::fact::{GroundAtom, ObjectValue};
 use super::grounded::Task;
 use super::operator::Operator;
 use crate::ids::{FactId, OperatorId};
-use crate::unsolvability::Pattern;
+use analysis::Pattern;
 use pddl::model::{ActionId, GroundApplication, Name, ObjectId};
 
 impl Task {

@@ -1,38 +1,39 @@
 //! Comments that silence lints: `; allow(unused-parameter, W0703)`.
 //!
-//! Behind something on its line, such a comment is about that line; on a line of its own, about the next line that
-//! is not only a comment. It must be the first thing that the comment says, so that prose about lints is prose.
+//! After something else on a line, such a comment concerns that line. On a line of its own it concerns the next line that
+//! is not only a comment. The comment must begin with `allow(`, so that prose about lints has no effect.
 
 use pddl::syntax::TokenKind;
 use pddl::{Source, Span, syntax};
 use rustc_hash::FxHashMap;
 
-use crate::{Lint, find};
+/// The code of the lint with that name or code.
+pub(crate) type KnownLint = fn(&str) -> Option<&'static str>;
 
-/// What is silenced on which line.
+/// The lints that are silenced, by line.
 #[derive(Debug, Default)]
 pub(crate) struct Allows {
     by_line: FxHashMap<u32, Vec<&'static str>>,
-    /// Words in `allow(…)` that no lint is called.
+    /// Words in `allow(…)` that name no lint.
     pub(crate) unknown: Vec<Span>,
 }
 
 impl Allows {
-    pub(crate) fn of(source: &Source) -> Self {
+    pub(crate) fn of(source: &Source, known: KnownLint) -> Self {
         let mut allows = Self::default();
-        // Almost no file has one, and large ones are not lexed for nothing.
+        // Almost no file has one, and lexing a large file takes time.
         if !source.text().contains("allow(") {
             return allows;
         }
         let (tree, _) = syntax::parse(source);
-        // The lints of comments that wait for the next line with code, and the line of the code before them.
+        // The lints of comments that wait for the next line with code, and the last line with code before them.
         let (mut waiting, mut line_with_code) = (Vec::new(), 0);
         for (kind, span) in tree.tokens() {
             let line = source.line_column(span.start).line;
             match kind {
                 TokenKind::Whitespace => {}
                 TokenKind::Comment => {
-                    let lints = allows.read(source, span);
+                    let lints = allows.read(source, span, known);
                     if line == line_with_code {
                         allows.by_line.entry(line).or_default().extend(lints);
                     } else {
@@ -51,7 +52,7 @@ impl Allows {
     }
 
     /// The codes that a comment names.
-    fn read(&mut self, source: &Source, span: Span) -> Vec<&'static str> {
+    fn read(&mut self, source: &Source, span: Span, known: KnownLint) -> Vec<&'static str> {
         let text = source.slice(span);
         let said = text.trim_start_matches([';', ' ', '\t']);
         let Some((names, _)) = said.strip_prefix("allow(").and_then(|rest| rest.split_once(')')) else {
@@ -63,8 +64,8 @@ impl Allows {
             let word = name.trim();
             let start = span.start as usize + at + (name.len() - name.trim_start().len());
             at += name.len() + 1;
-            match find(word) {
-                Some(lint) => codes.push(lint.code()),
+            match known(word) {
+                Some(code) => codes.push(code),
                 None => {
                     let place = |byte: usize| u32::try_from(byte).expect("sources are shorter than 4 GiB");
                     self.unknown.push(Span::new(place(start), place(start + word.len())));
@@ -74,12 +75,12 @@ impl Allows {
         codes
     }
 
-    /// Whether the lint is silent at a place.
-    pub(crate) fn silence(&self, lint: &Lint, source: &Source, span: Span) -> bool {
+    /// Whether a comment silences the lint at a place.
+    pub(crate) fn silence(&self, code: &str, source: &Source, span: Span) -> bool {
         !self.by_line.is_empty()
             && self
                 .by_line
                 .get(&source.line_column(span.start).line)
-                .is_some_and(|codes| codes.contains(&lint.code()))
+                .is_some_and(|codes| codes.contains(&code))
     }
 }

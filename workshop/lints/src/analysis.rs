@@ -8,7 +8,7 @@ use analysis::invariants::{Counts, Invariant, invariants};
 use analysis::reachability::{Summary, Wording};
 use pddl::model::{Domain, DurativeAction, Problem};
 
-use crate::features::{all_is_seen, all_of_problem_is_seen};
+use crate::coverage::{all_is_seen, all_of_problem_is_seen};
 
 /// Atoms of which at most one holds at a time.
 pub(crate) struct Exclusion {

@@ -2,36 +2,42 @@
 
 use std::sync::LazyLock;
 
+use diagnostics::{Finding, Place};
 use pddl::Explanation;
 
-use crate::finding::Findings;
+use crate::finding::{Findings, Linted};
 use crate::view::{DomainView, ProblemView};
 
-/// Who wants to read it.
+/// When a lint runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
-    /// Everybody: almost always a mistake.
+    /// Always: it almost always finds a mistake.
     Default,
-    /// Who asks for it: often meant as it is.
+    /// On request: what it finds is often intended.
     Pedantic,
 }
 
 /// One kind of modelling mistake.
 #[derive(Debug)]
 pub struct Lint {
-    /// What a comment calls it: `unused-parameter`.
+    /// The name that a comment silences it by: `unused-parameter`.
     pub name: &'static str,
-    /// Who wants to read it.
+    /// When it runs.
     pub level: Level,
-    /// Its code and what it means, with a wrong example and a right one.
+    /// Its code, its meaning, a wrong example and a right one.
     pub explanation: LazyLock<Explanation>,
     pub(crate) checks: &'static [Check],
 }
 
 impl Lint {
-    /// Stable code, `W0701`.
+    /// Its stable code, `W0701`.
     pub fn code(&self) -> &'static str {
         self.explanation.code
+    }
+
+    /// A finding without labels, help and fix. `message` is one sentence without a full stop.
+    pub(crate) fn finding(&self, place: Place, message: impl Into<String>) -> Linted {
+        Linted { finding: Finding::warning(self.code(), place, message), lint: self.name, fix: None }
     }
 }
 
@@ -43,12 +49,12 @@ macro_rules! explanation {
 }
 pub(crate) use explanation;
 
-/// Looks for the mistake.
+/// The function that finds the mistake.
 #[derive(Debug)]
 pub(crate) enum Check {
     /// In a domain alone.
     Domain(fn(&DomainView<'_>, &mut Findings)),
-    /// In a problem with its domain. What it finds in the *domain* is said only if every problem of the domain
-    /// that is looked at gives it, at the same place in the same words.
+    /// In a problem with its domain. A finding in the *domain* is reported only if every problem gives it, at the same
+    /// place in the same words.
     Problem(fn(&ProblemView<'_, '_>, &mut Findings)),
 }

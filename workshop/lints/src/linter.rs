@@ -1,24 +1,27 @@
-//! Which lints run over what, and what is left of their findings.
+//! Runs lints over a domain and its problems.
 //!
 //! Problem: many mistakes in a domain show only with its problems (nothing ever makes this predicate true), but one
-//! problem proves little: an action that is of no use there may be all that another one needs. Idea: problems are
-//! handed in one after the other; a finding *in the domain* that comes of looking at problems counts only if all of
-//! them gave it. Invariant: findings are in order of place, and none is on a line that allows it.
+//! problem proves little: it may not need an action that another problem depends on. Idea: the caller passes the problems
+//! one after the other. A finding *in the domain* that depends on problems counts only if every problem gives it.
+//! Invariant: findings are in order of place, and no finding is on a line whose comment allows it.
 
+use diagnostics::{Source, SourceId};
 use pddl::model::{Domain, Problem};
-use pddl::{FileKind, Source};
 
-use crate::finding::Findings;
-use crate::lint::Check;
+use crate::finding::{Findings, Linted};
+use crate::lint::{Check, Level, Lint};
+use crate::place::{DOMAIN, PROBLEM};
+use crate::registry::{all, find};
 use crate::view::{DomainView, ProblemView};
-use crate::{Finding, Level, all};
 
-/// A text and what it means.
+/// A text with its model.
 #[derive(Debug)]
 pub struct File<'a, M> {
+    /// The id that findings name the text by.
+    pub id: SourceId,
     /// The text.
     pub source: &'a Source,
-    /// What it means.
+    /// Its model.
     pub model: &'a M,
 }
 
@@ -30,23 +33,29 @@ impl<M> Clone for File<'_, M> {
 
 impl<M> Copy for File<'_, M> {}
 
-/// Looks at a domain and its problems.
+/// Lints a domain and its problems.
 pub struct Linter<'a> {
     domain: DomainView<'a>,
+    id: SourceId,
     level: Level,
-    /// What all problems so far say about the domain; `None` before the first.
-    agreed: Option<Vec<Finding>>,
+    /// The findings in the domain that all problems so far gave; `None` before the first problem.
+    agreed: Option<Vec<Linted>>,
 }
 
 impl<'a> Linter<'a> {
     /// For a domain; lints above `level` do not run.
     pub fn new(domain: File<'a, Domain>, level: Level) -> Self {
-        Self { domain: DomainView::new(domain), level, agreed: None }
+        Self {
+            domain: DomainView::new(domain.source, domain.model, code_of),
+            id: domain.id,
+            level,
+            agreed: None,
+        }
     }
 
-    /// What is found in a problem. What it says about the domain is kept for [`Linter::finish`].
-    pub fn problem(&mut self, problem: File<'_, Problem>) -> Vec<Finding> {
-        let view = ProblemView::new(&self.domain, problem);
+    /// The findings in a problem. Those in the domain are kept for [`Linter::finish`].
+    pub fn problem(&mut self, problem: File<'_, Problem>) -> Vec<Linted> {
+        let view = ProblemView::new(&self.domain, problem.source, problem.model, code_of);
         let mut found = Findings::default();
         for lint in all().filter(|l| l.level <= self.level) {
             for check in lint.checks {
@@ -55,22 +64,22 @@ impl<'a> Linter<'a> {
                 }
             }
         }
-        let (about_domain, mut here): (Vec<_>, Vec<_>) =
-            found.0.into_iter().partition(|f| f.place.file == FileKind::Domain);
-        here.retain(|f| !view.allows.silence(f.lint, view.source, f.place.span));
+        let (in_domain, mut here): (Vec<_>, Vec<_>) =
+            found.0.into_iter().partition(|f| f.finding.place.source == DOMAIN);
+        here.retain(|f| !view.allows.silence(f.code(), view.source, f.finding.place.span));
         match &mut self.agreed {
-            None => self.agreed = Some(about_domain),
-            Some(agreed) => agreed.retain(|a| about_domain.iter().any(|f| same(a, f))),
+            None => self.agreed = Some(in_domain),
+            Some(agreed) => agreed.retain(|a| in_domain.iter().any(|f| same(a, f))),
         }
-        in_order(here)
+        self.in_order(here, problem.id)
     }
 
-    /// What is found in the domain.
-    pub fn finish(self) -> Vec<Finding> {
-        let mut found = Findings(self.agreed.unwrap_or_default());
-        // Places in one of several problems mean nothing to whoever reads the domain.
-        for finding in &mut found.0 {
-            finding.labels.retain(|(place, _)| place.file == FileKind::Domain);
+    /// The findings in the domain.
+    pub fn finish(mut self) -> Vec<Linted> {
+        let mut found = Findings(self.agreed.take().unwrap_or_default());
+        // A place in one of several problems means nothing to a reader of the domain.
+        for linted in &mut found.0 {
+            linted.finding.related.retain(|(place, _)| place.source == DOMAIN);
         }
         for lint in all().filter(|l| l.level <= self.level) {
             for check in lint.checks {
@@ -80,17 +89,26 @@ impl<'a> Linter<'a> {
             }
         }
         let Findings(mut found) = found;
-        found.retain(|f| !self.domain.allows.silence(f.lint, self.domain.source, f.place.span));
-        in_order(found)
+        let allows = &self.domain.allows;
+        found.retain(|f| !allows.silence(f.code(), self.domain.source, f.finding.place.span));
+        self.in_order(found, self.id)
+    }
+
+    /// Findings in order, each once, with the ids of the files.
+    fn in_order(&self, mut findings: Vec<Linted>, problem: SourceId) -> Vec<Linted> {
+        findings.sort_by_key(|Linted { finding: f, .. }| (f.place.span.start, f.place.span.end, f.code));
+        findings.dedup_by(|a, b| same(a, b));
+        let id = |source| if source == PROBLEM { problem } else { self.id };
+        findings.iter_mut().for_each(|linted| linted.map_sources(id));
+        findings
     }
 }
 
-fn same(a: &Finding, b: &Finding) -> bool {
-    a.place == b.place && a.lint.code() == b.lint.code() && a.message == b.message
+/// The code of the lint with that name or code.
+fn code_of(word: &str) -> Option<&'static str> {
+    find(word).map(Lint::code)
 }
 
-fn in_order(mut findings: Vec<Finding>) -> Vec<Finding> {
-    findings.sort_by_key(|f| (f.place.span.start, f.place.span.end, f.lint.code()));
-    findings.dedup_by(|a, b| same(a, b));
-    findings
+fn same(Linted { finding: a, .. }: &Linted, Linted { finding: b, .. }: &Linted) -> bool {
+    a.place == b.place && a.code == b.code && a.message == b.message
 }

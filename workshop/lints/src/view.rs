@@ -1,4 +1,4 @@
-//! What a lint sees of a domain and a problem. What several lints need is made once, when the first one asks.
+//! The domain and the problem as lints see them. What several lints need is computed once, when the first one asks.
 
 use std::cell::OnceCell;
 
@@ -6,10 +6,9 @@ use pddl::model::{Domain, Problem};
 use pddl::syntax::{self, Tree};
 use pddl::{Source, Span};
 
-use crate::allow::Allows;
+use crate::allow::{Allows, KnownLint};
 use crate::analysis::Analysis;
-use crate::features::{all_is_seen, all_of_problem_is_seen};
-use crate::linter::File;
+use crate::coverage::{all_is_seen, all_of_problem_is_seen};
 use crate::schema::Schema;
 use crate::usage::Usage;
 use analysis::reachability::Wording;
@@ -25,23 +24,23 @@ pub(crate) struct DomainView<'a> {
 }
 
 impl<'a> DomainView<'a> {
-    pub(crate) fn new(file: File<'a, Domain>) -> Self {
-        let allows = Allows::of(file.source);
+    pub(crate) fn new(source: &'a Source, domain: &'a Domain, known: KnownLint) -> Self {
+        let allows = Allows::of(source, known);
         let (tree, usage, analysis) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
-        Self { source: file.source, domain: file.model, allows, tree, usage, analysis }
+        Self { source, domain, allows, tree, usage, analysis }
     }
 
-    /// The text's structure, for lints about how something is written.
+    /// The syntax tree, for lints about how something is written.
     pub(crate) fn tree(&self) -> &Tree<'a> {
         self.tree.get_or_init(|| syntax::parse(self.source).0)
     }
 
-    /// Who names whom.
+    /// Which names are used.
     pub(crate) fn usage(&self) -> &Usage {
         self.usage.get_or_init(|| Usage::of_domain(self.domain, self.schemas()))
     }
 
-    /// Whether the model holds all that the text says: only then is what nobody names unused.
+    /// Whether the model represents the whole text. Only then is a name without a use unused.
     pub(crate) fn is_complete(&self) -> bool {
         all_is_seen(self.domain)
     }
@@ -51,12 +50,12 @@ impl<'a> DomainView<'a> {
         Wording { domain: self.domain, problem: None, domain_source: self.source, problem_source: None }
     }
 
-    /// What can happen in some problem.
+    /// The analyses that hold for every problem.
     pub(crate) fn analysis(&self) -> &Analysis<'a> {
         self.analysis.get_or_init(|| Analysis::new(&self.wording()))
     }
 
-    /// Whether it only declares: for others that import it.
+    /// Whether it only has declarations, for other domains that import it.
     pub(crate) fn is_vocabulary(&self) -> bool {
         self.schemas().next().is_none()
     }
@@ -86,18 +85,23 @@ pub(crate) struct ProblemView<'a, 'd> {
 }
 
 impl<'a, 'd> ProblemView<'a, 'd> {
-    pub(crate) fn new(domain: &'a DomainView<'d>, file: File<'a, Problem>) -> Self {
-        let allows = Allows::of(file.source);
+    pub(crate) fn new(
+        domain: &'a DomainView<'d>,
+        source: &'a Source,
+        problem: &'a Problem,
+        known: KnownLint,
+    ) -> Self {
+        let allows = Allows::of(source, known);
         let (tree, usage, analysis) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
-        Self { domain, source: file.source, problem: file.model, allows, tree, usage, analysis }
+        Self { domain, source, problem, allows, tree, usage, analysis }
     }
 
-    /// The text's structure, for lints about how something is written.
+    /// The syntax tree, for lints about how something is written.
     pub(crate) fn tree(&self) -> &Tree<'a> {
         self.tree.get_or_init(|| syntax::parse(self.source).0)
     }
 
-    /// Who names whom, in the problem alone.
+    /// Which names are used, in the problem alone.
     pub(crate) fn usage(&self) -> &Usage {
         self.usage.get_or_init(|| Usage::of_problem(self.domain.domain, self.problem))
     }
@@ -108,18 +112,18 @@ impl<'a, 'd> ProblemView<'a, 'd> {
         Wording { domain: self.domain.domain, problem, domain_source: self.domain.source, problem_source }
     }
 
-    /// What can happen in this problem.
+    /// The analyses that hold for this problem.
     pub(crate) fn analysis(&self) -> &Analysis<'a> {
         self.analysis.get_or_init(|| Analysis::new(&self.wording()))
     }
 
-    /// Whether both models hold all that their texts say.
+    /// Whether both models represent their whole texts.
     pub(crate) fn is_complete(&self) -> bool {
         self.domain.is_complete() && all_of_problem_is_seen(self.problem)
     }
 }
 
-/// Whether a declaration stands in this very file: what is imported has no place in it.
+/// Whether a declaration is in this file. An imported declaration has no place in it.
 pub(crate) fn is_here(span: Span) -> bool {
     span != Span::default()
 }

@@ -1,16 +1,23 @@
-//! What all lints say of the competitions' domains, counted: a change that makes a lint say more, or less, about
-//! domains that were made with care shows here and has to be looked at.
+//! The number of findings of each lint in the competitions' domains: a change that makes a lint report more, or less, in
+//! domains that were made with care shows here, and its author has to review it.
 //!
-//! The folder is named by `PELEA_BENCH`, by default `../shared/bench` beside the workspace. Where it is absent the
-//! test says so and holds. `PELEA_LINT=NAME cargo test -p pelea-lints --test corpus -- --nocapture` shows what a lint
-//! says there. `UPDATE_EXPECT=1` writes the counts anew.
+//! `PELEA_BENCH` names the folder; the default is `../shared/bench` beside the workspace. Where it is absent the test
+//! prints that and passes. `PELEA_LINT=NAME cargo test -p pelea-lints --test corpus -- --nocapture` shows the findings of
+//! a lint. `UPDATE_EXPECT=1` writes the counts anew.
+
+mod support;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use lints::{File, Level, Linter};
-use pddl::{FileKind, Source, parse_domain, parse_problem};
+use diagnostics::SourceId;
+use lints::{File, Level, Linted, Linter};
+use pddl::{Source, parse_domain, parse_problem};
+use support::describe;
+
+const DOMAIN: SourceId = SourceId(0);
+const PROBLEM: SourceId = SourceId(1);
 
 /// The parts of the corpus that are for readers of domains.
 const FOLDERS: [&str; 3] = ["classical", "variants", "htn"];
@@ -84,27 +91,29 @@ fn what_is_said_of_the_competitions_is_as_reviewed() {
     for (domain_path, problems) in &families {
         let domain_source = source(domain_path);
         let Some(domain) = parse_domain(&domain_source, &[]).model else { continue };
-        let mut linter = Linter::new(File { source: &domain_source, model: &domain }, Level::Pedantic);
-        let mut count = |f: &lints::Finding, problem: Option<&Source>| {
-            let count = counts.entry(f.lint.name).or_default();
+        let mut linter =
+            Linter::new(File { id: DOMAIN, source: &domain_source, model: &domain }, Level::Pedantic);
+        let mut count = |f: &Linted, problem: &Source| {
+            let count = counts.entry(f.lint).or_default();
             count.domains.insert(domain_path.clone());
             count.findings += 1;
-            if shown == f.lint.name {
-                println!("{}", f.describe(&domain_source, problem));
+            if shown == f.lint {
+                let source = |id| if id == DOMAIN { &domain_source } else { problem };
+                println!("{}", describe(f, &source));
             }
         };
         for path in problems {
             let source = source(path);
             let Some(problem) = parse_problem(&source, &domain).model else { continue };
             read += 1;
-            for finding in linter.problem(File { source: &source, model: &problem }) {
-                assert_eq!(finding.place.file, FileKind::Problem);
-                count(&finding, Some(&source));
+            for finding in linter.problem(File { id: PROBLEM, source: &source, model: &problem }) {
+                assert_eq!(finding.finding.place.source, PROBLEM);
+                count(&finding, &source);
             }
         }
         for finding in linter.finish() {
-            assert_eq!(finding.place.file, FileKind::Domain);
-            count(&finding, None);
+            assert_eq!(finding.finding.place.source, DOMAIN);
+            count(&finding, &domain_source);
         }
     }
     let mut table = format!("{} domains, {read} problems\n", families.len());

@@ -37,7 +37,7 @@ mod task;
 
 pub use file::{FileKind, Reading};
 pub use header::{Header, Need};
-pub use lint::{Fix, Linted};
+pub use lints::{Fix, Linted};
 pub use pairs::{Candidate, domain_for, problem_for};
 pub use project::Project;
 pub use task::{NoTask, Task, read_domain};

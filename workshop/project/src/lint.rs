@@ -5,30 +5,10 @@
 //! Invariant: files with errors are not linted. Nothing is cached here; [`Project::lint_findings`] caches
 //! what it returns.
 
-use lints::{File, Level, Linter};
+use lints::{File, Level, Linted, Linter};
 
 use crate::{Project, Reading};
-use diagnostics::{Finding, Place, SourceId};
-
-/// A warning, with a fix if there is one.
-#[derive(Clone, Debug)]
-pub struct Linted {
-    /// The finding.
-    pub finding: Finding,
-    /// The lint's name, for a comment that silences it.
-    pub lint: &'static str,
-    /// The edits that correct it.
-    pub fix: Option<Fix>,
-}
-
-/// Edits that correct a finding.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fix {
-    /// What they do, in a few words.
-    pub title: String,
-    /// The replaced places with their new texts; they do not overlap.
-    pub edits: Vec<(Place, String)>,
-}
+use diagnostics::SourceId;
 
 impl Project {
     /// The findings of lints up to `level` in a domain and in all its problems, in order of files and
@@ -38,36 +18,34 @@ impl Project {
         let mut said: Vec<Linted> = Vec::new();
         for problem in self.dependents(domain) {
             if let Some(file) = self.sound_problem(problem) {
-                said.extend(linter.problem(file).iter().map(|f| linted(f, domain, problem)));
+                said.extend(linter.problem(file));
             }
         }
-        said.extend(linter.finish().iter().map(|f| linted(f, domain, domain)));
+        said.extend(linter.finish());
         said.sort_by_key(|l| (l.finding.place.source, l.finding.place.span));
         said
     }
 
     /// The findings of lints up to `level` in a domain without its problems.
     pub fn lint_domain(&self, domain: SourceId, level: Level) -> Vec<Linted> {
-        let linter = self.linter(domain, level);
-        linter.map_or_else(Vec::new, |l| l.finish().iter().map(|f| linted(f, domain, domain)).collect())
+        self.linter(domain, level).map_or_else(Vec::new, Linter::finish)
     }
 
     /// The findings of lints up to `level` in a problem alone.
     pub fn lint_problem(&self, problem: SourceId, level: Level) -> Vec<Linted> {
-        let linter = self.domain_of(problem).and_then(|domain| Some((domain, self.linter(domain, level)?)));
+        let linter = self.domain_of(problem).and_then(|domain| self.linter(domain, level));
         match (linter, self.sound_problem(problem)) {
-            (Some((domain, mut linter)), Some(file)) => {
-                linter.problem(file).iter().map(|f| linted(f, domain, problem)).collect()
-            }
+            (Some(mut linter), Some(file)) => linter.problem(file),
             _ => Vec::new(),
         }
     }
 
     fn linter(&self, domain: SourceId, level: Level) -> Option<Linter<'_>> {
         match self.reading(domain)? {
-            Reading::Domain(analysis) if analysis.sound => {
-                Some(Linter::new(File { source: self.source(domain), model: &analysis.draft }, level))
-            }
+            Reading::Domain(analysis) if analysis.sound => Some(Linter::new(
+                File { id: domain, source: self.source(domain), model: &analysis.draft },
+                level,
+            )),
             _ => None,
         }
     }
@@ -75,31 +53,11 @@ impl Project {
     fn sound_problem(&self, problem: SourceId) -> Option<File<'_, pddl::model::Problem>> {
         match self.reading(problem)? {
             Reading::Problem(analysis) if analysis.sound => {
-                Some(File { source: self.source(problem), model: &analysis.draft })
+                Some(File { id: problem, source: self.source(problem), model: &analysis.draft })
             }
             _ => None,
         }
     }
-}
-
-fn linted(finding: &lints::Finding, domain: SourceId, problem: SourceId) -> Linted {
-    let place = |at: lints::Place| {
-        let source = match at.file {
-            pddl::FileKind::Domain => domain,
-            pddl::FileKind::Problem => problem,
-        };
-        Place { source, span: at.span }
-    };
-    let mut said = Finding::warning(finding.lint.code(), place(finding.place), finding.message.clone())
-        .help_if(finding.help.clone().or_else(|| finding.fix.as_ref().map(|fix| fix.title.clone())));
-    for (at, text) in &finding.labels {
-        said = said.related(place(*at), text.clone());
-    }
-    let fix = finding.fix.as_ref().map(|fix| Fix {
-        title: fix.title.clone(),
-        edits: fix.edits.iter().map(|edit| (place(edit.place), edit.text.clone())).collect(),
-    });
-    Linted { finding: said, lint: finding.lint.name, fix }
 }
 
 #[cfg(test)]

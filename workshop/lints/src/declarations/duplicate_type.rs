@@ -9,7 +9,7 @@ use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::text;
 use crate::view::DomainView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "duplicate-type",
@@ -36,8 +36,8 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
             } else {
                 format!("type `{name}` is declared twice, once below `{here}` and once below `{there}`")
             };
-            let finding = Finding::new(&LINT, Place::domain(declaration.name.span()), message);
-            found.report(finding.label(Place::domain(earlier.name.span()), "first declared here"));
+            let finding = LINT.finding(place::domain(declaration.name.span()), message);
+            found.report(finding.label(place::domain(earlier.name.span()), "first declared here"));
         }
     }
 }

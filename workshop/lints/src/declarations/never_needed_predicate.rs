@@ -3,7 +3,7 @@
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::{ProblemView, is_here};
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "never-needed-predicate",
@@ -23,7 +23,7 @@ fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
         if is_here(predicate.span) && used.fluent() && !used.needed() && !asked.predicates[id].needed() {
             let message =
                 format!("effects change `{}`, but no condition and no goal asks for it", predicate.name);
-            found.report(Finding::new(&LINT, Place::domain(predicate.span), message));
+            found.report(LINT.finding(place::domain(predicate.span), message));
         }
     }
 }

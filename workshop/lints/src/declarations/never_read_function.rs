@@ -3,7 +3,7 @@
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::{ProblemView, is_here};
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "never-read-function",
@@ -22,7 +22,7 @@ fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
         let read = used.read || problem.functions[id].read || &*function.name == "total-cost";
         if is_here(function.span) && used.written && !read {
             let message = format!("effects change `{}`, but nothing asks for its value", function.name);
-            found.report(Finding::new(&LINT, Place::domain(function.span), message));
+            found.report(LINT.finding(place::domain(function.span), message));
         }
     }
 }

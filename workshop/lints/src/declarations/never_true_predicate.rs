@@ -3,7 +3,7 @@
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::{ProblemView, is_here};
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "never-true-predicate",
@@ -25,7 +25,7 @@ fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
                 "conditions need `{}`, but no effect makes it true and it never holds initially",
                 predicate.name
             );
-            found.report(Finding::new(&LINT, Place::domain(predicate.span), message));
+            found.report(LINT.finding(place::domain(predicate.span), message));
         }
     }
 }

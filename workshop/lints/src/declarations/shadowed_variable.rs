@@ -1,12 +1,13 @@
 //! `(exists (?x) …)` inside of something that has `?x` already.
 
+use diagnostics::Place;
 use pddl::FileKind;
 use pddl::syntax::{Node, NodeKind};
 
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::{DomainView, ProblemView};
-use crate::{Finding, Level, Lint, Place, text};
+use crate::{Level, Lint, place, text};
 
 pub(crate) static LINT: Lint = Lint {
     name: "shadowed-variable",
@@ -17,7 +18,7 @@ pub(crate) static LINT: Lint = Lint {
 
 fn in_domain(view: &DomainView<'_>, found: &mut Findings) {
     for section in text::sections(view.tree(), FileKind::Domain) {
-        visit(section, &mut parameters(section), Place::domain, found);
+        visit(section, &mut parameters(section), place::domain, found);
     }
 }
 
@@ -25,7 +26,7 @@ fn in_problem(view: &ProblemView<'_, '_>, found: &mut Findings) {
     // A large initial state is not walked for nothing: it binds no variables.
     let sections = text::sections(view.tree(), FileKind::Problem).filter(|s| !s.is_headed(":init"));
     for section in sections {
-        visit(section, &mut parameters(section), Place::problem, found);
+        visit(section, &mut parameters(section), place::problem, found);
     }
 }
 
@@ -53,7 +54,7 @@ fn visit<'t>(
         for variable in node.children().nth(1).into_iter().flat_map(variables) {
             if let Some(outer) = visible[..outside].iter().rev().find(|v| variable.is(v.text())) {
                 let message = format!("`{}` hides the variable of that name around it", variable.text());
-                let finding = Finding::new(&LINT, place(variable.span()), message);
+                let finding = LINT.finding(place(variable.span()), message);
                 found.report(finding.label(place(outer.span()), "the one that it hides"));
             }
             visible.push(variable);

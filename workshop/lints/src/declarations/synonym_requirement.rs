@@ -3,10 +3,10 @@
 use pddl::FileKind;
 use pddl::model::Requirement;
 
-use crate::finding::{Edit, Findings};
+use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::{DomainView, ProblemView};
-use crate::{Finding, Level, Lint, Place, text};
+use crate::{Level, Lint, place, text};
 
 pub(crate) static LINT: Lint = Lint {
     name: "synonym-requirement",
@@ -29,10 +29,10 @@ fn check(tree: &pddl::syntax::Tree<'_>, file: FileKind, found: &mut Findings) {
         let Some((_, standard)) = Requirement::SYNONYMS.iter().find(|(text, _)| node.is(text)) else {
             continue;
         };
-        let place = Place { file, span: node.span() };
+        let place = place::of_file(file, node.span());
         let standard = standard.as_str();
         let message = format!("`{}` is no requirement of any standard", node.text());
-        let edit = Edit { place, text: standard.to_owned() };
-        found.report(Finding::new(&LINT, place, message).fix(format!("write `{standard}`"), vec![edit]));
+        let edit = (place, standard.to_owned());
+        found.report(LINT.finding(place, message).fix(format!("write `{standard}`"), vec![edit]));
     }
 }

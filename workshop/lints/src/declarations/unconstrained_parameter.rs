@@ -6,7 +6,7 @@ use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::schema::Schema;
 use crate::view::DomainView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 use analysis::walk::Part;
 
 pub(crate) static LINT: Lint = Lint {
@@ -44,7 +44,7 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
                 let message =
                     format!("the parameter `?{}` of {title} may be any object at all", variable.name);
                 let help = "name it in a condition, or give it a type";
-                found.report(Finding::new(&LINT, Place::domain(variable.span), message).help(help));
+                found.report(LINT.finding(place::domain(variable.span), message).help(help));
             }
         }
     }

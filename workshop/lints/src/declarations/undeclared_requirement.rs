@@ -1,14 +1,15 @@
 //! A feature without its requirement.
 
+use diagnostics::Place;
 use pddl::model::Requirements;
 use pddl::syntax::Tree;
 use pddl::{FileKind, Span};
 
 use super::features::{Need, is_granted, of_domain, of_problem};
-use crate::finding::{Edit, Findings};
+use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::{DomainView, ProblemView, is_here};
-use crate::{Finding, Level, Lint, Place, text};
+use crate::{Level, Lint, place, text};
 
 pub(crate) static LINT: Lint = Lint {
     name: "undeclared-requirement",
@@ -35,7 +36,7 @@ fn check(needs: &[Need], declared: &Requirements, tree: &Tree<'_>, file: FileKin
     for need in needs.iter().filter(|need| is_here(need.span) && !is_granted(need, declared)) {
         let flag = need.requirement.as_str();
         let message = format!("{} needs the requirement `{flag}`", need.what);
-        let mut finding = Finding::new(&LINT, Place { file, span: need.span }, message);
+        let mut finding = LINT.finding(place::of_file(file, need.span), message);
         if let Some(edit) = declare(tree, file, flag) {
             finding = finding.fix(format!("declare `{flag}`"), vec![edit]);
         }
@@ -44,19 +45,19 @@ fn check(needs: &[Need], declared: &Requirements, tree: &Tree<'_>, file: FileKin
 }
 
 /// Adds a flag to the requirements; writes the section if there is none.
-fn declare(tree: &Tree<'_>, file: FileKind, flag: &str) -> Option<Edit> {
+fn declare(tree: &Tree<'_>, file: FileKind, flag: &str) -> Option<(Place, String)> {
     let section = text::sections(tree, file).find(|section| section.is_headed(":requirements"));
     if let Some(last) = section.and_then(|section| section.children().last()) {
-        return Some(Edit { place: after(file, last.span()), text: format!(" {flag}") });
+        return Some((after(file, last.span()), format!(" {flag}")));
     }
     let mut sections = text::definition(tree, file)?.children().skip(1);
     // Behind `(domain NAME)`, or behind the problem's `(:domain NAME)`, which stands first by custom.
     let name = sections.next()?;
     let before =
         sections.next().filter(|s| file == FileKind::Problem && s.is_headed(":domain")).unwrap_or(name);
-    Some(Edit { place: after(file, before.span()), text: format!("\n  (:requirements {flag})") })
+    Some((after(file, before.span()), format!("\n  (:requirements {flag})")))
 }
 
 fn after(file: FileKind, span: Span) -> Place {
-    Place { file, span: Span::new(span.end, span.end) }
+    place::of_file(file, Span::new(span.end, span.end))
 }

@@ -9,7 +9,7 @@ use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::text;
 use crate::view::DomainView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "untyped-parameter",
@@ -40,7 +40,7 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
             if anything.contains(&variable.span()) {
                 let message = format!("`{}` has no type in a domain that has types", variable.text());
                 let help = "give it one, or write `- object` if it may be anything";
-                found.report(Finding::new(&LINT, Place::domain(variable.span()), message).help(help));
+                found.report(LINT.finding(place::domain(variable.span()), message).help(help));
             }
         });
     }

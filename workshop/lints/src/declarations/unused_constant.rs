@@ -3,7 +3,7 @@
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::{ProblemView, is_here};
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "unused-constant",
@@ -19,7 +19,7 @@ fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
     for (id, constant) in view.domain.domain.constants.enumerate() {
         if is_here(constant.span) && !view.domain.usage().names(id) && !view.usage().names(id) {
             let message = format!("nothing names the constant `{}`", constant.name);
-            found.report(Finding::new(&LINT, Place::domain(constant.span), message));
+            found.report(LINT.finding(place::domain(constant.span), message));
         }
     }
 }

@@ -3,7 +3,7 @@
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::{ProblemView, is_here};
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "unused-function",
@@ -21,7 +21,7 @@ fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
         let used = domain.functions[id];
         if is_here(function.span) && !used.read && !used.written && !problem.functions[id].read {
             let message = format!("nothing asks for the function `{}` or changes it", function.name);
-            found.report(Finding::new(&LINT, Place::domain(function.span), message));
+            found.report(LINT.finding(place::domain(function.span), message));
         }
     }
 }

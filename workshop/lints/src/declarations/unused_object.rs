@@ -3,7 +3,7 @@
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::ProblemView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "unused-object",
@@ -20,7 +20,7 @@ fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
     for (id, object) in view.problem.objects.enumerate().skip(constants) {
         if !usage.names(id) {
             let message = format!("nothing in this problem is about `{}`", object.name);
-            found.report(Finding::new(&LINT, Place::problem(object.span), message));
+            found.report(LINT.finding(place::problem(object.span), message));
         }
     }
 }

@@ -5,7 +5,7 @@ use pddl::model::{Idx, Term};
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::DomainView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "unused-parameter",
@@ -32,7 +32,7 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
             let variable = &variables[id];
             let message =
                 format!("{} does not use its parameter `?{}`", schema.title(view.domain), variable.name);
-            found.report(Finding::new(&LINT, Place::domain(variable.span), message));
+            found.report(LINT.finding(place::domain(variable.span), message));
         }
     }
 }

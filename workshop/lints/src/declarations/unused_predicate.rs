@@ -3,7 +3,7 @@
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::{DomainView, is_here};
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "unused-predicate",
@@ -21,7 +21,7 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
         let used = usage.predicates[id];
         if is_here(predicate.span) && !used.needed() && !used.fluent() {
             let message = format!("nothing in this domain names the predicate `{}`", predicate.name);
-            found.report(Finding::new(&LINT, Place::domain(predicate.span), message));
+            found.report(LINT.finding(place::domain(predicate.span), message));
         }
     }
 }

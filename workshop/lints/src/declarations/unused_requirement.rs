@@ -4,10 +4,10 @@ use pddl::model::Requirement;
 use pddl::{FileKind, Span};
 
 use super::features::{Need, grants, of_domain, of_problem};
-use crate::finding::{Edit, Findings};
+use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::{DomainView, ProblemView};
-use crate::{Finding, Level, Lint, Place, text};
+use crate::{Level, Lint, place, text};
 
 pub(crate) static LINT: Lint = Lint {
     name: "unused-requirement",
@@ -68,8 +68,8 @@ fn check(view: &DomainView<'_>, of: &[Requirement], needs: &[Need], found: &mut 
             let Some(&flag) = of.iter().find(|flag| node.is(flag.as_str())) else { continue };
             if !needs.iter().any(|need| grants(flag, need)) {
                 let message = format!("nothing here needs the requirement `{}`", flag.as_str());
-                let edit = Edit { place: Place::domain(Span::new(before, end)), text: String::new() };
-                let finding = Finding::new(&LINT, Place::domain(span), message);
+                let edit = (place::domain(Span::new(before, end)), String::new());
+                let finding = LINT.finding(place::domain(span), message);
                 found.report(finding.fix(format!("remove `{}`", flag.as_str()), vec![edit]));
             }
         }

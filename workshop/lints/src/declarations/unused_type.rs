@@ -5,7 +5,7 @@ use pddl::model::{Feature, TypeTable};
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::{DomainView, is_here};
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "unused-type",
@@ -26,7 +26,7 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
         let relative = |&(other, _): &(_, _)| types.is_subtype(other, id) || types.is_subtype(id, other);
         if !types.enumerate().filter(relative).any(|(other, _)| used[other]) {
             let message = format!("nothing in this domain is about the type `{}`", declared.name);
-            found.report(Finding::new(&LINT, Place::domain(declared.span), message));
+            found.report(LINT.finding(place::domain(declared.span), message));
         }
     }
 }

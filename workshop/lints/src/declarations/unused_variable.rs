@@ -1,11 +1,12 @@
 //! `(exists (?x) …)` where nothing says `?x`.
 
+use diagnostics::Place;
 use pddl::model::{Idx, Term, VariableId, Variables};
 
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::{DomainView, ProblemView};
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 use analysis::walk::{self, Part, Polarity};
 
 pub(crate) static LINT: Lint = Lint {
@@ -17,20 +18,20 @@ pub(crate) static LINT: Lint = Lint {
 
 fn in_domain(view: &DomainView<'_>, found: &mut Findings) {
     for schema in view.schemas() {
-        unused(schema.variables(), Place::domain, found, |f| schema.parts(f));
+        unused(schema.variables(), place::domain, found, |f| schema.parts(f));
     }
     let constraints = &view.domain.constraints;
-    unused(&constraints.variables, Place::domain, found, |f| walk::constraints(constraints, f));
+    unused(&constraints.variables, place::domain, found, |f| walk::constraints(constraints, f));
 }
 
 fn in_goal(view: &ProblemView<'_, '_>, found: &mut Findings) {
     let problem = view.problem;
-    unused(&problem.goal_variables, Place::problem, found, |f| {
+    unused(&problem.goal_variables, place::problem, found, |f| {
         walk::condition(&problem.goal, Polarity::Positive, f);
         problem.preferences.iter().for_each(|p| walk::preference(p, &p.body, f));
     });
     let constraints = &problem.constraints;
-    unused(&constraints.variables, Place::problem, found, |f| walk::constraints(constraints, f));
+    unused(&constraints.variables, place::problem, found, |f| walk::constraints(constraints, f));
 }
 
 fn unused<'a>(
@@ -52,6 +53,6 @@ fn unused<'a>(
     });
     for id in bound.into_iter().filter(|id| !used[id.index()]) {
         let message = format!("nothing names the variable `?{}` where it is bound", variables[id].name);
-        found.report(Finding::new(&LINT, place(variables[id].span), message));
+        found.report(LINT.finding(place(variables[id].span), message));
     }
 }

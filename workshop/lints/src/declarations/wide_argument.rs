@@ -5,7 +5,7 @@ use pddl::model::{Domain, Name, Term, Variables};
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::DomainView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 use analysis::walk::Part;
 
 pub(crate) static LINT: Lint = Lint {
@@ -38,8 +38,8 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
                     let (of, needed) = (type_text(domain, &given.types), type_text(domain, &parameter.types));
                     let message =
                         format!("`?{}` is of type {of}, but `{name}` is about {needed} only", given.name);
-                    let finding = Finding::new(&LINT, Place::domain(span), message);
-                    found.report(finding.label(Place::domain(given.span), "declared here"));
+                    let finding = LINT.finding(place::domain(span), message);
+                    found.report(finding.label(place::domain(given.span), "declared here"));
                 }
             }
         });

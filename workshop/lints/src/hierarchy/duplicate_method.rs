@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::DomainView;
-use crate::{Finding, Level, Lint, Place, shape};
+use crate::{Level, Lint, place, shape};
 
 pub(crate) static LINT: Lint = Lint {
     name: "duplicate-method",
@@ -29,8 +29,8 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
         });
         if let Some((other, earlier)) = first.get(&(method.task, shape.clone())) {
             let message = format!("method `{}` says the same as `{other}`", method.name);
-            let finding = Finding::new(&LINT, Place::domain(method.span), message);
-            found.report(finding.label(Place::domain(*earlier), "the other one"));
+            let finding = LINT.finding(place::domain(method.span), message);
+            found.report(finding.label(place::domain(*earlier), "the other one"));
         } else {
             first.insert((method.task, shape), (&method.name, method.span));
         }

@@ -5,7 +5,7 @@ use pddl::model::{Idx, Method, SubtaskHead};
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::DomainView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "endless-recursion",
@@ -37,6 +37,6 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
             "every method for the task `{}` leads to a task like it again, without an end",
             task.name
         );
-        found.report(Finding::new(&LINT, Place::domain(task.span), message));
+        found.report(LINT.finding(place::domain(task.span), message));
     }
 }

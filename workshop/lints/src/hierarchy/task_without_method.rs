@@ -3,7 +3,7 @@
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::DomainView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "task-without-method",
@@ -16,7 +16,7 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
     for (id, task) in view.domain.tasks.enumerate() {
         if view.domain.methods.iter().all(|method| method.task != id) {
             let message = format!("no method is for the task `{}`", task.name);
-            found.report(Finding::new(&LINT, Place::domain(task.span), message));
+            found.report(LINT.finding(place::domain(task.span), message));
         }
     }
 }

@@ -3,7 +3,7 @@
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::ProblemView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "unused-action",
@@ -27,6 +27,6 @@ fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
         .chain(durative.map(|(_, action)| (&action.name, action.name_span)));
     for (name, span) in names {
         let message = format!("no method and no task network has the action `{name}`");
-        found.report(Finding::new(&LINT, Place::domain(span), message));
+        found.report(LINT.finding(place::domain(span), message));
     }
 }

@@ -5,7 +5,7 @@ use pddl::model::SubtaskHead;
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::ProblemView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "unused-task",
@@ -24,7 +24,7 @@ fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
         let mut subtasks = others.flat_map(|method| &method.network.subtasks);
         if !view.usage().tasks[id] && !subtasks.any(|subtask| subtask.head == SubtaskHead::Task(id)) {
             let message = format!("nothing asks for the task `{}`", task.name);
-            found.report(Finding::new(&LINT, Place::domain(task.span), message));
+            found.report(LINT.finding(place::domain(task.span), message));
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::declarations::type_text;
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::DomainView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "wide-subtask",
@@ -34,8 +34,8 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
                     let (of, takes) = (type_text(domain, &given.types), type_text(domain, &parameter.types));
                     let message =
                         format!("`?{}` is of type {of}, but `{name}` takes {takes} only", given.name);
-                    let finding = Finding::new(&LINT, Place::domain(subtask.span), message);
-                    found.report(finding.label(Place::domain(given.span), "declared here"));
+                    let finding = LINT.finding(place::domain(subtask.span), message);
+                    found.report(finding.label(place::domain(given.span), "declared here"));
                 }
             }
         }

@@ -8,7 +8,7 @@ use super::literals::{Fact, Literal, required};
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::DomainView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "aliased-effect",
@@ -69,10 +69,10 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
                 if let Some(added) = added {
                     let title = schema.title(view.domain);
                     let message = format!("{title} undoes this where its parameters are the same object");
-                    let finding = Finding::new(&LINT, Place::domain(deleted.span), message);
+                    let finding = LINT.finding(place::domain(deleted.span), message);
                     found.report(
                         finding
-                            .label(Place::domain(added.span), "adding wins")
+                            .label(place::domain(added.span), "adding wins")
                             .help("ask for `not =` in the precondition if they are meant to differ"),
                     );
                 }

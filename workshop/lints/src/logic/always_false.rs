@@ -1,5 +1,6 @@
 //! A condition that can never hold.
 
+use diagnostics::Place;
 use pddl::model::{Comparison, Condition, ConditionKind, Expression, ExpressionKind, Term};
 
 use super::literals::{Fact, Group, Literal, contradictions, groups};
@@ -7,7 +8,7 @@ use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::shape::Shape;
 use crate::view::{DomainView, ProblemView};
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "always-false",
@@ -18,12 +19,12 @@ pub(crate) static LINT: Lint = Lint {
 
 fn in_domain(view: &DomainView<'_>, found: &mut Findings) {
     for conditions in view.schemas().flat_map(|schema| schema.conditions()) {
-        check(&groups(conditions), Place::domain, found);
+        check(&groups(conditions), place::domain, found);
     }
 }
 
 fn in_goal(view: &ProblemView<'_, '_>, found: &mut Findings) {
-    check(&groups([&view.problem.goal]), Place::problem, found);
+    check(&groups([&view.problem.goal]), place::problem, found);
 }
 
 fn check(groups: &[Group<'_>], place: fn(pddl::Span) -> Place, found: &mut Findings) {
@@ -33,13 +34,13 @@ fn check(groups: &[Group<'_>], place: fn(pddl::Span) -> Place, found: &mut Findi
             Group::All(parts) | Group::Any(parts) => parts,
         };
         for part in parts.iter().filter(|part| verdict(part) == Some(false)) {
-            found.report(Finding::new(&LINT, place(part.span), "this can never hold"));
+            found.report(LINT.finding(place(part.span), "this can never hold"));
         }
         let Group::All(parts) = group else { continue };
         let literals: Vec<Literal> = parts.iter().filter_map(|part| Literal::of(part)).collect();
         for (literal, earlier) in contradictions(&literals) {
             let message = "this can never hold together with another part";
-            let finding = Finding::new(&LINT, place(literal.span), message);
+            let finding = LINT.finding(place(literal.span), message);
             found.report(finding.label(place(earlier.span), "with this"));
         }
     }

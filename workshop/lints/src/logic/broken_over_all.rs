@@ -7,7 +7,7 @@ use super::literals::{Fact, required};
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::DomainView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "broken-over-all",
@@ -38,8 +38,8 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
             };
             if let Some(literal) = asked.iter().find(|l| l.positive != becomes && l.fact == Fact::of(atom)) {
                 let message = "this takes away what the action itself asks for over all of its duration";
-                let finding = Finding::new(&LINT, Place::domain(effect.span), message);
-                found.report(finding.label(Place::domain(literal.span), "asked for here"));
+                let finding = LINT.finding(place::domain(effect.span), message);
+                found.report(finding.label(place::domain(literal.span), "asked for here"));
             }
         }
     }

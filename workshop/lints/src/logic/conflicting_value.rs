@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap;
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::ProblemView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "conflicting-value",
@@ -26,8 +26,8 @@ fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
             }
             Entry::Occupied(first) if first.get().value != fact.value => {
                 let message = "this has another value already";
-                let finding = Finding::new(&LINT, Place::problem(fact.span), message);
-                found.report(finding.label(Place::problem(first.get().span), "the other one"));
+                let finding = LINT.finding(place::problem(fact.span), message);
+                found.report(finding.label(place::problem(first.get().span), "the other one"));
             }
             Entry::Occupied(_) => {}
         }

@@ -5,7 +5,7 @@ use pddl::model::{Expression, ExpressionKind};
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::ProblemView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "constant-metric",
@@ -22,7 +22,7 @@ fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
         && !depends_on_plan(view, &metric.expression)
     {
         let message = "no action changes what the metric is about: all plans are equally good";
-        found.report(Finding::new(&LINT, Place::problem(metric.expression.span), message));
+        found.report(LINT.finding(place::problem(metric.expression.span), message));
     }
 }
 

@@ -7,7 +7,7 @@ use super::literals::{Fact, required};
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::DomainView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "contradictory-effect",
@@ -24,8 +24,8 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
                 if !locks[deleted.predicate] {
                     let name = &view.domain.predicates[deleted.predicate].name;
                     let message = format!("`{name}` is made true and false at once: adding wins");
-                    let finding = Finding::new(&LINT, Place::domain(deleted.span), message);
-                    found.report(finding.label(Place::domain(added.span), "made true here"));
+                    let finding = LINT.finding(place::domain(deleted.span), message);
+                    found.report(finding.label(place::domain(added.span), "made true here"));
                 }
             }
         }

@@ -5,7 +5,7 @@ use super::literals::required;
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::DomainView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "dead-when",
@@ -21,8 +21,8 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
             for literal in required([when.condition]) {
                 if let Some(other) = asked.iter().find(|a| a.contradicts(&literal)) {
                     let message = "this never holds here, so that the effect never happens";
-                    let finding = Finding::new(&LINT, Place::domain(literal.span), message);
-                    found.report(finding.label(Place::domain(other.span), "the precondition asks for this"));
+                    let finding = LINT.finding(place::domain(literal.span), message);
+                    found.report(finding.label(place::domain(other.span), "the precondition asks for this"));
                 }
             }
         }

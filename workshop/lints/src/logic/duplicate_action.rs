@@ -8,7 +8,7 @@ use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::shape::{self, Shape};
 use crate::view::DomainView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "duplicate-action",
@@ -42,8 +42,8 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
     for (shape, name, span) in actions.chain(durative) {
         if let Some((other, earlier)) = first.get(&shape) {
             let message = format!("action `{name}` does the same as `{other}`");
-            let finding = Finding::new(&LINT, Place::domain(span), message);
-            found.report(finding.label(Place::domain(*earlier), "the other one"));
+            let finding = LINT.finding(place::domain(span), message);
+            found.report(finding.label(place::domain(*earlier), "the other one"));
         } else {
             first.insert(shape, (name, span));
         }

@@ -5,7 +5,7 @@ use pddl::model::{Term, TimeSpecifier};
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::DomainView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 use analysis::walk::{self, Part, Polarity};
 
 pub(crate) static LINT: Lint = Lint {
@@ -23,7 +23,7 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
             if let Some(Term::Variable(variable)) = part.terms().iter().find(|term| is_result(term)) {
                 let name = &action.variables[*variable].name;
                 let message = format!("the result `?{name}` is not known {when}");
-                found.report(Finding::new(&LINT, Place::domain(span), message));
+                found.report(LINT.finding(place::domain(span), message));
             }
         };
         for timed in &action.conditions {

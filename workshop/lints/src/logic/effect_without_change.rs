@@ -8,7 +8,7 @@ use super::literals::{Fact, Literal, required};
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::DomainView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "effect-without-change",
@@ -27,7 +27,7 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
             for effect in changes.changes.iter().map(|change| change.effect) {
                 if is_neutral(view.domain, effect) {
                     let message = "this leaves the number as it is";
-                    found.report(Finding::new(&LINT, Place::domain(effect.span), message));
+                    found.report(LINT.finding(place::domain(effect.span), message));
                 }
             }
         }
@@ -53,8 +53,8 @@ fn compare(asked: &[Literal], effect: &Effect, found: &mut Findings) {
         }
         if let Some(literal) = asked.iter().find(|l| l.positive == positive && l.fact == fact) {
             let message = "this changes nothing, since the condition asks for it already";
-            let finding = Finding::new(&LINT, Place::domain(effect.span), message);
-            found.report(finding.label(Place::domain(literal.span), "asked for here"));
+            let finding = LINT.finding(place::domain(effect.span), message);
+            found.report(finding.label(place::domain(literal.span), "asked for here"));
         }
     }
 }

@@ -4,7 +4,7 @@ use super::static_goal::true_initially;
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::ProblemView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "goal-already-true",
@@ -19,7 +19,7 @@ fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
     }
     for (literal, predicate) in true_initially(view) {
         if view.domain.usage().predicates[predicate].fluent() {
-            found.report(Finding::new(&LINT, Place::problem(literal.span), "this holds already"));
+            found.report(LINT.finding(place::problem(literal.span), "this holds already"));
         }
     }
 }

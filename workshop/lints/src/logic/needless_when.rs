@@ -5,7 +5,7 @@ use super::literals::{Literal, conjuncts, required};
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::DomainView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "needless-when",
@@ -24,8 +24,8 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
             if parts.into_iter().all(|part| Literal::of(part).is_some_and(holds)) {
                 let message = "this condition always holds here: the precondition asks for it";
                 let span = when.condition.span;
-                let place = Place::domain(if span.start < span.end { span } else { when.whole.span });
-                found.report(Finding::new(&LINT, place, message).help("write the effect without `when`"));
+                let place = place::domain(if span.start < span.end { span } else { when.whole.span });
+                found.report(LINT.finding(place, message).help("write the effect without `when`"));
             }
         }
     }

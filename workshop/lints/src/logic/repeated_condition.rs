@@ -1,5 +1,6 @@
 //! `(and (p) (p))`
 
+use diagnostics::Place;
 use std::collections::hash_map::Entry;
 
 use rustc_hash::FxHashMap;
@@ -8,7 +9,7 @@ use super::literals::{Fact, Group, Literal, groups};
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::{DomainView, ProblemView};
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "repeated-condition",
@@ -19,12 +20,12 @@ pub(crate) static LINT: Lint = Lint {
 
 fn in_domain(view: &DomainView<'_>, found: &mut Findings) {
     for conditions in view.schemas().flat_map(|schema| schema.conditions()) {
-        check(&groups(conditions), Place::domain, found);
+        check(&groups(conditions), place::domain, found);
     }
 }
 
 fn in_goal(view: &ProblemView<'_, '_>, found: &mut Findings) {
-    check(&groups([&view.problem.goal]), Place::problem, found);
+    check(&groups([&view.problem.goal]), place::problem, found);
 }
 
 fn check(groups: &[Group<'_>], place: fn(pddl::Span) -> Place, found: &mut Findings) {
@@ -37,7 +38,7 @@ fn check(groups: &[Group<'_>], place: fn(pddl::Span) -> Place, found: &mut Findi
                     entry.insert(literal.span);
                 }
                 Entry::Occupied(first) => {
-                    let finding = Finding::new(&LINT, place(literal.span), "this stands here a second time");
+                    let finding = LINT.finding(place(literal.span), "this stands here a second time");
                     found.report(finding.label(place(*first.get()), "first here"));
                 }
             }

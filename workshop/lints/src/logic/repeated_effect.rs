@@ -7,7 +7,7 @@ use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::shape::Shape;
 use crate::view::DomainView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "repeated-effect",
@@ -24,9 +24,8 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
             let span = change.effect.span;
             let key = (change.context, Shape::PLAIN.effect(change.effect));
             if let Some(&earlier) = first.get(&key) {
-                let finding =
-                    Finding::new(&LINT, Place::domain(span), "this effect stands here a second time");
-                found.report(finding.label(Place::domain(earlier), "first here"));
+                let finding = LINT.finding(place::domain(span), "this effect stands here a second time");
+                found.report(finding.label(place::domain(earlier), "first here"));
             } else {
                 first.insert(key, span);
             }

@@ -9,7 +9,7 @@ use rustc_hash::FxHashMap;
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::ProblemView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "repeated-fact",
@@ -45,6 +45,6 @@ fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
 }
 
 fn twice(span: Span, first: Span, found: &mut Findings) {
-    let finding = Finding::new(&LINT, Place::problem(span), "this stands here a second time");
-    found.report(finding.label(Place::problem(first), "first here"));
+    let finding = LINT.finding(place::problem(span), "this stands here a second time");
+    found.report(finding.label(place::problem(first), "first here"));
 }

@@ -7,7 +7,7 @@ use super::literals::{Fact, Literal, required};
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::ProblemView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "static-goal",
@@ -25,7 +25,7 @@ fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
         if !timed && !view.domain.usage().predicates[predicate].fluent() {
             let name = &view.domain.domain.predicates[predicate].name;
             let message = format!("this holds from the beginning, and no action changes `{name}`");
-            found.report(Finding::new(&LINT, Place::problem(literal.span), message));
+            found.report(LINT.finding(place::problem(literal.span), message));
         }
     }
 }

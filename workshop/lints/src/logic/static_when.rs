@@ -6,7 +6,7 @@ use super::changes::Changes;
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::DomainView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 use analysis::walk::{self, Part, Polarity};
 
 pub(crate) static LINT: Lint = Lint {
@@ -27,7 +27,7 @@ fn check(view: &DomainView<'_>, found: &mut Findings) {
                 let empty = matches!(&when.effect.kind, EffectKind::And(parts) if parts.is_empty());
                 if !empty && is_fixed(view, when.condition, schema.variables().parameters) {
                     let message = "nothing changes whether this holds";
-                    found.report(Finding::new(&LINT, Place::domain(when.condition.span), message));
+                    found.report(LINT.finding(place::domain(when.condition.span), message));
                 }
             }
         }

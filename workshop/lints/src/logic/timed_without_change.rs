@@ -6,7 +6,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::ProblemView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "timed-without-change",
@@ -36,7 +36,7 @@ fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
         if before == becomes && !usage.predicates[fact.predicate].fluent() {
             let is = if becomes { "true" } else { "false" };
             let message = format!("this is {is} already then, and no effect changes it");
-            found.report(Finding::new(&LINT, Place::problem(fact.span), message));
+            found.report(LINT.finding(place::problem(fact.span), message));
         }
     }
 }

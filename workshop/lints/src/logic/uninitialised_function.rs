@@ -5,7 +5,7 @@ use pddl::model::{AssignOperator, IndexVec};
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::{ProblemView, is_here};
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 use analysis::walk::Part;
 
 pub(crate) static LINT: Lint = Lint {
@@ -34,7 +34,7 @@ fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
     for (id, function) in domain.functions.enumerate().filter(|(_, f)| is_here(f.span)) {
         if needed[id] && !assigned[id] && !view.usage().functions[id].written {
             let message = format!("actions need the value of `{}`, but nothing gives it one", function.name);
-            found.report(Finding::new(&LINT, Place::domain(function.span), message));
+            found.report(LINT.finding(place::domain(function.span), message));
         }
     }
 }

@@ -9,7 +9,7 @@ use pddl::model::{Condition, Term, Variables};
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::{ProblemView, is_here};
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 use super::exclusion::{find, words};
 
@@ -71,8 +71,6 @@ fn judge(
         text(b.span),
         view.wording().schema(schema)
     );
-    found.report(
-        Finding::new(&LINT, Place::domain(b.span), message).label(Place::domain(a.span), "excludes it"),
-    );
+    found.report(LINT.finding(place::domain(b.span), message).label(place::domain(a.span), "excludes it"));
     true
 }

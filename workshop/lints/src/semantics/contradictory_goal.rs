@@ -6,7 +6,7 @@ use pddl::model::Term;
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::ProblemView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 use analysis::text::shortened;
 
 use super::exclusion::{find, words};
@@ -34,7 +34,5 @@ fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
     let reason = words(&exclusion.invariant, domain, &instance.iter().map(term).collect::<Vec<_>>());
     let text = |span| shortened(view.source.slice(span));
     let message = format!("goals `{}` and `{}` exclude each other: {reason}", text(a.span), text(b.span));
-    found.report(
-        Finding::new(&LINT, Place::problem(b.span), message).label(Place::problem(a.span), "excludes it"),
-    );
+    found.report(LINT.finding(place::problem(b.span), message).label(place::problem(a.span), "excludes it"));
 }

@@ -6,7 +6,7 @@ use analysis::text::listed;
 use crate::analysis::Analysis;
 use crate::finding::Findings;
 use crate::view::{DomainView, ProblemView, is_here};
-use crate::{Finding, Lint, Place};
+use crate::{Lint, place};
 
 /// Consequences that are named.
 const NAMED: usize = 6;
@@ -49,15 +49,15 @@ pub(crate) fn report(
         if let Some((_, at)) = said.iter().find(|(reason, _)| *reason == dead.reason) {
             let same = format!("{} for the same reason", wording.title(&dead.origin));
             let first = &mut found.0[*at];
-            first.labels.push((Place::domain(span), same));
+            first.finding.related.push((place::domain(span), same));
             continue;
         }
         said.push((&dead.reason, found.0.len()));
         let title = wording.title(&dead.origin);
         let message = format!("{title} {}: {}", verdict.text, dead.reason);
-        let mut finding = Finding::new(verdict.lint, Place::domain(span), message);
+        let mut finding = verdict.lint.finding(place::domain(span), message);
         if let Some(needed) = dead.needed.filter(|&n| is_here(n) && n != span) {
-            finding = finding.label(Place::domain(needed), "needed here");
+            finding = finding.label(place::domain(needed), "needed here");
         }
         if !dead.consequences.is_empty() {
             let mut titles: Vec<String> =

@@ -7,7 +7,7 @@ use pddl::model::{ArithmeticOperator, AssignedValue, Condition, ConditionKind, E
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::{DomainView, ProblemView, is_here};
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 use analysis::happening::happenings;
 use analysis::intervals::{Hulls, Interval, Value};
 use analysis::text::shortened;
@@ -40,7 +40,7 @@ fn check(view: &DomainView<'_>, hulls: &Hulls, found: &mut Findings) {
                 if hulls.hull(divisor) == zero && is_here(divisor.span) {
                     let text = shortened(view.source.slice(divisor.span));
                     let message = format!("division by `{text}`, which is always 0");
-                    found.report(Finding::new(&LINT, Place::domain(divisor.span), message));
+                    found.report(LINT.finding(place::domain(divisor.span), message));
                 }
             }
         });

@@ -3,7 +3,7 @@
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::ProblemView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "impossible-task",
@@ -17,6 +17,6 @@ fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
     for subtask in &view.analysis().never.impossible {
         let Some(task) = network.subtasks.get(subtask.subtask) else { continue };
         let message = format!("this task can never be carried out: {}", subtask.reason);
-        found.report(Finding::new(&LINT, Place::problem(task.span), message));
+        found.report(LINT.finding(place::problem(task.span), message));
     }
 }

@@ -5,7 +5,7 @@ use pddl::model::{Comparison, DurationConstraint, ExpressionKind, FluentValue};
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::{DomainView, ProblemView, is_here};
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 use analysis::Number;
 use analysis::intervals::{Hulls, Interval, Value};
 
@@ -45,8 +45,8 @@ fn in_problem(view: &ProblemView<'_, '_>, found: &mut Findings) {
             });
             if let Some(fact) = negative {
                 let message = format!("this makes a duration of action `{}` negative", action.name);
-                let finding = Finding::new(&LINT, Place::problem(fact.span), message);
-                found.report(finding.label(Place::domain(bound.span), "the duration"));
+                let finding = LINT.finding(place::problem(fact.span), message);
+                found.report(finding.label(place::domain(bound.span), "the duration"));
             }
         }
     }
@@ -74,8 +74,7 @@ fn certain(view: &DomainView<'_>, hulls: &Hulls, found: &mut Findings) {
             {
                 let message = format!("the duration of action `{}` is negative", action.name);
                 found.report(
-                    Finding::new(&LINT, Place::domain(constraint.span), message)
-                        .help(format!("it is {interval}")),
+                    LINT.finding(place::domain(constraint.span), message).help(format!("it is {interval}")),
                 );
             }
         }
@@ -87,8 +86,8 @@ fn certain(view: &DomainView<'_>, hulls: &Hulls, found: &mut Findings) {
                 let is_negative = !at_most.may(Comparison::GreaterEqual, ZERO);
                 if leaves_none && !is_negative && is_here(high.span) {
                     let message = format!("no duration of action `{}` keeps both bounds", action.name);
-                    let finding = Finding::new(&LINT, Place::domain(high.span), message);
-                    found.report(finding.label(Place::domain(low.span), format!("{at_least}")));
+                    let finding = LINT.finding(place::domain(high.span), message);
+                    found.report(finding.label(place::domain(low.span), format!("{at_least}")));
                 }
             }
         }

@@ -3,7 +3,7 @@
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};
 use crate::view::ProblemView;
-use crate::{Finding, Level, Lint, Place};
+use crate::{Level, Lint, place};
 
 pub(crate) static LINT: Lint = Lint {
     name: "unreachable-goal",
@@ -23,6 +23,6 @@ fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
             .collect();
         let with = if with.is_empty() { String::new() } else { format!(" for {}", with.join(", ")) };
         let message = format!("the goal can never be reached{with}: {}", goal.reason);
-        found.report(Finding::new(&LINT, Place::problem(span), message));
+        found.report(LINT.finding(place::problem(span), message));
     }
 }

@@ -1,9 +1,11 @@
-//! What several test files share: texts with what they mean, and what is found in them.
+//! Shared by several test files: texts with their models, and the findings in them.
 #![allow(dead_code, reason = "each test file uses a part of it")]
 
-use lints::{Edit, File, Finding, Level, Linter};
+use diagnostics::{Place, SourceId};
+use lints::{File, Level, Linted, Linter};
 use pddl::model::{Domain, Problem};
-use pddl::{FileKind, Source, parse_domain, parse_problem};
+use pddl::{Source, parse_domain, parse_problem};
+use std::fmt::Write as _;
 
 /// A domain, perhaps with a problem; both may stand in one file.
 pub(crate) struct Case {
@@ -37,38 +39,59 @@ impl Case {
         Self::new(&texts.iter().map(|text| Source::new("example", *text)).collect::<Vec<_>>())
     }
 
-    fn source(&self, file: FileKind) -> usize {
-        match file {
-            FileKind::Domain => self.domain.0,
-            FileKind::Problem => self.problem.as_ref().expect("a problem was looked at").0,
-        }
-    }
-
-    pub(crate) fn describe(&self, findings: &[Finding]) -> String {
-        let problem = self.problem.as_ref().map(|(i, _)| &self.sources[*i]);
-        findings.iter().map(|f| f.describe(&self.sources[self.domain.0], problem)).collect()
+    pub(crate) fn describe(&self, findings: &[Linted]) -> String {
+        findings.iter().map(|linted| describe(linted, &|id| &self.sources[id.0 as usize])).collect()
     }
 
     /// The same with other texts.
-    pub(crate) fn edited(&self, edits: &[Edit]) -> Self {
+    pub(crate) fn edited(&self, edits: &[(Place, String)]) -> Self {
         let mut edits = edits.to_vec();
-        edits.sort_by_key(|e| std::cmp::Reverse(e.place.span));
+        edits.sort_by_key(|(place, _)| std::cmp::Reverse(place.span));
         let mut texts: Vec<String> = self.sources.iter().map(|s| s.text().to_owned()).collect();
-        for edit in edits {
-            texts[self.source(edit.place.file)].replace_range(edit.place.span.range(), &edit.text);
+        for (place, text) in edits {
+            texts[place.source.0 as usize].replace_range(place.span.range(), &text);
         }
         Self::of_texts(&texts.iter().map(String::as_str).collect::<Vec<_>>())
     }
 }
 
-/// What is found in the problem, then in the domain.
-pub(crate) fn findings_of(case: &Case, level: Level) -> Vec<Finding> {
-    let source = &case.sources[case.domain.0];
-    let mut linter = Linter::new(File { source, model: &case.domain.1 }, level);
+/// The findings in the problem, then those in the domain.
+pub(crate) fn findings_of(case: &Case, level: Level) -> Vec<Linted> {
+    let id = |at: usize| SourceId(u32::try_from(at).expect("there are few files"));
+    let file = |at: usize| (id(at), &case.sources[at]);
+    let (domain, source) = file(case.domain.0);
+    let mut linter = Linter::new(File { id: domain, source, model: &case.domain.1 }, level);
     let mut found = Vec::new();
-    if let Some((i, problem)) = &case.problem {
-        found = linter.problem(File { source: &case.sources[*i], model: problem });
+    if let Some((at, model)) = &case.problem {
+        let (id, source) = file(*at);
+        found = linter.problem(File { id, source, model });
     }
     found.extend(linter.finish());
     found
+}
+
+/// A finding with excerpts of its places.
+pub(crate) fn describe<'s>(linted: &Linted, source: &dyn Fn(SourceId) -> &'s Source) -> String {
+    let Linted { finding, lint, fix } = linted;
+    let at = source(finding.place.source);
+    let position = at.line_column(finding.place.span.start);
+    let (line, column) = (position.line, position.column);
+    let mut text = format!(
+        "{}:{line}:{column}: warning[{}]: {} ({lint})\n",
+        at.name(),
+        finding.code.unwrap_or_default(),
+        finding.message
+    );
+    text += &at.excerpt(finding.place.span, "");
+    for (place, note) in &finding.related {
+        text += &source(place.source).excerpt(place.span, note);
+    }
+    let title = fix.as_ref().map(|fix| &fix.title);
+    if let Some(help) = finding.help.as_ref().filter(|&help| Some(help) != title) {
+        let _ = writeln!(text, "  = {help}");
+    }
+    if let Some(title) = title {
+        let _ = writeln!(text, "  = fix: {title}");
+    }
+    text
 }
