@@ -220,7 +220,7 @@ fn the_planner_is_asked() {
             pass tea/domain.pddl::check
             pass tea/two.pddl::check
             FAIL tea/two.pddl::solvable
-            tea/two.pddl:2:31: error[T0304]: no answer: the time is over
+            tea/two.pddl:2:31: error[T0304]: no answer: grounding was interrupted in `two`
               tea/expected.toml:2:1: expected here
               help: `timeout` allows for 0 s
         "#]],
