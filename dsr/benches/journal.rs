@@ -1,4 +1,4 @@
-//! What the journal costs whoever commits, what it writes, and how long it takes to read back.
+//! What the journal costs a commit, what it writes, and how long it takes to read back.
 //! `cargo bench -p pelea-dsr --bench journal`; writes below the system's folder for temporary files.
 #![allow(missing_docs, reason = "a bench has no readers of its documentation")]
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a bench that fails says where, and prints")]

@@ -91,7 +91,7 @@ fn far(p: &mut PatternBuilder<'_>, crowd: &Crowd) {
     p.edge(who, crowd.with, robot).distance(who, robot, Comparison::Greater, 1.0);
 }
 
-/// A robot with nobody nearer than a metre.
+/// A robot with no person nearer than a metre.
 fn alone(p: &mut PatternBuilder<'_>, crowd: &Crowd) {
     let robot = p.variable("robot", crowd.robot);
     p.without(|p| {

@@ -1,8 +1,8 @@
 //! Eight writers and eight readers on one graph, beside a reader that keeps one snapshot for ever, a subscriber that
 //! never listens and one whose callback panics. `cargo xtask soak [SECONDS]`; ends with an error if an update was lost.
 //!
-//! Runs three times, with nobody else, with those that stall, and with the one that panics, and prints each: who stalls
-//! should slow nobody, and a panic costs its committer the unwinding. Times of single snapshots
+//! Runs three times: alone, with a reader and a subscriber that stall, and with a callback that panics; prints each. A stall
+//! should slow no other thread, and a panic costs its committer the unwinding. Times of single snapshots
 //! are as the reader sees them, so the longest have the scheduler's slices in them wherever more threads run than there
 //! are cores; how often that happens is what the counts beyond 1 ms say. That a snapshot needs nothing that a writer
 //! has is a test's business (`graph.rs`); this one shows it under load.

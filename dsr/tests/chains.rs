@@ -217,9 +217,9 @@ fn a_chain_tells_its_error_if_it_is_known() {
         }
     };
     let variance = |pose: &dsr::Pose| pose.covariance.as_ref().map(|known| known.matrix()[(0, 0)]);
-    assert_eq!(variance(&pose(None)), None, "nobody has told");
+    assert_eq!(variance(&pose(None)), None, "no edge has a covariance");
     world::commit(&graph, "dsr", "no-transform world clarc\nsample world clarc 0 1 0").unwrap();
-    assert_eq!(variance(&pose(None)), None, "it moves, and nobody has told");
+    assert_eq!(variance(&pose(None)), None, "a moving edge without a covariance");
     let moved = "sample world clarc 100 1 0 0.01\nsample world clarc 200 2 0 0.03";
     world::commit(&graph, "dsr", moved).unwrap();
     // The camera stands above the robot: an error in how that leans moves it too.

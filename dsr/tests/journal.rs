@@ -1,4 +1,4 @@
-//! The journal: every version comes back to the byte, whatever was cut or damaged is named, nobody waits for a disk.
+//! The journal: every version is read back to the byte, every cut or damage is reported, and no commit waits for a disk.
 #![allow(clippy::unwrap_used, reason = "a test that fails says where")]
 
 mod world;

@@ -110,7 +110,7 @@ fn check(before: &Seen, deed: Deed, now: &Snapshot, agents: &[AgentId]) {
         for other in now.waiting(resource) {
             assert_eq!(other.inherited, seen.worth(other.agent), "{}", context());
         }
-        // Fair: who is behind somebody of the same worth asked later.
+        // Fair: of two waits of the same worth, the one behind asked later.
         let turns: Vec<_> = now.waiting(resource).iter().map(|w| (-w.inherited.0, w.asked)).collect();
         assert!(turns.is_sorted(), "out of turn: {}", context());
         let Some((holder, yields)) = *lease else { continue };
@@ -132,7 +132,7 @@ fn check(before: &Seen, deed: Deed, now: &Snapshot, agents: &[AgentId]) {
         {
             assert!(old_yields, "taken from one that finishes: {}", context());
         }
-        // Stop now means now: nobody who is worth more than all that the holder's work is worth waits for it.
+        // Stop now means now: no agent that is worth more than the holder's lease waits for it.
         if yields {
             let others = seen.0.iter().enumerate().filter(|(other, _)| *other != at);
             let blocked = others.filter(|(_, (lease, _))| lease.is_some_and(|(agent, _)| agent == holder));
@@ -152,7 +152,7 @@ fn check(before: &Seen, deed: Deed, now: &Snapshot, agents: &[AgentId]) {
     }
 }
 
-/// Everybody who can go on does, and gives back what it has: in the end nobody waits.
+/// Every agent that can continue does, and releases what it has: in the end no agent waits.
 fn finish(graph: &Graph, agents: &[AgentId]) {
     for _ in 0..20 {
         let seen = see(&graph.snapshot());
@@ -169,7 +169,7 @@ fn finish(graph: &Graph, agents: &[AgentId]) {
             }
         }
     }
-    panic!("somebody waits for ever");
+    panic!("an agent waits for ever");
 }
 
 #[test]
@@ -274,7 +274,7 @@ fn a_middling_claim_does_not_take_from_a_low_one_what_a_high_one_waits_for() {
     perform(&graph, Deed::Claim(low, camera)).unwrap();
     perform(&graph, Deed::Await(low, base)).unwrap();
     let taken = perform(&graph, Deed::Claim(middle, camera)).unwrap();
-    assert_eq!(taken.snapshot.lease(camera).unwrap().holder, middle, "nobody waits for the low one");
+    assert_eq!(taken.snapshot.lease(camera).unwrap().holder, middle, "no agent waits for the low one");
     perform(&graph, Deed::Release(middle, camera)).unwrap();
 
     perform(&graph, Deed::Claim(low, camera)).unwrap();

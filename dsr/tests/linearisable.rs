@@ -36,7 +36,7 @@ impl Access for Careless {
     }
 }
 
-/// Readers are given what somebody read before them.
+/// Readers get what another one read before them.
 struct Stale(Mutex<Option<Snapshot>>);
 impl Access for Stale {
     fn read(&self, graph: &Graph) -> Snapshot {

@@ -94,7 +94,7 @@ fn the_last_versions_are_remembered_and_no_more() {
     let graph = world::ward();
     let first = graph.snapshot().version().0;
     world::commit(&graph, "dsr", "set barthel score number 0").unwrap();
-    assert!(graph.at(Version(first)).is_none(), "nobody asked for it");
+    assert!(graph.at(Version(first)).is_none(), "it was not remembered");
     graph.remember(2);
     for round in 1..=5 {
         world::commit(&graph, "dsr", &format!("set barthel score number {round}")).unwrap();

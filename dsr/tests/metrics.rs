@@ -89,7 +89,7 @@ fn a_threshold_with_hysteresis_does_not_flutter() {
     // Without history: only what would appear.
     walk(&graph, 1.2, 0.0);
     assert!(holds(&mut close) && !close.pattern().holds(&graph.snapshot()));
-    // Whoever was not told of every step, and goes on from the newest state, remembers what it has.
+    // A subscriber that missed steps, and continues from the newest state, keeps the matches that it has.
     let vocabulary = graph.vocabulary();
     let mut pattern = PatternBuilder::new(&vocabulary);
     pattern.distance("robot", "person", Comparison::LessOrEqual, near);
@@ -103,7 +103,7 @@ fn a_threshold_with_hysteresis_does_not_flutter() {
     assert!(!holds(&mut slow) && !holds(&mut close), "who is gone is not close");
 }
 
-/// Nobody close: not before one and a half metres, and until one.
+/// No person close: appears beyond one and a half metres, disappears within one.
 #[test]
 fn a_negated_threshold_does_not_flutter_either() {
     let graph = room();

@@ -1,5 +1,5 @@
 //! Patterns that measure, while frames move, change their parents, and come and go: what a subscriber holds against a
-//! naive machine that judges every assignment of nodes after every commit. And who is told of a move.
+//! naive machine that judges every assignment of nodes after every commit. And which subscribers receive a move.
 #![allow(clippy::unwrap_used, reason = "a test that fails says where")]
 
 mod world;
@@ -350,12 +350,12 @@ impl Watched {
 fn check(history: &[String]) -> Result<(), TestCaseError> {
     let graph = house();
     let mut each = Watched::all(&graph, Delivery::Each);
-    // Who looks at every third commit and is told of all three as one.
+    // A subscriber that reads after every third commit and receives the three as one.
     let mut newest = Watched::all(&graph, Delivery::Newest);
     // Who looks as seldom, and has no room for more than one.
     let mut small = Watched::all(&graph, NonZeroUsize::new(1).unwrap());
     for (at, lines) in history.iter().enumerate() {
-        // A transaction that is refused changes nothing, and nobody is told.
+        // A rejected transaction changes nothing and reaches no subscriber.
         let _ = world::commit(&graph, "dsr", lines);
         each.iter_mut().try_for_each(|watched| watched.look(&graph))?;
         if at % 3 == 2 {
@@ -390,7 +390,7 @@ fn one_that_is_held_in_the_band_speaks_for_no_other() {
     check(&history.map(str::to_owned)).unwrap();
 }
 
-/// Each line is a commit; whether each watcher was told of it, and how many matches it has.
+/// Each line is a commit, with whether each watcher received it and how many matches it has.
 #[test]
 fn who_measures_nothing_that_moves_is_not_told() {
     let graph = house();

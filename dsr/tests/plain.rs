@@ -90,7 +90,7 @@ fn what_is_read_is_checked() {
     let strange = json.replace("\"index\":2", "\"index\":7");
     assert_ne!(strange, json);
     assert!(source(&strange).build(&graph.vocabulary()).is_err());
-    // A part that declares a variable of the pattern, and a variable that nobody declares.
+    // A part that declares a variable of the pattern, and a variable that no part declares.
     let local = r#"{"variable":{"scope":"local","index":0}}"#;
     let again = json.replace(
         &format!(r#""variables":[{local}]"#),

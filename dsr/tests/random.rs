@@ -163,7 +163,7 @@ impl Model {
         fine
     }
 
-    /// One person per place where somebody sits, and one place per person.
+    /// One person per seat, and one seat per person.
     fn all_sit_apart(&self) -> bool {
         let sits: Vec<_> = self.edges.iter().filter(|edge| edge[1] == "sits_at").collect();
         let all = |end: usize| sits.iter().map(|edge| &edge[end]).collect::<BTreeSet<_>>().len();
@@ -330,7 +330,7 @@ fn patterns(d: &Vocabulary) -> Vec<(Pattern, Brute)> {
             && a("score").and_then(dsr::Value::as_number).is_some_and(|score| score < 10.0)
     }));
 
-    // Somebody who knows nobody that is with a robot: a negated part in a negated part.
+    // A person who knows no person that is with a robot: a negated part in a negated part.
     let mut p = PatternBuilder::new(d);
     let who = p.variable("who", kind("place"));
     p.without(|p| {
@@ -400,7 +400,7 @@ fn patterns(d: &Vocabulary) -> Vec<(Pattern, Brute)> {
             && !(has("urgent") && has("patient") && edge(s, Some(n[0]), "knows", Some(n[1])))
     }));
 
-    // No constant node, but a value: whom an edge concerns is found by the value at its end.
+    // No constant node, but a value: the pattern that an edge concerns is found by the value at its end.
     let mut p = PatternBuilder::new(d);
     let (test, part) = (p.variable("test", kind("test")), p.variable("part", kind("part")));
     p.edge(test, label("is_in"), part).guard(test, attribute("score"), Comparison::Equal, 5.0);
@@ -422,7 +422,7 @@ fn patterns(d: &Vocabulary) -> Vec<(Pattern, Brute)> {
         !s.nodes_of(test).any(|test| edge(s, Some(test), "is_in", Some(n[0])) && high(test))
     }));
 
-    // No constant and no value: whom an edge concerns is found by the other edge.
+    // No constant and no value: the pattern that an edge concerns is found by the other edge.
     let mut p = PatternBuilder::new(d);
     let (a, b) = (p.variable("a", kind("place")), p.variable("b", kind("person")));
     let c = p.variable("c", kind("robot"));
@@ -493,12 +493,12 @@ fn check(history: &[Vec<String>]) -> Result<(), TestCaseError> {
     // One that never listens until the end, with room for two commits.
     let two = NonZeroUsize::new(2).unwrap();
     let mut sleepers: Vec<_> = patterns.iter().map(|(p, _)| graph.subscribe_with(p.clone(), two)).collect();
-    // One that listens at the end only, and is told of all commits at once.
+    // A subscriber that reads only at the end, and receives all commits at once.
     let mut dreamers: Vec<_> =
         patterns.iter().map(|(p, _)| graph.subscribe_with(p.clone(), Delivery::Newest)).collect();
     dreamers.iter_mut().for_each(|dreamer| while dreamer.try_recv().is_some() {});
     let (mut model, mut deltas) = (Model::default(), Vec::new());
-    // The same history where nobody listens and snapshots are held only now and then, so that most transactions
+    // The same history without subscribers and snapshots are held only now and then, so that most transactions
     // are applied and taken back in place.
     let alone = Graph::new(world::vocabulary());
     let mut held = Vec::new();
@@ -527,7 +527,7 @@ fn check(history: &[Vec<String>]) -> Result<(), TestCaseError> {
             }
             Ok(commit) => {
                 prop_assert_eq!(after.version().0, before.version().0 + 1);
-                let Some(Event::Committed(told)) = feed.try_recv() else { panic!("every commit is told") };
+                let Some(Event::Committed(told)) = feed.try_recv() else { panic!("every commit is delivered") };
                 prop_assert_eq!(&told.delta, &commit.delta);
                 deltas.push((*commit.delta).clone());
             }
@@ -568,7 +568,7 @@ fn check(history: &[Vec<String>]) -> Result<(), TestCaseError> {
         if let Some(change) = dreamer.try_recv() {
             prop_assert_eq!(change.missed, 0);
         }
-        prop_assert!(dreamer.try_recv().is_none(), "all is told at once");
+        prop_assert!(dreamer.try_recv().is_none(), "everything is delivered at once");
         prop_assert_eq!(watcher.held(), dreamer.held());
     }
     for (snapshot, bytes) in held {

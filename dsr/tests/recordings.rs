@@ -278,7 +278,7 @@ fn versions_that_meet_by_chance_are_two_histories() {
         let recording = Recording::open(folder.path()).unwrap();
         assert_eq!(recording.first(), recording.last());
         match recording.damage() {
-            // Nobody could tell them apart.
+            // The two cannot be distinguished.
             [] => assert!(same),
             [Damage::OtherHistory { last, next, .. }] => assert!(!same && last == next),
             other => panic!("{other:?}"),

@@ -1,4 +1,4 @@
-//! Where a journal goes: disks that stall, fail, panic or fill up slow nobody and are told; folders keep what was asked.
+//! Stores: disks that stall, fail, panic or fill up slow no commit and are reported; folders keep the configured segments.
 #![allow(clippy::unwrap_used, reason = "a test that fails says where")]
 
 mod world;
@@ -22,7 +22,7 @@ fn settings() -> Settings {
     Settings { durability: Durability::Each, ..Settings::default() }
 }
 
-/// A store that stands still until it is told to go on.
+/// A store that blocks until the test lets it continue.
 struct Stalled {
     memory: Memory,
     go_on: mpsc::Receiver<()>,
@@ -72,7 +72,7 @@ fn a_stalled_disk_slows_no_writer_and_leaves_a_gap() {
     assert!(matches!(lost, RecordingError::NotRecorded { .. }), "{lost}");
 }
 
-/// A store that only appends, and does what it is told with what it gets.
+/// A store that only appends, with a hook of the test.
 struct Appends<F>(F);
 
 impl<F: FnMut(&[u8]) -> io::Result<()> + Send + 'static> Store for Appends<F> {
@@ -113,7 +113,7 @@ fn a_full_disk_is_told_and_the_graph_goes_on() {
     assert!(journal.close().is_err());
 }
 
-/// A store that lets each append wait until it is told to go on, and says when one came.
+/// A store whose appends block until the test lets them continue, and which reports each append.
 struct Gated {
     memory: Memory,
     came: mpsc::Sender<()>,
@@ -273,7 +273,7 @@ fn a_journal_goes_on_behind_the_one_before_and_outlives_its_graph() {
     let journal = graph.journal(Folder::new(folder.path()).unwrap(), Settings::default()).unwrap();
     world::commit(&graph, "dsr", "set barthel score number 1").unwrap();
     let before = bytes(&graph.snapshot());
-    // Nobody holds the graph any more; what was committed is written all the same.
+    // All handles of the graph are dropped; what was committed is written all the same.
     drop(graph);
     journal.close().unwrap();
 

@@ -1,4 +1,4 @@
-//! Who is told of a commit and who is not, and what becomes of those who do not listen.
+//! Which subscribers receive a commit, and what happens to subscribers that do not read.
 #![allow(clippy::unwrap_used, reason = "a test that fails says where")]
 
 mod world;
@@ -12,7 +12,7 @@ fn commit(graph: &Graph, lines: &str) {
     world::commit(graph, "dsr", lines).unwrap();
 }
 
-/// Each line is a commit; how often each watcher was told after it, and how many matches it has.
+/// Each line is a commit, with the number of changes that each watcher received and the matches that it has.
 #[test]
 fn only_those_whom_a_commit_may_concern_are_told() {
     let graph = world::ward();
@@ -151,7 +151,7 @@ fn who_never_listens_keeps_no_old_state_and_resynchronises() {
         while matches.try_recv().is_some() {}
         for score in (0..20).chain([1]) {
             commit(&graph, &format!("set barthel score number {}", f64::from(score) / 20.0));
-            // From 0 to 1 and back is told; the rest does not concern the pattern.
+            // The changes from 0 to 1 and back are delivered; the others do not concern the pattern.
             commit(&graph, "set barthel score number 1");
         }
         let change = matches.try_recv().unwrap();

@@ -9,7 +9,7 @@ use std::fmt;
 use dsr::{NodeId, Pattern, PatternTextError, Snapshot, Value};
 use proptest::prelude::*;
 
-/// What a text says, read by nobody but this test.
+/// The meaning of a text, by a reader of this test's own.
 #[derive(Debug, Clone)]
 enum Said {
     Is(&'static str, &'static str),

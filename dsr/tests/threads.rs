@@ -1,4 +1,4 @@
-//! Many threads on one graph: no update is lost, commits are told in order, who sleeps is woken.
+//! Many threads on one graph: no update is lost, commits are delivered in order, sleeping subscribers are woken.
 #![allow(clippy::unwrap_used, reason = "a test that fails says where")]
 
 mod world;
@@ -39,7 +39,7 @@ fn no_increment_is_lost_and_every_commit_is_told_in_order() {
     assert!(versions.into_iter().eq(start + 1..=start + u64::from(threads as u32 * rounds as u32)));
 }
 
-/// Each commit writes two attributes to one value: whoever reads sees them agree, and never goes back in time,
+/// Each commit writes two attributes to one value: every reader sees them agree, and never goes back in time,
 /// whether the states that it meets were edited in place or copied.
 #[test]
 fn readers_see_whole_commits_in_order() {
@@ -139,7 +139,7 @@ fn a_callback_that_commits_when_it_goes_may_be_replaced() {
     assert!(feed.try_recv().is_some(), "it has committed");
 }
 
-/// Who never listens keeps no old state: after so many commits that they are told as missed, not even the first.
+/// A subscriber that never reads keeps no old state: after an overflow, not even the first one.
 #[test]
 fn the_first_state_goes_when_it_is_of_no_use() {
     let graph = world::ward();

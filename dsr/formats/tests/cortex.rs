@@ -194,7 +194,7 @@ fn names_that_clash_are_told() {
     .assert_eq(&(text.join("\n") + "\n"));
 }
 
-/// Names that are ours, that have our punctuation in them, and that are none.
+/// Names that are built in, that contain our punctuation, or that are empty.
 const NAMES: [&str; 18] = [
     "",
     "a",

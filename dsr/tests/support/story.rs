@@ -166,7 +166,7 @@ fn journal(export: &Export, deltas: &[Delta]) -> Vec<u8> {
     segment
 }
 
-/// Reads a journal and goes through all its versions; the last one that there is.
+/// Reads a journal and replays all its versions; returns the last one.
 fn read(bytes: Vec<u8>) -> Option<Snapshot> {
     let recording = Recording::read([bytes]).ok()?;
     let mut replay = recording.replay().ok()?;
