@@ -527,7 +527,9 @@ fn check(history: &[Vec<String>]) -> Result<(), TestCaseError> {
             }
             Ok(commit) => {
                 prop_assert_eq!(after.version().0, before.version().0 + 1);
-                let Some(Event::Committed(told)) = feed.try_recv() else { panic!("every commit is delivered") };
+                let Some(Event::Committed(told)) = feed.try_recv() else {
+                    panic!("every commit is delivered")
+                };
                 prop_assert_eq!(&told.delta, &commit.delta);
                 deltas.push((*commit.delta).clone());
             }
