@@ -4,7 +4,7 @@
 //! relaxed reachability cannot see, and `planner`, for mutex groups and finite-domain variables. What
 //! changes the state is handed in as [`Happening`]s, since the two do not look at the same parts of
 //! the language; an [`Invariant`] says that the number of its atoms never becomes more than one, and
-//! [`Counts`] says where a problem lets it start. Who knows which instances there are can ask for those that
+//! [`Counts`] says where a problem lets it start. A caller that knows the instances can ask for those that
 //! hold unless parameters are equal ([`conditional_invariants`]).
 //!
 //! ```

@@ -13,7 +13,7 @@
 //! Deviation: starts and ends of durative actions are happenings of their own, so that a number that
 //! falls at the start and grows back at the end is not found. Where two adds of one happening meet only if
 //! parameters are equal, Helmert splits the candidate by an inequality; we keep it under the proviso that
-//! no such instance is ever applied, and whoever knows the instances decides.
+//! no such instance is ever applied; a caller that knows the instances decides.
 
 use std::collections::VecDeque;
 
@@ -77,8 +77,8 @@ pub fn invariants(domain: &Domain, happenings: &[Happening<'_>]) -> Vec<Invarian
     found.into_iter().map(|(invariant, _)| invariant).collect()
 }
 
-/// Invariants, each under provisos, found while `go_on` says so, which is told of the comparisons since it
-/// was last asked. What was found stands, whenever that ended.
+/// Invariants, each under provisos, found while `go_on` returns `true`. Its argument is the number of comparisons since
+/// its last call. What was found before it returned `false` stands.
 pub fn conditional_invariants(
     domain: &Domain,
     happenings: &[Happening<'_>],
@@ -213,7 +213,7 @@ mod tests {
             asked += 1;
             false
         });
-        assert_eq!((none.len(), asked), (0, 1), "whoever wants no more is heard");
+        assert_eq!((none.len(), asked), (0, 1), "the search ends when the caller wants no more");
     }
 
     #[test]

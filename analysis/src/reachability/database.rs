@@ -2,7 +2,7 @@
 //!
 //! Invariant: rows are numbered in the order in which they came, initial facts first; an index holds
 //! the rows that were there when it was made and those that [`Database::publish`] names since, so
-//! that rows can be added while a bucket is walked. Keys are hashes: whoever walks a bucket compares
+//! that rows can be added while a bucket is walked. Keys are hashes: the caller that walks a bucket compares
 //! the row itself. Cost: a hash per row and index.
 
 use std::hash::Hasher;

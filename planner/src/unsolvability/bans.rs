@@ -3,7 +3,7 @@
 //! Problem: an operator that the query excludes need not be what is missing; what it needs may never hold, either.
 //! Idea: states that are reached without the excluded operators are visited, breadth first, until each of these
 //! applied in one. Invariant: of an operator it is denied only if all states were visited. Cost: at most [`STATES`]
-//! states and the caller's budget, once, and only if somebody asks.
+//! states and the caller's budget, once, and only on the first question.
 
 use std::ops::ControlFlow;
 
@@ -12,7 +12,7 @@ use super::oracle::Oracle;
 use crate::ids::OperatorId;
 use budget::Budget;
 
-/// States that are visited: it is one line of an explanation, and somebody waits for it.
+/// States that are visited: few, for one line of an explanation that an author waits for.
 pub(super) const STATES: u32 = 2_000;
 
 pub(super) struct Bans {

@@ -1,4 +1,4 @@
-//! All reachable states, breadth first, as far as somebody wants to wait: what the visits of an explanation share.
+//! Visits all reachable states, breadth first, within the caller's budget.
 //!
 //! Invariant: `complete` only if every state that can be reached without the excluded operators was looked at. The first
 //! state is always looked at. Cost: the states and operators visited.
@@ -19,7 +19,7 @@ pub(super) struct Visited<'t> {
     pub(super) complete: bool,
 }
 
-/// Looks at states, at most so many, with all operators that apply there, excluded ones too, until it is told to stop.
+/// Looks at states, at most so many, with all operators that apply there, excluded ones too, until `look` breaks.
 pub(super) fn visit<'t>(
     task: &'t Task,
     query: &Query<'_>,

@@ -1,10 +1,10 @@
 //! Why there is no plan, as far as that was proven.
 //!
-//! Problem: "no plan" helps nobody who has to mend a model. Idea: three proofs, each told in its own terms.
+//! Problem: "no plan" does not help an author to mend a model. Idea: three proofs, each reported in its own terms.
 //! What grounding never reaches although nothing is ever deleted is traced back to what nothing gives
 //! (`reasons`); numbers are bounded by intervals (`ranges`); facts of one mutex group exclude each other; and
 //! where the search has visited every state, they are visited once more, to say which goals never held, which
-//! never together, and how near one came (`space`). That an operator is excluded is told only where it would apply
+//! never together, and how near one came (`space`). An excluded operator is reported only where it would apply
 //! (`bans`). Invariant: nothing is claimed that was not proven; what there is no proof for is left out. Cost: bounded in
 //! all of them.
 //!
@@ -39,7 +39,7 @@ use pddl::Span;
 use pddl::model::{Action, ConditionKind, Domain, Problem};
 use reasons::Reasons;
 
-/// Parts of the goal, groups and pairs that are told.
+/// Parts of the goal, groups and pairs that are reported.
 const MOST: usize = 32;
 /// Operators whose comparisons are looked at.
 const OPERATORS: usize = 5_000;

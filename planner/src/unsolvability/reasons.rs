@@ -4,7 +4,7 @@
 //! a literal that is never so, or a comparison that never holds, or its conditions never come together. Each
 //! literal is a node of one graph, looked at once, breadth first; a cycle is an edge to a node that is known. Where
 //! no single condition of an achiever is denied, its static conditions are joined, and each instance that these leave is
-//! asked by itself; where that is not enough, all its conditions are. Of the query's bans only those are told that keep
+//! asked by itself; where that is not enough, all its conditions are. Only those of the query's bans are reported that keep
 //! an instance that lacks nothing else. Cost: bounded nodes, achievers of each and rows of a join; what is beyond is counted.
 
 use super::bans::Bans;
@@ -353,7 +353,7 @@ impl<'a> Reasons<'a> {
         let mut join = Join { oracle: self.oracle, rows: 0 };
         for count in 2..=all.len() {
             match join.all(&all[..count], &candidate.binding, 1) {
-                // One that is found says that there are some; none where the limit was reached says nothing.
+                // A row proves that they hold together; no row proves nothing where the limit was reached.
                 Some(rows) if rows.is_empty() => {
                     let together = all[..count].iter().map(|&w| w.clone()).collect();
                     return Some(Obstructed::NeverTogether(together));

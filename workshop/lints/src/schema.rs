@@ -1,4 +1,4 @@
-//! Whatever has variables and a body, as one thing: lints about variables and atoms need not know which it is.
+//! Actions, methods, axioms and the like as one thing, for lints about variables and atoms.
 
 use pddl::Span;
 use pddl::model::{
@@ -20,7 +20,7 @@ pub(crate) enum Schema<'a> {
 }
 
 impl<'a> Schema<'a> {
-    /// What to call it: ``action `go` ``.
+    /// Its name in messages: ``action `go` ``.
     pub(crate) fn title(&self, domain: &Domain) -> String {
         match self {
             Self::Action(action) => format!("action `{}`", action.name),
@@ -104,7 +104,7 @@ impl<'a> Schema<'a> {
         }
     }
 
-    /// Everything that it says, part by part.
+    /// Its conditions and effects, part by part.
     pub(crate) fn parts(&self, f: &mut dyn FnMut(Part<'a>)) {
         match self {
             Self::Action(action) => {

@@ -13,12 +13,12 @@ use pddl::model::{
     TaskNetwork, Term, VariableId, Variables,
 };
 
-/// Most orders of parameters that are tried; where there are more, one is.
+/// The most orders of parameters that are tried; where there are more, only one is.
 const ORDERS: usize = 120;
 
 /// How variables are written.
 pub(crate) struct Shape {
-    /// By slot: its number, or none for one that is not to be told from others.
+    /// By slot: its number; `None` if it is written like every other variable.
     numbers: Vec<Option<usize>>,
 }
 

@@ -1,4 +1,4 @@
-//! What names what: counted once for a domain and once for a problem, for all lints about what is unused.
+//! Which names are used: counted once for a domain and once for a problem, for all lints about what is unused.
 
 use pddl::model::{
     ActionId, Domain, DurativeActionId, Fact, FluentFact, FluentValue, FunctionId, FunctionValue, Idx,
@@ -49,7 +49,7 @@ pub(crate) struct FunctionUse {
     pub(crate) timed: bool,
 }
 
-/// Who names whom in a domain or a problem.
+/// Which names a domain or a problem uses.
 #[derive(Debug)]
 pub(crate) struct Usage {
     pub(crate) predicates: IndexVec<PredicateId, PredicateUse>,
@@ -155,8 +155,8 @@ impl Usage {
         }
     }
 
-    /// Part of a trajectory constraint. Whether it holds may not need an atom to be true: `at-most-once` and
-    /// `sometime-before` are content if it never is.
+    /// Part of a trajectory constraint. It may hold without the atom: `at-most-once` and
+    /// `sometime-before` hold if it is never true.
     fn asked(&mut self, part: Part<'_>) {
         match part {
             Part::Needs(atom, _) => self.part(Part::Needs(atom, Polarity::Negative)),

@@ -192,7 +192,7 @@ pub(super) fn of_domain(view: &DomainView<'_>) -> Vec<Need> {
     needs.0
 }
 
-/// The place of what is imported: it is used, but whoever declared it had to announce it.
+/// The place of an imported declaration. The file that declares it must also have the requirement.
 fn elsewhere() -> Span {
     Span::default()
 }

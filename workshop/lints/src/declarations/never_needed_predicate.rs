@@ -13,7 +13,7 @@ pub(crate) static LINT: Lint = Lint {
 };
 
 fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
-    // Where tasks are the goal, effects may be there to be seen by whoever runs the plan.
+    // Where tasks are the goal, effects may be meant for the executive of the plan.
     if !view.is_complete() || !view.domain.domain.tasks.is_empty() {
         return;
     }

@@ -1,4 +1,4 @@
-//! A constant that nobody names.
+//! A constant that is never used.
 
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};

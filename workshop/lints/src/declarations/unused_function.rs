@@ -1,4 +1,4 @@
-//! A function that nobody names.
+//! A function that is never used.
 
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};

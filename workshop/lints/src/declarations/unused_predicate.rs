@@ -1,4 +1,4 @@
-//! A predicate that nobody names.
+//! A predicate that is never used.
 
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};

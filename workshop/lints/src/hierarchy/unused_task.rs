@@ -1,4 +1,4 @@
-//! A compound task that nobody names.
+//! A compound task that is never used.
 
 use pddl::model::SubtaskHead;
 

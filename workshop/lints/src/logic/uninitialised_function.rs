@@ -26,7 +26,7 @@ fn check(view: &ProblemView<'_, '_>, found: &mut Findings) {
         schema.parts(&mut |part| match part {
             Part::Reads(application) => needed[application.function] = true,
             Part::Writes(AssignOperator::Assign, application) => assigned[application.function] = true,
-            // Whoever increases must know what there is.
+            // An increase reads the present value.
             Part::Writes(_, application) => needed[application.function] = true,
             _ => {}
         });

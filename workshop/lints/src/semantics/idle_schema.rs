@@ -1,4 +1,4 @@
-//! A part of a domain that the problems at hand have no data for.
+//! A part of a domain that no given problem has data for.
 
 use crate::finding::Findings;
 use crate::lint::{Check, explanation};

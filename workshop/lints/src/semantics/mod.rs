@@ -1,6 +1,6 @@
 //! W0850 on: what never happens, what never holds, and why.
 //!
-//! A finding names the root: what is silent only because something else is, is named there.
+//! A finding names the root cause, and lists with it what never happens because of it.
 
 mod contradictory_condition;
 mod contradictory_goal;

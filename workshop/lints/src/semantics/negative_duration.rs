@@ -1,4 +1,4 @@
-//! A duration below zero, or none at all.
+//! A duration below zero, or bounds without a duration between them.
 
 use pddl::model::{Comparison, DurationConstraint, ExpressionKind, FluentValue};
 
@@ -56,7 +56,7 @@ fn bounds_above(constraint: &DurationConstraint) -> bool {
     matches!(constraint.comparison, Comparison::Equal | Comparison::LessEqual | Comparison::Less)
 }
 
-/// What is so for all arguments and in all states.
+/// Reports durations that are impossible for all arguments and in all states.
 fn certain(view: &DomainView<'_>, hulls: &Hulls, found: &mut Findings) {
     for action in &view.domain.durative_actions {
         let bounds: Vec<(&DurationConstraint, Interval)> = action
