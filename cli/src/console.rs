@@ -1,4 +1,4 @@
-//! Where words go: results to standard output, everything else to standard error.
+//! Output: results to standard output, everything else to standard error.
 //!
 //! A reader that closes the pipe (`pelea … | head`) is no error: what cannot be written any more is
 //! dropped, and the exit code still says what came out. Colours only where a terminal shows them.
@@ -25,14 +25,14 @@ pub struct Console<'a> {
     result_width: Option<usize>,
 }
 
-/// What was said on another thread, to be said in its turn.
+/// Output of another thread, kept until its turn.
 #[derive(Debug, Default)]
 pub(crate) struct Said {
     out: Vec<u8>,
     err: Vec<u8>,
 }
 
-/// How a console says things.
+/// The settings of a console.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Manner {
     form: Form,
@@ -78,12 +78,12 @@ impl<'a> Console<'a> {
         }
     }
 
-    /// How this one says things, for consoles on other threads.
+    /// Its settings, for consoles on other threads.
     pub(crate) fn manner(&self) -> Manner {
         Manner { form: self.form, colour: self.colour, result_colour: self.result_colour }
     }
 
-    /// Says what was kept.
+    /// Writes what was kept.
     pub(crate) fn replay(&mut self, said: &Said) {
         dropped(self.err.write_all(&said.err));
         dropped(self.out.write_all(&said.out));
@@ -109,7 +109,7 @@ impl<'a> Console<'a> {
         self.result_width
     }
 
-    /// Lets whoever watches see what was written so far.
+    /// Flushes standard output.
     pub fn flush(&mut self) {
         dropped(self.out.flush());
     }
@@ -165,5 +165,5 @@ impl Drop for Console<'_> {
     }
 }
 
-/// Whoever does not listen any more is not told.
+/// A reader that has closed the pipe is no error.
 fn dropped(_: io::Result<()>) {}

@@ -1,4 +1,4 @@
-//! What the exit code says.
+//! Exit codes.
 
 use std::process::ExitCode;
 
@@ -35,7 +35,7 @@ impl Exit {
         }
     }
 
-    /// Of two outcomes, the one that a caller must hear of.
+    /// The worse of two outcomes.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         self.max(other)

@@ -1,6 +1,6 @@
 //! Reading and writing files.
 //!
-//! A result is written beside its place and then renamed into it: whoever waits for the file never sees half of it.
+//! A result is written beside its place and then renamed into it: a program that waits for the file never sees half of it.
 
 use pddl::Source;
 use std::fs::{self, File, OpenOptions};

@@ -1,7 +1,7 @@
 //! `pelea plan DOMAIN PROBLEM`: a plan on standard output or in a file, statistics on standard error.
 //!
-//! Every plan goes through `validator` before anyone sees it. One that does not validate is a bug of
-//! ours: it is not written, and the exit code is 70. As JSON the result is
+//! The validator checks every plan before it is written. An invalid plan is a bug of ours: it is not
+//! written, and the exit code is 70. As JSON the result is
 //!
 //! ```json
 //! {"kind": "plan", "outcome": "solved", "steps": ["(go a b)"], "cost": 1, "cost_kind": "unit_cost",
@@ -282,7 +282,7 @@ pub(crate) fn written(task: &Task, found: &planner::Plan) -> (String, pddl::Sequ
     (text, plan)
 }
 
-/// Never seen, we hope. The plan is shown as it is, since whoever repairs this needs it.
+/// Reports a plan of the planner that is invalid. The whole plan is shown, since a bug report needs it.
 fn bug(
     verdict: &Verdict,
     plan: &pddl::SequentialPlan,
@@ -338,7 +338,7 @@ struct Answer {
     /// How the old plan was repaired; where that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     repair: Option<repair::RepairRecord>,
-    /// Why there is no plan; where there is none.
+    /// The reasons for an unsolvable problem.
     #[serde(skip_serializing_if = "Option::is_none")]
     unsolvable: Option<unsolvable::UnsolvableRecord>,
     message: Option<String>,

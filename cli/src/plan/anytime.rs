@@ -1,7 +1,7 @@
 //! `pelea plan --anytime`: better and better plans until the time is over or none is better.
 //!
 //! The search runs in a thread of its own and sends its plans; here each one is validated, written as
-//! `PLAN.1`, `PLAN.2` … and told before the next is looked at. The best one is written as `PLAN`, too, or
+//! `PLAN.1`, `PLAN.2` … and reported before the next is looked at. The best one is written as `PLAN`, too, or
 //! printed where there is no such file. As JSON each plan is
 //!
 //! ```json
@@ -46,11 +46,11 @@ struct Writer<'a> {
     best: Option<Valid>,
 }
 
-/// Looks for plans until there is none better, or `budget` ends it. Every better plan is written when
+/// Looks for better plans until a proof that none is better, or the end of `budget`. Every better plan is written when
 /// it is found.
 ///
 /// # Errors
-/// The exit code where a plan is not valid or cannot be written; that has been told.
+/// The exit code where a plan is not valid or cannot be written; the reason has been shown.
 pub(super) fn run(
     files: &TaskFiles,
     task: &Task,
@@ -67,7 +67,7 @@ pub(super) fn run(
     std::thread::scope(|scope| {
         let search = scope.spawn(|| {
             let sender = sender;
-            // Nobody listens any more once something is wrong, and then the search is told to stop.
+            // The receiver is gone after a failure, and then the search is cancelled.
             improve(task, &Query::of(task), configuration, &budget, &mut |plan| {
                 drop(sender.send(plan.clone()));
             })

@@ -1,6 +1,6 @@
 //! `pelea plan --repair OLD_PLAN`: what can be reused of a plan that no longer fits, beside a new plan.
 //!
-//! Both are validated, and both are told with their cost, their distance from the old plan, the time and the
+//! Both are validated, and both are reported with their cost, their distance from the old plan, the time and the
 //! states that they took; the preference decides which one is written. As JSON the last record has
 //!
 //! ```json
@@ -163,7 +163,7 @@ const PATIENCE: (f64, Duration) = (10.0, Duration::from_secs(1));
 /// Repairs the plan.
 ///
 /// # Errors
-/// The exit code where a plan is not valid; that has been told.
+/// The exit code if a plan is invalid; the reason has been shown.
 pub(super) fn run(
     (files, task): (&TaskFiles, &Task),
     old: &OldPlan,

@@ -25,7 +25,7 @@ pub(super) fn watch(
 ) -> Exit {
     let (send, changes) = mpsc::channel();
     let watcher = notify::recommended_watcher(move |event: notify::Result<Event>| {
-        // Nobody listens any more when the last turn is over.
+        // The receiver is gone after the last turn.
         let _ = send.send(event);
     });
     let mut watcher = match watcher {

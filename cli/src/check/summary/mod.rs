@@ -228,7 +228,7 @@ impl<'a> Collection<'a> {
         outcomes
     }
 
-    /// The domains that a domain imports, as far as they can be read: if not, it says so itself.
+    /// The domains that a domain imports, as far as they can be read; the parser reports a missing one.
     fn imports(&self, index: usize, seen: &mut Vec<usize>) -> Vec<Domain> {
         let mut imports = Vec::new();
         for name in &self.entries[index].needs {
