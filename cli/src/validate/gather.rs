@@ -60,7 +60,7 @@ impl Fault {
     }
 }
 
-/// All that there is to do.
+/// The groups to judge, and the faults found on the way.
 #[derive(Debug, Default)]
 pub(super) struct Gathered {
     pub(super) groups: Vec<Group>,
