@@ -1,4 +1,4 @@
-//! What editors get of files: drafts whatever is wrong with them, and where names stand.
+//! The results for editors: drafts of files with errors, and the places of names.
 
 use expect_test::{Expect, expect};
 use pddl::{
@@ -6,7 +6,7 @@ use pddl::{
     parse_problem,
 };
 
-/// Each name with what it is: `!` declares; a scope is told by the first word of its list.
+/// Each name with its kind: `!` marks a declaration; a scope is shown by the first word of its list.
 fn names(source: &Source, occurrences: &[Occurrence]) -> String {
     let line = |o: &Occurrence| {
         let mark = if o.role == Role::Declaration { "!" } else { "" };

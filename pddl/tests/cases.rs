@@ -1,9 +1,10 @@
-//! Cases as files: `test_data/ok` must be read and printed without a word, `test_data/err` must say
-//! exactly what stands in the `.expected` file (`.plan.expected` for a plan) beside it (`UPDATE_EXPECT=1` writes it anew).
+//! Cases as files: `test_data/ok` must be read and printed without a diagnostic; reading `test_data/err`
+//! must give exactly the diagnostics in the `.expected` file (`.plan.expected` for a plan) beside it
+//! (`UPDATE_EXPECT=1` rewrites it).
 //!
-//! A file holds a domain, a problem for it, or both. A comment `; with FILE` names another file of
-//! the folder: a domain to import, or the domain of the problem. A plan is for what stands in the `.pddl` file of
-//! its name, or in the one that a comment `; of FILE` names.
+//! A file holds a domain, a problem for it, or both. A comment `; with FILE` names another file of the
+//! folder: a domain to import, or the domain of the problem. A plan is for the problem in the `.pddl` file
+//! of its name, or in the one that a comment `; of FILE` names.
 
 mod support;
 
@@ -16,7 +17,7 @@ fn test_data(folder: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("test_data").join(folder)
 }
 
-/// What reading one file gave.
+/// The result of reading one file.
 struct Case {
     source: Source,
     imports: Vec<Domain>,

@@ -1,7 +1,7 @@
 //! Every file of the competition corpus can be read, printed, and read again to the same model.
 //!
-//! The folder is named by `PELEA_BENCH`, by default `../shared/bench` beside the workspace. Where it
-//! is absent the test says so and holds.
+//! `PELEA_BENCH` names the folder, by default `../shared/bench` beside the workspace. If it is absent, the
+//! test reports that and passes.
 
 mod support;
 

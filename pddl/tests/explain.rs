@@ -14,8 +14,8 @@ fn codes() -> BTreeSet<&'static str> {
     text.split('"').filter(is_code).collect()
 }
 
-/// What reading the files one after the other says: domains import those before them, a problem is of the
-/// last domain, a plan for the problem. `…` is a thousand times the same.
+/// The diagnostics of reading the files one after the other: domains import those before them, a problem
+/// belongs to the last domain, a plan to the problem. `…` is a thousand repetitions.
 fn said(files: &[&str]) -> (BTreeSet<&'static str>, String) {
     let (mut domains, mut problem): (Vec<Domain>, Option<Problem>) = (Vec::new(), None);
     let (mut codes, mut text) = (BTreeSet::new(), String::new());

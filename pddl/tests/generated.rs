@@ -7,7 +7,7 @@ use pddl::Source;
 use proptest::prelude::*;
 use support::properties::{check_domain, check_drafts, check_problem, check_text};
 
-/// What bodies may name: the declarations of [`domain`].
+/// The names that bodies may use: the declarations of [`domain`].
 const TERMS: &[&str] = &["?x", "?y", "?z", "k", "m", "(o1 ?x)", "(o1 k)"];
 
 /// The same without parameters of a schema.

@@ -183,9 +183,9 @@ fn a_hundred_thousand_lists_in_any_kind_of_file_are_an_error_and_no_overflow() {
     }
 }
 
-/// Without one of its parentheses, a file says so in the section where it stood. Removing one from the very end may
-/// show at the definition's own, which then names the last section as well. The one that opens the definition is kept:
-/// without it there is no definition to be in.
+/// A file without one of its parentheses reports the mistake in the section of that parenthesis. Without one
+/// at the very end the report may be at the definition, and then names the last section as well. The
+/// parenthesis that opens the definition is kept: without it no definition would contain a report.
 #[test]
 fn a_lost_parenthesis_is_reported_where_it_was() {
     let good = Path::new(env!("CARGO_MANIFEST_DIR")).join("test_data/ok");

@@ -1,4 +1,4 @@
-//! The seeds of the fuzz targets, read as fuzzing reads them: what was found once stays found.
+//! The seeds of the fuzz targets, read as fuzzing reads them, so that a bug found once stays found.
 
 #[path = "../../tests/fuzz/src/lib.rs"]
 #[expect(unreachable_pub, reason = "public for the fuzz targets")]

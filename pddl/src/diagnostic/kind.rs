@@ -223,14 +223,14 @@ pub enum DiagnosticKind {
         name: String,
     },
     /// Text behind the definition or the plan.
-    #[error("this stands behind the end and is not read")]
+    #[error("this text follows the end and is not read")]
     TrailingText,
     /// A plan file without any text.
-    #[error("there is nothing in this file: it is read as the plan without steps")]
+    #[error("this file is empty: it is read as the plan without steps")]
     EmptyPlan,
 
     /// `(:private (p ?x))`
-    #[error("privacy is not looked at: all agents know what this holds, and are planned for together")]
+    #[error("privacy is ignored: all agents know this, and the plan is made for all of them together")]
     PrivacyIgnored,
 
     /// An undeclared name.
@@ -260,7 +260,7 @@ pub enum DiagnosticKind {
         name: Name,
     },
     /// An object of several types, one after the other.
-    #[error("object `{name}` is declared twice, with different types: it is of both")]
+    #[error("object `{name}` is declared twice, with different types: it has both")]
     SeveralTypes {
         /// Which.
         name: Name,
@@ -388,14 +388,14 @@ pub enum DiagnosticKind {
         value: crate::Decimal,
     },
     /// `2: (a)` and then `1: (b)`
-    #[error("step {number} stands behind step {before}: steps are taken in the order of the file")]
+    #[error("step {number} comes after step {before}: steps are executed in the order of the file")]
     StepOutOfOrder {
         /// The later one's number.
         number: crate::Decimal,
         /// The earlier one's.
         before: crate::Decimal,
     },
-    /// A preference below `or`, `not`, `when` or another preference, or where there are none.
+    /// A preference below `or`, `not`, `when` or another preference, or in a condition without preferences.
     #[error("a preference cannot stand here")]
     MisplacedPreference,
     /// `(always (p))` in a precondition.

@@ -31,7 +31,7 @@ pub enum Label {
     #[error("opened here")]
     Opened,
     /// The last section of a definition that is not closed.
-    #[error("unless it is one in this section that is not closed")]
+    #[error("or a list in this section is not closed")]
     LastSection,
 }
 

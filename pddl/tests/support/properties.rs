@@ -1,7 +1,7 @@
-//! What must hold of every text, good or bad. Tests and fuzz targets call the same checks.
+//! Properties of every text, with errors or without. Tests and fuzz targets call the same checks.
 //!
-//! No reading panics; the tree keeps every byte and its nodes lie within each other; a diagnostic stands inside
-//! the text and cuts no character; formatting keeps the words and is done after one time; a model prints to itself.
+//! No reading panics. The tree keeps every byte, and its nodes are nested. A diagnostic lies inside the text
+//! and splits no character. Formatting keeps the words and is idempotent. A model prints to itself.
 
 use pddl::model::{Domain, Problem};
 use pddl::syntax::{self, Node, TokenKind};
@@ -10,7 +10,7 @@ use pddl::{
     parse_domain, parse_plan, parse_problem, print_domain, print_plan, print_problem,
 };
 
-/// What holds of a text whatever it is.
+/// Properties of any text.
 pub(crate) fn check_text(source: &Source) {
     let (tree, diagnostics) = syntax::parse(source);
     assert_eq!(tree.text(), source.text());
@@ -72,8 +72,8 @@ pub(crate) fn check_drafts(source: &Source) {
     print_plan(&analyze_plan(source, &domain, &problem, Names::Skipped).draft, &domain, &problem);
 }
 
-/// There is a model or an error; an editor is told the same, and names stand where it says. That the ids of drafts
-/// are in range is seen by printing them, which follows every one.
+/// There is a model or an error; an editor gets the same diagnostics, and each name stands at its place.
+/// Printing a draft follows each of its ids, so it shows that they are in range.
 fn check_analysis<M>(source: &Source, parsed: &Parsed<M>, analysis: &Analysis<M>) {
     check_places(source, &parsed.diagnostics);
     assert_eq!(parsed.model.is_none(), parsed.errors().next().is_some());

@@ -1,8 +1,8 @@
 //! What the fuzz targets do with their bytes.
 //!
-//! The properties are those of the tests (`pddl/tests/support/properties.rs`); a target only chooses what bytes are read
-//! as. Where a text needs others around it (a plan its problem), they are good cases of `pddl/test_data/ok`, so
-//! that mutations are spent on one kind of text.
+//! The properties are those of the tests (`pddl/tests/support/properties.rs`); a target only chooses what
+//! the bytes are read as. If a text needs others around it (a plan its problem), those are good cases of
+//! `pddl/test_data/ok`, so that mutations go into one kind of text.
 
 use std::sync::LazyLock;
 
@@ -39,11 +39,11 @@ static LAMPS: LazyLock<Task> =
 static NETWORK: LazyLock<Task> =
     LazyLock::new(|| Task::read(include_str!("../../../pddl/test_data/ok/htn.pddl")));
 
-/// What there can be sequential, temporal and hierarchical plans for.
+/// The problems for sequential, temporal and hierarchical plans.
 static KINDS: LazyLock<Task> =
     LazyLock::new(|| Task::read(include_str!("../../../pddl/test_data/ok/plan-kinds.pddl")));
 
-/// The bytes as a text, Latin-1 where they are no UTF-8.
+/// The bytes as a text; Latin-1 if they are not UTF-8.
 fn text(bytes: &[u8]) -> Source {
     Source::from_bytes("text", bytes.to_vec())
 }

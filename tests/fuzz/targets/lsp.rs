@@ -17,7 +17,7 @@ impl Disk for Nothing {
     }
 
     fn read(&self, _path: &str, _max_bytes: u64) -> Result<String, ReadError> {
-        Err(ReadError::Unreadable("there is none".into()))
+        Err(ReadError::Unreadable("no such file".into()))
     }
 }
 

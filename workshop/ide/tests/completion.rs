@@ -1,4 +1,4 @@
-//! What may stand where, and what applied symbols take.
+//! Completions and signatures.
 
 mod support;
 

@@ -1,4 +1,4 @@
-//! What is shown over names, words of the language and mistakes.
+//! Hovers over names, words of the language and mistakes.
 
 mod support;
 

@@ -1,7 +1,7 @@
 //! How long an author waits: an edit in a problem of 5,000 lines, until the client has the answer.
 //!
-//! The whole way is measured: bytes in, through threads and the loop, bytes out; only the process is missing. Lints run
-//! after each question too, as they do when an author rests.
+//! The measurement covers bytes in, threads, the loop and bytes out; only the process is missing. Lints run
+//! after each question too, as they do when an author pauses.
 
 #![allow(clippy::unwrap_used, missing_docs, reason = "a bench")]
 

@@ -29,13 +29,13 @@ pub(crate) enum Frame {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum Broken {
     /// A line is neither a header nor empty.
-    #[error("a header was expected, and there is `{0}`")]
+    #[error("expected a header, found `{0}`")]
     NoHeader(String),
     /// A header ends without `Content-Length`.
     #[error("a header has no Content-Length")]
     NoLength,
     /// The length is not a number, or too large.
-    #[error("`{0}` is no length of a message; at most {MAX_BODY} bytes are read")]
+    #[error("`{0}` is not a valid length; at most {MAX_BODY} bytes are read")]
     Length(String),
     /// The input ended before the body did.
     #[error("a message of {expected} bytes ends after {got}")]

@@ -25,10 +25,10 @@ pub(crate) fn parse(body: &[u8]) -> Result<Message, Malformed> {
     let value: Value = serde_json::from_slice(body).map_err(|error| Malformed {
         id: None,
         code: ErrorCode::ParseError,
-        reason: format!("a message is no JSON: {error}"),
+        reason: format!("a message is not JSON: {error}"),
     })?;
     let Value::Object(mut fields) = value else {
-        return Err(invalid(None, "a message is no object"));
+        return Err(invalid(None, "a message is not an object"));
     };
     let given_id = fields.remove("id");
     let id = match &given_id {
@@ -44,7 +44,7 @@ pub(crate) fn parse(body: &[u8]) -> Result<Message, Malformed> {
         (Some(Value::String(method)), None) if given_id.is_none() => {
             Ok(Notification { method, params }.into())
         }
-        (Some(_), id) => Err(invalid(id, "a method is no string, or a request has no id")),
+        (Some(_), id) => Err(invalid(id, "a method is not a string, or a request has no id")),
         (None, Some(id)) => match (fields.remove("result"), fields.remove("error")) {
             (Some(result), None) => Ok(Response::new_ok(id, result).into()),
             (_, Some(error)) => Ok(refused(id, &error).into()),
@@ -95,13 +95,13 @@ mod tests {
     fn what_is_none_says_why() {
         check(
             r#"{"id":1,"#,
-            &expect!["None ParseError a message is no JSON: EOF while parsing a value at line 1 column 8"],
+            &expect!["None ParseError a message is not JSON: EOF while parsing a value at line 1 column 8"],
         );
-        check("[]", &expect!["None InvalidRequest a message is no object"]);
+        check("[]", &expect!["None InvalidRequest a message is not an object"]);
         check(
             r#"{"id":7,"method":3}"#,
             &expect![[
-                r#"Some(RequestId(I32(7))) InvalidRequest a method is no string, or a request has no id"#
+                r#"Some(RequestId(I32(7))) InvalidRequest a method is not a string, or a request has no id"#
             ]],
         );
         check(
@@ -110,7 +110,7 @@ mod tests {
         );
         check(
             r#"{"id":null,"method":"a"}"#,
-            &expect!["None InvalidRequest a method is no string, or a request has no id"],
+            &expect!["None InvalidRequest a method is not a string, or a request has no id"],
         );
         check(
             r#"{"id":1}"#,

@@ -57,7 +57,7 @@ impl Options {
         match given {
             Value::Null => {}
             Value::Object(keys) => self.read(keys, &mut complaints),
-            _ => complaints.push("the options are no object".to_owned()),
+            _ => complaints.push("the options are not an object".to_owned()),
         }
         (self, complaints)
     }

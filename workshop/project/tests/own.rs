@@ -1,5 +1,4 @@
-//! The project's own robots and missions: nothing is wrong with them, and no lint has anything to say that a comment
-//! does not justify.
+//! The robots and missions of this repository have no findings, except lints that a comment allows.
 
 use std::path::{Path, PathBuf};
 

@@ -297,7 +297,7 @@ fn warnings_may_be_denied() {
             pass tea/domain.pddl::check
             pass tea/two.pddl::check
             FAIL tea/w.pddl::check
-            tea/w.pddl:1:91: warning[W0110]: this stands behind the end and is not read
+            tea/w.pddl:1:91: warning[W0110]: this text follows the end and is not read
         "#]],
     );
 }

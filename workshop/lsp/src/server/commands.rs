@@ -67,7 +67,7 @@ impl Server {
         token: Option<ProgressToken>,
     ) -> Result<(), String> {
         if self.documents.project().kind(problem) != FileKind::Problem {
-            return Err("only for a problem can there be a plan".to_owned());
+            return Err("only a problem can have a plan".to_owned());
         }
         let (task, about) = self.task(problem, None)?;
         let cancel = Cancellation::default();
@@ -94,7 +94,7 @@ impl Server {
         if project.kind(plan) != FileKind::Plan {
             return Err("only a plan can be validated".to_owned());
         }
-        let problem = project.problem_of(plan).ok_or("it is not known to which problem the plan belongs")?;
+        let problem = project.problem_of(plan).ok_or("no problem is known for this plan")?;
         let (task, about) = self.task(problem, Some(plan))?;
         let text = self.documents.project().sources().shared(plan);
         let title = format!("validating {}", text.name());
