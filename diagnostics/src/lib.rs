@@ -32,6 +32,6 @@ pub mod toml;
 
 pub use finding::{Finding, Place};
 pub use severity::Severity;
-pub use source::{LineColumn, Source, Span};
-pub use sources::{SourceId, Sources};
+pub use source::{LineColumn, Source, SourceId, Span};
+pub use sources::Sources;
 pub use suggest::{did_you_mean, nearest};

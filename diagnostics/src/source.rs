@@ -46,6 +46,16 @@ pub struct LineColumn {
     pub column: u32,
 }
 
+/// The number of a source in a project or a mission.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+pub struct SourceId(pub u32);
+
+impl SourceId {
+    pub(crate) fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
 /// A named text. Diagnostics show the name, usually a path.
 #[derive(Clone, Debug)]
 pub struct Source {

@@ -3,19 +3,7 @@
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-use serde::Serialize;
-
-use crate::{Finding, Place, Source, Span};
-
-/// The number of a source in a project or a mission.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
-pub struct SourceId(pub u32);
-
-impl SourceId {
-    fn index(self) -> usize {
-        self.0 as usize
-    }
-}
+use crate::{Finding, Place, Source, SourceId, Span};
 
 /// Numbered sources.
 #[derive(Clone, Debug, Default)]

@@ -6,6 +6,7 @@
 //! requested as unknown keys. Invariant: after [`Table::finish`], each entry was either read or reported.
 //! Entries keep the order of the file. Codes: E0701 to E0705.
 
+mod file;
 mod reader;
 mod table;
 mod text;

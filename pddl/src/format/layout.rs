@@ -3,9 +3,8 @@
 //! Invariant that makes formatting idempotent: the output has a line end where the pass followed one of the
 //! author's, and a line end that it writes for lack of room is one that it follows the next time.
 
-use super::WIDTH;
 use super::comments::{Trailing, align};
-use super::measure::{List, Measured};
+use super::measure::{List, Measured, WIDTH};
 use super::rules::{Rules, Shape};
 use crate::syntax::TokenKind;
 

@@ -6,6 +6,9 @@ use super::rules::{Rules, Shape};
 use crate::Span;
 use crate::syntax::{TokenKind, Tokens};
 
+/// Longest line that lists are fitted to, in characters.
+pub(super) const WIDTH: usize = 100;
+
 /// A token that is not white space.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
@@ -79,7 +82,7 @@ impl Measured<'_> {
 }
 
 /// Closing parentheses beyond this number are not counted: the line is full anyway.
-const MOST_CLOSING: usize = super::WIDTH;
+const MOST_CLOSING: usize = WIDTH;
 
 /// A list that is not closed yet.
 struct Open {

@@ -37,9 +37,6 @@ mod rules;
 
 use crate::{Diagnostic, Source, syntax};
 
-/// Longest line that lists are fitted to, in characters.
-pub(crate) const WIDTH: usize = 100;
-
 /// The text of `source` as it should be laid out.
 ///
 /// # Errors

@@ -4,14 +4,22 @@
 //! (`MAX_DEPTH` in `syntax::build`). Each form has its own function, so that a level needs little stack. An
 //! error leaves a placeholder in the model, which `parse_*` then does not hand out.
 
-use super::function_term::FunctionTerms;
 use super::schema::Schema;
 use super::sink::Sink;
 use super::world::World;
 use crate::diagnostic::{DiagnosticKind, SymbolKind};
-use crate::model::{Name, ObjectId, Term, TypeSet, Variable, VariableId};
+use crate::model::{FunctionTerm, Name, ObjectId, Term, TypeSet, Variable, VariableId};
 use crate::occurrence::NameKind;
 use crate::syntax::{Node, NodeKind};
+
+/// The functions that stand as arguments in the form that is being read.
+#[derive(Default)]
+pub(crate) struct FunctionTerms {
+    /// Innermost first; no quantifier binds them yet.
+    pub(super) open: Vec<FunctionTerm>,
+    /// How many of the enclosing forms can bind them.
+    pub(super) binders: usize,
+}
 
 /// One schema that is being read.
 pub(crate) struct Body<'a> {

@@ -17,15 +17,6 @@ use crate::model::{
 };
 use crate::syntax::Node;
 
-/// The functions that stand as arguments in the form that is being read.
-#[derive(Default)]
-pub(crate) struct FunctionTerms {
-    /// Innermost first; no quantifier binds them yet.
-    open: Vec<FunctionTerm>,
-    /// How many of the enclosing forms can bind them.
-    binders: usize,
-}
-
 impl Body<'_> {
     /// Reads a form that can bind the values of functions; returns the functions in it, innermost first.
     pub(super) fn binding<T>(&mut self, read: impl FnOnce(&mut Self) -> T) -> (T, Vec<FunctionTerm>) {

@@ -1,16 +1,7 @@
 //! Conditions: preconditions, goals, bodies of axioms, guards of methods.
 
-use super::{Application, Expression, ObjectId, PredicateId, TypeSet, VariableId};
+use super::{Application, Expression, PredicateId, Term, TypeSet, VariableId};
 use crate::Span;
-
-/// A variable or a constant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Term {
-    /// A slot of the schema.
-    Variable(VariableId),
-    /// A constant or object.
-    Object(ObjectId),
-}
 
 /// A predicate applied to terms; arity and types fit.
 #[derive(Clone, Debug)]

@@ -15,6 +15,7 @@ mod constraint;
 mod domain;
 mod effect;
 mod expression;
+mod fact;
 mod feature;
 mod htn;
 mod ids;
@@ -24,6 +25,7 @@ mod preference;
 mod problem;
 mod process;
 mod requirements;
+mod term;
 mod types;
 mod variables;
 
@@ -31,13 +33,14 @@ pub use action::{
     Action, DurationConstraint, DurativeAction, Given, Rule, SkillCall, TimeSpecifier, TimedCondition,
     TimedEffect,
 };
-pub use condition::{Atom, Comparison, Condition, ConditionKind, Term};
+pub use condition::{Atom, Comparison, Condition, ConditionKind};
 pub use constraint::{Constraint, ConstraintKind, Constraints};
 pub use domain::{
     Axiom, Domain, Function, FunctionValue, Object, Permission, Predicate, TokenPattern, TokenSymbol,
 };
 pub use effect::{AssignOperator, AssignedValue, Effect, EffectKind};
 pub use expression::{Application, ArithmeticOperator, Expression, ExpressionKind};
+pub use fact::Fact;
 pub use feature::Feature;
 pub use htn::{CompoundTask, Method, Ordering, Subtask, SubtaskHead, TaskNetwork};
 pub use ids::{
@@ -48,9 +51,10 @@ pub use index::{Idx, IndexVec};
 pub use name::Name;
 pub use preference::Preference;
 pub use problem::{
-    Fact, FluentFact, FluentValue, GroundApplication, Metric, Objective, Problem, TimedChange, TimedInitial,
+    FluentFact, FluentValue, GroundApplication, Metric, Objective, Problem, TimedChange, TimedInitial,
 };
 pub use process::{ContinuousEffect, Direction, Event, FunctionTerm, Process};
 pub use requirements::{Requirement, Requirements};
+pub use term::Term;
 pub use types::{Type, TypeSet, TypeTable};
 pub use variables::{Variable, Variables};

@@ -1,21 +1,10 @@
 //! Problems.
 
 use super::{
-    Condition, Constraints, Expression, FunctionId, IndexVec, Name, Object, ObjectId, PredicateId,
-    Preference, Requirements, TaskNetwork, Variables,
+    Condition, Constraints, Expression, Fact, FunctionId, IndexVec, Name, Object, ObjectId, Preference,
+    Requirements, TaskNetwork, Variables,
 };
 use crate::{Decimal, Span};
-
-/// A ground atom that holds initially.
-#[derive(Clone, Debug)]
-pub struct Fact {
-    /// Which predicate.
-    pub predicate: PredicateId,
-    /// Its arguments.
-    pub arguments: Vec<ObjectId>,
-    /// Where it stands.
-    pub span: Span,
-}
 
 /// A ground function application.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

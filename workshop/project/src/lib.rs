@@ -22,13 +22,14 @@
 //! assert!(project.language_findings(problem).is_empty());
 //! ```
 //!
-//! Map, from the ground up: `header` (the names in a file's header), `pairs` (the domain of a problem, the
-//! problem of a plan), `links` (which file needs which), `file` (a file's reading), `lint` (lints over a
-//! domain with all its problems), `judge` (all findings in a file), `project`, `task` (a problem with its domain and imports).
+//! Map, from the ground up: `header` (the names in a file's header), `pairs` (the domain of a problem, the problem of a
+//! plan), `links` (which file needs which), `file` (a file's reading), `language` (the parser's findings in it), `project`, `task` (a problem with its domain and imports), `lint` (lints over a domain with all its
+//! problems), `judge` (all findings in a file).
 
 mod file;
 mod header;
 mod judge;
+mod language;
 mod links;
 mod lint;
 mod pairs;

@@ -11,7 +11,7 @@ use pddl::model::{Domain, IndexVec};
 use pddl::{Names, Source, analyze_domain, analyze_plan, analyze_problem};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::judge;
+use crate::language;
 use crate::links::links;
 use crate::{FileKind, Header, Linted, Reading};
 use diagnostics::{Finding, SourceId, Sources};
@@ -294,23 +294,15 @@ impl Project {
         self.read(id).map_or(&[], |read| &read.language)
     }
 
-    /// The lints' findings in a file, in order of place; empty while it or its domain has errors.
-    pub fn lint_findings(&self, id: SourceId) -> &[Linted] {
-        self.file(id).map_or(&[], |file| file.lints.get_or_init(|| judge::lints(self, id)))
-    }
-
     /// The lints' findings in a file, if lints have run since it changed; otherwise empty. For callers that
     /// must not wait: lints may take longer than reading.
     pub fn cached_lint_findings(&self, id: SourceId) -> &[Linted] {
         self.file(id).and_then(|file| file.lints.get()).map_or(&[], Vec::as_slice)
     }
 
-    /// All findings in a file, in order of place.
-    pub fn findings(&self, id: SourceId) -> Vec<Finding> {
-        let lints = self.lint_findings(id).iter().map(|linted| &linted.finding);
-        let mut all: Vec<Finding> = self.language_findings(id).iter().chain(lints).cloned().collect();
-        all.sort_by_key(|finding| finding.place.span);
-        all
+    /// The cache of the lints' findings in a file.
+    pub(crate) fn lint_cache(&self, id: SourceId) -> Option<&OnceLock<Vec<Linted>>> {
+        self.file(id).map(|file| &file.lints)
     }
 
     fn file(&self, id: SourceId) -> Option<&File> {
@@ -367,7 +359,17 @@ impl Project {
                 })
             }
         };
-        let language = judge::language(self, id, &reading);
+        let language = self.language(id, file, &reading);
         Read { reading: Arc::new(reading), language }
+    }
+
+    fn language(&self, id: SourceId, file: &File, reading: &Reading) -> Vec<Finding> {
+        if file.header.kind != FileKind::Problem {
+            return language::of(id, reading);
+        }
+        let found = self.domain_of(id).and_then(|domain| self.header(domain));
+        let domains = self.ids().filter(|&other| self.kind(other) == FileKind::Domain);
+        let known = domains.filter_map(|other| Some(self.header(other)?.name.as_str()));
+        language::of_problem(id, reading, &file.header, found, known)
     }
 }

@@ -5,8 +5,8 @@ use pddl::{NameKind, Role, Span};
 use project::{FileKind, Project};
 
 use super::expected::{Expected, Form};
+use super::item::{Completion, CompletionKind};
 use super::snippets::{self, Snippet};
-use super::{Completion, CompletionKind};
 use crate::Position;
 use crate::applied::{applied, domain, meet, type_text, yields};
 use crate::context::{After, Context, DOMAIN_SECTIONS, PROBLEM_SECTIONS};
