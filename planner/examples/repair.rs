@@ -1,7 +1,7 @@
 //! `repair DOMAIN PROBLEM [ROUNDS] [SEED] [PREDICATE,...]`: breaks a plan at random and mends it, by reuse and from
 //! scratch, and shows the time of both and how far their plans are from the old one.
 //!
-//! A disruption is one to three steps that somebody else takes, or, of the predicates named, facts that change by
+//! A disruption is one to three steps of another agent, or, of the predicates named, facts that change by
 //! themselves. What does not break the plan is not counted.
 #![allow(clippy::print_stdout, missing_docs)]
 

@@ -20,14 +20,15 @@
 //! # Ok::<(), planner::GroundError>(())
 //! ```
 //!
-//! | module | holds |
+//! | module, from the ground up | holds |
 //! |---|---|
-//! | `ground` | from schemas to facts and operators |
-//! | `number` | exact numbers, expressions over fluents |
-//! | `unsolvability` | why there is no plan |
-//! | `task` | the grounded task, states, successors, axioms, the delete relaxation |
+//! | `ids`, `number` | numbered things; exact numbers, expressions over fluents |
+//! | `task` | the grounded task, states, successors, axioms, the delete relaxation, regression |
+//! | `ground` | from schemas to facts and operators, in five stages |
+//! | `query` | a question on a task, and the meter of its searches |
 //! | `heuristics` | estimators, one file each |
-//! | `search` | search algorithms, configurations, the entry point |
+//! | `search` | search algorithms, configurations, repair |
+//! | `unsolvability` | why there is no plan |
 
 mod ground;
 mod heuristics;
@@ -52,13 +53,11 @@ mod unsolvability;
 
 pub use budget::Budget;
 pub use ground::{Feature, GroundError, GroundOptions, Origin, ground};
-pub use heuristics::{Costs, HeuristicKind, Properties, Supported};
 pub use ids::{FactId, FluentId, OperatorId};
 pub use number::Number;
 pub use search::{
-    Attempt, BfwsSettings, Count, Distance, EagerSettings, Engine, Exploration, Improved, LazySettings,
-    Limit, Order, Outcome, Plan, Preference, Pruning, Quality, Query, Repair, Repaired, Report,
-    SearchConfiguration, Statistics, Threads, UnsolvableReason, Way, Width, improve, repair, solve,
+    Attempt, Distance, Improved, Limit, Outcome, Plan, Preference, Quality, Query, Repair, Repaired, Report,
+    SearchConfiguration, Statistics, UnsolvableReason, Way, improve, repair, solve,
 };
 pub use task::{
     AtomStatus, AxiomRule, ConditionalEffect, ConditionalEffects, Fact, Goal, GroundAtom, Impossible, Kernel,

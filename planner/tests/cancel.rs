@@ -1,4 +1,4 @@
-//! Whoever cancels is heard: at every look, at once, and looks are never far apart.
+//! A cancellation is seen at each look, at once, and looks are never far apart.
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use planner::{

@@ -35,7 +35,7 @@ fn numbers_that_outgrow_a_word_leave_only_that_answer_open() {
     }
 }
 
-/// A state that was told more than it can hold proves nothing; the next one does.
+/// A state that was given a number too long to hold proves nothing; the next one does.
 #[test]
 fn a_number_that_does_not_fit_a_state_leaves_its_answer_open() {
     let task = task(

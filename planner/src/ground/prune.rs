@@ -296,7 +296,7 @@ fn measured<'r>(
 }
 
 /// Whether a change of what the metric reads, directly or through effects, may make it better. Where a sum
-/// moves by a constant the sign says so.
+/// moves by a constant, the sign decides.
 fn may_improve(objective: Objective, metric: &Expression<u32>, change: &RawChange) -> bool {
     let above = (Relation::Positive, metric);
     let influence = Influence::of(above, &change.fluent, change.change, change.value.as_ref());

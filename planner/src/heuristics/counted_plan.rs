@@ -1,7 +1,7 @@
 //! Relaxed plans in which operators are repeated, and make up for what they use.
 //!
-//! Problem: a relaxation deletes nothing, so one log is enough for ten houses, and whoever builds the
-//! first finds the estimate risen by the logs for the second. Idea: the plan is walked back from the
+//! Problem: a relaxation deletes nothing, so one log is enough for ten houses, and after the first
+//! house is built the estimate rises by the logs for the second. Idea: the plan is walked back from the
 //! dearest propositions to the cheapest. An operator is in it as often as the comparison asks that takes
 //! it most often; each time it takes from the sums that its precondition needs (a tank, a purse, a room),
 //! and when such a sum's turn comes, it must suffice for all but the last taking; a sum that the goal

@@ -58,7 +58,7 @@ pub(crate) struct Explorer<'a> {
     meter: &'a SearchMeter<'a>,
     combine: Combine,
     repetitions: Option<Repetitions<'a>>,
-    /// The first node that raises a comparison that holds already; empty where nobody counts.
+    /// The first node that raises a comparison that holds already; empty where repetitions are not counted.
     supplier: Vec<u32>,
     template: Vec<Node>,
     /// Without the moves.

@@ -4,7 +4,7 @@ use crate::ids::{OperatorId, StateId};
 
 /// Which costs of operators a heuristic counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Costs {
+pub(crate) enum Costs {
     /// Each operator counts 1: estimates the length of the plan.
     Unit,
     /// Operators count what they cost and 1 more, so that no step is free.
@@ -47,10 +47,10 @@ pub(crate) trait Heuristic {
     /// look promising.
     fn estimate(&mut self, view: &View<'_>, preferred: Option<&mut Vec<OperatorId>>) -> Estimate;
 
-    /// Told of the first state, before any estimate.
+    /// Receives the first state, before any estimate.
     fn start(&mut self, _id: StateId, _words: &[u64]) {}
 
-    /// Told of each step of the search to a new or known state, before its estimate.
+    /// Receives each step of the search to a new or known state, before the estimate of that state.
     fn step(&mut self, _from: StateId, _operator: OperatorId, _to: StateId, _words: &[u64]) {}
 
     /// What the way to the goal behind the last estimate costs in real costs; 0 where there is none.

@@ -25,7 +25,7 @@ pub(crate) struct Shared {
 }
 
 impl<'a> Job<'a> {
-    /// The landmarks of the question. Incomplete where the meter is stopped, and then nobody goes on.
+    /// The landmarks of the question. Incomplete where the meter is stopped, and then the search ends.
     pub(crate) fn landmarks(&self) -> &'a LandmarkGraph {
         let graph = self.relaxation();
         let of = || LandmarkGraph::of(self.task, graph, (self.state, self.goal), self.barred, self.meter);
@@ -39,7 +39,7 @@ impl<'a> Job<'a> {
     }
 }
 
-/// Plans must cost less than this. It only falls, whoever lowers it.
+/// Plans must cost less than this. Several searches lower it, and none raises it.
 #[derive(Debug)]
 pub(crate) struct Bound(AtomicU64);
 

@@ -12,20 +12,20 @@ use super::max::Max;
 
 /// What a search may rely on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Properties {
+pub(crate) struct Properties {
     /// Never above the true cost.
-    pub admissible: bool,
+    pub(crate) admissible: bool,
     /// Falls by no more than the operator's cost along any step.
-    pub consistent: bool,
+    pub(crate) consistent: bool,
     /// Infinite only where the goal cannot be reached.
-    pub safe: bool,
+    pub(crate) safe: bool,
     /// Parts of the language under which the above holds.
-    pub supports: &'static [Supported],
+    pub(crate) supports: &'static [Supported],
 }
 
 /// A part of the language that estimates must know of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Supported {
+pub(crate) enum Supported {
     /// Literals that must not hold.
     NegativeConditions,
     /// Effects under a condition.
@@ -41,7 +41,7 @@ pub enum Supported {
 
 /// The estimators that configurations name; [`HeuristicKind::properties`] says what they promise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum HeuristicKind {
+pub(crate) enum HeuristicKind {
     /// 0 everywhere.
     Blind,
     /// Unsatisfied goals.
@@ -60,11 +60,13 @@ pub enum HeuristicKind {
 
 impl HeuristicKind {
     /// Every kind.
-    pub const ALL: &'static [Self] =
+    #[cfg_attr(not(test), expect(dead_code, reason = "a promise to readers, which a test holds"))]
+    pub(crate) const ALL: &'static [Self] =
         &[Self::Blind, Self::GoalCount, Self::Max, Self::Add, Self::Ff, Self::Landmarks, Self::LmCut];
 
     /// What holds of it with real costs.
-    pub fn properties(self) -> Properties {
+    #[cfg_attr(not(test), expect(dead_code, reason = "a promise to readers, which a test holds"))]
+    pub(crate) fn properties(self) -> Properties {
         let (admissible, consistent) = match self {
             Self::Blind | Self::Max => (true, true),
             Self::LmCut => (true, false),

@@ -36,7 +36,7 @@ impl<'a> LmCut<'a> {
             meter: job.meter,
             explorer: Explorer::on(graph, job, Vec::new(), costs, Combine::Max, Counting::Once),
             goal: graph.literals(&job.goal.literals),
-            // Nobody reads it once the meter is stopped.
+            // Once the meter is stopped, the estimate is not used.
             achieved_by: graph
                 .effects
                 .transposed(graph.propositions(), job.meter.meter())

@@ -1,7 +1,7 @@
 //! Heuristics, one file each.
 //!
 //! A heuristic estimates how far a state is from the goal of one query. It declares what a search
-//! may rely on ([`Properties`]); a test walks the registry of configurations and holds it to that.
+//! may rely on (`kind::Properties`); a test walks the registry of configurations and holds it to that.
 
 mod add;
 mod blind;
@@ -19,7 +19,6 @@ mod repetitions;
 
 pub(crate) use explorer::{Combine, Counting, Explorer};
 pub(crate) use ff::Ff;
-pub use heuristic::Costs;
-pub(crate) use heuristic::{Estimate, Heuristic, View};
+pub(crate) use heuristic::{Costs, Estimate, Heuristic, View};
 pub(crate) use job::{Bound, Job, Shared};
-pub use kind::{HeuristicKind, Properties, Supported};
+pub(crate) use kind::HeuristicKind;

@@ -2,8 +2,8 @@
 //!
 //! Idea: where costs are added up, an achiever counts as often as it must be done to satisfy the
 //! comparison from the state on; it is enough that one achiever does it alone. Where the dearest part
-//! counts, that would not be admissible (two achievers may share the work), but this is: whoever does
-//! it, what the comparison lacks times the lowest price of a unit. Both are finite wherever the
+//! counts, that would not be admissible, because two achievers may share the work. There a comparison costs
+//! what it lacks times the lowest price of a unit, which is admissible for any achiever. Both are finite wherever the
 //! comparison can be satisfied. Cost: one look at a comparison's numbers per state and comparison.
 //!
 //! Source: Scala, Haslum, Thiébaux & Ramirez, "Subgoaling techniques for satisficing and optimal numeric
@@ -13,14 +13,14 @@
 use crate::task::{Numeric, Relaxation, Way};
 use rustc_hash::FxHashMap;
 
-/// The largest number of repetitions that is told from others.
+/// The largest number of repetitions that is counted exactly.
 const MOST: f64 = 1e6;
 
 /// Counts for explorations of one graph.
 pub(crate) struct Repetitions<'a> {
     graph: &'a Relaxation,
     numeric: &'a Numeric,
-    /// By comparison: the least cost of a unit upwards and downwards; empty where nobody asked.
+    /// By comparison: the least cost of a unit upwards and downwards; empty where prices are not needed.
     prices: Vec<[f64; 2]>,
 }
 
@@ -61,7 +61,7 @@ impl<'a> Repetitions<'a> {
         Some(whole(times))
     }
 
-    /// What satisfying the comparison of this effect costs at least, whoever does it.
+    /// What satisfying the comparison of this effect costs at least, for any achiever.
     pub(crate) fn bound(&self, effect: usize, words: &[u64]) -> u32 {
         let Way::Steps { comparison, .. } = self.graph.ways.get(effect) else { return 0 };
         let Some(lack) = self.numeric.lack(*comparison, words) else { return 0 };

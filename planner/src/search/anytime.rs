@@ -43,8 +43,8 @@ pub struct Improved {
 
 /// Looks for a plan by `configuration`, then for better ones until the budget is used up or the plan is
 /// known to be optimal. Each plan is handed to `on_plan` when it is found, each cheaper than those
-/// before; the calls come one after the other, from any thread. The closure can end the work by what
-/// it tells the budget's `interrupted`.
+/// before; the calls come one after the other, from any thread. The closure can end the work
+/// through the budget's `interrupted`.
 pub fn improve(
     task: &Task,
     query: &Query<'_>,
@@ -158,7 +158,7 @@ fn improve_metric(
 /// Work on windows where there is only one thread.
 const POLISH: u64 = 1 << 27;
 
-/// The best plan so far and whom to tell of better ones.
+/// The best plan so far, and the callback for better ones.
 struct Best<'p> {
     plan: Plan,
     on_plan: &'p mut (dyn FnMut(&Plan) + Send),

@@ -24,7 +24,7 @@ const PAIRS: usize = 1 << 29;
 
 /// What counts as novel, and what happens to states that are not.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Width {
+pub(crate) enum Width {
     /// States without a new fact are dropped: polynomial and incomplete.
     One,
     /// States without a new pair of facts are dropped: polynomial and incomplete.
@@ -38,7 +38,7 @@ pub enum Width {
 
 /// What `#g` counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Count {
+pub(crate) enum Count {
     /// Goals that do not hold.
     Goals,
     /// Landmarks that are still to be achieved.
@@ -47,11 +47,11 @@ pub enum Count {
 
 /// The parameters.
 #[derive(Clone, Copy, Debug)]
-pub struct BfwsSettings {
-    /// How novel states are told from others.
-    pub width: Width,
+pub(crate) struct BfwsSettings {
+    /// The width of the novelty measure.
+    pub(crate) width: Width,
     /// What is to fall.
-    pub count: Count,
+    pub(crate) count: Count,
 }
 
 /// Facts to count since the number of open goals last fell.

@@ -2,7 +2,7 @@
 //!
 //! Problem: most tasks are easy for a search that keeps only what is novel and estimates almost
 //! nothing; the others need estimates of every state. Idea: the front end is 1-BFWS, which ends soon
-//! with or without a plan. The back end keeps all states and orders them by novelty, told apart by
+//! with or without a plan. The back end keeps all states and orders them by novelty, in classes by
 //! landmarks to be achieved (`h_L`) and by relaxed plans (`h_FF`), pairs of facts counting; then by
 //! `h_L`, by novelty in `h_FF` alone, and by `h_FF`. Among equally novel ones those reached by a helpful
 //! operator come first, and only these are estimated by a relaxed plan when they are generated: others

@@ -7,9 +7,10 @@
 //! Source: Hart, Nilsson & Raphael, "A formal basis for the heuristic determination of minimum cost
 //! paths", 1968; Pohl, "Heuristic search viewed as path finding in a graph", AIJ 1970.
 
+use super::order::Order;
 use super::searcher::Stepwise;
 use super::space::{Child, Space};
-use super::{Job, Order, Outcome, Statistics};
+use super::{Job, Outcome, Statistics};
 use crate::heuristics::{Costs, Estimate, Heuristic, HeuristicKind, View};
 use crate::ids::StateId;
 use std::cmp::Reverse;
@@ -17,13 +18,13 @@ use std::collections::BinaryHeap;
 
 /// The parameters.
 #[derive(Clone, Copy, Debug)]
-pub struct EagerSettings {
+pub(crate) struct EagerSettings {
     /// The estimator.
-    pub heuristic: HeuristicKind,
+    pub(crate) heuristic: HeuristicKind,
     /// What it counts.
-    pub costs: Costs,
+    pub(crate) costs: Costs,
     /// What the queue is sorted by.
-    pub order: Order,
+    pub(crate) order: Order,
 }
 
 /// Cost of the best known way, and the estimate.

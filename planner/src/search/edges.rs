@@ -60,7 +60,7 @@ impl Arena {
         Some(edge)
     }
 
-    /// Bytes held; more than anybody allows where positions run out.
+    /// Bytes held; more than any budget allows where positions run out.
     pub(crate) fn memory(&self) -> usize {
         match self.pieces.last() {
             None => 0,

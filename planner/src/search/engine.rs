@@ -12,7 +12,7 @@ use crate::heuristics::Job;
 
 /// A search algorithm with its parameters.
 #[derive(Clone, Copy, Debug)]
-pub enum Engine {
+pub(crate) enum Engine {
     /// Best-first with deferred evaluation and preferred operators.
     Lazy(LazySettings),
     /// Best-first that estimates what it generates: A* and its kin.

@@ -14,10 +14,11 @@
 use super::edges::{Arena, Edge, Run};
 use super::novelty::{Novelty, NoveltyTable};
 use super::open_list::OpenList;
+use super::order::Order;
 use super::registry::StateRegistry;
 use super::searcher::Stepwise;
 use super::type_list::TypeList;
-use super::{Job, Limit, Order, Outcome, Plan, Statistics, UnsolvableReason};
+use super::{Job, Limit, Outcome, Plan, Statistics, UnsolvableReason};
 use crate::heuristics::{Costs, Estimate, Heuristic, HeuristicKind, View};
 use crate::ids::{OperatorId, StateId};
 use crate::query;
@@ -27,7 +28,7 @@ const BOOST: i64 = 1000;
 
 /// What else the lists take turns with: ways out of plateaus on which all estimates mislead.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Exploration {
+pub(crate) enum Exploration {
     /// A random edge of a random type: depth and two estimates of the state.
     Types,
     /// Edges of states first that show a fact which no state with the same estimates has shown.
@@ -36,24 +37,24 @@ pub enum Exploration {
 
 /// The parameters.
 #[derive(Clone, Copy, Debug)]
-pub struct LazySettings {
+pub(crate) struct LazySettings {
     /// One pair of open lists each.
-    pub heuristics: &'static [HeuristicKind],
+    pub(crate) heuristics: &'static [HeuristicKind],
     /// Those of them whose preferred operators are tried first.
-    pub preferred: &'static [HeuristicKind],
+    pub(crate) preferred: &'static [HeuristicKind],
     /// What the heuristics count.
-    pub costs: Costs,
+    pub(crate) costs: Costs,
     /// What the queues are sorted by.
-    pub order: Order,
+    pub(crate) order: Order,
     /// One more list each.
-    pub explorations: &'static [Exploration],
+    pub(crate) explorations: &'static [Exploration],
     /// Which states are left out where there is a bound.
-    pub pruning: Pruning,
+    pub(crate) pruning: Pruning,
 }
 
 /// Which states are left out where plans must cost less than a bound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pruning {
+pub(crate) enum Pruning {
     /// Those whose way alone costs as much: no plan below the bound is lost.
     Spent,
     /// Those whose way and relaxed plan together cost as much: there may be plans below the bound, but

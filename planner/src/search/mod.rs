@@ -34,15 +34,9 @@ mod windows;
 
 pub use crate::query::{Limit, Query};
 pub use anytime::{Improved, Quality, improve};
-pub use bfws::{BfwsSettings, Count, Width};
 pub use configuration::SearchConfiguration;
 pub use distance::Distance;
-pub use eager::EagerSettings;
-pub use engine::Engine;
-pub use lazy::{Exploration, LazySettings, Pruning};
-pub use order::Order;
 pub use outcome::{Outcome, Plan, Report, Statistics, UnsolvableReason};
-pub use portfolio::Threads;
 pub(crate) use registry::StateRegistry;
 pub use repair::{Attempt, Preference, Repair, Repaired, Way, repair};
 pub(crate) use searcher::Searcher;

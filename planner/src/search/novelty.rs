@@ -124,7 +124,7 @@ impl NoveltyTable {
         novelty
     }
 
-    /// Whether pairs are told, and there is room for them.
+    /// Whether novelty of pairs is measured, and there is room for it.
     fn tells_pairs(&self) -> bool {
         self.pairs && self.bytes <= self.most_bytes
     }

@@ -4,7 +4,7 @@ use crate::heuristics::Estimate;
 
 /// What a best-first search sorts states by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Order {
+pub(crate) enum Order {
     /// The estimate alone. States keep the first way that was found.
     Greedy,
     /// The cost so far plus so many times the estimate.

@@ -1,8 +1,8 @@
 //! Several searches for one question, taking turns on one thread or two.
 //!
 //! Problem: no search is best everywhere, a restart throws work away, and a small task must not pay
-//! for a thread. Idea: searches pause and resume; whoever has had the least work for its weight goes
-//! next, for a turn that grows with what it has had. A second thread joins where the task is large or
+//! for a thread. Idea: searches pause and resume. The search with the least work for its weight goes
+//! next, for a turn that grows with the work that it has done. A second thread joins where the task is large or
 //! the answer takes longer than some milliseconds; both take from the same pool. Searches for hard
 //! tasks join late, so that others find the easy answers as soon as without them. Searches that give up
 //! leave, and where memory runs short the largest leaves. Invariant: with one thread the order of turns
@@ -11,7 +11,8 @@
 //! Source: turns as in Luby, Sinclair & Zuckerman, "Optimal speedup of Las Vegas algorithms", 1993, in
 //! spirit; portfolios: Helmert, Röger & Karpas, "Fast Downward Stone Soup", 2011.
 
-use super::{Barred, Bound, Engine, Job, Limit, Outcome, Plan, Query, Report, SearchMeter, Searcher};
+use super::engine::Engine;
+use super::{Barred, Bound, Job, Limit, Outcome, Plan, Query, Report, SearchMeter, Searcher};
 use super::{Shared, Statistics, Turn};
 use crate::query::UNLIMITED;
 use crate::task::Task;
@@ -28,7 +29,7 @@ const LARGE: usize = 20_000;
 
 /// How many threads a portfolio uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Threads {
+pub(crate) enum Threads {
     /// The caller's: the same call gives the same answer.
     One,
     /// One more joins where it pays: which search answers first depends on the machine.

@@ -172,7 +172,7 @@ impl<'t> StateRegistry<'t> {
         steps
     }
 
-    /// Bytes held; more than anybody allows where ids run out.
+    /// Bytes held; more than any budget allows where ids run out.
     pub(crate) fn memory(&self) -> usize {
         if self.parents.len() >= MOST_STATES {
             return UNLIMITED;

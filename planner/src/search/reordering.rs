@@ -4,8 +4,8 @@
 //! no short window holds them. Idea: two steps may change places unless one gives or takes a fact that
 //! the other needs, gives or takes. A chain of steps that depend on each other is followed as far as it
 //! goes before the next one begins: from the front, from the back, or with jumps. Invariant: steps that
-//! depend on each other by facts stay in order. What depends on axioms and numbers is not seen, so
-//! whoever needs a plan replays it. Cost: linear in the facts that the steps name, and in the pairs of
+//! depend on each other by facts stay in order. Dependencies through axioms and numbers are not
+//! considered, so a caller that needs a plan replays it. Cost: linear in the facts that the steps name, and in the pairs of
 //! a step that writes a fact and one that reads it.
 //!
 //! Source: partial orders as in Bäckström, "Computational aspects of reordering plans", JAIR 1998, with

@@ -1,6 +1,6 @@
 //! A broken plan made whole again, or a new one where that is better.
 //!
-//! Problem: after a surprise, planning from scratch forgets what everybody was told would happen. Idea:
+//! Problem: after a surprise, planning from scratch changes steps that others already count on. Idea:
 //! first the longest suffix of the old plan that still reaches the goal; else a short search to a state
 //! from which some suffix does (its kernel: the goal regressed through it), nearest kernels first; else
 //! the old plan as far as its steps can be taken, and a search for the rest. What is found is set

@@ -12,10 +12,9 @@
 
 use super::improving::counted;
 use super::lazy::{Lazy, LazySettings, Pruning};
+use super::order::Order;
 use super::reordering::{Arrangement, arranged};
-use super::{
-    Barred, Bound, Job, Order, Outcome, Plan, Query, SearchMeter, Searcher, Shared, Statistics, Turn,
-};
+use super::{Barred, Bound, Job, Outcome, Plan, Query, SearchMeter, Searcher, Shared, Statistics, Turn};
 use crate::heuristics::{Costs, HeuristicKind};
 use crate::ids::OperatorId;
 use crate::task::{Goal, Kernel, Literals, State, Task};
@@ -59,8 +58,8 @@ impl Tried {
 }
 
 impl Windows<'_> {
-    /// Makes the plan cheaper. `exchange` is told of each cheaper plan and answers with the cheapest that
-    /// anybody knows.
+    /// Makes the plan cheaper. `exchange` receives each cheaper plan and returns the cheapest plan that
+    /// any search has found.
     pub(crate) fn run(&self, mut plan: Plan, exchange: &mut dyn FnMut(Plan) -> Plan) -> Statistics {
         let mut tried = Tried {
             costs: counted(self.task),

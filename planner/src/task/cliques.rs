@@ -43,7 +43,7 @@ pub(super) fn cliques(graph: &Relaxation, meter: &Meter<'_>) -> Result<(Vec<u32>
         });
         of[p as usize] = clique;
     }
-    // A clique of one is none.
+    // A clique has at least two members.
     let mut members = vec![0_u32; first.len()];
     of.iter().filter(|&&c| c != ALONE).for_each(|&c| members[c as usize] += 1);
     for clique in &mut of {

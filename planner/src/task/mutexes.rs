@@ -4,7 +4,7 @@
 //! domain's invariants; the largest group whose facts have no variable yet becomes a variable, and so
 //! on greedily; a fact in no group is a variable of its own. Invariant: in every state that operators
 //! reach from the initial one, at most one fact of a group holds, exactly one where that is said. A
-//! state that a caller makes up may break it; [`Mutexes::hold_in`] tells.
+//! state that a caller makes up may break it; [`Mutexes::hold_in`] checks that.
 //!
 //! Source: Helmert, "Concise finite-domain representations for PDDL planning tasks", AIJ 2009, §5–6.
 
@@ -25,7 +25,7 @@ pub struct Mutexes {
 }
 
 impl Mutexes {
-    /// From groups of facts; operators and the initial state tell which are exact.
+    /// From groups of facts; operators and the initial state decide which are exact.
     pub(crate) fn new(
         facts: usize,
         groups: &[Vec<u32>],

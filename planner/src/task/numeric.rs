@@ -5,7 +5,7 @@
 //! again whenever an operator changes a number that it reads. Everything else sees bits only.
 //! Invariant: in every state that a task makes, a comparison's bit says whether it holds, and a number
 //! is exact: where the values of all effects stay multiples of one fraction, a number is a multiple in
-//! one word, else a ratio in two. A step whose result fits into neither is reported to whoever takes it,
+//! one word, else a ratio in two. A step whose result fits into neither is reported to the caller,
 //! and a search that had to leave it out proves nothing. Cost: the changed numbers and the comparisons
 //! that read them, per operator.
 
@@ -309,7 +309,7 @@ impl Numeric {
         }
     }
 
-    /// What one is in the units in which [`measure`](Self::measure) tells a comparison's expression.
+    /// What one is in the units in which [`measure`](Self::measure) gives a comparison's expression.
     pub(super) fn unit(&self, comparison: &Comparison) -> Number {
         match (self.layout, &comparison.fast) {
             (Layout::Multiple(scale), Some(fast)) => {

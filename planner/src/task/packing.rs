@@ -2,7 +2,7 @@
 //!
 //! Problem: with a bit a fact, a lorry that may be in a thousand places takes a thousand bits of every
 //! state that a search keeps. Idea: of each variable only the number of its value is stored, in as many
-//! bits as it needs; facts without others beside them keep a bit each. Whoever looks at a stored state
+//! bits as it needs; facts without others beside them keep a bit each. A reader of a stored state
 //! unpacks it. Invariant: packing and unpacking give the same words back if at most one fact of each
 //! variable holds, which a search makes sure of for its first state. Cost: a step for each variable
 //! and each fact that holds; so tasks whose states would not become much smaller are left as they are.

@@ -10,7 +10,7 @@ use pddl::model::{Idx, Objective};
 
 impl Task {
     /// Whether a plan's quality is the sum of its operators' costs (the length, without costs), so that
-    /// optimal searches can tell what is optimal.
+    /// optimal searches can prove that a plan is optimal.
     pub fn has_additive_costs(&self) -> bool {
         self.metric.is_none()
     }

@@ -4,8 +4,8 @@
 //! times. Idea: a proposition for each fact and for the negation of each fact that some condition
 //! negates; a node for each operator, each of its conditional effects and each axiom rule; adjacency
 //! in compressed rows. Deleting a fact achieves its negation. The negation of a derived fact counts
-//! as true (optimistic, hence safe). A comparison of numbers is a fact like others; how often an
-//! operator must be done for it is told by [`Ways`]. Invariant: a plan of the task is a plan of the
+//! as true (optimistic, hence safe). A comparison of numbers is a fact like others; [`Ways`] holds
+//! how often an operator must be repeated for it. Invariant: a plan of the task is a plan of the
 //! relaxation.
 //!
 //! Source: Hoffmann & Nebel, "The FF planning system", JAIR 2001, §3; negations as in Helmert 2006.
