@@ -17,6 +17,7 @@ use smallvec::SmallVec;
 use crate::delta::Delta;
 use crate::export::{self, Export, RestoreError};
 use crate::id::{AgentId, ReflexId, Time, Version};
+use crate::interest::Interest;
 use crate::journal::feed::{Feed, Rest};
 use crate::left_right::{LeftRight, Twin};
 use crate::past::Past;
@@ -25,7 +26,7 @@ use crate::replay::{self, ReplayError};
 use crate::routes::Routes;
 use crate::snapshot::Snapshot;
 use crate::state::State;
-use crate::subscription::{Committed, Deltas, Mailbox, Matches, Queue, Wake};
+use crate::subscription::{Committed, Deltas, Mailbox, Matches, Queue, Subscription, Wake};
 use crate::transaction::commit::{transact, warm};
 use crate::transaction::reflexes::Registry;
 use crate::transaction::{Edit, Transaction, TransactionError};
@@ -191,6 +192,7 @@ impl Graph {
         let changed = !(delta.changes.is_empty() && delta.reflexes.is_empty());
         let short = delta.changes.len() <= LONG;
         let (state, before) = writing.publish(short.then(|| Arc::clone(&delta)));
+        let owners = owners(&writing.own().reflexes, &delta);
         writing.own().reflexes = outcome.reflexes;
         let snapshot = Snapshot::new(state);
         if changed {
@@ -204,7 +206,7 @@ impl Graph {
                     wakes.extend(queue.push(&committed));
                     queues.push(queue);
                 };
-                writers.queues.concerned(&delta, snapshot.state(), tell);
+                writers.queues.concerned(&delta, snapshot.state(), &owners, tell);
             }
         }
         drop(writing);
@@ -254,6 +256,23 @@ impl Graph {
         })
     }
 
+    /// Reports the part of the graph that an interest asks for, beginning with the state of now.
+    pub fn subscribe_to(&self, interest: impl Into<Interest>) -> Subscription {
+        self.subscribe_to_with(interest, Mailbox::default())
+    }
+
+    /// The same, with a queue that is kept so.
+    pub fn subscribe_to_with(
+        &self,
+        interest: impl Into<Interest>,
+        mailbox: impl Into<Mailbox>,
+    ) -> Subscription {
+        let interest = Arc::new(interest.into());
+        let queue = Queue::new(mailbox.into());
+        self.register(&queue, Some(Arc::clone(&interest)));
+        Subscription::new(queue, interest)
+    }
+
     /// Subscribes to the matches of a pattern, beginning with the present ones.
     pub fn subscribe(&self, pattern: impl Into<Arc<Pattern>>) -> Matches {
         self.subscribe_with(pattern, Mailbox::default())
@@ -261,10 +280,7 @@ impl Graph {
 
     /// Like [`Graph::subscribe`], with settings for the queue.
     pub fn subscribe_with(&self, pattern: impl Into<Arc<Pattern>>, mailbox: impl Into<Mailbox>) -> Matches {
-        let pattern = pattern.into();
-        let queue = Queue::new(mailbox.into());
-        self.register(&queue, Some(Arc::clone(&pattern)));
-        Matches::new(queue, pattern)
+        Matches::new(self.subscribe_to_with(pattern.into(), mailbox))
     }
 
     /// Subscribes to every commit from now on.
@@ -280,10 +296,10 @@ impl Graph {
     }
 
     /// Under the commit lock, so that no commit falls between the snapshot and the first event.
-    fn register(&self, queue: &Arc<Queue>, pattern: Option<Arc<Pattern>>) {
+    fn register(&self, queue: &Arc<Queue>, interest: Option<Arc<Interest>>) {
         let mut writing = self.shared.states.write();
         let present = writing.present();
-        writing.own().queues.add(queue, pattern, &present);
+        writing.own().queues.add(queue, interest, &present);
         queue.begin(Snapshot::new(present));
     }
 
@@ -302,6 +318,13 @@ impl Graph {
     pub fn from_snapshot(snapshot: &Snapshot) -> Self {
         Self::with(snapshot.state().clone())
     }
+}
+
+/// The agents whose reflexes fired in a commit; the registry is the one before it.
+fn owners(before: &Registry, delta: &Delta) -> SmallVec<[AgentId; 2]> {
+    // A reflex that was registered and fired in one commit is the writer's.
+    let owner = |reflex: &ReflexId| before.owner(*reflex).unwrap_or(delta.writer);
+    delta.reflexes.iter().map(owner).collect()
 }
 
 impl std::fmt::Debug for Graph {

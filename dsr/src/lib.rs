@@ -43,7 +43,7 @@
 //! Map, from the ground up: `id`, `unit`, `value`, `vocabulary` → `pages`, `names`, `members`, `pose`, `track`, `block`
 //! → `mentions` → `state` (one version of the graph: read, written, logged, rolled back) → `lease`, `chain` (read from
 //! a state) → `delta` → `snapshot` → `pattern` → `transaction` (edits, rules, leases, reflexes; `reflex` is their data)
-//! → `replay_check`, `replay`, `export`, `diff`, `past`, `sentence` → `subscription`, `routes` → `left_right` (readers
+//! → `replay_check`, `replay`, `export`, `diff`, `past`, `sentence` → `interest`, `subscription`, `routes` → `left_right` (readers
 //! and writers apart), `graph`, `liveness` → `journal`.
 
 mod block;
@@ -53,6 +53,7 @@ mod diff;
 mod export;
 mod graph;
 mod id;
+mod interest;
 mod journal;
 mod lease;
 mod left_right;
@@ -89,6 +90,7 @@ pub use graph::{Commit, Graph};
 pub use id::{
     AgentId, AttributeId, EdgeKey, Holder, LabelId, NodeId, ReflexId, ResourceId, Time, TypeId, Version,
 };
+pub use interest::{Interest, PatternId};
 pub use journal::{
     Damage, Durability, Folder, Journal, JournalError, Memory, Played, Progress, Recording, RecordingError,
     Replay, Settings, Store,
@@ -105,7 +107,9 @@ pub use pose::{Covariance, CovarianceError, Pose};
 pub use reflex::{Bound, Keep, Reflex};
 pub use replay::ReplayError;
 pub use snapshot::{AttributeView, EdgeView, NodeView, Snapshot};
-pub use subscription::{Committed, Delivery, Deltas, Event, Mailbox, MatchChange, Matches};
+pub use subscription::{
+    Changed, Committed, Delivery, Deltas, Event, Mailbox, MatchChange, Matches, News, Subscription,
+};
 pub use track::HORIZON;
 pub use transaction::{Edit, HolderRef, Transaction, TransactionError};
 pub use unit::Unit;

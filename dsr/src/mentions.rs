@@ -23,6 +23,10 @@ impl Bits {
         self.0.get(index / 64).is_some_and(|word| word >> (index % 64) & 1 == 1)
     }
 
+    fn is_empty(&self) -> bool {
+        self.0.iter().all(|word| *word == 0)
+    }
+
     fn intersects(&self, other: &Self) -> bool {
         self.0.iter().zip(other.0.iter()).any(|(a, b)| a & b != 0)
     }
@@ -70,6 +74,11 @@ impl Mentions {
         self.transforms
     }
 
+    /// Whether it mentions nothing.
+    pub fn is_empty(&self) -> bool {
+        !self.transforms && [&self.labels, &self.attributes, &self.types].iter().all(|bits| bits.is_empty())
+    }
+
     /// Adds everything that `other` mentions.
     pub fn extend(&mut self, other: &Self) {
         for (mine, theirs) in [
@@ -95,19 +104,23 @@ impl Mentions {
         *self = Self::default();
     }
 
-    pub(crate) fn add_label(&mut self, label: LabelId) {
+    /// Adds a label.
+    pub fn add_label(&mut self, label: LabelId) {
         self.labels.insert(label.index());
     }
 
-    pub(crate) fn add_attribute(&mut self, attribute: AttributeId) {
+    /// Adds an attribute.
+    pub fn add_attribute(&mut self, attribute: AttributeId) {
         self.attributes.insert(attribute.index());
     }
 
-    pub(crate) fn add_type(&mut self, node_type: TypeId) {
+    /// Adds nodes of exactly this type, which come and go.
+    pub fn add_type(&mut self, node_type: TypeId) {
         self.types.insert(node_type.index());
     }
 
-    pub(crate) fn add_transforms(&mut self) {
+    /// Adds the transforms.
+    pub fn add_transforms(&mut self) {
         self.transforms = true;
     }
 }

@@ -3,7 +3,8 @@
 //! Problem: asking a thousand subscribers one by one costs more than the commit. Idea: each pattern is listed under
 //! what its atoms need (`index`): the token, and the constant node at an end if there is one, or else the types of the
 //! ends and a clue of what must hold beside the change. A pattern with a named node is listed under the node of that
-//! name, and listed anew when a node of that name is added or removed. Cost: a few hash look-ups per change, whatever
+//! name, and listed anew when a node of that name is added or removed.
+//! Tokens are routes without a node; the commits and the reflexes of an agent have lists of their own. Cost: a few hash look-ups per change, whatever
 //! the number of subscribers.
 
 mod index;
@@ -15,17 +16,22 @@ use smallvec::SmallVec;
 
 use self::index::{Gone, Index};
 use crate::delta::{Change, Delta};
-use crate::pattern::{Pattern, Route};
+use crate::id::{AgentId, TypeId};
+use crate::interest::Interest;
+use crate::mentions::Mentions;
+use crate::pattern::{Clue, Route};
 use crate::state::State;
 use crate::subscription::Queue;
 
 /// A position in the list of subscribers.
 type Seat = usize;
 
+type Seats = SmallVec<[Seat; 2]>;
+
 struct Subscriber {
     queue: Weak<Queue>,
     /// `None` for a subscriber to every commit.
-    pattern: Option<Arc<Pattern>>,
+    interest: Option<Arc<Interest>>,
     routes: Vec<Route>,
 }
 
@@ -35,7 +41,11 @@ pub(crate) struct Routes {
     free: Vec<Seat>,
     every: Vec<Seat>,
     index: Index,
-    by_name: FxHashMap<Arc<str>, SmallVec<[Seat; 2]>>,
+    by_name: FxHashMap<Arc<str>, Seats>,
+    /// Those that want every commit of an agent.
+    by_writer: FxHashMap<AgentId, Seats>,
+    /// Those that want every commit in which a reflex of an agent fires.
+    by_owner: FxHashMap<AgentId, Seats>,
     /// At this number of subscribers, dropped ones are removed.
     sweep: usize,
 }
@@ -45,7 +55,7 @@ impl Routes {
         self.subscribers.len() == self.free.len()
     }
 
-    pub(crate) fn add(&mut self, queue: &Arc<Queue>, pattern: Option<Arc<Pattern>>, state: &State) {
+    pub(crate) fn add(&mut self, queue: &Arc<Queue>, interest: Option<Arc<Interest>>, state: &State) {
         if self.subscribers.len() - self.free.len() >= self.sweep {
             let gone = |entry: &Option<Subscriber>| {
                 entry.as_ref().is_some_and(|entry| entry.queue.strong_count() == 0)
@@ -55,8 +65,8 @@ impl Routes {
             seats.into_iter().for_each(|seat| self.remove(seat));
             self.sweep = 16.max(2 * (self.subscribers.len() - self.free.len()));
         }
-        let routes = pattern.as_ref().map_or_else(Vec::new, |pattern| pattern.routes(state));
-        let subscriber = Subscriber { queue: Arc::downgrade(queue), pattern, routes };
+        let routes = interest.as_ref().map_or_else(Vec::new, |interest| routes(interest, state));
+        let subscriber = Subscriber { queue: Arc::downgrade(queue), interest, routes };
         let seat = self.free.pop().unwrap_or_else(|| {
             self.subscribers.push(None);
             self.subscribers.len() - 1
@@ -65,8 +75,15 @@ impl Routes {
         self.subscribers[seat] = Some(subscriber);
     }
 
-    /// Calls `tell` once for each subscriber that a delta may concern. `state` is the state after the delta.
-    pub(crate) fn concerned(&mut self, delta: &Delta, state: &State, mut tell: impl FnMut(Arc<Queue>)) {
+    /// Calls `tell` for each subscriber that a delta may concern, once; the state is the one after it, and `owners`
+    /// are the agents whose reflexes fired.
+    pub(crate) fn concerned(
+        &mut self,
+        delta: &Delta,
+        state: &State,
+        owners: &[AgentId],
+        mut tell: impl FnMut(Arc<Queue>),
+    ) {
         let mut seats: SmallVec<[Seat; 16]> = self.every.iter().copied().collect();
         let mut anew: SmallVec<[Seat; 2]> = SmallVec::new();
         let gone = Gone::of(delta);
@@ -77,6 +94,8 @@ impl Routes {
             }
         }
         self.index.find_moved(delta, state, |found| seats.extend_from_slice(found));
+        seats.extend(self.by_writer.get(&delta.writer).into_iter().flatten().copied());
+        seats.extend(owners.iter().filter_map(|owner| self.by_owner.get(owner)).flatten().copied());
         anew.sort_unstable();
         anew.dedup();
         seats.extend(anew.iter().copied());
@@ -101,15 +120,21 @@ impl Routes {
     }
 
     fn enlist(&mut self, seat: Seat, subscriber: &Subscriber) {
-        let Some(pattern) = &subscriber.pattern else {
+        let Some(interest) = &subscriber.interest else {
             self.every.push(seat);
             return;
         };
         for route in &subscriber.routes {
             self.index.add(*route, seat);
         }
-        for name in pattern.names() {
-            self.by_name.entry(name.clone()).or_default().push(seat);
+        for name in names(interest) {
+            add(self.by_name.entry(name.clone()).or_default(), seat);
+        }
+        if let Some(writer) = interest.writer() {
+            add(self.by_writer.entry(writer).or_default(), seat);
+        }
+        if let Some(owner) = interest.owner() {
+            add(self.by_owner.entry(owner).or_default(), seat);
         }
     }
 
@@ -118,20 +143,22 @@ impl Routes {
         for route in &subscriber.routes {
             self.index.remove(*route, seat);
         }
-        for name in subscriber.pattern.iter().flat_map(|pattern| pattern.names()) {
-            if let Some(seats) = self.by_name.get_mut(name) {
-                seats.retain(|other| *other != seat);
-                if seats.is_empty() {
-                    self.by_name.remove(name);
-                }
-            }
+        let Some(interest) = &subscriber.interest else { return };
+        for name in names(interest) {
+            remove(&mut self.by_name, name, seat);
+        }
+        if let Some(writer) = interest.writer() {
+            remove(&mut self.by_writer, &writer, seat);
+        }
+        if let Some(owner) = interest.owner() {
+            remove(&mut self.by_owner, &owner, seat);
         }
     }
 
     fn list_anew(&mut self, seat: Seat, state: &State) {
         if let Some(mut subscriber) = self.subscribers[seat].take() {
             self.strike(seat, &subscriber);
-            subscriber.routes = subscriber.pattern.as_ref().map_or_else(Vec::new, |p| p.routes(state));
+            subscriber.routes = subscriber.interest.as_ref().map_or_else(Vec::new, |i| routes(i, state));
             self.enlist(seat, &subscriber);
             self.subscribers[seat] = Some(subscriber);
         }
@@ -141,6 +168,42 @@ impl Routes {
         if let Some(subscriber) = self.subscribers[seat].take() {
             self.strike(seat, &subscriber);
             self.free.push(seat);
+        }
+    }
+}
+
+/// The routes by which changes reach a subscriber, with the constants of this state.
+fn routes(interest: &Interest, state: &State) -> Vec<Route> {
+    let of_patterns = interest.patterns().flat_map(|pattern| pattern.routes(state));
+    of_patterns.chain(routes_of_tokens(interest.tokens())).collect()
+}
+
+fn routes_of_tokens(tokens: &Mentions) -> impl Iterator<Item = Route> + '_ {
+    let any = |label| Route::Edge(label, TypeId::OBJECT, TypeId::OBJECT, Clue::Any);
+    let edges = tokens.labels().map(any);
+    edges
+        .chain(tokens.attributes().map(Route::Attribute))
+        .chain(tokens.types().map(Route::Type))
+        .chain(tokens.transforms().then_some(Route::AnyTransform))
+}
+
+/// The names of nodes that the patterns of an interest speak of.
+fn names(interest: &Interest) -> impl Iterator<Item = &Arc<str>> {
+    interest.patterns().flat_map(|pattern| pattern.names())
+}
+
+fn add(seats: &mut Seats, seat: Seat) {
+    if !seats.contains(&seat) {
+        seats.push(seat);
+    }
+}
+
+/// Strikes a seat from a list, and a list that is empty then.
+fn remove<K: std::hash::Hash + Eq>(lists: &mut FxHashMap<K, Seats>, key: &K, seat: Seat) {
+    if let Some(seats) = lists.get_mut(key) {
+        seats.retain(|other| *other != seat);
+        if seats.is_empty() {
+            lists.remove(key);
         }
     }
 }

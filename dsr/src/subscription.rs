@@ -14,9 +14,12 @@
 
 mod deltas;
 mod matches;
+mod news;
 mod queue;
+mod tracker;
 
 pub use self::deltas::{Deltas, Event};
 pub use self::matches::{MatchChange, Matches};
+pub use self::news::{Changed, News, Subscription};
 pub use self::queue::{Committed, Delivery, Mailbox};
 pub(crate) use self::queue::{Queue, Wake};

@@ -26,8 +26,10 @@ pub(crate) enum Route {
     /// A frame of exactly this type moves.
     MovedType(TypeId),
     Moved(NodeId),
-    /// Any frame moves.
+    /// Where any frame is: listed for each pattern that measures, beside the frames that it measures.
     Transforms,
+    /// Any change of a transform.
+    AnyTransform,
 }
 
 impl Pattern {

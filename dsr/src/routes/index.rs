@@ -215,6 +215,11 @@ impl Index {
     /// a changed edge, because a metric that changes has an end there. If more frames are below than are worth walking,
     /// with the seats of all patterns that measure.
     pub(super) fn find_moved(&self, delta: &Delta, state: &State, mut tell: impl FnMut(&[Seat])) {
+        if let Some(any) = self.plain.get(&Route::AnyTransform)
+            && delta.changes.iter().any(is_transform)
+        {
+            tell(any);
+        }
         let Some(all) = self.plain.get(&Route::Transforms) else { return };
         let mut frames: SmallVec<[NodeId; 16]> =
             delta.changes.iter().filter_map(|change| moved(change, state)).collect();
@@ -320,6 +325,16 @@ impl Fan {
             }
         }
     }
+}
+
+fn is_transform(change: &Change) -> bool {
+    matches!(
+        change,
+        Change::TransformAdded { .. }
+            | Change::TransformChanged { .. }
+            | Change::TransformSampled { .. }
+            | Change::TransformRemoved { .. }
+    )
 }
 
 fn fit(vocabulary: &Vocabulary, exact: Ends, wanted: Ends) -> bool {

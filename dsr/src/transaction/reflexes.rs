@@ -37,6 +37,11 @@ pub(crate) struct Registry {
 }
 
 impl Registry {
+    /// The agent whose reflex it is, if it is registered.
+    pub(crate) fn owner(&self, id: ReflexId) -> Option<AgentId> {
+        self.live.get(&id).map(|registered| registered.reflex.owner)
+    }
+
     /// Registers a reflex, if its conditions hold now and its edits would be accepted now.
     pub(super) fn register(
         &mut self,
