@@ -3,7 +3,7 @@
 //! Invariant: every index is in range and every condition is patterns of the graph. At run time the only unknown name can
 //! be that of a node that has left the graph.
 
-use dsr::{NodeId, Snapshot};
+use dsr::{Mentions, NodeId, Snapshot};
 use pddl::Span;
 use pddl::model::{
     Comparison, Domain, DurationConstraint, DurativeAction, ExpressionKind, Idx, Name, SubtaskHead, TaskId,
@@ -171,6 +171,18 @@ impl Methods {
             Head::Task(task) => &self.tasks[task].name,
             Head::Intention(intention) => &self.intentions[intention].name,
         }
+    }
+
+    /// The tokens that refining reads: those of all conditions and expectations, and those of all effects, which are
+    /// compared with the graph before they are written or taken back.
+    pub fn mentions(&self) -> Mentions {
+        let mut mentions = Mentions::default();
+        self.methods.iter().for_each(|method| mentions.extend(method.precondition.mentions()));
+        for Intention { before, keep, expects, writes, on_timeout, .. } in &self.intentions {
+            [before, keep, expects].into_iter().for_each(|condition| mentions.extend(condition.mentions()));
+            [writes, on_timeout].into_iter().for_each(|effect| mentions.extend(&effect.mentions()));
+        }
+        mentions
     }
 
     pub(crate) fn find(&self, task: &str) -> Option<usize> {

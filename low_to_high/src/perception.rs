@@ -5,12 +5,12 @@
 
 use std::sync::Arc;
 
-use dsr::Vocabulary;
+use dsr::{Mentions, Vocabulary};
 use pddl::Span;
 use pddl::model::{Domain, IndexVec, Name, PredicateId};
 use vocabulary::{Conjunction, LinkErrorKind, Literal, Located, MAX_ALTERNATIVES, Tokens};
 
-use crate::axiom::Axiom;
+use crate::axiom::{Axiom, Token};
 use crate::strata::{Component, components};
 
 /// The most literals of one alternative: matching keeps them as bits.
@@ -144,6 +144,22 @@ impl Perception {
     pub fn derived(&self) -> impl Iterator<Item = (&Name, Role)> {
         let derived = self.predicates.iter().filter(|predicate| !predicate.axioms.is_empty());
         derived.map(|predicate| (&predicate.name, predicate.role))
+    }
+
+    /// The tokens that the axioms read, and the nodes of all types, since facts speak in names. A delta that touches
+    /// none of them changes no fact.
+    pub fn mentions(&self) -> Mentions {
+        let mut mentions = Mentions::default();
+        self.vocabulary.types().for_each(|id| mentions.add_type(id));
+        for watch in self.axioms.iter().flat_map(|axiom| &axiom.watches) {
+            match watch.token {
+                Token::Label(label) => mentions.add_label(label),
+                Token::Attribute(attribute) => mentions.add_attribute(attribute),
+                Token::Transforms => mentions.add_transforms(),
+                Token::Predicate(_) => {}
+            }
+        }
+        mentions
     }
 
     /// The derived predicate of that name.

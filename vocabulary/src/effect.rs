@@ -7,7 +7,7 @@
 
 use std::sync::Arc;
 
-use dsr::{AttributeId, Edit, HolderRef, Isometry3, LabelId, NewValue, NodeRef, Snapshot};
+use dsr::{AttributeId, Edit, HolderRef, Isometry3, LabelId, Mentions, NewValue, NodeRef, Snapshot};
 use pddl::Span;
 use pddl::model::{AssignOperator, Name, VariableId};
 
@@ -66,6 +66,31 @@ pub(crate) enum Given {
 }
 
 impl Effect {
+    /// The tokens that it reads or writes.
+    pub fn mentions(&self) -> Mentions {
+        let mut mentions = Mentions::default();
+        for update in &self.updates {
+            if let Some(guard) = &update.guard {
+                mentions.extend(guard.mentions());
+            }
+            match &update.change {
+                Change::AddEdge { label, .. } | Change::RemoveEdge { label, .. } => {
+                    mentions.add_label(*label)
+                }
+                Change::Set { holder, attribute, .. }
+                | Change::Adjust { holder, attribute, .. }
+                | Change::Clear { holder, attribute } => {
+                    mentions.add_attribute(*attribute);
+                    if let Holder::Edge { label, .. } = holder {
+                        mentions.add_label(*label);
+                    }
+                }
+                Change::SetTransform { .. } | Change::RemoveTransform { .. } => mentions.add_transforms(),
+            }
+        }
+        mentions
+    }
+
     /// The edits for a binding of the schema's parameters and of the results that the effect uses.
     pub fn edits(&self, snapshot: &Snapshot, binding: &Binding) -> Result<Vec<Edit>, EffectError> {
         let mut deletes = Vec::new();
