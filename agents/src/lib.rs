@@ -1,6 +1,6 @@
 //! The rule runtime and the skills of the reactive agents.
 //!
-//! An agent does not receive commands. It watches the graph, and when that looks like the *before* of one of
+//! An agent does not receive commands. It watches its part of the graph, and when that looks like the *before* of one of
 //! its rules, it makes it look like the *during*, runs a skill on a device, and makes it look like the *after*.
 //! Everything it does is in its file of rules; nothing in this crate knows a test, a sentence or an item.
 //!
@@ -33,7 +33,9 @@
 //! let world = parse_problem(&world, &words).model.expect("no errors");
 //! let graph = vocabulary.populate(&[&world], Time(0)).expect("fits the vocabulary");
 //!
+//! let mut subscription = graph.subscribe_to(agent.interest());
 //! let mut runtime = Runtime::new(agent.into());
+//! runtime.changed(&subscription.try_recv().expect("the start is news"));
 //! let agents::Action::Commit(start) = runtime.next_action(&graph.snapshot(), Time(1)).expect("a rule matches")
 //!     else { panic!() };
 //! let commit = graph.commit(&start, Time(1));
@@ -43,21 +45,21 @@
 //! assert!(matches!(next, Some(agents::Action::Launch { .. })));
 //! ```
 //!
-//! Map, from the ground up: `words` (what is handed in) → `skill` (what a skill is), [`skills`] (a file each) →
-//! `rule` (compiled rules: `compile`, `error`, `regress`) → `runtime` (the pure state machine) → `shell` (the
-//! driver over the real graph, clock and devices).
+//! Map, from the ground up: `words` (what the caller hands in) → `skill` (what a skill is), [`skills`] (a file each) →
+//! `rules` (rules compiled to patterns and edits, and the agent's part of the graph) → `runtime` (the pure state
+//! machine) → `shell` (the driver over the real graph, clock and devices).
 //!
 //! **Invariant:** the agents never know the executive. They meet in the graph.
 
 pub mod skills;
 
-mod rule;
+mod rules;
 mod runtime;
 mod shell;
 mod skill;
 mod words;
 
-pub use rule::{Agent, RuleError, RuleErrorKind, RuleId, compile};
+pub use rules::{Agent, RuleError, RuleErrorKind, compile};
 pub use runtime::{Action, InstanceId, REST, Runtime};
 pub use shell::{Clock, Environment, TokioClock, run, run_all};
 pub use skill::{Call, Datum, DatumKind, Ended, Equipment, Outcome, Signature, Skill, Skills, Work};

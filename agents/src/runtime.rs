@@ -2,49 +2,47 @@
 //!
 //! Problem: an agent must start each rule as soon as the graph looks so, never twice, stop it when a reflex
 //! fired, and write what its skill ended with, while the graph moves on under it. Idea: no I/O here. The shell
-//! reports commits, endings and the time, and asks for the next [`Action`] until there is none; every commit
-//! it makes is on the very version that the machine has seen, so that a decision is never applied to a graph it
-//! was not made for.
+//! reports news of the graph, endings and the time, and asks for the next [`Action`] until there is none; every commit
+//! is on the very version that the decision was made on.
 //!
 //! Invariants:
 //! - Rules are level-triggered: a rule runs for a binding whenever its conditions hold and it does not run for
 //!   it already. Nothing is lost by being busy, restarted, or late.
 //! - One instance is one guard in the graph. The instance ends exactly once: by its own commit, which dismisses
 //!   the guard, or by the guard, which has then written the effects of `abort` already.
-//! - A resource that is held at a lower priority is taken in a commit of its own. The reflexes of whoever held
-//!   it write in that commit, so the rule starts on a graph in which they have had their say.
+//! - A resource that is held at a lower priority is taken in a commit of its own. The reflexes of its holder
+//!   write in that commit, so the rule starts on a graph that they have left in order.
 //! - No loop without time passing: a rule whose skill failed, or that ended in the instant in which it began,
 //!   rests for [`REST`] for that binding.
 //!
-//! Cost: per commit, one intersection of small bit sets per rule, and matching for those that it touches.
+//! Cost: nothing for commits outside the agent's [interest](Agent::interest). For the others, what it takes to find the
+//! matches that changed; no rule is matched as a whole again.
 
 mod access;
 mod instance;
+mod matching;
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
 
 use dsr::{
-    Commit, Delta, LabelId, Mentions, Preemption, ReflexId, ResourceId, Snapshot, Time, Transaction,
-    TransactionError,
+    Commit, Mentions, News, Preemption, ReflexId, ResourceId, Snapshot, Time, Transaction, TransactionError,
 };
 use tracing::{debug, error};
 
 use self::access::{Access, access};
+pub use self::instance::InstanceId;
 use self::instance::{Instance, Phase};
-use crate::rule::{Agent, Parameters, RuleId};
+use self::matching::Matching;
+use crate::rules::{Agent, Concern, Parameters, RuleId};
 use crate::skill::{Call, Ended, Outcome, Skill};
 
 /// How long a rule rests for a binding after a failure, or after it began and ended in one instant.
 pub const REST: std::time::Duration = std::time::Duration::from_secs(1);
 
-/// A running rule. Ids are never given out twice.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct InstanceId(u64);
-
-/// What the shell shall do.
+/// What the shell must do.
 pub enum Action {
-    /// Commit this, and hand the result to [`Runtime::committed`] before anything else.
+    /// Commit this, and hand the result to [`Runtime::committed`] before any news.
     Commit(Transaction),
     /// Run this skill, and hand its ending to [`Runtime::ended`].
     Launch {
@@ -79,7 +77,8 @@ pub struct Runtime {
     agent: Arc<Agent>,
     instances: BTreeMap<Key, Instance>,
     next: u64,
-    /// Rules whose matches may have changed.
+    matching: Matching,
+    /// Rules that may start now and could not before.
     dirty: BTreeSet<RuleId>,
     /// Bindings to look at, before the next dirty rule is.
     candidates: VecDeque<Key>,
@@ -93,14 +92,14 @@ pub struct Runtime {
 }
 
 impl Runtime {
-    /// An agent that has looked at nothing yet.
+    /// An agent that has not seen the graph yet.
     pub fn new(agent: Arc<Agent>) -> Self {
-        let dirty = agent.rule_ids().collect();
         Self {
             agent,
             instances: BTreeMap::new(),
             next: 0,
-            dirty,
+            matching: Matching::default(),
+            dirty: BTreeSet::new(),
             candidates: VecDeque::new(),
             taken: None,
             resting: BTreeMap::new(),
@@ -120,23 +119,42 @@ impl Runtime {
         self.instances.len()
     }
 
-    /// Somebody's commit. May be told twice, and late.
-    pub fn changed(&mut self, delta: &Delta) {
-        for &reflex in &delta.reflexes {
-            self.fired(reflex);
+    /// News of a subscription to the agent's [interest](Agent::interest), in their order. May come late. The first news
+    /// of another subscription starts over: nothing but the guards in the graph is needed to go on.
+    pub fn changed(&mut self, news: &News) {
+        for delta in &news.deltas {
+            delta.reflexes.iter().for_each(|&reflex| self.fired(reflex));
+            self.may_now_keep(&Mentions::of(delta));
         }
-        let touched = Mentions::of(delta);
-        let leases = touched.labels().any(|label| label == LabelId::HOLDS);
-        for (id, rule) in self.agent.enumerate() {
-            if rule.mentions().intersects(&touched) || (leases && !rule.claims.is_empty()) {
-                self.dirty.insert(id);
+        if news.deltas.is_empty() {
+            self.look_around(&news.snapshot);
+            if news.missed == 0 {
+                self.matching = Matching::default();
+            }
+        }
+        for changed in &news.matches {
+            match self.agent.concern(changed.pattern) {
+                Concern::Start { rule, .. } => {
+                    self.matching.update(&self.agent, changed);
+                    self.dirty.insert(rule);
+                }
+                Concern::Lease(resource) => {
+                    let claim = self.agent.enumerate().filter(|(_, rule)| rule.claims.contains(&resource));
+                    self.dirty.extend(claim.map(|(id, _)| id));
+                }
             }
         }
     }
 
-    /// Commits were missed; `snapshot` is what they led to. Instances whose condition over all does not hold
-    /// there have been stopped by their guards; others that were will find their guard gone when they end.
-    pub fn lagged(&mut self, snapshot: &Snapshot) {
+    /// Rules that were refused because their own effects at start would have broken their condition over all.
+    fn may_now_keep(&mut self, touched: &Mentions) {
+        let unsure = self.agent.enumerate().filter(|(_, rule)| rule.unsure().intersects(touched));
+        self.dirty.extend(unsure.map(|(id, _)| id));
+    }
+
+    /// A state without the commits that led to it. Instances whose condition over all does not hold there have been
+    /// stopped by their guards; others that were stopped find their guard gone when they end.
+    fn look_around(&mut self, snapshot: &Snapshot) {
         let broken: Vec<Key> = self
             .instances
             .iter()
@@ -164,7 +182,8 @@ impl Runtime {
         limits.chain(self.resting.values().copied()).min()
     }
 
-    /// What to do next, given the present graph and time; `None` when there is nothing until something happens.
+    /// What to do next, given the present graph and time; `None` when there is nothing until something happens. All
+    /// news of the present graph must have been reported.
     pub fn next_action(&mut self, snapshot: &Snapshot, now: Time) -> Option<Action> {
         self.time_out(now);
         if let Some(action) = self.actions.pop_front() {
@@ -185,10 +204,6 @@ impl Runtime {
             (Pending::End(key), Ok(_)) => self.finished(&key, now),
             (Pending::GiveBack, Ok(_)) => {}
             (pending, Err(error)) => self.refused(pending, error, now),
-        }
-        // Reflexes that this very commit broke, own ones included.
-        if let Ok(commit) = result {
-            self.changed(&commit.delta);
         }
     }
 
@@ -258,8 +273,8 @@ impl Runtime {
             let Some(key) = self.candidates.pop_front() else {
                 let rule = self.most_urgent_dirty()?;
                 self.dirty.remove(&rule);
-                let bindings = self.agent.rule(rule).candidates(snapshot);
-                self.candidates = bindings.into_iter().map(|parameters| (rule, parameters)).collect();
+                let bindings = self.matching.bindings(rule);
+                self.candidates = bindings.map(|parameters| (rule, parameters.clone())).collect();
                 continue;
             };
             if self.instances.contains_key(&key) || self.resting.contains_key(&key) {
@@ -367,14 +382,14 @@ impl Runtime {
                 self.candidates.push_front(key);
             }
             (Pending::End(_), TransactionError::Stale { .. }) => {}
-            // Somebody was faster, or what the start would leave does not keep: a later delta asks again.
+            // Another agent was faster, or what the start would leave does not keep: later news ask again.
             (
                 Pending::Take(..) | Pending::Start(_),
                 TransactionError::ResourceHeld { .. } | TransactionError::KeepBroken { .. },
             ) => {}
             // The guard was faster than the end; `abort` is written.
             (Pending::End(key), TransactionError::ReflexGone { .. }) => self.stopped(&key),
-            // What was taken is gone by itself if somebody took it; otherwise nothing else is left to try.
+            // What was taken is gone by itself if another agent took it; otherwise nothing else is left to try.
             (Pending::GiveBack, refusal) => debug!(%refusal, "nothing to give back"),
             (Pending::Take(key, _) | Pending::Start(key), refusal) => {
                 error!(rule = %self.agent.rule(key.0).name, %refusal, "a rule cannot start");

@@ -1,12 +1,12 @@
 //! The shell: drives one agent over the real graph, clock and devices.
 //!
-//! Idea: one future per agent that is woken by the graph, by a skill, or by the time; it feeds the pure
-//! [`Runtime`] and does what that asks for. It spawns nothing, so all agents together can live in one task.
+//! Idea: one future per agent that is woken by the graph (for the agent's interest alone), by a skill, or by the time.
+//! It feeds the pure [`Runtime`] and does what that asks for. It spawns nothing, so all agents can live in one task.
 //!
 //! Invariant: the same wakings in the same order give the same commits. News of the graph come before endings
 //! of skills, so that a skill which a reflex stopped can no longer end; skills are polled in the order of their
-//! launch. Dropping the future drops every skill, which stops every device; the graph is then told by
-//! [`dsr::Graph::expire`].
+//! launch. Dropping the future drops every skill, which stops every device; the caller then reports it to the graph
+//! with [`dsr::Graph::expire`].
 
 use std::collections::BTreeMap;
 use std::convert::Infallible;
@@ -16,16 +16,16 @@ use std::sync::Arc;
 use std::task::Poll;
 use std::time::Duration;
 
-use dsr::{Event, Graph, Time};
+use dsr::{Graph, Time};
 use tokio::sync::Notify;
 use tokio::time::{Instant, sleep};
 use tracing::{Instrument, debug_span};
 
-use crate::rule::Agent;
+use crate::rules::Agent;
 use crate::runtime::{Action, InstanceId, Runtime};
 use crate::skill::{Ended, Equipment, Work};
 
-/// Whoever knows the time that commits are stamped with.
+/// The clock that commits are stamped with.
 pub trait Clock: Send + Sync {
     /// Now; never less than before.
     fn now(&self) -> Time;
@@ -90,17 +90,14 @@ pub async fn run_all(agents: impl IntoIterator<Item = Arc<Agent>>, environment: 
 
 async fn drive(mut runtime: Runtime, Environment { graph, equipment, clock }: Environment) -> Infallible {
     let news = Arc::new(Notify::new());
-    let deltas = graph.subscribe_deltas();
+    let mut subscription = graph.subscribe_to(runtime.agent().interest());
     let waker = Arc::clone(&news);
-    deltas.on_wake(move || waker.notify_one());
+    subscription.on_wake(move || waker.notify_one());
     let mut skills: BTreeMap<InstanceId, Work> = BTreeMap::new();
     loop {
         loop {
-            while let Some(event) = deltas.try_recv() {
-                match event {
-                    Event::Committed(committed) => runtime.changed(&committed.delta),
-                    Event::Lagged { snapshot, .. } => runtime.lagged(&snapshot),
-                }
+            while let Some(news) = subscription.try_recv() {
+                runtime.changed(&news);
             }
             let now = clock.now();
             match runtime.next_action(&graph.snapshot(), now) {

@@ -33,6 +33,8 @@ impl Outcome {
     pub const TIMEOUT: &'static str = "timeout";
     /// The device failed.
     pub const FAILURE: &'static str = "failure";
+    /// What a skill over one device reports beside `end`.
+    pub(crate) const ONLY_FAILURE: &'static [&'static str] = &[Self::FAILURE];
     /// Nothing is written; never in a rule.
     pub(crate) const NOTHING: &'static str = "";
 

@@ -35,7 +35,7 @@ fn every_agent_of_every_robot_compiles() {
             let rules = domain(&file, &[&words]);
             let agent = compile(&rules, &tokens, &agents::skills::standard())
                 .unwrap_or_else(|errors| panic!("{}: {errors:#?}", file.display()));
-            assert!(agent.rule_ids().count() > 0);
+            assert!(agent.rule_names().count() > 0);
             count += 1;
         }
     }

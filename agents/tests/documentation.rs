@@ -21,5 +21,5 @@ fn the_example_of_the_page_compiles() {
     let parsed = parse_domain(&Source::new("docs/rules.md", example), &[&words]);
     assert!(parsed.diagnostics.is_empty(), "{:#?}", parsed.diagnostics);
     let agent = compile(&parsed.model.unwrap(), &Tokens::new(&words).unwrap(), &skills::standard());
-    assert_eq!(agent.unwrap().rule_ids().count(), 1);
+    assert_eq!(agent.unwrap().rule_names().count(), 1);
 }

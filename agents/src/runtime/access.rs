@@ -2,15 +2,15 @@
 
 use dsr::{Preemption, ResourceId, Snapshot};
 
-use crate::rule::Rule;
+use crate::rules::Rule;
 
 /// Whether a rule could have its resources now.
 pub(super) enum Access {
-    /// Nobody holds any of them.
+    /// All of them are free.
     Free,
     /// These are held at a lower priority.
     Takeable(Vec<ResourceId>),
-    /// One is held at a priority that is not lower, or by somebody who finishes first.
+    /// One is held at a priority that is not lower, or by a holder that finishes first.
     Refused,
 }
 

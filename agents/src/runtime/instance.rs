@@ -2,8 +2,11 @@
 
 use dsr::{ReflexId, Time};
 
-use super::InstanceId;
 use crate::skill::{Ended, Outcome};
+
+/// A running rule. Ids are never given out twice.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct InstanceId(pub(super) u64);
 
 #[derive(Debug)]
 pub(super) struct Instance {

@@ -1,13 +1,12 @@
 //! `await-command`: the clinician gives a command.
 
-use super::FAILURE;
-use crate::skill::{Call, Ended, Equipment, Signature, Skill, Work};
+use crate::skill::{Call, Ended, Equipment, Outcome, Signature, Skill, Work};
 
 pub(super) struct AwaitCommand;
 
 impl Skill for AwaitCommand {
     fn signature(&self) -> Signature {
-        Signature { name: "await-command", arity: 1..=1, results: &[], outcomes: FAILURE }
+        Signature { name: "await-command", arity: 1..=1, results: &[], outcomes: Outcome::ONLY_FAILURE }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {

@@ -1,13 +1,12 @@
 //! `await-loss`: nobody is in view any more.
 
-use super::FAILURE;
-use crate::skill::{Call, Ended, Equipment, Signature, Skill, Work};
+use crate::skill::{Call, Ended, Equipment, Outcome, Signature, Skill, Work};
 
 pub(super) struct AwaitLoss;
 
 impl Skill for AwaitLoss {
     fn signature(&self) -> Signature {
-        Signature { name: "await-loss", arity: 0..=1, results: &[], outcomes: FAILURE }
+        Signature { name: "await-loss", arity: 0..=1, results: &[], outcomes: Outcome::ONLY_FAILURE }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {

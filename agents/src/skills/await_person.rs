@@ -1,13 +1,17 @@
 //! `await-person`: somebody comes into view; where.
 
-use super::FAILURE;
-use crate::skill::{Call, Datum, DatumKind, Ended, Equipment, Signature, Skill, Work};
+use crate::skill::{Call, Datum, DatumKind, Ended, Equipment, Outcome, Signature, Skill, Work};
 
 pub(super) struct AwaitPerson;
 
 impl Skill for AwaitPerson {
     fn signature(&self) -> Signature {
-        Signature { name: "await-person", arity: 0..=1, results: &[DatumKind::Pose], outcomes: FAILURE }
+        Signature {
+            name: "await-person",
+            arity: 0..=1,
+            results: &[DatumKind::Pose],
+            outcomes: Outcome::ONLY_FAILURE,
+        }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {

@@ -1,13 +1,18 @@
 //! `await-touch`: the touchscreen waits for one of the options of a part.
 
-use super::{FAILURE, question};
-use crate::skill::{Call, Datum, DatumKind, Ended, Equipment, Signature, Skill, Work};
+use super::question::question;
+use crate::skill::{Call, Datum, DatumKind, Ended, Equipment, Outcome, Signature, Skill, Work};
 
 pub(super) struct AwaitTouch;
 
 impl Skill for AwaitTouch {
     fn signature(&self) -> Signature {
-        Signature { name: "await-touch", arity: 1..=2, results: &[DatumKind::Node], outcomes: FAILURE }
+        Signature {
+            name: "await-touch",
+            arity: 1..=2,
+            results: &[DatumKind::Node],
+            outcomes: Outcome::ONLY_FAILURE,
+        }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {

@@ -1,13 +1,12 @@
 //! `call-clinician`: the clinician is called, comes, and sees to it.
 
-use super::FAILURE;
-use crate::skill::{Call, Ended, Equipment, Signature, Skill, Work};
+use crate::skill::{Call, Ended, Equipment, Outcome, Signature, Skill, Work};
 
 pub(super) struct CallClinician;
 
 impl Skill for CallClinician {
     fn signature(&self) -> Signature {
-        Signature { name: "call-clinician", arity: 1..=1, results: &[], outcomes: FAILURE }
+        Signature { name: "call-clinician", arity: 1..=1, results: &[], outcomes: Outcome::ONLY_FAILURE }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {

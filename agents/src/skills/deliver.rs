@@ -1,13 +1,12 @@
 //! `deliver`: a document is written from the graph and handed to the clinician.
 
-use super::FAILURE;
 use crate::skill::{Call, Ended, Equipment, Outcome, Signature, Skill, Work};
 
 pub(super) struct Deliver;
 
 impl Skill for Deliver {
     fn signature(&self) -> Signature {
-        Signature { name: "deliver", arity: 1..=1, results: &[], outcomes: FAILURE }
+        Signature { name: "deliver", arity: 1..=1, results: &[], outcomes: Outcome::ONLY_FAILURE }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {

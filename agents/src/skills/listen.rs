@@ -2,7 +2,7 @@
 
 use hal::Heard;
 
-use super::question;
+use super::question::question;
 use crate::skill::{Call, Datum, DatumKind, Ended, Equipment, Outcome, Signature, Skill, Work};
 
 pub(super) struct Listen;

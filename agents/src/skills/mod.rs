@@ -22,18 +22,13 @@ mod await_touch;
 mod call_clinician;
 mod deliver;
 mod listen;
+mod question;
 mod say;
 mod show;
 mod spot;
 mod watch_page;
 
-use hal::{Phrase, Question};
-
-use crate::skill::{Outcome, Skills};
-use crate::words::Words;
-
-/// What a skill over one device reports beside `end`.
-const FAILURE: &[&str] = &[Outcome::FAILURE];
+use crate::skill::Skills;
 
 /// Every skill of this crate.
 pub fn standard() -> Skills {
@@ -49,18 +44,4 @@ pub fn standard() -> Skills {
         .with(await_command::AwaitCommand)
         .with(call_clinician::CallClinician)
         .with(deliver::Deliver)
-}
-
-/// The options of a part as what may be said or touched.
-fn options(words: &dyn Words, part: &str) -> Vec<Phrase> {
-    words.options(part).into_iter().map(|(id, words)| Phrase { id, words }).collect()
-}
-
-fn question(words: &dyn Words, part: &str, name: &str) -> Question {
-    Question {
-        topic: part.to_owned(),
-        name: name.to_owned(),
-        language: words.language().to_owned(),
-        options: options(words, part),
-    }
 }

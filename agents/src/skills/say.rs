@@ -1,13 +1,12 @@
 //! `say`: the loudspeaker says an utterance of a part.
 
-use super::FAILURE;
 use crate::skill::{Call, Ended, Equipment, Outcome, Signature, Skill, Work};
 
 pub(super) struct Say;
 
 impl Skill for Say {
     fn signature(&self) -> Signature {
-        Signature { name: "say", arity: 2..=2, results: &[], outcomes: FAILURE }
+        Signature { name: "say", arity: 2..=2, results: &[], outcomes: Outcome::ONLY_FAILURE }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {

@@ -2,14 +2,14 @@
 
 use hal::{Page, PageId};
 
-use super::{FAILURE, options};
+use super::question::options;
 use crate::skill::{Call, Ended, Equipment, Outcome, Signature, Skill, Work};
 
 pub(super) struct Show;
 
 impl Skill for Show {
     fn signature(&self) -> Signature {
-        Signature { name: "show", arity: 2..=2, results: &[], outcomes: FAILURE }
+        Signature { name: "show", arity: 2..=2, results: &[], outcomes: Outcome::ONLY_FAILURE }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {

@@ -2,14 +2,13 @@
 
 use hal::{Phrase, Question};
 
-use super::FAILURE;
-use crate::skill::{Call, Ended, Equipment, Signature, Skill, Work};
+use crate::skill::{Call, Ended, Equipment, Outcome, Signature, Skill, Work};
 
 pub(super) struct Spot;
 
 impl Skill for Spot {
     fn signature(&self) -> Signature {
-        Signature { name: "spot", arity: 1..=1, results: &[], outcomes: FAILURE }
+        Signature { name: "spot", arity: 1..=1, results: &[], outcomes: Outcome::ONLY_FAILURE }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {

@@ -1,7 +1,6 @@
 //! `watch-page`: the screen reports what stands on it: the utterance and its part.
 
-use super::FAILURE;
-use crate::skill::{Call, Datum, DatumKind, Ended, Equipment, Signature, Skill, Work};
+use crate::skill::{Call, Datum, DatumKind, Ended, Equipment, Outcome, Signature, Skill, Work};
 
 pub(super) struct WatchPage;
 
@@ -11,7 +10,7 @@ impl Skill for WatchPage {
             name: "watch-page",
             arity: 0..=0,
             results: &[DatumKind::Node, DatumKind::Node],
-            outcomes: FAILURE,
+            outcomes: Outcome::ONLY_FAILURE,
         }
     }
 

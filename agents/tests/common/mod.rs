@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use agents::{Action, Agent, Call, Ended, InstanceId, Runtime, Skill, Skills, compile};
-use dsr::{Delta, Deltas, Event, Graph, Snapshot, Time, Transaction};
+use dsr::{Delta, Deltas, Event, Graph, Snapshot, Subscription, Time, Transaction};
 use pddl::model::Domain;
 use pddl::{Source, parse_domain, parse_problem};
 use vocabulary::Tokens;
@@ -75,7 +75,7 @@ pub(crate) fn at(seconds: u64) -> Time {
 /// Runtimes side by side, without devices: skills are launched and stopped on paper.
 pub(crate) struct Bench {
     pub(crate) lab: Lab,
-    runtimes: Vec<(Runtime, Deltas)>,
+    runtimes: Vec<(Runtime, Subscription)>,
     all: Deltas,
     /// Running skills, by agent and number.
     pub(crate) running: BTreeMap<(usize, InstanceId), (Arc<dyn Skill>, Call)>,
@@ -87,8 +87,12 @@ impl Bench {
     pub(crate) fn new(agents: &[&str]) -> Self {
         let lab = Lab::new();
         let all = lab.graph.subscribe_deltas();
-        let runtimes =
-            agents.iter().map(|name| (Runtime::new(lab.agent(name)), lab.graph.subscribe_deltas())).collect();
+        let runtime = |name: &&str| {
+            let agent = lab.agent(name);
+            let subscription = lab.graph.subscribe_to(agent.interest());
+            (Runtime::new(agent), subscription)
+        };
+        let runtimes = agents.iter().map(runtime).collect();
         Self { lab, runtimes, all, running: BTreeMap::new(), log: Vec::new() }
     }
 
@@ -110,15 +114,13 @@ impl Bench {
     /// The director writes, and the agents only learn that they have missed something.
     pub(crate) fn miss(&mut self, seconds: u64, edits: &[&str]) {
         self.lab.direct(edits, seconds);
-        let snapshot = self.lab.graph.snapshot();
-        for (runtime, deltas) in &mut self.runtimes {
-            while deltas.try_recv().is_some() {}
-            runtime.lagged(&snapshot);
+        for (runtime, subscription) in &mut self.runtimes {
+            *subscription = self.lab.graph.subscribe_to(runtime.agent().interest());
         }
         self.settle(seconds);
     }
 
-    /// Agents take turns until nobody has anything to do.
+    /// Agents take turns until none has anything to do.
     pub(crate) fn settle(&mut self, seconds: u64) {
         let now = at(seconds);
         let mut idle = false;
@@ -134,12 +136,9 @@ impl Bench {
     }
 
     fn turn(&mut self, agent: usize, now: Time) -> bool {
-        let (runtime, deltas) = &mut self.runtimes[agent];
-        while let Some(event) = deltas.try_recv() {
-            match event {
-                Event::Committed(committed) => runtime.changed(&committed.delta),
-                Event::Lagged { snapshot, .. } => runtime.lagged(&snapshot),
-            }
+        let (runtime, subscription) = &mut self.runtimes[agent];
+        while let Some(news) = subscription.try_recv() {
+            runtime.changed(&news);
         }
         let Some(action) = runtime.next_action(&self.lab.graph.snapshot(), now) else { return false };
         match action {

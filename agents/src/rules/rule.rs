@@ -13,64 +13,20 @@
 //! Source: Marfil et al., §3.2 and Fig. 3 ("states of the DSR after, during and before"); outcomes beside the
 //! end, results, claims and priorities are ours.
 
-mod compile;
-mod error;
-mod regress;
-
 use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 use std::time::Duration;
 
-use dsr::{AgentId, Edit, Mentions, NodeId, Priority, Reflex, ResourceId, Snapshot};
+use dsr::{AgentId, Edit, Mentions, NodeId, Pattern, Priority, Reflex, ResourceId, Snapshot};
 use pddl::model::{Name, VariableId, Variables};
 use vocabulary::{Binding, Condition, Effect, EffectError};
 
-pub use self::compile::compile;
-pub use self::error::{RuleError, RuleErrorKind};
 use crate::skill::{Datum, Ended, Outcome, Skill};
-
-/// The position of a rule in its agent.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct RuleId(usize);
 
 /// The nodes that stand for a rule's parameters, in their order.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct Parameters(Vec<NodeId>);
-
-/// An agent: a writer of the graph with its rules.
-#[derive(Debug)]
-pub struct Agent {
-    /// Its name, as in the vocabulary.
-    pub name: Name,
-    /// Its identity as a writer.
-    pub id: AgentId,
-    /// Its rules, in the order of the file.
-    rules: Vec<Rule>,
-}
-
-impl Agent {
-    /// All rules' ids, in the order of the file.
-    pub fn rule_ids(&self) -> impl Iterator<Item = RuleId> + use<> {
-        (0..self.rules.len()).map(RuleId)
-    }
-
-    /// A rule's name.
-    ///
-    /// # Panics
-    /// If the id is another agent's.
-    pub fn rule_name(&self, id: RuleId) -> &Name {
-        &self.rule(id).name
-    }
-
-    pub(crate) fn rule(&self, id: RuleId) -> &Rule {
-        &self.rules[id.0]
-    }
-
-    pub(crate) fn enumerate(&self) -> impl Iterator<Item = (RuleId, &Rule)> {
-        self.rules.iter().enumerate().map(|(index, rule)| (RuleId(index), rule))
-    }
-}
 
 /// What an argument of a skill is.
 #[derive(Debug, Clone)]
@@ -84,14 +40,17 @@ pub(crate) enum Argument {
 /// A compiled rule.
 pub(crate) struct Rule {
     pub(crate) name: Name,
-    variables: Variables,
+    pub(super) variables: Variables,
     /// What must hold before the start.
-    trigger: Condition,
+    pub(super) trigger: Condition,
     /// What must hold from after the effects at start to the end.
-    keep: Condition,
-    start: Effect,
-    outcomes: BTreeMap<Outcome, Effect>,
-    results: Vec<VariableId>,
+    pub(super) keep: Condition,
+    pub(super) start: Effect,
+    /// The tokens on which it depends whether the condition over all holds after the effects at start, where that does
+    /// not follow from the condition before.
+    pub(super) unsure: Mentions,
+    pub(super) outcomes: BTreeMap<Outcome, Effect>,
+    pub(super) results: Vec<VariableId>,
     pub(crate) skill: Option<(Arc<dyn Skill>, Vec<Argument>)>,
     pub(crate) claims: Vec<ResourceId>,
     pub(crate) priority: Priority,
@@ -111,19 +70,25 @@ pub(crate) enum EndError {
 }
 
 impl Rule {
-    /// The tokens on which it depends whether the rule may start.
-    pub(crate) fn mentions(&self) -> &Mentions {
-        self.trigger.mentions()
+    /// The patterns of which each match is a binding for which the condition before holds.
+    pub(crate) fn triggers(&self) -> impl Iterator<Item = &Arc<Pattern>> {
+        self.trigger.alternatives().iter().map(|alternative| alternative.pattern())
     }
 
-    /// The bindings for which the condition before holds, in the order of nodes.
-    pub(crate) fn candidates(&self, snapshot: &Snapshot) -> Vec<Parameters> {
-        let found = self.trigger.bindings(snapshot, &Binding::of(&self.variables));
-        found
-            .iter()
-            .filter_map(|binding| self.variables.parameter_ids().map(|id| binding.node(id)).collect())
-            .map(Parameters)
-            .collect()
+    /// The tokens of which every change may let the rule start, whatever matches its triggers. Empty for a rule whose
+    /// condition over all follows from its condition before and its effects at start, as it does for most.
+    pub(crate) fn unsure(&self) -> &Mentions {
+        &self.unsure
+    }
+
+    /// The parameters in a match of a trigger; `None` if the trigger does not bind them all.
+    pub(crate) fn parameters(&self, alternative: usize, matched: &dsr::Binding) -> Option<Parameters> {
+        let alternative = self.trigger.alternatives().get(alternative)?;
+        let node = |id: VariableId| {
+            let (_, own) = alternative.variables().find(|(variable, _)| *variable == id)?;
+            matched.get(own)
+        };
+        self.variables.parameter_ids().map(node).collect::<Option<_>>().map(Parameters)
     }
 
     /// Whether the condition before holds for this binding.

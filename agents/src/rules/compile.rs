@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Duration;
 
-use dsr::{Priority, ResourceId};
+use dsr::{Mentions, Priority, ResourceId};
 use pddl::Span;
 use pddl::model::{
     Comparison, Condition, Domain, DurativeAction, Effect, EffectKind, ExpressionKind, Name, SkillCall, Term,
@@ -12,8 +12,10 @@ use pddl::model::{
 };
 use vocabulary::{Link, Sort, Tokens, ValueSort};
 
+use super::agent::Agent;
+use super::error::{RuleError, RuleErrorKind};
 use super::regress::{Beginning, conjuncts};
-use super::{Agent, Argument, Rule, RuleError, RuleErrorKind};
+use super::rule::{Argument, Rule};
 use crate::skill::{DatumKind, Outcome, Signature, Skill, Skills};
 
 /// Compiles an agent's file. The agent is the vocabulary's writer of the domain's name.
@@ -42,7 +44,7 @@ pub fn compile(domain: &Domain, tokens: &Tokens, skills: &Skills) -> Result<Agen
         rules.extend(compiler.rule());
     }
     match id {
-        Some(id) if errors.is_empty() => Ok(Agent { name: domain.name.clone(), id, rules }),
+        Some(id) if errors.is_empty() => Ok(Agent::new(domain.name.clone(), id, rules, tokens.vocabulary())),
         _ => Err(errors),
     }
 }
@@ -57,7 +59,15 @@ struct Compiler<'a> {
     errors: &'a mut Vec<RuleError>,
 }
 
-impl Compiler<'_> {
+/// The conditions of a rule; those that cannot be read as graph are `None`.
+struct Conditions<'a> {
+    trigger: Option<vocabulary::Condition>,
+    keep: Option<vocabulary::Condition>,
+    /// The conjuncts of the condition over all that the effects at start do not establish.
+    left: Vec<&'a Condition>,
+}
+
+impl<'a> Compiler<'a> {
     /// Once each: a type that is unknown is so in the condition as in every effect.
     fn report(&mut self, span: Span, kind: RuleErrorKind) {
         let text = kind.to_string();
@@ -74,7 +84,7 @@ impl Compiler<'_> {
         let skill = call.and_then(|call| self.skill(call));
         let limit = self.limit();
         let claims = self.claims();
-        let (trigger, keep) = self.conditions();
+        let Conditions { trigger, keep, left } = self.conditions();
         self.outcomes(call, skill.as_ref().map(|(skill, _)| skill.signature()).as_ref());
         if call.is_none() {
             self.without_skill();
@@ -97,12 +107,14 @@ impl Compiler<'_> {
         if self.errors.len() > before {
             return None;
         }
+        let unsure = self.unsure(&left, &start);
         Some(Rule {
             name: self.action.name.clone(),
             variables: self.action.variables.clone(),
             trigger,
             keep,
             start,
+            unsure,
             outcomes,
             results: self.action.rule.as_ref().map_or_else(Vec::new, |rule| rule.results.clone()),
             skill,
@@ -210,7 +222,7 @@ impl Compiler<'_> {
     }
 
     /// What must hold before, and what must keep holding.
-    fn conditions(&mut self) -> (Option<vocabulary::Condition>, Option<vocabulary::Condition>) {
+    fn conditions(&mut self) -> Conditions<'a> {
         let action = self.action;
         let (mut trigger, mut keep) = (Vec::new(), Vec::new());
         for timed in &action.conditions {
@@ -222,8 +234,26 @@ impl Compiler<'_> {
                 }
             }
         }
-        trigger.extend(keep.iter().copied().filter(|condition| !self.beginning.establishes(condition)));
-        (self.condition(trigger), self.condition(keep))
+        let left: Vec<_> =
+            keep.iter().copied().filter(|condition| !self.beginning.establishes(condition)).collect();
+        trigger.extend(&left);
+        Conditions { trigger: self.condition(trigger), keep: self.condition(keep), left }
+    }
+
+    /// The tokens to watch because the effects at start may falsify what is left of the condition over all.
+    fn unsure(&self, left: &[&Condition], start: &vocabulary::Effect) -> Mentions {
+        let unlinked = |_| Mentions::default();
+        let read = self.link.condition(&self.action.variables, left.iter().copied());
+        let mut read = read.map_or_else(unlinked, |condition| condition.mentions().clone());
+        let written = start.mentions();
+        let shared = read.attributes().any(|read| written.attributes().any(|written| written == read))
+            || (read.transforms() && written.transforms())
+            || left.iter().any(|condition| self.beginning.may_change(condition));
+        if !shared {
+            return Mentions::default();
+        }
+        read.extend(&written);
+        read
     }
 
     fn condition(&mut self, parts: Vec<&Condition>) -> Option<vocabulary::Condition> {

@@ -13,8 +13,9 @@ use pddl::model::{
     EffectKind, Term, TimeSpecifier,
 };
 
-/// The unconditional effects at start.
+/// The effects at start: the unconditional ones by what they do, and all atoms that they may add or delete.
 pub(super) struct Beginning<'a> {
+    touched: Vec<&'a Atom>,
     adds: Vec<&'a Atom>,
     deletes: Vec<&'a Atom>,
     assigns: Vec<(&'a Application, &'a AssignedValue)>,
@@ -22,9 +23,11 @@ pub(super) struct Beginning<'a> {
 
 impl<'a> Beginning<'a> {
     pub(super) fn of(action: &'a DurativeAction) -> Self {
-        let mut beginning = Self { adds: Vec::new(), deletes: Vec::new(), assigns: Vec::new() };
+        let mut beginning =
+            Self { touched: Vec::new(), adds: Vec::new(), deletes: Vec::new(), assigns: Vec::new() };
         for timed in action.effects.iter().filter(|timed| timed.when == TimeSpecifier::Start) {
             beginning.collect(&timed.effect);
+            atoms(&timed.effect, &mut beginning.touched);
         }
         beginning
     }
@@ -72,6 +75,17 @@ impl<'a> Beginning<'a> {
         }
     }
 
+    /// Whether these effects may add or delete an atom of the condition.
+    pub(super) fn may_change(&self, condition: &Condition) -> bool {
+        let mut found = false;
+        condition.each(&mut |part| {
+            if let ConditionKind::Atom(atom) = &part.kind {
+                found |= self.touched.iter().any(|touched| may_be_same(touched, atom));
+            }
+        });
+        found
+    }
+
     /// Whether the condition is false after these effects whatever was before.
     pub(super) fn falsifies(&self, condition: &Condition) -> bool {
         match &condition.kind {
@@ -103,4 +117,20 @@ pub(super) fn conjuncts<'a>(condition: &'a Condition, into: &mut Vec<&'a Conditi
 
 fn same_atom(a: &Atom, b: &Atom) -> bool {
     a.predicate == b.predicate && a.arguments == b.arguments
+}
+
+/// Every atom that an effect adds or deletes, under whatever condition.
+fn atoms<'a>(effect: &'a Effect, into: &mut Vec<&'a Atom>) {
+    match &effect.kind {
+        EffectKind::And(parts) => parts.iter().for_each(|part| atoms(part, into)),
+        EffectKind::Add(atom) | EffectKind::Delete(atom) => into.push(atom),
+        EffectKind::Forall(_, inner) | EffectKind::When(_, inner) => atoms(inner, into),
+        EffectKind::Assign(..) => {}
+    }
+}
+
+/// Whether two atoms are the same for some binding of their variables.
+fn may_be_same(a: &Atom, b: &Atom) -> bool {
+    let differ = |(a, b): (&Term, &Term)| matches!((a, b), (Term::Object(a), Term::Object(b)) if a != b);
+    a.predicate == b.predicate && !a.arguments.iter().zip(&b.arguments).any(differ)
 }
