@@ -1,13 +1,13 @@
-//! The runtime of one agent: a pure state machine from what changes to what to do.
+//! The runtime of one agent: a pure state machine from news of the graph to actions.
 //!
-//! Problem: an agent must start each rule as soon as the graph looks so, never twice, stop it when a reflex
-//! fired, and write what its skill ended with, while the graph moves on under it. Idea: no I/O here. The shell
+//! Problem: an agent must start each rule as soon as its condition holds, never twice, stop it when its reflex
+//! fires, and write the effects of its outcome, while the graph moves on under it. Idea: no I/O here. The shell
 //! reports news of the graph, endings and the time, and asks for the next [`Action`] until there is none; every commit
 //! is on the very version that the decision was made on.
 //!
 //! Invariants:
-//! - Rules are level-triggered: a rule runs for a binding whenever its conditions hold and it does not run for
-//!   it already. Nothing is lost by being busy, restarted, or late.
+//! - Rules are level-triggered: a rule starts for a binding whenever its conditions hold and it does not already run
+//!   for it. Nothing is lost by being busy, restarted, or late.
 //! - One instance is one guard in the graph. The instance ends exactly once: by its own commit, which dismisses
 //!   the guard, or by the guard, which has then written the effects of `abort` already.
 //! - A resource that is held at a lower priority is taken in a commit of its own. The reflexes of its holder
@@ -46,11 +46,11 @@ pub enum Action {
     Commit(Transaction),
     /// Run this skill, and hand its ending to [`Runtime::ended`].
     Launch {
-        /// For which instance.
+        /// The instance that it is for.
         instance: InstanceId,
-        /// Which skill.
+        /// The skill.
         skill: Arc<dyn Skill>,
-        /// With what.
+        /// Its arguments.
         call: Call,
     },
     /// Drop the skill of this instance, if it still runs.
@@ -60,13 +60,13 @@ pub enum Action {
 /// A rule for a binding of its parameters.
 type Key = (RuleId, Parameters);
 
-/// What the commit that the shell was asked for is about.
+/// The purpose of the commit that the shell was asked for.
 enum Pending {
     /// To take resources from lower priorities, for this rule.
     Take(Key, Vec<ResourceId>),
     /// To start this rule.
     Start(Key),
-    /// To give back what was taken and is no longer needed.
+    /// To release resources that were taken and are no longer needed.
     GiveBack,
     /// To end this instance.
     End(Key),
@@ -85,7 +85,7 @@ pub struct Runtime {
     /// Resources taken for a rule that is about to start.
     taken: Option<(Key, Vec<ResourceId>)>,
     resting: BTreeMap<Key, Time>,
-    /// When rules without a skill were last carried out.
+    /// The last time at which rules without a skill were carried out.
     carried_out: BTreeMap<Key, Time>,
     actions: VecDeque<Action>,
     pending: Option<Pending>,
@@ -167,7 +167,7 @@ impl Runtime {
         self.dirty.extend(self.agent.rule_ids());
     }
 
-    /// A skill ended. An instance that is gone is ignored: its reflex was faster.
+    /// A skill ended. The ending is ignored if the reflex of the instance was faster.
     pub fn ended(&mut self, id: InstanceId, ended: Ended) {
         if let Some(instance) = self.instances.values_mut().find(|instance| instance.id == id)
             && matches!(instance.phase, Phase::Running)
@@ -176,14 +176,14 @@ impl Runtime {
         }
     }
 
-    /// The next instant at which [`Runtime::next_action`] shall be asked even if nothing happens.
+    /// The next instant at which [`Runtime::next_action`] must be called even without any event.
     pub fn deadline(&self) -> Option<Time> {
         let limits = self.instances.values().filter_map(|instance| instance.deadline);
         limits.chain(self.resting.values().copied()).min()
     }
 
-    /// What to do next, given the present graph and time; `None` when there is nothing until something happens. All
-    /// news of the present graph must have been reported.
+    /// The next action for the present graph and time; `None` when there is none until the next event. All news of the
+    /// present graph must have been reported.
     pub fn next_action(&mut self, snapshot: &Snapshot, now: Time) -> Option<Action> {
         self.time_out(now);
         if let Some(action) = self.actions.pop_front() {
@@ -207,7 +207,7 @@ impl Runtime {
         }
     }
 
-    /// Skills whose duration is over, and bindings that have rested.
+    /// Ends skills whose duration is over, and the rest of bindings.
     fn time_out(&mut self, now: Time) {
         for ((rule, _), instance) in &mut self.instances {
             if instance.deadline.is_some_and(|deadline| deadline <= now) {
@@ -267,7 +267,7 @@ impl Runtime {
         Some(transaction)
     }
 
-    /// The commit that starts the next rule that may, or takes resources for it.
+    /// The commit that starts the next rule that may start, or takes resources for it.
     fn start_one(&mut self, snapshot: &Snapshot, now: Time) -> Option<Transaction> {
         loop {
             let Some(key) = self.candidates.pop_front() else {
@@ -361,7 +361,7 @@ impl Runtime {
             .insert(key, Instance { id: instance, guard, since: now, deadline, phase: Phase::Running });
     }
 
-    /// An instance has written its own end.
+    /// An instance has committed its end.
     fn finished(&mut self, key: &Key, now: Time) {
         let Some(instance) = self.instances.remove(key) else { return };
         self.dirty.insert(key.0);
@@ -404,7 +404,7 @@ impl Runtime {
         }
     }
 
-    /// A reflex fired: if it was the guard of one of ours, its skill is to be dropped.
+    /// A reflex fired: if it was the guard of an instance, its skill is dropped.
     fn fired(&mut self, reflex: ReflexId) {
         let key =
             self.instances.iter().find(|(_, instance)| instance.guard == reflex).map(|(key, _)| key.clone());
@@ -430,7 +430,7 @@ impl Runtime {
     }
 }
 
-/// On this very version, so that what was decided is what is done.
+/// A transaction on exactly this version, the one that the decision was made on.
 fn transaction(agent: &Agent, snapshot: &Snapshot) -> Transaction {
     let mut transaction = Transaction::new(agent.id);
     transaction.expect_version(snapshot.version());

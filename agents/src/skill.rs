@@ -1,9 +1,9 @@
-//! Skills: what a rule launches, between its start and its end.
+//! Skills: the work of a rule between its start and its end.
 //!
 //! Problem: rules are text, devices are Rust. Idea: a skill is a named, typed entry point: it gets the names of
 //! nodes, calls the hardware abstraction and ends with one of the outcomes that it declares, and with results
-//! for the rule's `:results` when the outcome is `end`. It never sees the graph change and never writes: what
-//! an outcome means is in the rule.
+//! for the rule's `:results` when the outcome is `end`. It never sees the graph change and never writes: the rule
+//! gives an outcome its meaning.
 //!
 //! Invariant: dropping a [`Work`] stops the device, as [`hal::Operation`] promises.
 
@@ -25,15 +25,15 @@ use crate::words::{Reporter, Words};
 pub struct Outcome(Arc<str>);
 
 impl Outcome {
-    /// The skill did what it was launched for.
+    /// The skill succeeded.
     pub const END: &'static str = "end";
-    /// A reflex stopped it: what had to keep holding no longer did.
+    /// A reflex stopped it: the condition over all no longer held.
     pub const ABORT: &'static str = "abort";
-    /// The rule's duration was over first.
+    /// The rule's duration ended first.
     pub const TIMEOUT: &'static str = "timeout";
     /// The device failed.
     pub const FAILURE: &'static str = "failure";
-    /// What a skill over one device reports beside `end`.
+    /// The outcomes besides `end` of a skill that can only fail with its device.
     pub(crate) const ONLY_FAILURE: &'static [&'static str] = &[Self::FAILURE];
     /// Nothing is written; never in a rule.
     pub(crate) const NOTHING: &'static str = "";
@@ -61,7 +61,7 @@ impl fmt::Display for Outcome {
     }
 }
 
-/// What a skill hands back for one of the rule's `:results`.
+/// A value that a skill returns for one of the rule's `:results`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Datum {
     /// The node of this name.
@@ -93,22 +93,22 @@ impl fmt::Display for DatumKind {
 pub struct Ended {
     /// Which outcome.
     pub outcome: Outcome,
-    /// As many as the signature says, when the outcome is `end`.
+    /// As many as in the signature when the outcome is `end`; otherwise empty.
     pub results: Vec<Datum>,
 }
 
 impl Ended {
-    /// Ended well, with these results.
+    /// Succeeded, with these results.
     pub fn well(results: Vec<Datum>) -> Self {
         Self { outcome: Outcome::new(Outcome::END), results }
     }
 
-    /// Ended otherwise.
+    /// Ended with another outcome.
     pub fn otherwise(outcome: &str) -> Self {
         Self { outcome: Outcome::new(outcome), results: Vec::new() }
     }
 
-    /// Ended well, or failed with the device.
+    /// Succeeded, or failed with the device.
     pub(crate) fn of<T>(result: Result<T, DeviceError>, results: impl FnOnce(T) -> Vec<Datum>) -> Self {
         match result {
             Ok(value) => Self::well(results(value)),
@@ -127,13 +127,13 @@ pub struct Signature {
     pub name: &'static str,
     /// How many arguments it takes.
     pub arity: RangeInclusive<usize>,
-    /// What it yields at `end`.
+    /// The results that it returns at `end`.
     pub results: &'static [DatumKind],
-    /// The outcomes that it can report beside `end`.
+    /// The outcomes that it can report besides `end`.
     pub outcomes: &'static [&'static str],
 }
 
-/// What a skill is launched with.
+/// The arguments of a launch.
 #[derive(Debug, Clone)]
 pub struct Call {
     /// The names of the argument nodes.
@@ -149,14 +149,14 @@ impl Call {
     }
 }
 
-/// What skills work with.
+/// Everything that skills use.
 #[derive(Clone)]
 pub struct Equipment {
     /// The robot's devices.
     pub devices: Devices,
-    /// What is said and shown.
+    /// The sentences to say and show.
     pub words: Arc<dyn Words>,
-    /// What is reported.
+    /// The documents to deliver.
     pub reporter: Arc<dyn Reporter>,
 }
 
@@ -165,10 +165,10 @@ pub type Work = Pin<Box<dyn Future<Output = Ended> + Send>>;
 
 /// A skill.
 pub trait Skill: Send + Sync {
-    /// What it offers.
+    /// Its name, arguments, results and outcomes.
     fn signature(&self) -> Signature;
 
-    /// Prepares the work; nothing happens before it is polled.
+    /// Prepares the work, which starts when it is first polled.
     fn launch(&self, call: Call, equipment: &Equipment) -> Work;
 }
 
@@ -189,7 +189,7 @@ impl Skills {
         self.by_name.values().map(|skill| skill.signature())
     }
 
-    /// These, and one more; it replaces another of its name.
+    /// Adds a skill; it replaces another one of the same name.
     #[must_use]
     pub fn with(mut self, skill: impl Skill + 'static) -> Self {
         self.by_name.insert(skill.signature().name, Arc::new(skill));

@@ -1,4 +1,4 @@
-//! What an agent says and shows, and what it reports: handed in, so that no sentence stands in Rust.
+//! The sentences and documents of a mission. The caller hands them in, so that no sentence stands in Rust.
 
 use dsr::Snapshot;
 
@@ -7,7 +7,7 @@ pub trait Words: Send + Sync {
     /// The language, as in `en`.
     fn language(&self) -> &str;
 
-    /// What is said or shown for an utterance within a part; `None` if there are no words for it.
+    /// The text of an utterance within a part; `None` if the mission has none.
     fn sentence(&self, part: &str, utterance: &str) -> Option<String>;
 
     /// The heading of a part's pages; may be empty.
@@ -18,12 +18,12 @@ pub trait Words: Send + Sync {
     /// The options of a part, in the order in which they are offered: the option's node, its text.
     fn options(&self, part: &str) -> Vec<(String, String)>;
 
-    /// How a person may say that they want something.
+    /// The words with which a person may make a request.
     fn request_words(&self, request: &str) -> Vec<String>;
 }
 
 /// Writes a document from what the graph holds.
 pub trait Reporter: Send + Sync {
-    /// The document of that name; `None` if there is none such.
+    /// The document of that name; `None` if the name is unknown.
     fn report(&self, document: &str, snapshot: &Snapshot) -> Option<serde_json::Value>;
 }

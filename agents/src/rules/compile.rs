@@ -68,7 +68,7 @@ struct Conditions<'a> {
 }
 
 impl<'a> Compiler<'a> {
-    /// Once each: a type that is unknown is so in the condition as in every effect.
+    /// Reports each mistake once: an unknown type is found in the condition and in every effect.
     fn report(&mut self, span: Span, kind: RuleErrorKind) {
         let text = kind.to_string();
         if self.errors.iter().any(|error| error.span == span && error.kind.to_string() == text) {
@@ -77,7 +77,7 @@ impl<'a> Compiler<'a> {
         self.errors.push(RuleError { rule: Some(self.action.name.clone()), span, kind });
     }
 
-    /// The rule; `None` if anything about it is wrong.
+    /// The rule; `None` if it has a mistake.
     fn rule(&mut self) -> Option<Rule> {
         let before = self.errors.len();
         let call = self.action.rule.as_ref().and_then(|rule| rule.skill.as_ref());
@@ -221,7 +221,7 @@ impl<'a> Compiler<'a> {
         claims
     }
 
-    /// What must hold before, and what must keep holding.
+    /// The condition before the start, and the condition over all.
     fn conditions(&mut self) -> Conditions<'a> {
         let action = self.action;
         let (mut trigger, mut keep) = (Vec::new(), Vec::new());
@@ -282,7 +282,7 @@ impl<'a> Compiler<'a> {
         }
     }
 
-    /// Every outcome can happen, and results are used at the end only.
+    /// Checks that every outcome can happen, and that only effects at the end use results.
     fn outcomes(&mut self, call: Option<&SkillCall>, signature: Option<&Signature>) {
         let action = self.action;
         let results: &[VariableId] = action.rule.as_ref().map_or(&[], |rule| &rule.results);
@@ -320,7 +320,7 @@ impl<'a> Compiler<'a> {
         }
     }
 
-    /// A rule without a skill is over when it begins.
+    /// A rule without a skill ends when it begins.
     fn without_skill(&mut self) {
         let action = self.action;
         let lasts = action.conditions.iter().any(|timed| timed.when == TimeSpecifier::OverAll)

@@ -1,4 +1,4 @@
-//! What is wrong with a rule, with the place in the agent's file.
+//! Mistakes in a rule, with their places in the agent's file.
 
 use std::ops::RangeInclusive;
 
@@ -23,10 +23,10 @@ pub struct RuleError {
 #[derive(Debug, Clone, thiserror::Error)]
 #[expect(missing_docs, reason = "the fields are the terms of the variant")]
 pub enum RuleErrorKind {
-    /// The domain's name is none of the vocabulary's writers.
+    /// The vocabulary has no writer of the domain's name.
     #[error("'{agent}' writes nothing in the vocabulary, so it is no agent")]
     UnknownAgent { agent: Name },
-    /// There is no such skill.
+    /// The skill is unknown.
     #[error("there is no skill '{skill}'; there are: {}", known.join(", "))]
     UnknownSkill { skill: Name, known: Vec<&'static str> },
     /// The skill takes another number of arguments.
@@ -44,10 +44,10 @@ pub enum RuleErrorKind {
     /// A result of the wrong kind.
     #[error("the result '?{variable}' is a {expected}")]
     ResultKind { variable: Name, expected: DatumKind },
-    /// A result where no skill has yielded it.
+    /// A result in effects at another time than the end.
     #[error("'?{variable}' is yielded at end only, not at {outcome}")]
     ResultUnbound { variable: Name, outcome: Name },
-    /// The skill never ends so.
+    /// The skill does not have this outcome.
     #[error("skill '{skill}' never ends with '{outcome}'")]
     UnknownOutcome { skill: Name, outcome: Name },
     /// Effects of an abort that no reflex can cause.
@@ -56,10 +56,10 @@ pub enum RuleErrorKind {
     /// Effects of a timeout without a duration.
     #[error("this rule has no duration, so no timeout")]
     NeverTimesOut,
-    /// What is claimed is no resource.
+    /// The claim is not a resource.
     #[error("'{term}' is no resource of the vocabulary")]
     NotAResource { term: Name },
-    /// A duration that is no upper bound by a positive number.
+    /// A duration other than an upper bound by a positive number.
     #[error("the duration of a rule is '(<= ?duration SECONDS)'")]
     Duration,
     /// A condition at the end.
@@ -68,10 +68,10 @@ pub enum RuleErrorKind {
     /// A rule without a skill that has more than a beginning.
     #[error("without a skill there is nothing between start and end")]
     NothingRuns,
-    /// A rule without a skill that leaves its own condition as it was.
+    /// A rule without a skill that leaves its own condition true.
     #[error("this rule would start again and again: its effects leave its own condition true")]
     Loops,
-    /// A condition or an effect that cannot be read as graph.
+    /// A condition or an effect that cannot be read as patterns or edits of the graph.
     #[error(transparent)]
     Graph(#[from] vocabulary::LinkErrorKind),
 }

@@ -1,12 +1,12 @@
-//! What a rule needs of the graph before it starts.
+//! The condition of a rule before its start, by regression.
 //!
-//! Problem: a condition over all may be what the rule's own effects at start make true (`waiting` while one
-//! waits), so it cannot all be asked of the graph before. Idea: regress it through the effects at start, as a
-//! planner regresses a goal through an action: a conjunct that the effects establish, literally, is dropped;
-//! the others must hold already. Where the test by letters keeps too much or too little, the guard decides,
-//! which the graph checks after the effects.
+//! Problem: the rule's own effects at start may establish a part of its condition over all (`waiting` while it
+//! waits), so the graph before need not satisfy all of it. Idea: regress the condition through the effects at start, as a
+//! planner regresses a goal through an action. A conjunct that an effect establishes literally is dropped;
+//! the others must hold already. The comparison is syntactic; the guard, which the graph checks after the effects, is
+//! exact.
 //!
-//! The same comparison tells whether a rule without a skill falsifies its own condition.
+//! The same comparison shows whether a rule without a skill falsifies its own condition.
 
 use pddl::model::{
     Application, AssignOperator, AssignedValue, Atom, Condition, ConditionKind, DurativeAction, Effect,
@@ -60,7 +60,7 @@ impl<'a> Beginning<'a> {
         self.assigns.iter().find(|(other, _)| same(other)).map(|(_, value)| *value)
     }
 
-    /// Whether the condition holds after these effects whatever was before.
+    /// Whether the condition holds after these effects in every state.
     pub(super) fn establishes(&self, condition: &Condition) -> bool {
         match &condition.kind {
             ConditionKind::Atom(atom) => self.adds(atom),
@@ -86,7 +86,7 @@ impl<'a> Beginning<'a> {
         found
     }
 
-    /// Whether the condition is false after these effects whatever was before.
+    /// Whether the condition is false after these effects in every state.
     pub(super) fn falsifies(&self, condition: &Condition) -> bool {
         match &condition.kind {
             ConditionKind::And(parts) => parts.iter().any(|part| self.falsifies(part)),

@@ -1,14 +1,14 @@
-//! Rules: what an agent does when the graph looks so.
+//! One rule: the graph before, meanwhile and after, as patterns and edits.
 //!
-//! Problem: Marfil et al. (§4.3) hand-code in each agent which subgraph makes it act and what it then writes.
+//! Problem: Marfil et al. (§4.3) hand-code in each agent which subgraph makes it act and which edges it then writes.
 //! Idea: a rule is a durative action. Its condition at start is the graph before; its effects at start are the
 //! graph meanwhile; its condition over all must keep holding, or a reflex stops the skill in the same commit;
 //! its effects at an outcome are the graph after. A rule is compiled once into patterns and edits.
 //!
 //! Semantics. A rule starts for a binding of its parameters when, in the present graph, its condition at start
-//! holds and, in the graph after its effects at start, its condition over all holds: what must keep holding
-//! may be what the rule itself begins. An outcome for which the rule writes no effects ends like `abort`, so
-//! that nothing of the meanwhile is left behind; `end` never does.
+//! holds and, in the graph after its effects at start, its condition over all holds. So the rule's own start may
+//! establish its condition over all. An outcome for which the rule has no effects ends like `abort`, so
+//! that no effect at start is left behind; `end` never does.
 //!
 //! Source: Marfil et al., §3.2 and Fig. 3 ("states of the DSR after, during and before"); outcomes beside the
 //! end, results, claims and priorities are ours.
@@ -54,14 +54,14 @@ pub(crate) struct Rule {
     pub(crate) skill: Option<(Arc<dyn Skill>, Vec<Argument>)>,
     pub(crate) claims: Vec<ResourceId>,
     pub(crate) priority: Priority,
-    /// After this long the outcome is `timeout`.
+    /// After this time the outcome is `timeout`.
     pub(crate) limit: Option<Duration>,
 }
 
-/// Why an ending cannot be written down.
+/// Why the effects of an ending cannot be written.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum EndError {
-    /// The skill named a node that is not there.
+    /// The skill named a node that does not exist.
     #[error("the skill's result '{0}' is no node")]
     NoSuchNode(Arc<str>),
     /// The effects cannot be written as edits.
@@ -110,7 +110,7 @@ impl Rule {
         self.start.edits(snapshot, &self.binding(parameters))
     }
 
-    /// The reflex that stops the rule. What `abort` writes under a condition is decided now.
+    /// The reflex that stops the rule. Conditional effects of `abort` are decided now.
     pub(crate) fn reflex(
         &self,
         owner: AgentId,

@@ -1,4 +1,4 @@
-//! Whether a rule can have the resources that it claims.
+//! Access to the resources that a rule claims.
 
 use dsr::{Preemption, ResourceId, Snapshot};
 

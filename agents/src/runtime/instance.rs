@@ -1,4 +1,4 @@
-//! One rule at work for one binding.
+//! One running rule, for one binding.
 
 use dsr::{ReflexId, Time};
 
@@ -23,12 +23,12 @@ pub(super) struct Instance {
 pub(super) enum Phase {
     /// Its skill is at work.
     Running,
-    /// Its skill is over; the end is to be committed.
+    /// Its skill has ended; the effects are to be committed.
     Ending(Ended),
 }
 
 impl Phase {
-    /// What to try after the graph refused an ending: to end as if aborted, then to end without a word.
+    /// The ending to try after the graph refused one: first as if aborted, then without any effect.
     pub(super) fn retreat(&self) -> Self {
         let next = match self {
             Self::Ending(ended) if ended.outcome.name() == Outcome::ABORT => Outcome::NOTHING,

@@ -1,4 +1,4 @@
-//! `await-loss`: nobody is in view any more.
+//! `await-loss`: the person leaves view.
 
 use crate::skill::{Call, Ended, Equipment, Outcome, Signature, Skill, Work};
 

@@ -1,4 +1,4 @@
-//! `await-person`: somebody comes into view; where.
+//! `await-person`: a person comes into view; the result is where.
 
 use crate::skill::{Call, Datum, DatumKind, Ended, Equipment, Outcome, Signature, Skill, Work};
 

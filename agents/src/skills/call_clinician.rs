@@ -1,4 +1,4 @@
-//! `call-clinician`: the clinician is called, comes, and sees to it.
+//! `call-clinician`: calls the clinician, and ends when the clinician has come and seen to the need.
 
 use crate::skill::{Call, Ended, Equipment, Outcome, Signature, Skill, Work};
 

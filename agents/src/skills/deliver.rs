@@ -1,4 +1,4 @@
-//! `deliver`: a document is written from the graph and handed to the clinician.
+//! `deliver`: writes a document from the graph and hands it to the clinician.
 
 use crate::skill::{Call, Ended, Equipment, Outcome, Signature, Skill, Work};
 

@@ -1,4 +1,4 @@
-//! `listen`: the ear waits for one of the options of a part. What is none of them is `misheard`.
+//! `listen`: the ear waits for one of the options of a part. Other words are `misheard`.
 
 use hal::Heard;
 

@@ -1,6 +1,6 @@
 //! The skills over the hardware abstraction, a file each.
 //!
-//! | skill | arguments | results | outcomes beside `end` |
+//! | skill | arguments | results | outcomes besides `end` |
 //! |---|---|---|---|
 //! | `say` | part, utterance | | failure |
 //! | `listen` | part, question? | option | misheard, failure |
@@ -13,7 +13,7 @@
 //! | `call-clinician` | need | | failure |
 //! | `deliver` | document | | failure |
 //!
-//! The optional question tells one asking from another; it reaches the device as a name only.
+//! The optional question distinguishes two askings of one part; the device gets its name only.
 
 mod await_command;
 mod await_loss;

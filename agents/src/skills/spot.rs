@@ -1,4 +1,4 @@
-//! `spot`: the ear waits for a request, whatever else is said.
+//! `spot`: the ear waits for a request and ignores all other words.
 
 use hal::{Phrase, Question};
 
