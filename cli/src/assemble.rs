@@ -1,7 +1,7 @@
 //! From a mission's folder to everything that runs it: text, graph, agents, PELEA.
 //!
-//! What does not fit together is found here, before anything moves, and said with its place. `run` and `check`
-//! both come through here, so a mission that passes the check is a mission that runs.
+//! Layers that do not fit together are reported here with their places, before anything moves. `run` and `check`
+//! both use this, so a mission that passes the check is a mission that runs.
 //!
 //! Codes: E10xx. E1001 vocabulary, E1002 world and graph, E1003 rules, E1004 perception, E1005 methods,
 //! E1006 planning problem, E1007 a condition of a scenario (`scenario`).
@@ -33,7 +33,7 @@ pub(crate) struct Assembly {
     pub(crate) wheel: Wheel,
 }
 
-/// Why there is no mission.
+/// Why a mission cannot be loaded.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum LoadError {
     #[error("cannot read `{}`: there is no such folder", path.display())]
@@ -68,7 +68,7 @@ pub(crate) fn load(path: &Path) -> Result<Mission, LoadError> {
     Ok(Mission::load(&Disk, &path.to_string_lossy())?)
 }
 
-/// Everything that is found in a mission that could be read, and what runs it if nothing of that is an error.
+/// All findings about a mission that could be read, and what runs it if none of them is an error.
 pub(crate) fn assemble(mission: &Mission) -> (Option<Assembly>, Vec<Finding>) {
     let mut findings = mission.warnings.clone();
     findings.extend(mission.check());
@@ -76,7 +76,7 @@ pub(crate) fn assemble(mission: &Mission) -> (Option<Assembly>, Vec<Finding>) {
     let mut objections = Vec::new();
     let assembly = put_together(mission, &mut objections);
     let good = objections.is_empty() && !findings.iter().any(Finding::is_error);
-    // A layer may object to what a check between the layers has found at that place already.
+    // The checks between the layers may have reported the same place already.
     findings.extend(objections.into_iter().filter(|f| !places.contains(&(f.place.source, f.place.span))));
     findings.sort_by_key(|f| (f.place.source, f.place.span));
     (assembly.filter(|_| good), findings)
@@ -88,9 +88,9 @@ fn put_together(mission: &Mission, findings: &mut Vec<Finding>) -> Option<Assemb
     let vocabulary = Tokens::new(&layers.vocabulary.model).map_err(|errors| {
         findings.extend(errors.iter().map(|e| finding("E1001", layers.vocabulary.source, e.span, e)));
     });
-    // Without words nothing else can be read.
+    // Without a vocabulary nothing else can be read.
     let vocabulary = vocabulary.ok()?;
-    // The graph's problem holds the world's objects, but not what the world says of them.
+    // The graph's problem has the world's objects, but not the world's facts about them.
     let graph = vocabulary.populate(&[&layers.world.model, &layers.graph.model], Time(0)).map_err(|errors| {
         findings.extend(errors.iter().map(|e| {
             let source = if e.problem == 0 { layers.world.source } else { layers.graph.source };

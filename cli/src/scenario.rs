@@ -1,8 +1,8 @@
 //! Scenarios from a mission's folder or anywhere, with their conditions compiled.
 //!
-//! A scenario that was read names only tokens and nodes that exist; here its conditions become patterns of the
-//! graph as well, so that a condition which cannot be watched (too many alternatives, say) is reported before
-//! anything moves, and not when it should have come to hold.
+//! A scenario that was read names only tokens and nodes that exist. Here its conditions become patterns of the
+//! graph as well, so that a condition that cannot be watched (one with too many alternatives) is reported before
+//! anything moves.
 
 use crate::console::Console;
 use crate::disk::{Disk, show};
@@ -10,21 +10,31 @@ use crate::exit::Exit;
 use crate::files;
 use crate::render;
 use diagnostics::{Finding, Place};
-use dsr::Snapshot;
+use dsr::{Interest, PatternId, Snapshot};
 use mission::scenario::{Disruption, GraphCondition, Scenario, Trigger};
 use mission::{Mission, MissionErrors};
 use pddl::Span;
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 use vocabulary::{Binding, Condition, Tokens};
 
-/// A condition over the graph, ready to be held against it.
+/// A compiled condition over the graph.
 pub(crate) struct Watch {
     condition: Condition,
     binding: Binding,
 }
 
 impl Watch {
+    /// Its alternatives as patterns: it holds whenever one of them has a match.
+    pub(crate) fn interest(&self) -> (Interest, Vec<PatternId>) {
+        let mut interest = Interest::default();
+        let alternatives = self.condition.alternatives().iter();
+        let patterns =
+            alternatives.map(|alternative| interest.add(Arc::clone(alternative.pattern()))).collect();
+        (interest, patterns)
+    }
+
     pub(crate) fn holds(&self, snapshot: &Snapshot) -> bool {
         self.condition.holds(snapshot, &self.binding)
     }

@@ -69,8 +69,9 @@ impl Barthel {
                         let mut transaction =
                             Transaction::new(self.graph.vocabulary().agent("pelea").unwrap());
                         transaction.extend(edits);
-                        let commit = self.graph.commit(&transaction, Time(0)).unwrap();
-                        events.push_back(Event::Written(commit.version));
+                        self.graph.commit(&transaction, Time(0)).unwrap();
+                        events.extend(self.changes());
+                        events.push_back(Event::Written);
                     }
                     Effect::Plan(request) => {
                         let decision = decide(self.wheel.model(), &request);

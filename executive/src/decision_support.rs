@@ -1,28 +1,28 @@
-//! Decision Support: a plan from the perceived state, checked before anybody acts on it.
+//! Decision Support: a plan from the perceived state, validated before the wheel acts on it.
 //!
-//! Idea: the wheel hands out a [`Request`] and goes on turning; whoever holds it calls [`decide`], in a
-//! thread of its own or not, and hands the [`Decision`] back as an event. What is left of a broken plan is
-//! repaired and set beside a plan from scratch: the one that is nearer to what everybody was told wins, and
-//! of two that are as near the repaired one. What is running is put first where the plan still reaches the
-//! goal that way, so that nobody is interrupted without need. A plan is first put through the
-//! validator, which shares no code with the planner: a plan that does not validate is a bug of ours, and
-//! must not reach a patient. Where there is no plan, the planner's explanation says why. Invariant: effort is counted in states, never in seconds, so the same request
-//! gives the same decision.
+//! Problem: a plan from scratch may turn a mission upside down that a small repair would save. Idea: the wheel hands out a
+//! [`Request`] and goes on turning; the shell calls [`decide`] in a thread of its own and hands the [`Decision`] back as
+//! an event. The rest of a broken plan is repaired and compared with a plan from scratch: the one nearer to the old plan
+//! wins, and of two that are equally near the repaired one. The running step is put first where the plan still reaches
+//! the goal that way, so that nothing is interrupted without need. A plan then goes through the validator, which shares
+//! no code with the planner: a plan that does not validate is a bug of ours, and must not reach a patient. Where there is
+//! no plan, the planner's explanation is the reason.
+//!
+//! Invariant: effort is counted in states, never in seconds, so the same request gives the same decision.
 //!
 //! Source: Fox, Gerevini, Long & Serina, "Plan stability: replanning versus plan repair", ICAPS 2006.
 
+use crate::outcome::{NoPlan, Unsolvable};
 use crate::{Model, Step};
 use planner::{
     Attempt, Budget, Distance, OperatorId, Outcome, Preference, Query, Repaired, Report, SearchConfiguration,
-    State, UnsolvableReason, Way, Wording, explain, repair, solve,
+    State, Way, explain, repair, solve,
 };
 use serde::Serialize;
+use std::sync::Arc;
 
-/// Reasons told below the sentence that says why there is no plan.
-const REASONS: usize = 4;
-
-/// States visited for these reasons: whoever asked waits for them before the fallback begins, and what more of them would
-/// add is detail.
+/// States visited to explain why there is no plan: the fallback waits for the explanation, and more states would add
+/// detail only.
 const VISITED: u64 = 2_000;
 
 /// A request for a plan.
@@ -30,9 +30,9 @@ const VISITED: u64 = 2_000;
 pub struct Request {
     /// Its number; a decision that answers an older one is thrown away.
     pub id: RequestId,
-    /// From where.
+    /// The state to plan from.
     pub state: State,
-    /// What was left of the plan that no longer fits, from the step at hand on; empty where there was none.
+    /// The rest of the plan that no longer fits, from the current step on; empty without a plan.
     pub broken: Vec<OperatorId>,
     /// The step that is under way, which goes on if the new plan can start with it.
     pub running: Option<OperatorId>,
@@ -46,7 +46,7 @@ pub struct Request {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 pub struct RequestId(pub u64);
 
-/// What Decision Support says.
+/// What Decision Support answers.
 #[derive(Clone, Debug)]
 pub enum Decision {
     /// A plan that the validator accepts.
@@ -55,15 +55,11 @@ pub enum Decision {
         operators: Vec<OperatorId>,
         /// States expanded.
         expanded: u64,
-        /// How it compares with what was left of the old plan; `None` where there was none.
+        /// How it compares with the rest of the old plan; `None` without one.
         repair: Option<Repair>,
     },
-    /// There is none, and why.
-    NoPlan(String),
-    /// None was found within this many expansions.
-    LimitReached(u64),
-    /// The planner's plan does not validate: a bug of ours, with the validator's words.
-    Rejected(String),
+    /// None, and why.
+    NoPlan(NoPlan),
 }
 
 /// A repaired plan beside a new one.
@@ -71,9 +67,9 @@ pub enum Decision {
 pub struct Repair {
     /// Which of them was chosen.
     pub by: Way,
-    /// What reuse of the old plan came to; `None` where it found nothing.
+    /// The plan by reuse of the old one; `None` if reuse found none.
     pub reused: Option<Figures>,
-    /// What planning from scratch came to; `None` where it found nothing.
+    /// The plan from scratch; `None` if the search found none.
     pub scratch: Option<Figures>,
 }
 
@@ -106,7 +102,7 @@ impl Repair {
         Some(Self { by: repaired.way?, reused: Figures::of(&repaired.reused), scratch })
     }
 
-    /// The figures of the plan that was chosen.
+    /// The figures of the chosen plan.
     pub fn chosen(&self) -> Option<Figures> {
         match self.by {
             Way::Reuse => self.reused,
@@ -114,7 +110,7 @@ impl Repair {
         }
     }
 
-    /// The same where the steps of the plan that was chosen are in another order, at this distance.
+    /// The same for another order of the chosen plan's steps, at this distance.
     fn reordered(mut self, Distance { removed, added, moved }: Distance) -> Self {
         let chosen = match self.by {
             Way::Reuse => &mut self.reused,
@@ -126,7 +122,7 @@ impl Repair {
 }
 
 /// Plans. Deterministic: the same request on the same model gives the same decision.
-pub fn decide(model: &Model, request: &Request) -> Decision {
+pub fn decide(model: &Arc<Model>, request: &Request) -> Decision {
     let task = model.task();
     let excluded: Vec<OperatorId> = if request.barred.is_empty() {
         Vec::new()
@@ -150,22 +146,25 @@ pub fn decide(model: &Model, request: &Request) -> Decision {
             let repair = repair.map(|repair: Repair| repair.reordered(distance()));
             match objection(model, &request.state, &operators) {
                 None => Decision::Plan { operators, expanded: statistics.expanded, repair },
-                Some(why) => Decision::Rejected(why),
+                Some(finding) => Decision::NoPlan(NoPlan::Invalid(finding)),
             }
         }
         Outcome::Unsolvable(reason) => {
             let work = Some(request.expansions.saturating_sub(statistics.expanded).min(VISITED));
             let rest = Budget { work, ..budget };
-            Decision::NoPlan(unsolvable(model, &query, &reason, &request.barred, &rest))
+            let explanation = explain(model.domain(), model.problem(), task, &query, &reason, &rest);
+            Decision::NoPlan(NoPlan::Unsolvable(Unsolvable {
+                model: Arc::clone(model),
+                explanation,
+                barred: request.barred.clone(),
+            }))
         }
-        Outcome::Unsupported(feature) => {
-            Decision::Rejected(format!("the planner does not support {feature}"))
-        }
-        Outcome::LimitReached(_) => Decision::LimitReached(request.expansions),
+        Outcome::Unsupported(feature) => Decision::NoPlan(NoPlan::Unsupported(feature)),
+        Outcome::LimitReached(_) => Decision::NoPlan(NoPlan::LimitReached(request.expansions)),
     }
 }
 
-/// The plan with what is running first, if it is in the plan and the goal is reached that way, too.
+/// The plan with the running step first, if it is in the plan and the goal is still reached.
 fn going_on(
     model: &Model,
     query: &Query<'_>,
@@ -180,8 +179,8 @@ fn going_on(
     if reaches { other } else { plan }
 }
 
-/// What the validator, which shares nothing with the planner, says against the plan.
-fn objection(model: &Model, state: &State, plan: &[OperatorId]) -> Option<String> {
+/// What the validator, which shares nothing with the planner, finds against the plan.
+fn objection(model: &Model, state: &State, plan: &[OperatorId]) -> Option<validator::Finding> {
     let steps = plan
         .iter()
         .map(|&operator| {
@@ -192,32 +191,5 @@ fn objection(model: &Model, state: &State, plan: &[OperatorId]) -> Option<String
         .collect();
     let (problem, plan) = (model.problem_in(state), pddl::SequentialPlan::new(steps));
     let verdict = validator::validate(model.domain(), &problem, &plan);
-    validator::explain(model.domain(), &problem, &plan, &verdict).map(|finding| finding.sentence)
-}
-
-/// Says why there is no plan: what can never hold, what of it nothing gives, and what had to be left out.
-fn unsolvable(
-    model: &Model,
-    query: &Query<'_>,
-    reason: &UnsolvableReason,
-    barred: &[Step],
-    budget: &Budget<'_>,
-) -> String {
-    let explanation = explain(model.domain(), model.problem(), model.task(), query, reason, budget);
-    let words = Wording::new(model.task(), &explanation);
-    let mut why = words.sentence();
-    let (chain, lines) = (words.chain(), words.lines());
-    let reasons = match chain.as_slice() {
-        [] => lines.iter().map(|line| line.trim_start()).take(REASONS).collect::<Vec<_>>().join("; "),
-        [first, .., before, last] if chain.len() > REASONS => format!("{first}; …; {before}; {last}"),
-        all => all.join("; "),
-    };
-    if !reasons.is_empty() {
-        why = format!("{why}: {reasons}");
-    }
-    if !barred.is_empty() {
-        let steps: Vec<_> = barred.iter().map(ToString::to_string).collect();
-        why = format!("{why} (without what just failed: {})", steps.join(", "));
-    }
-    why
+    validator::explain(model.domain(), &problem, &plan, &verdict)
 }

@@ -1,11 +1,12 @@
 //! PELEA: the High Level Executive, Monitoring and Decision Support.
 //!
 //! The [`Wheel`] turns on events (the graph changed, a deadline passed, a plan came back) and answers with
-//! effects (write intentions, plan, wake me, tell). It is pure; [`Shell`] carries its effects out on tokio.
+//! effects (write intentions, plan, set a timer, report). It is pure; [`Shell`] carries its effects out on tokio.
 //!
 //! ```
 //! use executive::{Decision, Model, Request, RequestId, decide};
 //! use pddl::{Source, model::Name, parse_domain, parse_problem};
+//! use std::sync::Arc;
 //!
 //! let domain = Source::new("d", "(define (domain d) (:predicates (lit) (dark))
 //!     (:action light :parameters () :precondition (dark) :effect (lit)))");
@@ -14,7 +15,7 @@
 //! let problem = parse_problem(&problem, &domain).model.unwrap();
 //!
 //! // `lit` and `dark` are sensed: no plan from what the problem says, one from what is seen now.
-//! let model = Model::new(domain, problem, &[Name::new("lit"), Name::new("dark")]).unwrap();
+//! let model = Arc::new(Model::new(domain, problem, &[Name::new("lit"), Name::new("dark")]).unwrap());
 //! let dark = low_to_high::Fact { predicate: Name::new("dark"), arguments: Vec::new() };
 //! let state = model.state([&dark]);
 //! let request = Request {
@@ -29,19 +30,24 @@
 //! | `monitoring` | Monitoring |
 //! | `decision_support` | Decision Support |
 //! | `model` | the high-level model that they share |
+//! | `outcome` | why there is no plan, why a step failed, how the mission ended |
 //! | `narration` | the story: every decision with its reason |
 //! | `shell` | where the pure wheel meets graph, clock and threads |
+//! | `wording` | outcomes and reasons as sentences |
 
 mod decision_support;
 mod model;
 mod monitoring;
 mod narration;
+mod outcome;
 mod shell;
 mod wheel;
+mod wording;
 
 pub use decision_support::{Decision, Figures, Repair, Request, RequestId, decide};
 pub use model::{Model, ModelError, Step};
 pub use monitoring::{BrokenLiteral, Deviation, Monitor};
 pub use narration::Narration;
+pub use outcome::{Ending, Fallback, NoPlan, StepFailure, Unsolvable};
 pub use shell::Shell;
-pub use wheel::{Effect, Ending, Event, Policy, Wheel};
+pub use wheel::{Effect, Event, Policy, Wheel};

@@ -1,9 +1,9 @@
-//! The high-level model: what the planner's facts and operators are called in the world.
+//! The high-level model: the names of the planner's facts and operators.
 //!
 //! Problem: LowToHigh speaks of `(introduced feeding)`, the planner of fact 17. Idea: ground the domain
 //! once, at the start, and keep the map. Predicates that perception derives are exogenous, so that
-//! grounding keeps whatever they could become and no replan ever grounds again; all other predicates
-//! are what the problem says. Cost: one hash look-up per fact that changes.
+//! grounding keeps every value that they can take and no replan grounds again; all other predicates
+//! are as in the problem. Cost: one hash look-up per fact that changes.
 
 use indexmap::IndexSet;
 use low_to_high::Fact;
@@ -41,21 +41,11 @@ pub struct Step {
     pub arguments: Vec<Name>,
 }
 
-impl std::fmt::Display for Step {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "({}", self.action)?;
-        for argument in &self.arguments {
-            write!(f, " {argument}")?;
-        }
-        f.write_str(")")
-    }
-}
-
 impl Model {
     /// Grounds `problem`; `perceived` are the predicates that perception derives.
     ///
     /// # Errors
-    /// What the planner cannot ground.
+    /// If the planner cannot ground the domain.
     pub fn new(domain: Domain, problem: Problem, perceived: &[Name]) -> Result<Self, ModelError> {
         let exogenous: IndexSet<_> = perceived.iter().filter_map(|name| domain.predicate(name)).collect();
         let volatile: Vec<_> = exogenous.iter().copied().collect();
@@ -97,18 +87,18 @@ impl Model {
         self.task.fact(predicate, &arguments?)
     }
 
-    /// The state in which of the perceivable facts exactly these hold.
+    /// The state in which exactly these of the perceivable facts hold.
     pub fn state<'f>(&self, perceived: impl IntoIterator<Item = &'f Fact>) -> State {
         let seen = perceived.into_iter().filter_map(|fact| self.fact(fact));
         self.task.state(self.given.iter().copied().chain(seen))
     }
 
-    /// What a planner's fact is called.
+    /// The name of a planner's fact; `None` for an auxiliary fact of grounding.
     pub fn name(&self, fact: FactId) -> Option<Fact> {
         self.task.facts()[fact].atom.as_ref().map(|atom| self.atom(atom))
     }
 
-    /// What a ground atom is called.
+    /// The name of a ground atom.
     pub fn atom(&self, atom: &GroundAtom) -> Fact {
         Fact {
             predicate: self.domain.predicates[atom.predicate].name.clone(),
@@ -116,7 +106,7 @@ impl Model {
         }
     }
 
-    /// What an operator is called.
+    /// The name of an operator.
     pub fn step(&self, operator: OperatorId) -> Step {
         let operator = self.task.operator(operator);
         Step {

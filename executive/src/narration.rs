@@ -1,10 +1,13 @@
-//! What the executive tells: one linear stream that terminals, logs and tests only read.
+//! What the executive reports: one linear stream that terminals, logs and tests only read.
 
 use crate::Step;
 use crate::decision_support::Repair;
 use crate::monitoring::Deviation;
-use crate::wheel::Ending;
-use serde::Serialize;
+use crate::outcome::{Ending, NoPlan, StepFailure};
+use dsr::TransactionError;
+use high_to_low::RefinementEvent;
+use serde::{Serialize, Serializer};
+use std::fmt::Display;
 
 /// A decision of the executive, with its reason.
 #[derive(Clone, Debug, Serialize)]
@@ -20,7 +23,7 @@ pub enum Narration {
         expanded: u64,
         /// Whether the step that was running is its first and runs on.
         survives: bool,
-        /// How it compares with what was left of the plan before; `None` where there was none.
+        /// How it compares with the rest of the plan before; `None` without one.
         repair: Option<Repair>,
         /// How many plans there have been, this one included.
         count: u32,
@@ -32,14 +35,14 @@ pub enum Narration {
         /// The step.
         step: Step,
     },
-    /// What a step was to achieve has been sensed.
+    /// The effects of a step have been sensed.
     Achieved {
         /// Its place.
         index: usize,
         /// The step.
         step: Step,
     },
-    /// Steps that became needless before they started.
+    /// Steps that became unnecessary before they started.
     Skipped {
         /// The steps.
         steps: Vec<Step>,
@@ -48,24 +51,32 @@ pub enum Narration {
     Failed {
         /// The step.
         step: Step,
-        /// The chain of reasons.
-        why: String,
+        /// Why.
+        #[serde(serialize_with = "as_text")]
+        why: StepFailure,
     },
     /// How HighToLow carries a step out.
     Refined {
-        /// What it did, as a sentence.
-        what: String,
+        /// What it did.
+        #[serde(serialize_with = "as_text")]
+        what: RefinementEvent,
     },
     /// There is no plan, and why; the fallback starts.
     FellBack {
         /// Why.
-        why: String,
+        #[serde(serialize_with = "as_text")]
+        why: NoPlan,
     },
     /// The graph refused a write of the executive.
     Refused {
         /// Why.
-        why: String,
+        #[serde(serialize_with = "as_text")]
+        why: TransactionError,
     },
     /// The mission is over.
     Ended(Ending),
+}
+
+fn as_text<T: Display, S: Serializer>(what: &T, to: S) -> Result<S::Ok, S::Error> {
+    to.collect_str(what)
 }

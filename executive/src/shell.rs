@@ -1,13 +1,14 @@
-//! The executive's shell: carries out what the wheel wants, on tokio.
+//! The executive's shell: carries out the effects of the wheel, on tokio.
 //!
-//! The wheel decides; the shell commits, plans in a thread of its own, sets the timer, and passes the
-//! story on. On a paused clock, time stands still while the planner's thread works, so a simulated run is
-//! the same every time.
+//! The wheel decides; the shell subscribes to the part of the graph that the wheel reads, commits, plans in a thread of
+//! its own, sets the timer, and passes the story on. On a paused clock, time stands still while the planner's thread
+//! works, so a simulated run is the same every time.
 
 use crate::decision_support::{Decision, RequestId, decide};
 use crate::narration::Narration;
-use crate::wheel::{Effect, Ending, Event, Wheel};
-use dsr::{AgentId, Committed, Graph, Time, Transaction};
+use crate::outcome::{Ending, NoPlan};
+use crate::wheel::{Effect, Event, Wheel};
+use dsr::{AgentId, Graph, Subscription, Time, Transaction};
 use std::collections::VecDeque;
 use std::future::pending;
 use std::sync::Arc;
@@ -15,15 +16,15 @@ use tokio::sync::Notify;
 use tokio::task::{JoinHandle, spawn_blocking};
 use tokio::time::{Instant, sleep_until};
 
-/// Where the executive meets the world.
+/// The surroundings of a wheel.
 pub struct Shell<Tell> {
     /// The shared graph.
     pub graph: Graph,
-    /// As whom PELEA writes.
+    /// The agent that PELEA writes as.
     pub writer: AgentId,
     /// When the mission started: time zero of every commit.
     pub epoch: Instant,
-    /// Who hears the story.
+    /// Receives the story.
     pub tell: Tell,
 }
 
@@ -32,16 +33,21 @@ impl<Tell: FnMut(Time, Narration)> Shell<Tell> {
     pub async fn run(mut self, mut wheel: Wheel) -> Ending {
         let news = Arc::new(Notify::new());
         let wake = news.clone();
-        let deltas = self.graph.subscribe_deltas();
-        deltas.on_wake(move || wake.notify_one());
-        let mut events = VecDeque::from_iter(deltas.start().map(Event::Seen));
+        let mut graph = self.graph.subscribe_to(wheel.interest(self.writer));
+        graph.on_wake(move || wake.notify_one());
+        let mut events = VecDeque::new();
+        take_in(&mut graph, &mut events);
         let mut alarm: Option<Instant> = None;
         let mut planning: Option<(RequestId, JoinHandle<Decision>)> = None;
         loop {
             while let Some(event) = events.pop_front() {
                 for effect in wheel.step(event, self.now()) {
                     match effect {
-                        Effect::Write(edits) => events.push_back(self.write(edits)),
+                        Effect::Write(edits) => {
+                            let answer = self.write(edits);
+                            take_in(&mut graph, &mut events);
+                            events.push_back(answer);
+                        }
                         Effect::Plan(request) => {
                             let model = wheel.model().clone();
                             let id = request.id;
@@ -69,14 +75,7 @@ impl<Tell: FnMut(Time, Narration)> Shell<Tell> {
                     events.push_back(Event::Woke);
                 }
             }
-            while let Some(event) = deltas.try_recv() {
-                events.push_back(match event {
-                    dsr::Event::Committed(Committed { delta, snapshot }) => {
-                        Event::Changed { snapshot, delta }
-                    }
-                    dsr::Event::Lagged { snapshot, .. } => Event::Seen(snapshot),
-                });
-            }
+            take_in(&mut graph, &mut events);
         }
     }
 
@@ -84,10 +83,10 @@ impl<Tell: FnMut(Time, Narration)> Shell<Tell> {
         let mut transaction = Transaction::new(self.writer);
         transaction.extend(edits);
         match self.graph.commit(&transaction, self.now()) {
-            Ok(commit) => Event::Written(commit.version),
+            Ok(_) => Event::Written,
             Err(error) => {
                 tracing::warn!(%error, "the graph refused a write of the executive");
-                Event::Refused(error.to_string())
+                Event::Refused(error)
             }
         }
     }
@@ -101,11 +100,21 @@ impl<Tell: FnMut(Time, Narration)> Shell<Tell> {
     }
 }
 
+/// What the graph has become, in order.
+fn take_in(graph: &mut Subscription, events: &mut VecDeque<Event>) {
+    while let Some(news) = graph.try_recv() {
+        events.push_back(match news.deltas.into_iter().next() {
+            Some(delta) => Event::Changed { snapshot: news.snapshot, delta },
+            None => Event::Seen(news.snapshot),
+        });
+    }
+}
+
 async fn join(planning: &mut Option<(RequestId, JoinHandle<Decision>)>) -> Event {
     match planning {
         Some((id, handle)) => {
             // A panic in the planner is a bug of ours; the mission must not hang on it.
-            let stopped = |_| Decision::Rejected("the planner stopped".to_owned());
+            let stopped = |_| Decision::NoPlan(NoPlan::Stopped);
             Event::Decided(*id, handle.await.unwrap_or_else(stopped))
         }
         None => pending().await,

@@ -7,6 +7,7 @@ use pddl::model::Name;
 use pddl::{Source, parse_domain, parse_problem};
 use planner::{FactId, OperatorId, State};
 use proptest::prelude::*;
+use std::sync::Arc;
 
 /// Rooms in a row, doors that can be shut, a lamp that must be out before one may leave.
 const ROOMS: &str = "(define (domain rooms) (:requirements :strips :typing :negative-preconditions)
@@ -36,13 +37,13 @@ fn with_draught() -> String {
     )
 }
 
-fn model(rooms: &str) -> Model {
+fn model(rooms: &str) -> Arc<Model> {
     let domain = parse_domain(&Source::new("d", rooms), &[]).model.unwrap();
     let problem = parse_problem(&Source::new("p", PROBLEM), &domain).model.unwrap();
-    Model::new(domain, problem, &["in", "shut", "lit", "clean"].map(Name::new)).unwrap()
+    Arc::new(Model::new(domain, problem, &["in", "shut", "lit", "clean"].map(Name::new)).unwrap())
 }
 
-fn plan(model: &Model) -> Vec<OperatorId> {
+fn plan(model: &Arc<Model>) -> Vec<OperatorId> {
     let state = model.task().initial_state().clone();
     let request = Request {
         id: RequestId(0),

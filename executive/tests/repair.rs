@@ -8,6 +8,7 @@ use low_to_high::Fact;
 use pddl::model::Name;
 use pddl::{Source, parse_domain, parse_problem};
 use planner::{OperatorId, Way};
+use std::sync::Arc;
 
 const DOMAIN: &str = "(define (domain lamps) (:requirements :typing :negative-preconditions) (:types lamp)
     (:predicates (on ?l - lamp) (dead ?l - lamp) (open))
@@ -17,14 +18,14 @@ const DOMAIN: &str = "(define (domain lamps) (:requirements :typing :negative-pr
 const PROBLEM: &str = "(define (problem p) (:domain lamps) (:objects a b c - lamp) (:init)
     (:goal (and (on a) (on b) (on c))))";
 
-fn model() -> Model {
+fn model() -> Arc<Model> {
     model_of(DOMAIN)
 }
 
-fn model_of(domain: &str) -> Model {
+fn model_of(domain: &str) -> Arc<Model> {
     let domain = parse_domain(&Source::new("d", domain), &[]).model.unwrap();
     let problem = parse_problem(&Source::new("p", PROBLEM), &domain).model.unwrap();
-    Model::new(domain, problem, &["on", "dead", "open"].map(Name::new)).unwrap()
+    Arc::new(Model::new(domain, problem, &["on", "dead", "open"].map(Name::new)).unwrap())
 }
 
 fn fact(text: &str) -> Fact {
@@ -54,7 +55,7 @@ fn names(model: &Model, decision: &Decision) -> Vec<String> {
 }
 
 #[test]
-fn what_is_left_of_a_plan_is_kept() {
+fn the_rest_of_a_plan_is_kept() {
     let model = model();
     let request =
         request(&model, &["on b", "open", "dead a"], &["(light c)", "(light a)"], Some("(light c)"));
@@ -85,7 +86,7 @@ fn figures_are_those_of_the_plan_that_is_carried_out() {
 }
 
 #[test]
-fn what_is_running_and_can_no_longer_be_done_does_not_go_on() {
+fn a_running_step_that_is_no_longer_possible_does_not_go_on() {
     let model = model();
     let request = request(&model, &["on b"], &["(light c)", "(light a)"], Some("(light c)"));
     assert_eq!(names(&model, &decide(&model, &request)), ["(unlock)", "(light c)", "(light a)"]);
@@ -100,8 +101,8 @@ fn a_step_that_failed_is_not_reused() {
 }
 
 #[test]
-fn nobody_waits_long_for_the_reasons() {
-    // Nothing but a visit of all states shows that there is no plan, and there are thousands of these.
+fn the_fallback_does_not_wait_long_for_the_reasons() {
+    // Only a visit of all states, of which there are thousands, proves the task unsolvable.
     let fuses: Vec<String> = (0..10).map(|i| format!("(fuse{i})")).collect();
     let switches: String = (0..10)
         .map(|i| {
@@ -118,25 +119,26 @@ fn nobody_waits_long_for_the_reasons() {
     request.expansions = 100_000;
     let decision = decide(&model, &request);
     let Decision::NoPlan(why) = decision else { panic!("{decision:?}") };
+    let why = why.to_string();
     assert!(why.contains("of the first 2000 states"), "{why}");
 }
 
 #[test]
-fn a_first_plan_has_nothing_to_be_held_against() {
+fn a_first_plan_is_compared_with_none() {
     let model = model();
     let decision = decide(&model, &request(&model, &["open"], &[], None));
     assert!(matches!(&decision, Decision::Plan { repair: None, operators, .. } if operators.len() == 3));
 }
 
 #[test]
-fn why_there_is_no_plan_is_told_of_what_is_seen_now() {
+fn the_reasons_are_about_the_perceived_state() {
     let check = |domain: &str, seen: &[&str], barred: &[&str], expected: &Expect| {
         let model = model_of(domain);
         let mut request = request(&model, seen, &[], None);
         request.barred = barred.iter().map(|name| model.step(operator(&model, name))).collect();
         let decision = decide(&model, &request);
         let Decision::NoPlan(why) = decision else { panic!("{decision:?}") };
-        expected.assert_eq(&why);
+        expected.assert_eq(&why.to_string());
     };
     // The problem itself has no lamp that is dead.
     let replace = "(:action replace :parameters (?l - lamp) :precondition (dead ?l) :effect (not (dead ?l)))";

@@ -3,7 +3,10 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use dsr::{AgentId, Edit, Graph, Time, Transaction};
-use executive::{Decision, Effect, Ending, Event, Model, Narration, Policy, Request, Step, Wheel, decide};
+use executive::{
+    Decision, Effect, Ending, Event, Fallback, Model, Narration, NoPlan, Policy, Request, Step, Unsolvable,
+    Wheel, decide,
+};
 use high_to_low::Methods;
 use low_to_high::Perception;
 use pddl::model::{Domain, Name};
@@ -15,7 +18,7 @@ use vocabulary::Tokens;
 /// A wheel over the lamps, with everything around it.
 struct Bench {
     graph: Graph,
-    deltas: dsr::Deltas,
+    subscription: dsr::Subscription,
     wheel: Wheel,
     now: Time,
     told: Vec<Narration>,
@@ -55,11 +58,13 @@ impl Bench {
         let fallback = Step { action: Name::new(fallback), arguments: vec![Name::new("a")] };
         let wheel =
             Wheel::new(model, perception, methods, Policy { fallback, expansions: 1_000, attempts: 2 });
-        let deltas = graph.subscribe_deltas();
+        let pelea = graph.vocabulary().agent("pelea").unwrap();
+        let mut subscription = graph.subscribe_to(wheel.interest(pelea));
+        let start = subscription.try_recv().unwrap().snapshot;
         let told = Vec::new();
         let mut bench =
-            Self { graph, deltas, wheel, now: Time(0), told, ending: None, requests: VecDeque::new() };
-        bench.turn(Event::Seen(bench.graph.snapshot()));
+            Self { graph, subscription, wheel, now: Time(0), told, ending: None, requests: VecDeque::new() };
+        bench.turn(Event::Seen(start));
         bench
     }
 
@@ -69,25 +74,36 @@ impl Bench {
         while let Some(event) = events.pop_front() {
             for effect in self.wheel.step(event, self.now) {
                 match effect {
-                    Effect::Write(edits) => events.push_back(self.commit("pelea", edits)),
+                    Effect::Write(edits) => {
+                        let answer = self.commit("pelea", edits);
+                        events.extend(self.seen());
+                        events.push_back(answer);
+                    }
                     Effect::Plan(request) => self.requests.push_back(request),
                     Effect::WakeAt(_) => {}
                     Effect::Tell(narration) => self.told.push(narration),
                     Effect::End(ending) => self.ending = Some(ending),
                 }
             }
-            while let Some(dsr::Event::Committed(c)) = self.deltas.try_recv() {
-                events.push_back(Event::Changed { snapshot: c.snapshot, delta: c.delta });
-            }
+            events.extend(self.seen());
         }
+    }
+
+    /// The commits that concern the wheel.
+    fn seen(&mut self) -> Vec<Event> {
+        let changed = |mut news: dsr::News| Event::Changed {
+            delta: news.deltas.pop().expect("not so many that some are missed"),
+            snapshot: news.snapshot,
+        };
+        std::iter::from_fn(|| self.subscription.try_recv()).map(changed).collect()
     }
 
     fn commit(&self, agent: &str, edits: Vec<Edit>) -> Event {
         let mut transaction = Transaction::new(self.agent(agent));
         transaction.extend(edits);
         match self.graph.commit(&transaction, self.now) {
-            Ok(commit) => Event::Written(commit.version),
-            Err(error) => Event::Refused(error.to_string()),
+            Ok(_) => Event::Written,
+            Err(error) => Event::Refused(error),
         }
     }
 
@@ -95,7 +111,7 @@ impl Bench {
         self.graph.vocabulary().agent(name).unwrap()
     }
 
-    /// The lighter, or whoever, makes a token true.
+    /// An agent makes a token true.
     fn write(&mut self, agent: &str, lamp: &str, state: &str) {
         let is = self.graph.vocabulary().label("is").unwrap();
         self.edit(agent, Edit::AddEdge { from: lamp.into(), label: is, to: state.into() });
@@ -109,9 +125,19 @@ impl Bench {
 
     fn edit(&mut self, agent: &str, edit: Edit) {
         self.commit(agent, vec![edit]);
-        while let Some(dsr::Event::Committed(c)) = self.deltas.try_recv() {
-            self.turn(Event::Changed { snapshot: c.snapshot, delta: c.delta });
+        for event in self.seen() {
+            self.turn(event);
         }
+    }
+
+    /// Decision Support finds no plan.
+    fn nothing_helps(&self) -> Decision {
+        let model = Arc::clone(self.wheel.model());
+        Decision::NoPlan(NoPlan::Unsolvable(Unsolvable::new(
+            model,
+            planner::Explanation::default(),
+            Vec::new(),
+        )))
     }
 
     fn plan(&mut self) {
@@ -132,6 +158,11 @@ impl Bench {
     fn count(&self, matches: impl Fn(&Narration) -> bool) -> usize {
         self.told.iter().filter(|n| matches(n)).count()
     }
+}
+
+/// The graph refuses a write.
+fn refusal() -> dsr::TransactionError {
+    dsr::TransactionError::UnknownAgent { id: AgentId::DSR }
 }
 
 #[test]
@@ -178,7 +209,7 @@ fn a_deviation_names_the_fact_and_who_needed_it() {
 
     bench.plan();
     assert!(
-        matches!(bench.ending, Some(Ending::NotAccomplished { fallback: true, .. })),
+        matches!(bench.ending, Some(Ending::NotAccomplished { fallback: Fallback::Done, .. })),
         "{:?}",
         bench.ending
     );
@@ -241,7 +272,7 @@ fn an_answer_to_an_older_request_is_thrown_away() {
 fn a_refused_write_is_a_failed_step() {
     let mut bench = Bench::new();
     bench.plan();
-    bench.turn(Event::Refused("the graph says no".to_owned()));
+    bench.turn(Event::Refused(refusal()));
     assert_eq!(bench.count(|n| matches!(n, Narration::Refused { .. })), 1);
     assert_eq!(bench.count(|n| matches!(n, Narration::Failed { .. })), 1);
 }
@@ -260,32 +291,35 @@ fn a_goal_that_holds_before_there_is_a_plan_needs_none() {
 fn a_planner_that_stops_is_followed_by_the_fallback() {
     let mut bench = Bench::with_fallback("light-first");
     let request = bench.requests.pop_front().unwrap();
-    bench.turn(Event::Decided(request.id, Decision::Rejected("the planner stopped".to_owned())));
+    bench.turn(Event::Decided(request.id, Decision::NoPlan(NoPlan::Stopped)));
     assert!(bench.wants("a"));
     bench.write("lighter", "a", "lit");
-    assert!(matches!(bench.ending, Some(Ending::NotAccomplished { fallback: true, .. })));
+    assert!(matches!(bench.ending, Some(Ending::NotAccomplished { fallback: Fallback::Done, .. })));
 }
 
 #[test]
 fn a_fallback_that_the_graph_refuses_once_is_not_given_up() {
     let mut bench = Bench::with_fallback("light-first");
     let request = bench.requests.pop_front().unwrap();
-    bench.turn(Event::Decided(request.id, Decision::NoPlan("nothing helps".to_owned())));
-    bench.turn(Event::Refused("the graph says no".to_owned()));
+    bench.turn(Event::Decided(request.id, bench.nothing_helps()));
+    bench.turn(Event::Refused(refusal()));
     assert_eq!(bench.ending, None);
     bench.write("lighter", "a", "lit");
-    assert!(matches!(bench.ending, Some(Ending::NotAccomplished { fallback: true, .. })));
+    assert!(matches!(bench.ending, Some(Ending::NotAccomplished { fallback: Fallback::Done, .. })));
 }
 
 #[test]
 fn a_fallback_that_is_refused_for_good_ends_at_its_deadline() {
     let mut bench = Bench::with_fallback("light-first");
     let request = bench.requests.pop_front().unwrap();
-    bench.wheel.step(Event::Decided(request.id, Decision::NoPlan("nothing helps".to_owned())), bench.now);
-    bench.turn(Event::Refused("the graph says no".to_owned()));
+    bench.wheel.step(Event::Decided(request.id, bench.nothing_helps()), bench.now);
+    bench.turn(Event::Refused(refusal()));
     assert_eq!(bench.ending, None);
     bench.pass(6);
-    assert!(matches!(bench.ending, Some(Ending::NotAccomplished { fallback: false, .. })));
+    assert!(matches!(
+        bench.ending,
+        Some(Ending::NotAccomplished { fallback: Fallback::NotStarted(_) | Fallback::Failed(_), .. })
+    ));
 }
 
 #[test]
@@ -302,7 +336,7 @@ fn missed_changes_are_made_up_for_by_one_look() {
     bench.plan();
     let is = bench.graph.vocabulary().label("is").unwrap();
     bench.commit("lighter", vec![Edit::AddEdge { from: "a".into(), label: is, to: "lit".into() }]);
-    while bench.deltas.try_recv().is_some() {}
+    bench.seen();
     bench.turn(Event::Seen(bench.graph.snapshot()));
     assert!(bench.wants("b") && bench.requests.is_empty(), "{:?}", bench.told);
 }

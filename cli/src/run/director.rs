@@ -1,7 +1,7 @@
 //! Makes the scenario's disruptions happen when they are due.
 //!
-//! A trigger is a time, a condition on the graph, or a step of the plan; whatever it is, the director then
-//! waits `after` seconds and does it to the room, which knows nothing of scenarios.
+//! A trigger is a time, a condition on the graph, or a step of the plan. When it comes, the director
+//! waits `after` seconds and does the disruption to the room, which knows nothing of scenarios.
 
 use crate::scenario::{Cue, Watch};
 use dsr::Graph;
@@ -43,23 +43,18 @@ async fn follow(cue: Cue, steps: broadcast::Receiver<Step>, stage: &Stage) {
 /// Waits until the condition has become true for the nth time.
 async fn appears(condition: &Watch, occurrence: u32, graph: &Graph) {
     let news = Arc::new(Notify::new());
-    let deltas = graph.subscribe_deltas();
+    let (interest, alternatives) = condition.interest();
+    let mut subscription = graph.subscribe_to(interest);
     let wake = news.clone();
-    deltas.on_wake(move || wake.notify_one());
+    subscription.on_wake(move || wake.notify_one());
     let mut left = occurrence;
     let mut held = false;
-    let mut look = |snapshot: &dsr::Snapshot| {
-        let holds = condition.holds(snapshot);
-        left -= u32::from(holds && !held);
-        held = holds;
-        left == 0
-    };
-    if deltas.start().is_some_and(|start| look(&start)) {
-        return;
-    }
     loop {
-        while let Some(event) = deltas.try_recv() {
-            if look(event.snapshot()) {
+        while subscription.try_recv().is_some() {
+            let holds = alternatives.iter().any(|&pattern| !subscription.held(pattern).is_empty());
+            left -= u32::from(holds && !held);
+            held = holds;
+            if left == 0 {
                 return;
             }
         }

@@ -1,6 +1,6 @@
-//! What the scenario expects, held against what came out.
+//! The scenario's expectations, compared with the run.
 //!
-//! Replans and repeated questions are read off the story as it is told; everything else off the final graph.
+//! Replans and repeated questions are counted in the story; everything else is read from the final graph.
 
 use super::content::Content;
 use super::script::questions;
@@ -18,7 +18,7 @@ use std::collections::BTreeSet;
 /// Collects what expectations are about.
 pub(super) struct Record<'a> {
     mission: &'a Mission,
-    /// The edge that says that an item is answered.
+    /// The label of the edge from an item's answer to the item.
     answer: Name,
     questions: Vec<Name>,
     answered: BTreeSet<String>,
@@ -28,12 +28,12 @@ pub(super) struct Record<'a> {
     repairs: Repairs,
 }
 
-/// What became of broken plans.
+/// How broken plans were replaced.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub(super) struct Repairs {
-    /// How often what was left of the plan was reused.
+    /// How often the rest of the plan was reused.
     pub(super) reuse: u32,
-    /// How often a plan from scratch was nearer to it, or the only one.
+    /// How often a plan from scratch was nearer to the old one, or the only one.
     pub(super) scratch: u32,
     /// Steps that were given up, in all.
     removed: usize,
@@ -62,7 +62,7 @@ impl<'a> Record<'a> {
         self.plans.saturating_sub(1)
     }
 
-    /// What became of broken plans.
+    /// How broken plans were replaced.
     pub(super) fn repairs(&self) -> Repairs {
         self.repairs
     }
@@ -110,7 +110,7 @@ impl<'a> Record<'a> {
         }
     }
 
-    /// What of the scenario's expectations was not met.
+    /// The expectations of the scenario that were not met.
     pub(super) fn judge(
         &self,
         staged: &Staged,

@@ -40,7 +40,7 @@ pub(super) fn clinician(clinician: &scenario::Clinician) -> ClinicianScript {
     }
 }
 
-/// What a person may be asked about an item, in the order in which it is: the nodes that can stand before
+/// The questions that a person may be asked about an item, in their order: the nodes that can stand before
 /// the token of an unanswered question.
 pub(super) fn questions(mission: &Mission) -> Vec<Name> {
     let layers = &mission.layers;

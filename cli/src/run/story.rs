@@ -1,9 +1,11 @@
 //! The story of a run: one linear stream of what happened in the room, in the graph and in PELEA.
 //!
-//! Reporters (terminal, JSON) only read it. Whoever adds to the story first adds what the graph has done
-//! since, so that the order is that of the versions.
+//! Reporters (terminal, JSON) only read it. Before an entry is added, the commits until then are, so that the order is
+//! that of the versions. The story reads edges, and the values of functions of two nodes; other commits do not reach it.
 
-use dsr::{Change, Deltas, Event, Holder, LabelId, Snapshot, Value};
+use dsr::{
+    Change, Graph, Holder, HolderType, Interest, Kind, LabelId, Mentions, Snapshot, Subscription, Value,
+};
 use executive::Narration;
 use hal::sim::RoomEvent;
 use serde::Serialize;
@@ -56,24 +58,25 @@ pub(super) struct Commit {
 pub(super) struct Story(Arc<Mutex<Telling>>);
 
 struct Telling {
-    deltas: Deltas,
-    version: u64,
-    /// Where the story is read. Whoever does not listen any more is not told.
+    graph: Graph,
+    subscription: Subscription,
+    /// Where the story is read; entries after the reader has gone are lost.
     reader: UnboundedSender<Entry>,
 }
 
 impl Story {
-    /// A story of the graph whose changes `deltas` are.
-    pub(super) fn new(deltas: Deltas, reader: UnboundedSender<Entry>) -> Self {
-        let version = deltas.start().map_or(0, |start| start.version().0);
-        Self(Arc::new(Mutex::new(Telling { deltas, version, reader })))
+    /// A story of a graph from now on.
+    pub(super) fn new(graph: &Graph, reader: UnboundedSender<Entry>) -> Self {
+        let subscription = graph.subscribe_to(interest(graph));
+        Self(Arc::new(Mutex::new(Telling { graph: graph.clone(), subscription, reader })))
     }
 
     /// Adds an entry, after what the graph has done until now.
     pub(super) fn tell(&self, time: f64, what: What) {
         let mut telling = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         telling.catch_up();
-        let _ = telling.reader.send(Entry { time, version: telling.version, what });
+        let version = telling.graph.snapshot().version().0;
+        let _ = telling.reader.send(Entry { time, version, what });
     }
 
     /// Adds what the graph has done until now.
@@ -84,17 +87,34 @@ impl Story {
 
 impl Telling {
     fn catch_up(&mut self) {
-        while let Some(event) = self.deltas.try_recv() {
-            self.version = event.snapshot().version().0;
-            let Event::Committed(committed) = event else { continue };
-            let commit = commit(&committed.delta, &committed.snapshot);
-            if commit.now.is_empty() && commit.no_longer.is_empty() {
-                continue;
+        while let Some(news) = self.subscription.try_recv() {
+            for delta in &news.deltas {
+                let commit = commit(delta, &news.snapshot);
+                if commit.now.is_empty() && commit.no_longer.is_empty() {
+                    continue;
+                }
+                let time = seconds(Duration::from_nanos(delta.time.0));
+                let version = delta.version.0;
+                let _ = self.reader.send(Entry { time, version, what: What::Graph(commit) });
             }
-            let time = seconds(Duration::from_nanos(committed.delta.time.0));
-            let _ = self.reader.send(Entry { time, version: self.version, what: What::Graph(commit) });
         }
     }
+}
+
+/// Every label but that of leases, and every function of two nodes whose value is a node.
+fn interest(graph: &Graph) -> Interest {
+    let vocabulary = graph.vocabulary();
+    let mut tokens = Mentions::default();
+    vocabulary.labels().filter(|&label| label != LabelId::HOLDS).for_each(|label| tokens.add_label(label));
+    for attribute in vocabulary.attributes() {
+        let (holder, kind) = (vocabulary.holder(attribute), vocabulary.kind(attribute));
+        if matches!((holder, kind), (Some(HolderType::Edge { .. }), Some(Kind::Node(_)))) {
+            tokens.add_attribute(attribute);
+        }
+    }
+    let mut interest = Interest::default();
+    interest.add_tokens(&tokens);
+    interest
 }
 
 fn commit(delta: &dsr::Delta, after: &Snapshot) -> Commit {
@@ -102,7 +122,7 @@ fn commit(delta: &dsr::Delta, after: &Snapshot) -> Commit {
     let vocabulary = after.vocabulary();
     let node = |id| after.name(id).unwrap_or_default().to_owned();
     let label = |id| vocabulary.label_name(id).map_or_else(String::new, ToString::to_string);
-    // The function of two nodes is an edge that carries a value: told with its value, or not at all.
+    // The function of two nodes is an edge that carries a value: reported with its value, or not at all.
     let carries_value = |id| id == LabelId::HOLDS || vocabulary.attribute(&label(id)).is_some();
     for (change, sentence) in delta.changes.iter().zip(delta.sentences(after)) {
         match change {

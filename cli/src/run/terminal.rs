@@ -1,7 +1,7 @@
 //! The story for people: dialogue, the state in the paper's sentences, the plan, each replan's reason.
 //!
-//! On a terminal what matters to whoever stands beside the robot is wrapped to its width (what is said, why a plan
-//! is changed), and the rest is cut, a line a thing. In a pipe every line is whole, for whoever searches it.
+//! On a terminal the lines that matter beside the robot (speech, the reasons of a new plan) are wrapped to its width, and
+//! the others are cut to one row. In a pipe every line is whole, so that it can be searched.
 
 use super::story::{Commit, Entry, What};
 use executive::{Ending, Figures, Narration, Repair};
@@ -14,7 +14,7 @@ pub(super) struct Terminal {
     colour: bool,
     /// Columns, if it is a terminal.
     width: Option<usize>,
-    /// What the robot said last, and which page it showed: nobody reads the same twice.
+    /// What the robot said last, and which page it showed, so that neither is printed twice.
     said: String,
     options: Vec<String>,
     /// How many steps the current plan has.
@@ -85,17 +85,17 @@ impl Terminal {
 
     fn graph(&mut self, time: f64, commit: &Commit) {
         let subject = |sentence: &str| sentence.split(' ').next().unwrap_or_default().to_owned();
-        // What took another's place is told by what is there now.
+        // A token that took another's place says enough.
         let told: Vec<_> = commit.now.iter().map(|s| subject(s)).collect();
         let gone: Vec<_> = commit.no_longer.iter().filter(|s| !told.contains(&subject(s))).collect();
-        // A reflex that follows a loss is what one wants to see; one that follows an answer is housekeeping.
+        // A reflex after a loss is worth seeing; one after an answer is housekeeping.
         let reflex = commit.reflex && !gone.is_empty();
         let gone = gone.iter().map(|s| format!("no longer: {s}"));
         let parts: Vec<_> = gone.chain(commit.now.iter().cloned()).collect();
         if parts.is_empty() {
             return;
         }
-        // What a reflex wrote stands in the same commit as what it answers to.
+        // A reflex writes in the commit that it reacts to.
         let (tone, head) = if reflex { (Tone::Trouble, "reflex") } else { (Tone::Graph, "") };
         self.line(time, tone, head, &parts.join(" · "));
     }
@@ -190,10 +190,10 @@ impl Terminal {
             N::FellBack { why } => {
                 self.line(time, Tone::Trouble, "no plan", &format!("{why}; falling back"));
             }
-            N::Refused { why } => self.line(time, Tone::Trouble, "refused", why),
-            N::Ended(Ending::Accomplished) => self.line(time, Tone::Plan, "end", "mission accomplished"),
-            N::Ended(Ending::NotAccomplished { why, .. }) => {
-                self.line(time, Tone::Trouble, "end", &format!("mission not accomplished: {why}"));
+            N::Refused { why } => self.line(time, Tone::Trouble, "refused", &why.to_string()),
+            N::Ended(ending) => {
+                let tone = if *ending == Ending::Accomplished { Tone::Plan } else { Tone::Trouble };
+                self.line(time, tone, "end", &ending.to_string());
             }
         }
     }
@@ -220,7 +220,7 @@ fn repaired(repair: &Repair) -> String {
 
 /// Where the text of a line starts.
 const INDENT: usize = 19;
-/// No terminal is so narrow that nothing can be told.
+/// Narrower terminals get rows of this width all the same.
 const NARROWEST: usize = 20;
 
 /// The text in rows of a width: wrapped between words, or one row that is cut.
@@ -257,7 +257,7 @@ mod tests {
     use super::fit;
 
     #[test]
-    fn what_matters_is_wrapped_and_the_rest_is_cut() {
+    fn rows_are_wrapped_or_cut() {
         assert_eq!(fit("one two", 7, true), ["one two"]);
         assert_eq!(fit("one two", 7, false), ["one two"]);
         assert_eq!(fit("one two three", 8, true), ["one two", "three"]);

@@ -1,10 +1,10 @@
-//! Monitoring: does what is perceived still fit the plan?
+//! Monitoring: does the plan still fit the perceived state?
 //!
 //! Problem: comparing the predicted state with the perceived one calls the planner for changes that do
-//! not matter, and never notices that a step has become needless. Idea: regress the goal through the
+//! not matter, and never notices that a step has become unnecessary. Idea: regress the goal through the
 //! plan; suffix *i* reaches the goal from here exactly where its kernel holds. The furthest kernel that
-//! holds says it all: the goal's own → done, a later one → skip ahead, the current one → go on, none →
-//! plan anew, and the literals of the current kernel that fail are the reason.
+//! holds decides: the goal's own → done, a later one → skip ahead, the current one → go on, none →
+//! plan anew, with the literals of the current kernel that fail as the reason.
 //!
 //! Source: Fikes, Hart & Nilsson, "Learning and executing generalized robot plans", AIJ 1972 (PLANEX).
 

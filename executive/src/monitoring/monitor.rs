@@ -1,11 +1,11 @@
-//! A plan under watch.
+//! A monitored plan.
 
 use super::deviation::{BrokenLiteral, Deviation};
 use super::kernels::{Kernels, Literal};
 use crate::Model;
 use planner::{FactId, Goal, Kernel, OperatorId, State, Task};
 
-/// A plan, what of it still holds, and why not.
+/// A plan, the suffix of it that still reaches the goal, and the reasons where none does.
 #[derive(Clone, Debug)]
 pub struct Monitor {
     plan: Vec<OperatorId>,
@@ -17,12 +17,12 @@ pub struct Monitor {
 enum Method {
     /// Kernels, exact where regression is.
     Regressed(Kernels),
-    /// Progression of the state through each suffix: exact for everything, linear in the plan per suffix.
+    /// Progression of the state through each suffix: exact for every feature, linear in the plan per suffix.
     Simulated,
 }
 
 impl Monitor {
-    /// Watches `plan` for `goal`, starting from `state`.
+    /// Monitors `plan` for `goal`, starting from `state`.
     pub fn new(task: &Task, plan: Vec<OperatorId>, goal: Goal, state: &State) -> Self {
         let method = if Kernel::is_exact(task, &plan) {
             Method::Regressed(Kernels::new(task, &plan, &goal, state))
@@ -105,7 +105,7 @@ impl Monitor {
             .collect()
     }
 
-    /// Which step needed the literal, and which one was to give it.
+    /// The step that needs the literal, and the step that was to give it.
     fn explain(&self, model: &Model, current: usize, (fact, positive): Literal) -> BrokenLiteral {
         let operators = model.task().operators();
         let needs = |&&operator: &&OperatorId| {

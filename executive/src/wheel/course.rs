@@ -1,7 +1,7 @@
-//! A plan on its way: which step it is at, and how far HighToLow has come with it.
+//! A plan under way: its current step, and that step's refinement.
 
+use super::effects::{tell, write};
 use super::event::Effect;
-use super::{start, tell, write};
 use crate::Model;
 use crate::monitoring::Monitor;
 use crate::narration::Narration;
@@ -12,21 +12,21 @@ use planner::{OperatorId, State, Task};
 /// A plan, its current step, and that step's refinement.
 pub(super) struct Course {
     pub(super) monitor: Monitor,
-    /// The step at hand; the plan's length when all are done.
+    /// The current step; the plan's length when all are done.
     pub(super) current: usize,
     refinement: Option<Refinement>,
 }
 
-/// What Monitoring says of the current step.
+/// What Monitoring finds about the current step.
 pub(super) enum Progress {
-    /// The suffix from here is the furthest that reaches the goal.
+    /// The suffix from the current step is the furthest that reaches the goal.
     Stays,
     /// A later suffix does.
     Moves {
         /// Its first step.
         to: usize,
     },
-    /// None from here on does.
+    /// No suffix from the current step on does.
     Deviates,
 }
 
@@ -36,12 +36,12 @@ impl Course {
         Self { monitor: Monitor::new(model.task(), plan, goal, state), current: 0, refinement: None }
     }
 
-    /// The steps from the one at hand on.
+    /// The steps from the current one on.
     pub(super) fn left(&self) -> &[OperatorId] {
         &self.monitor.plan()[self.current.min(self.monitor.plan().len())..]
     }
 
-    /// Whether the step at hand has been started.
+    /// Whether the current step has been started.
     pub(super) fn is_under_way(&self) -> bool {
         self.refinement.is_some()
     }
@@ -50,8 +50,8 @@ impl Course {
         match self.monitor.furthest(task, state) {
             Some(to) if to == self.current => Progress::Stays,
             Some(to) if to > self.current => Progress::Moves { to },
-            // An earlier suffix may well reach the goal, by steps that were meant for another situation; whether
-            // that is the best way from here is for Decision Support to say.
+            // An earlier suffix may reach the goal, by steps that were meant for another situation; Decision Support
+            // decides whether that is the best way from here.
             _ => Progress::Deviates,
         }
     }
@@ -75,7 +75,7 @@ impl Course {
         self.current = to;
     }
 
-    /// Carries the current step further, starting it if need be.
+    /// Carries the current step further, and starts it first if it has not been started.
     pub(super) fn refine(
         &mut self,
         model: &Model,
@@ -89,7 +89,7 @@ impl Course {
             None => {
                 let step = model.step(self.monitor.plan()[self.current]);
                 effects.push(Effect::Tell(Narration::Started { index: self.current, step: step.clone() }));
-                match start(methods, snapshot, &step) {
+                match Refinement::new(methods, snapshot, &step.action, &step.arguments) {
                     Ok(refinement) => refinement,
                     Err(error) => return Status::Failed(error.into()),
                 }
@@ -97,19 +97,19 @@ impl Course {
         };
         let step = refinement.step(methods, snapshot, now);
         write(step.edits, effects);
-        tell(&step.events, effects);
+        tell(step.events, effects);
         self.refinement = Some(refinement);
         step.status
     }
 
-    /// Takes back what the current step has written and not yet achieved.
+    /// Takes back the intentions of the current step that are not yet achieved.
     pub(super) fn withdraw(&mut self, snapshot: &Snapshot, effects: &mut Vec<Effect>) {
         if let Some(mut refinement) = self.refinement.take() {
             write(refinement.cancel(snapshot), effects);
         }
     }
 
-    /// Goes on with what `old` was doing if this plan starts with it; else withdraws it.
+    /// Goes on with the current step of `old` if this plan starts with it; otherwise withdraws it.
     pub(super) fn take_over(
         &mut self,
         mut old: Self,

@@ -1,33 +1,35 @@
-//! What goes into the wheel, and what comes out.
+//! The events and the effects of the wheel.
 
 use crate::decision_support::{Decision, Request, RequestId};
 use crate::narration::Narration;
-use dsr::{Delta, Edit, Snapshot, Time, Version};
+use crate::outcome::Ending;
+use dsr::{Delta, Edit, Snapshot, Time, TransactionError};
 use std::sync::Arc;
 
-/// What the wheel turns on. Closed: the executive learns of nothing else.
+/// The events that turn the wheel. Closed: the executive learns of nothing else.
 #[derive(Clone, Debug)]
 pub enum Event {
-    /// The graph has a new version.
+    /// The graph has a new version, which differs from the one before in what the wheel reads. Versions that do not may
+    /// be left out.
     Changed {
         /// The graph.
         snapshot: Snapshot,
         /// What changed.
         delta: Arc<Delta>,
     },
-    /// The graph as it stands, without a history: at the start, or after changes were missed.
+    /// The present graph without a delta: at the start, or after commits were missed.
     Seen(Snapshot),
-    /// The time that [`Effect::WakeAt`] asked for has come.
+    /// The time of [`Effect::WakeAt`] has come.
     Woke,
     /// Decision Support answers.
     Decided(RequestId, Decision),
-    /// A write stands in the graph from this version on.
-    Written(Version),
+    /// A write stands in the graph, and the version that it made has been handed in.
+    Written,
     /// A write was refused by the graph; nothing of it stands there.
-    Refused(String),
+    Refused(TransactionError),
 }
 
-/// What the wheel wants done, in order.
+/// The effects of a turn, to be carried out in order.
 #[derive(Clone, Debug)]
 pub enum Effect {
     /// Commit these edits as PELEA, in one transaction, and answer with [`Event::Written`] or
@@ -35,25 +37,10 @@ pub enum Effect {
     Write(Vec<Edit>),
     /// Plan, and answer with [`Event::Decided`].
     Plan(Request),
-    /// Send [`Event::Woke`] then; replaces an earlier wish.
+    /// Send [`Event::Woke`] at this time; replaces an earlier one.
     WakeAt(Time),
-    /// Tell whoever listens.
+    /// Report this to the listeners.
     Tell(Narration),
     /// The mission is over; the wheel turns no more.
     End(Ending),
-}
-
-/// How a mission ended.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
-#[serde(tag = "ending", rename_all = "snake_case")]
-pub enum Ending {
-    /// The goal was seen to hold.
-    Accomplished,
-    /// It was not reached; the fallback was carried out or at least tried.
-    NotAccomplished {
-        /// Why there was no plan any more.
-        why: String,
-        /// Whether the fallback went through.
-        fallback: bool,
-    },
 }

@@ -1,4 +1,4 @@
-//! What failed, so that the same plan is not made again in the same state.
+//! Steps that failed, so that the same plan is not made again in the same state.
 //!
 //! A step that failed is barred as long as the perceived state is the one in which it failed: any change
 //! may make it work. A step that failed as often as the mission allows is barred for good. Success

@@ -2,10 +2,10 @@
 //!
 //! Problem: an executive that waits for its planner cannot notice that the patient left; one that acts on
 //! what it believes talks to an empty chair. Idea: a pure state machine, `step(event) -> effects`. Time is
-//! an argument; committing, planning and timers are effects that somebody else carries out. Planning does
-//! not stop the wheel: a decision is held against the present before it is used.
+//! an argument; committing, planning and timers are effects that the shell carries out. Planning does
+//! not stop the wheel: a decision is compared with the present before it is used.
 //!
-//! A turn: LowToHigh says which predicates changed → Monitoring finds the furthest suffix of the plan that
+//! A turn: LowToHigh reports which predicates changed → Monitoring finds the furthest suffix of the plan that
 //! still reaches the goal → the goal holds: done · a later suffix: skip ahead · the current one: refine on ·
 //! none: ask Decision Support, with the reason. No plan: the mission's fallback.
 //!
@@ -15,25 +15,27 @@
 //! Source: §4.2 of the CORTEX/CLARC paper (HLE, Monitoring, Decision Support, HighToLow, LowToHigh).
 
 mod course;
+mod effects;
 mod event;
 mod failures;
 
-pub use event::{Effect, Ending, Event};
+pub use event::{Effect, Event};
 
 use crate::decision_support::{Decision, Request, RequestId};
 use crate::monitoring::Deviation;
 use crate::narration::Narration;
+use crate::outcome::{Ending, Fallback, NoPlan, StepFailure};
 use crate::{Model, Step};
 use course::{Course, Progress};
-use dsr::{Delta, Edit, Snapshot, Time, Version};
+use dsr::{AgentId, Delta, Interest, Snapshot, Time, TransactionError};
+use effects::{in_one_transaction, is_write, tell, write};
 use failures::Failures;
-use high_to_low::{Methods, Refinement, RefinementEvent, Status};
+use high_to_low::{Methods, Refinement, Status};
 use low_to_high::{LowToHigh, Perception};
-use pddl::model::Name;
 use planner::{FactId, OperatorId, State};
 use std::sync::Arc;
 
-/// What a mission allows.
+/// The limits of a mission, and its fallback.
 #[derive(Clone, Debug)]
 pub struct Policy {
     /// The task to carry out when there is no plan, with its arguments.
@@ -47,8 +49,8 @@ pub struct Policy {
 /// PELEA between two events.
 ///
 /// It decides only with its own writes in view: between asking for a write and seeing it in the graph, it
-/// takes in what happens and does nothing. And what it takes back is taken back before anything new is
-/// written, so that no intention is mistaken for the remains of another.
+/// takes in what happens and does nothing. It takes old writes back before it writes anything new, so that no intention
+/// is mistaken for the remains of another.
 pub struct Wheel {
     model: Arc<Model>,
     methods: Arc<Methods>,
@@ -62,8 +64,6 @@ pub struct Wheel {
     plans: u32,
     /// A write was asked for and not yet answered.
     unanswered: bool,
-    /// The version of its last write.
-    written: Version,
     /// A decision that came while its own write was out of view.
     deferred: Option<(RequestId, Decision)>,
 }
@@ -77,29 +77,29 @@ struct Sight {
 enum Phase {
     /// Nothing has been seen yet.
     Waiting,
-    /// A plan has been asked for, from this state; what was running waits to see whether it survives.
+    /// A plan has been asked for, from this state; the running step goes on until the answer comes.
     Deciding { request: RequestId, from: State, old: Old },
     /// A plan is being carried out.
     Acting(Course),
     /// There is no plan.
-    FallingBack { refinement: Box<Refinement>, why: String },
+    FallingBack { refinement: Box<Refinement>, why: NoPlan },
     /// It is over.
     Ended,
 }
 
-/// What there was before a plan was asked for.
+/// The plan before a new one was asked for.
 #[expect(clippy::large_enum_variant, reason = "a wheel has one of it")]
 enum Old {
     /// No plan.
     Nothing,
-    /// A plan whose step at hand is over: what was left of it.
+    /// A plan whose current step has ended: the steps that were left.
     Stopped(Vec<OperatorId>),
-    /// A plan whose step at hand may go on.
+    /// A plan whose current step may go on.
     Running(Course),
 }
 
 impl Old {
-    /// What was left of the plan, and which step of it is under way.
+    /// The rest of the plan, and its step that is under way.
     fn left(&self) -> (&[OperatorId], Option<OperatorId>) {
         match self {
             Self::Nothing => (&[], None),
@@ -132,7 +132,6 @@ impl Wheel {
             next_request: 0,
             plans: 0,
             unanswered: false,
-            written: Version(0),
             deferred: None,
         }
     }
@@ -140,6 +139,16 @@ impl Wheel {
     /// The model it plans with; Decision Support needs it.
     pub fn model(&self) -> &Arc<Model> {
         &self.model
+    }
+
+    /// The part of the graph that it reads as this writer: the tokens of perception and of the methods, and its own
+    /// commits.
+    pub fn interest(&self, writer: AgentId) -> Interest {
+        let mut interest = Interest::default();
+        interest.add_tokens(&self.perception.mentions());
+        interest.add_tokens(&self.methods.mentions());
+        interest.follow_commits(writer);
+        interest
     }
 
     /// One turn.
@@ -156,9 +165,8 @@ impl Wheel {
                 self.deferred = Some((id, decision));
                 self.advance(now, &mut effects);
             }
-            Event::Written(version) => {
+            Event::Written => {
                 self.unanswered = false;
-                self.written = self.written.max(version);
                 self.advance(now, &mut effects);
             }
             Event::Refused(why) => {
@@ -171,13 +179,7 @@ impl Wheel {
         effects
     }
 
-    /// The graph as last seen, unless a write of its own is still out of view.
-    fn in_view(&self) -> bool {
-        let seen = self.sight.as_ref().map(|sight| sight.snapshot.version());
-        !self.unanswered && seen.is_some_and(|version| version >= self.written)
-    }
-
-    /// Takes in what the graph says, then goes on with whatever that means.
+    /// Takes in a version of the graph, then goes on from there.
     fn see(&mut self, snapshot: Snapshot, delta: Option<&Delta>, now: Time, effects: &mut Vec<Effect>) {
         let changes = match (&mut self.sight, delta) {
             (Some(sight), Some(delta)) => {
@@ -207,9 +209,10 @@ impl Wheel {
         self.advance(now, effects);
     }
 
-    /// Looks where the plan stands, and carries it further.
+    /// Finds the current step of the plan, and carries it further.
     fn advance(&mut self, now: Time, effects: &mut Vec<Effect>) {
-        if !self.in_view() {
+        // Between asking for a write and seeing it, there is nothing to decide on.
+        if self.unanswered {
             return;
         }
         let Some(sight) = &self.sight else { return };
@@ -255,17 +258,16 @@ impl Wheel {
                 effects.extend(wake_at.map(Effect::WakeAt));
                 self.phase = Phase::Acting(course);
             }
-            // Its effects would have moved the course on above: it claims to be done and is not seen to be.
+            // Its effects would have moved the course on above: it is carried out, and its effects are not sensed.
             Status::Done => {
-                let why = "carried out, but what it was to achieve was not sensed".to_owned();
-                self.failed(course, why, effects);
+                self.failed(course, StepFailure::NotSensed, effects);
             }
-            Status::Failed(failure) => self.failed(course, failure.to_string(), effects),
+            Status::Failed(failure) => self.failed(course, StepFailure::Refinement(failure), effects),
         }
     }
 
     /// The current step failed: bar it in this state and ask for another plan.
-    fn failed(&mut self, mut course: Course, why: String, effects: &mut Vec<Effect>) {
+    fn failed(&mut self, mut course: Course, why: StepFailure, effects: &mut Vec<Effect>) {
         let sight = self.sight.as_ref().expect("a plan is made from what was seen");
         let step = self.model.step(course.monitor.plan()[course.current]);
         effects.push(Effect::Tell(Narration::Failed { step: step.clone(), why }));
@@ -291,7 +293,7 @@ impl Wheel {
         self.phase = Phase::Deciding { request: id, from: sight.state.clone(), old };
     }
 
-    /// Holds a decision, which was made for the state `from`, against the present.
+    /// Compares a decision, which was made for the state `from`, with the present.
     fn decided(&mut self, decision: Decision, from: &State, old: Old, now: Time, effects: &mut Vec<Effect>) {
         let Some(sight) = &self.sight else { return };
         let moved_on = sight.state != *from;
@@ -311,25 +313,19 @@ impl Wheel {
                 effects.push(Effect::Tell(Narration::Planned { plan, expanded, survives, repair, count }));
                 self.act(course, now, effects);
             }
-            // That there was none from there says nothing about here.
-            _ if moved_on => self.ask(old, effects),
+            // A decision for another state does not hold for this one.
+            Decision::NoPlan(_) if moved_on => self.ask(old, effects),
             Decision::NoPlan(why) => self.fall_back(old, why, now, effects),
-            Decision::LimitReached(most) => {
-                self.fall_back(old, format!("no plan within {most} expansions"), now, effects);
-            }
-            Decision::Rejected(why) => {
-                self.fall_back(old, format!("the plan found does not validate: {why}"), now, effects);
-            }
         }
     }
 
     /// The graph refused what the current step wanted to write.
-    fn refused(&mut self, why: String, now: Time, effects: &mut Vec<Effect>) {
+    fn refused(&mut self, why: TransactionError, now: Time, effects: &mut Vec<Effect>) {
         effects.push(Effect::Tell(Narration::Refused { why: why.clone() }));
         match std::mem::replace(&mut self.phase, Phase::Ended) {
-            Phase::Acting(course) => self.failed(course, why, effects),
-            // A fallback under way goes on too: what was not written is missed at its deadline, and the next
-            // method is tried. To end here would leave the person with nobody called.
+            Phase::Acting(course) => self.failed(course, StepFailure::Refused(why), effects),
+            // A fallback under way goes on too: the missing write is noticed at its deadline, and the next
+            // method is tried. To end here would leave the person alone.
             other => {
                 self.phase = other;
                 self.advance(now, effects);
@@ -337,7 +333,7 @@ impl Wheel {
         }
     }
 
-    fn fall_back(&mut self, old: Old, why: String, now: Time, effects: &mut Vec<Effect>) {
+    fn fall_back(&mut self, old: Old, why: NoPlan, now: Time, effects: &mut Vec<Effect>) {
         let Some(sight) = &self.sight else { return };
         if let Old::Running(mut course) = old {
             course.withdraw(&sight.snapshot, effects);
@@ -349,23 +345,23 @@ impl Wheel {
                 self.phase = Phase::FallingBack { refinement: Box::new(refinement), why };
             }
             Ok(refinement) => self.fall(Box::new(refinement), why, now, effects),
-            Err(error) => self.end_without(format!("{why}; {error}"), false, effects),
+            Err(error) => self.end_without(why, Fallback::NotStarted(error), effects),
         }
     }
 
     /// Carries the fallback further.
-    fn fall(&mut self, mut refinement: Box<Refinement>, why: String, now: Time, effects: &mut Vec<Effect>) {
+    fn fall(&mut self, mut refinement: Box<Refinement>, why: NoPlan, now: Time, effects: &mut Vec<Effect>) {
         let Some(sight) = &self.sight else { return };
         let step = refinement.step(&self.methods, &sight.snapshot, now);
         write(step.edits, effects);
-        tell(&step.events, effects);
+        tell(step.events, effects);
         match step.status {
             Status::Running { wake_at } => {
                 effects.extend(wake_at.map(Effect::WakeAt));
                 self.phase = Phase::FallingBack { refinement, why };
             }
-            Status::Done => self.end_without(why, true, effects),
-            Status::Failed(failure) => self.end_without(format!("{why}; {failure}"), false, effects),
+            Status::Done => self.end_without(why, Fallback::Done, effects),
+            Status::Failed(failure) => self.end_without(why, Fallback::Failed(failure), effects),
         }
     }
 
@@ -379,7 +375,7 @@ impl Wheel {
         self.end(Ending::Accomplished, effects);
     }
 
-    fn end_without(&mut self, why: String, fallback: bool, effects: &mut Vec<Effect>) {
+    fn end_without(&mut self, why: NoPlan, fallback: Fallback, effects: &mut Vec<Effect>) {
         self.end(Ending::NotAccomplished { why, fallback }, effects);
     }
 
@@ -391,7 +387,7 @@ impl Wheel {
 }
 
 impl Sight {
-    /// Adds what the graph shows to each reason.
+    /// Adds the tokens of the graph to each reason.
     fn name_tokens(&self, deviation: &mut Deviation) {
         for literal in &mut deviation.broken {
             if let Some(fact) = &literal.fact {
@@ -405,36 +401,4 @@ fn differences(before: &State, after: &State) -> Vec<(FactId, bool)> {
     let gone = before.facts().into_iter().filter(|&f| !after.contains(f)).map(|f| (f, false));
     let come = after.facts().into_iter().filter(|&f| !before.contains(f)).map(|f| (f, true));
     gone.chain(come).collect()
-}
-
-fn is_write(effect: &Effect) -> bool {
-    matches!(effect, Effect::Write(_))
-}
-
-/// All writes of a turn as one, where the first stood.
-fn in_one_transaction(effects: Vec<Effect>) -> Vec<Effect> {
-    let mut merged: Vec<Effect> = Vec::with_capacity(effects.len());
-    for effect in effects {
-        match (effect, merged.iter_mut().find(|e| is_write(e))) {
-            (Effect::Write(more), Some(Effect::Write(edits))) => edits.extend(more),
-            (effect, _) => merged.push(effect),
-        }
-    }
-    merged
-}
-
-fn write(edits: Vec<Edit>, effects: &mut Vec<Effect>) {
-    if !edits.is_empty() {
-        effects.push(Effect::Write(edits));
-    }
-}
-
-fn tell(events: &[RefinementEvent], effects: &mut Vec<Effect>) {
-    effects.extend(events.iter().map(|e| Effect::Tell(Narration::Refined { what: e.to_string() })));
-}
-
-/// Names of a step's action and arguments, for HighToLow.
-fn start(methods: &Methods, snapshot: &Snapshot, step: &Step) -> Result<Refinement, high_to_low::StartError> {
-    let arguments: &[Name] = &step.arguments;
-    Refinement::new(methods, snapshot, &step.action, arguments)
 }

@@ -1,0 +1,118 @@
+//! A mission on simulated devices: everything that takes turns, in one task.
+
+use super::content::Content;
+use super::story::{Story, What, seconds};
+use super::teller::Teller;
+use super::{director, script};
+use crate::assemble::Assembly;
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::scenario::Staged;
+use dsr::{AgentId, Graph};
+use executive::{Ending, Narration, Shell, Step, Wheel};
+use hal::sim::{ClinicianScript, PatientScript, SimRoom};
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Duration;
+use tokio::sync::{broadcast, mpsc};
+use tokio::time::Instant;
+
+/// A mission ready to be played.
+pub(super) struct Play {
+    pub(super) content: Content,
+    pub(super) staged: Option<Staged>,
+    pub(super) seed: u64,
+    pub(super) verbose: bool,
+}
+
+impl Play {
+    /// Plays it to its end.
+    pub(super) async fn play(
+        mut self,
+        assembly: Assembly,
+        report_file: Option<&Path>,
+        console: &mut Console<'_>,
+    ) -> Exit {
+        let Assembly { graph, agents, wheel, .. } = assembly;
+        let epoch = Instant::now();
+        let room = self.room();
+        let (reader, mut entries) = mpsc::unbounded_channel();
+        let story = Story::new(&graph, reader);
+        let observed = story.clone();
+        room.observe(move |moment| observed.tell(seconds(moment.at), What::Room(moment.event.clone())));
+
+        let (steps, _) = broadcast::channel(64);
+        // Each disruption listens to the steps of the plan before the first one starts.
+        let cues = self.staged.as_mut().map(|staged| std::mem::take(&mut staged.cues)).unwrap_or_default();
+        let cues = cues.into_iter().map(|cue| (cue, steps.subscribe())).collect();
+        let stage = director::Stage { graph: graph.clone(), room: room.clone(), epoch };
+        let environment = agents::Environment {
+            graph: graph.clone(),
+            equipment: agents::Equipment {
+                devices: room.devices(),
+                words: Arc::new(self.content.clone()),
+                reporter: Arc::new(self.content.clone()),
+            },
+            clock: Arc::new(agents::TokioClock::start()),
+        };
+
+        let mut teller = Teller::new(&self.content, self.staged.as_ref(), self.verbose, console);
+        teller.heading();
+        let ending = {
+            let pelea = pelea(graph.clone(), wheel, story.clone(), steps, epoch);
+            let agents = agents::run_all(agents, environment);
+            let directed = async {
+                director::direct(cues, stage).await;
+                std::future::pending::<()>().await;
+            };
+            let mut pelea = std::pin::pin!(pelea);
+            let mut agents = std::pin::pin!(agents);
+            let mut directed = std::pin::pin!(directed);
+            loop {
+                tokio::select! {
+                    biased;
+                    Some(entry) = entries.recv() => teller.tell(&entry),
+                    ending = &mut pelea => break ending,
+                    never = &mut agents => match never {},
+                    () = &mut directed => {}
+                }
+            }
+        };
+        story.catch_up();
+        while let Ok(entry) = entries.try_recv() {
+            teller.tell(&entry);
+        }
+        teller.end(&ending, &graph.snapshot(), epoch.elapsed(), report_file)
+    }
+
+    /// The room, as the scenario has it.
+    fn room(&self) -> SimRoom {
+        let mission = &self.content.mission;
+        match &self.staged {
+            Some(Staged { scenario, .. }) => SimRoom::new(
+                script::patient(mission, &scenario.patient, self.seed),
+                script::clinician(&scenario.clinician),
+            ),
+            None => SimRoom::new(PatientScript::default(), ClinicianScript::default()),
+        }
+    }
+}
+
+/// PELEA on the real graph.
+async fn pelea(
+    graph: Graph,
+    wheel: Wheel,
+    story: Story,
+    steps: broadcast::Sender<Step>,
+    epoch: Instant,
+) -> Ending {
+    let writer = graph.vocabulary().agent("pelea").unwrap_or(AgentId::DSR);
+    let tell = move |time: dsr::Time, narration: Narration| {
+        if let Narration::Started { step, .. } = &narration {
+            // Without a disruption that waits for a step there is no listener.
+            let _ = steps.send(step.clone());
+        }
+        story.tell(seconds(Duration::from_nanos(time.0)), What::Pelea(narration));
+    };
+    Shell { graph, writer, epoch, tell }.run(wheel).await
+}

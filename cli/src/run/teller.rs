@@ -1,0 +1,142 @@
+//! The report of a run on the console: the story as it goes, then the summary.
+
+use super::content::Content;
+use super::judge::{Record, Repairs};
+use super::story::{Entry, seconds};
+use super::terminal::Terminal;
+use crate::console::{Console, Form};
+use crate::exit::Exit;
+use crate::files;
+use crate::scenario::Staged;
+use dsr::Snapshot;
+use executive::Ending;
+use mission::scenario::Scenario;
+use serde::Serialize;
+use std::path::Path;
+use std::time::Duration;
+
+/// The last line of a run in JSON.
+#[derive(Serialize)]
+#[serde(tag = "kind", rename = "result")]
+struct Summary<'a> {
+    source: &'static str,
+    time: f64,
+    #[serde(flatten)]
+    ending: &'a Ending,
+    replans: u32,
+    repairs: Repairs,
+    asked_again: Vec<String>,
+    violations: Vec<String>,
+    report: &'a mission::report::Report,
+}
+
+/// Reports the story entry by entry, and sums it up.
+pub(super) struct Teller<'m, 'c, 'o> {
+    content: &'m Content,
+    staged: Option<&'m Staged>,
+    console: &'c mut Console<'o>,
+    terminal: Terminal,
+    record: Record<'m>,
+}
+
+impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
+    pub(super) fn new(
+        content: &'m Content,
+        staged: Option<&'m Staged>,
+        verbose: bool,
+        console: &'c mut Console<'o>,
+    ) -> Self {
+        let terminal = Terminal::new(console.result_colour(), console.result_width(), verbose);
+        Self { content, staged, console, terminal, record: Record::new(&content.mission) }
+    }
+
+    /// The mission and the scenario.
+    pub(super) fn heading(&mut self) {
+        let title = &self.content.mission.manifest.title;
+        let scenario = self.staged.map_or("a person who answers", |s| &s.scenario.title);
+        self.console.result(&format!("{title} · {scenario}"));
+    }
+
+    /// One entry.
+    pub(super) fn tell(&mut self, entry: &Entry) {
+        self.record.note(entry);
+        match self.console.form() {
+            Form::Json => self.console.record(entry),
+            Form::Text => {
+                for line in self.terminal.lines(entry) {
+                    self.console.result(&line);
+                }
+            }
+        }
+        self.console.flush();
+    }
+
+    /// The report, the expectations that were not met, and the exit code.
+    pub(super) fn end(
+        self,
+        ending: &Ending,
+        snapshot: &Snapshot,
+        elapsed: Duration,
+        report_file: Option<&Path>,
+    ) -> Exit {
+        let report = self.content.report(snapshot);
+        let accomplished = *ending == Ending::Accomplished;
+        let violations = self.staged.map_or_else(Vec::new, |staged| {
+            let judged = self.record.judge(staged, accomplished, self.content, snapshot);
+            judged.iter().map(|v| format!("{}: {v}", place(&staged.scenario, v.span()))).collect()
+        });
+        self.console.result("");
+        let width = self.console.result_width().unwrap_or(usize::MAX);
+        for line in report.to_string().lines() {
+            // A rule that is wider than the terminal would be two.
+            let rule = line.starts_with('─');
+            let line: String = line.chars().take(if rule { width } else { usize::MAX }).collect();
+            self.console.result(&line);
+        }
+        let (replans, repairs) = (self.record.replans(), self.record.repairs());
+        let time = seconds(elapsed);
+        let word = if accomplished { "accomplished" } else { "not accomplished" };
+        self.console
+            .result(&format!("\nmission {word} after {time:.1} s, {}", counted(replans, repairs.reuse)));
+        let asked_again = self.record.asked_again().iter().map(ToString::to_string).collect();
+        for violation in &violations {
+            self.console.note(&format!("expectation not met: {violation}"));
+        }
+        let failed = !violations.is_empty();
+        let source = "result";
+        self.console.record(&Summary {
+            source,
+            time,
+            ending,
+            replans,
+            repairs,
+            asked_again,
+            violations,
+            report: &report,
+        });
+        if let Some(path) = report_file {
+            let json = serde_json::to_string_pretty(&report).unwrap_or_default();
+            if let Err(error) = files::write(path, &format!("{json}\n")) {
+                self.console.complain(&format!("error: {error}\n"));
+                return Exit::Unwritable;
+            }
+        }
+        if accomplished && !failed { Exit::Yes } else { Exit::No }
+    }
+}
+
+fn counted(replans: u32, repaired: u32) -> String {
+    match (replans, repaired) {
+        (0, _) => "no replans".to_owned(),
+        (1, 0) => "1 replan".to_owned(),
+        (1, _) => "1 replan, a repair".to_owned(),
+        (more, 0) => format!("{more} replans"),
+        (more, some) => format!("{more} replans, {some} of them repairs"),
+    }
+}
+
+/// `file:line:column` in a scenario.
+fn place(scenario: &Scenario, span: pddl::Span) -> String {
+    let at = scenario.source.line_column(span.start);
+    format!("{}:{}:{}", scenario.source.name(), at.line, at.column)
+}
