@@ -75,7 +75,7 @@ impl Effect {
             }
             match &update.change {
                 Change::AddEdge { label, .. } | Change::RemoveEdge { label, .. } => {
-                    mentions.add_label(*label)
+                    mentions.add_label(*label);
                 }
                 Change::Set { holder, attribute, .. }
                 | Change::Adjust { holder, attribute, .. }
