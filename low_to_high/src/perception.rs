@@ -151,8 +151,8 @@ impl Perception {
     pub fn mentions(&self) -> Mentions {
         let mut mentions = Mentions::default();
         self.vocabulary.types().for_each(|id| mentions.add_type(id));
-        for watch in self.axioms.iter().flat_map(|axiom| &axiom.watches) {
-            match watch.token {
+        for dependency in self.axioms.iter().flat_map(|axiom| &axiom.dependencies) {
+            match dependency.token {
                 Token::Label(label) => mentions.add_label(label),
                 Token::Attribute(attribute) => mentions.add_attribute(attribute),
                 Token::Transforms => mentions.add_transforms(),
