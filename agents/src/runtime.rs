@@ -13,7 +13,7 @@
 //! - A resource that is held at a lower priority is taken in a commit of its own. The reflexes of its holder
 //!   write in that commit, so the rule starts on a graph that they have left in order.
 //! - No loop without time passing: a rule whose skill failed, or that ended in the instant in which it began,
-//!   rests for [`REST`] for that binding.
+//!   rests for a second (`REST`) for that binding.
 //!
 //! Cost: nothing for commits outside the agent's [interest](Agent::interest). For the others, what it takes to find the
 //! matches that changed; no rule is matched as a whole again.
@@ -38,7 +38,7 @@ use crate::rules::{Agent, Concern, Parameters, RuleId};
 use crate::skill::{Call, Ended, Outcome, Skill};
 
 /// How long a rule rests for a binding after a failure, or after it began and ended in one instant.
-pub const REST: std::time::Duration = std::time::Duration::from_secs(1);
+const REST: std::time::Duration = std::time::Duration::from_secs(1);
 
 /// What the shell must do.
 pub enum Action {

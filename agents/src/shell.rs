@@ -68,7 +68,7 @@ impl fmt::Debug for Environment {
 }
 
 /// Runs an agent until it is dropped.
-pub async fn run(agent: Arc<Agent>, environment: Environment) -> Infallible {
+async fn run(agent: Arc<Agent>, environment: Environment) -> Infallible {
     let span = debug_span!("agent", name = %agent.name);
     drive(Runtime::new(agent), environment).instrument(span).await
 }

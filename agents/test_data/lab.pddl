@@ -7,7 +7,7 @@
     world robot person - frame
     state sentence - symbol)
   (:constants
-    director talker shouter watcher secretary - agent
+    director talker shouter watcher secretary polite - agent
     mouth - resource
     speaking broken quiet - state)
   (:predicates
@@ -28,4 +28,5 @@
   (:writes talker (is _ _) (is_not _ speaking) shall_say says said shall_ask waits_for heard missed)
   (:writes shouter (is _ speaking) (is_not _ speaking) shall_shout says said)
   (:writes watcher is_with rt)
-  (:writes secretary said heard))
+  (:writes secretary said heard)
+  (:writes polite waits_for shall_ask))

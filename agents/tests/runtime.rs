@@ -4,9 +4,10 @@
 mod common;
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use agents::{Datum, Ended, Outcome};
-use common::{Bench, at};
+use common::{Bench, Lab, at};
 use dsr::Isometry3;
 use expect_test::expect;
 
@@ -249,6 +250,40 @@ fn an_agent_that_was_declared_dead_and_is_not_starts_again() {
         talker: stop say person hello
         v5 talker: no longer: robot is not speaking, robot is speaking, robot says hello
         talker: launch say person hello
+    "#]]
+    .assert_eq(&bench.log());
+}
+
+#[test]
+fn an_agent_is_woken_for_the_patterns_of_its_rules_only() {
+    let lab = Lab::new();
+    let mut subscription = lab.graph.subscribe_to(lab.agent("talker").interest());
+    assert!(subscription.try_recv().unwrap().deltas.is_empty());
+    let woken = Arc::new(AtomicUsize::new(0));
+    let count = Arc::clone(&woken);
+    subscription.on_wake(move || _ = count.fetch_add(1, Ordering::SeqCst));
+    // A token of its rules, with another node at its end; then one of no rule.
+    lab.direct(&["+robot is quiet"], 1);
+    lab.direct(&["+robot shall_shout fire"], 2);
+    assert_eq!(woken.load(Ordering::SeqCst), 0);
+    lab.direct(&["+robot shall_say hello"], 3);
+    assert_eq!(woken.load(Ordering::SeqCst), 1);
+    let news = subscription.try_recv().unwrap();
+    assert_eq!(news.matches.iter().map(|changed| changed.appeared.len()).collect::<Vec<_>>(), [1]);
+}
+
+#[test]
+fn a_rule_that_would_break_its_own_condition_starts_when_it_no_longer_would() {
+    let mut bench = Bench::new(&["polite"]);
+    bench.direct(1, &["+robot is quiet"]);
+    bench.direct(2, &["+robot shall_ask person"]);
+    bench.direct(3, &["-robot is quiet"]);
+    expect![[r#"
+        v2 director: robot is quiet
+        v3 director: robot shall ask person
+        v4 director: no longer: robot is quiet
+        v5 polite: robot waits for person
+        polite: launch say person person
     "#]]
     .assert_eq(&bench.log());
 }

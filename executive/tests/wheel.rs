@@ -342,6 +342,21 @@ fn missed_changes_are_made_up_for_by_one_look() {
 }
 
 #[test]
+fn commits_outside_the_interest_do_not_reach_the_wheel() {
+    let mut bench = Bench::new();
+    let vocabulary = bench.graph.vocabulary();
+    let label = |name| vocabulary.label(name).unwrap();
+    let (is, beside) = (label("is"), label("stands_beside"));
+    bench.commit("lighter", vec![Edit::AddEdge { from: "a".into(), label: beside, to: "b".into() }]);
+    assert!(bench.seen().is_empty());
+    bench.commit("lighter", vec![Edit::AddEdge { from: "a".into(), label: is, to: "lit".into() }]);
+    assert_eq!(bench.seen().len(), 1);
+    // Its own commits do, whatever they change.
+    bench.commit("pelea", vec![Edit::AddEdge { from: "b".into(), label: is, to: "wanted".into() }]);
+    assert_eq!(bench.seen().len(), 1);
+}
+
+#[test]
 fn the_same_events_give_the_same_story() {
     let run = || {
         let mut bench = Bench::new();

@@ -3,6 +3,6 @@
   (:requirements :typing :equality :fluents :vocabulary)
   (:types agent resource symbol - object lamp state - symbol)
   (:constants pelea lighter - agent wanted lit broken - state)
-  (:predicates (is ?l - lamp ?s - state))
+  (:predicates (is ?l - lamp ?s - state) (stands_beside ?l ?m - lamp))
   (:writes pelea (is _ wanted))
-  (:writes lighter (is _ lit) (is _ broken) (is _ wanted)))
+  (:writes lighter (is _ lit) (is _ broken) (is _ wanted) stands_beside))

@@ -1,0 +1,16 @@
+; A rule whose own beginning breaks its condition over all while the robot must be quiet.
+(define (domain polite)
+  (:requirements :typing :negative-preconditions :disjunctive-preconditions :durative-actions :agent-rules)
+  (:import lab)
+
+  (:durative-action wait
+    :parameters (?r - robot ?p - person)
+    :condition (and
+      (at start (shall_ask ?r ?p))
+      (over all (not (and (is ?r quiet) (waits_for ?r ?p)))))
+    :effect (and
+      (at start (waits_for ?r ?p))
+      (at end (not (shall_ask ?r ?p)))
+      (at end (not (waits_for ?r ?p)))
+      (at abort (not (waits_for ?r ?p))))
+    :skill (say ?p ?p)))
