@@ -2,7 +2,7 @@
 //!
 //! Idea: a commit only puts its delta, and a reference to the new state, into the queues whose pattern it may concern
 //! (`routes`). The subscriber matches on its own thread and in its own time, from the changed edge outwards
-//! (`pattern::seed`). Invariant: the matches that a subscriber holds are those of matching its pattern from scratch.
+//! (`tracker`). Invariant: the matches that a subscriber holds are those of matching its patterns from scratch.
 //!
 //! Overflow: a full queue is emptied, and from then on keeps only the newest state until its subscriber reads it. So a
 //! pattern subscriber may miss intermediate matches but never holds a wrong set of them; and a subscriber that never
