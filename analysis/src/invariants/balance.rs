@@ -6,7 +6,7 @@
 //! only where some terms are equal, and the candidate says so). So it is a bound of one that is kept;
 //! of larger numbers nothing is said.
 
-use super::{Invariant, Member, Proviso};
+use super::invariant::{Invariant, Member, Proviso};
 use crate::changes::{Change, changes};
 use crate::happening::Happening;
 use pddl::model::{Atom, Condition, ConditionKind, Domain, Term, TypeSet, VariableId, Variables};

@@ -6,7 +6,7 @@
 use pddl::model::{ObjectId, Problem, TimedChange, TimedInitial};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::Invariant;
+use super::invariant::Invariant;
 
 /// The numbers of one invariant.
 pub struct Counts {

@@ -22,14 +22,17 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | `synthesis` | candidates, and how they are mended |
+//! | `invariant` | an invariant, its members and its provisos |
 //! | `balance` | whether a candidate's number can grow |
+//! | `synthesis` | candidates, and how they are mended |
 //! | `counts` | the numbers in a problem's initial state |
 
 mod balance;
 mod counts;
+mod invariant;
 mod synthesis;
 
 pub use balance::{differ, literals};
 pub use counts::Counts;
-pub use synthesis::{Invariant, Member, Proviso, conditional_invariants, invariants};
+pub use invariant::{Invariant, Member, Proviso};
+pub use synthesis::{conditional_invariants, invariants};

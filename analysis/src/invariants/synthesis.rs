@@ -17,9 +17,10 @@
 
 use std::collections::VecDeque;
 
-use pddl::model::{Domain, PredicateId, Term};
+use pddl::model::Domain;
 
 use super::balance::{Moves, Verdict, judge};
+use super::invariant::{Invariant, Member, Proviso};
 use crate::happening::Happening;
 
 /// Candidates that are looked at.
@@ -28,48 +29,6 @@ const CANDIDATES: usize = 300;
 const PARTS: usize = 6;
 /// Comparisons of changes, over all candidates.
 const WORK: usize = 400_000;
-
-/// A predicate of an invariant.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Member {
-    /// Which.
-    pub predicate: PredicateId,
-    /// The argument that each parameter is, by position.
-    pub parameters: Vec<usize>,
-    /// The argument that is counted.
-    pub counted: Option<usize>,
-}
-
-impl Member {
-    /// The parameters' values in an atom of the predicate.
-    pub fn instance<T: Copy>(&self, arguments: &[T]) -> Vec<T> {
-        self.parameters.iter().map(|&p| arguments[p]).collect()
-    }
-}
-
-/// An instance of which at most one atom held initially has never more than one.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Invariant {
-    /// Sorted by predicate, each at most once.
-    pub members: Vec<Member>,
-}
-
-impl Invariant {
-    /// The member for a predicate.
-    pub fn member(&self, predicate: PredicateId) -> Option<&Member> {
-        self.members.iter().find(|m| m.predicate == predicate)
-    }
-}
-
-/// Instances of a happening that must not be applied for an invariant to hold: those in which all of
-/// these terms of its schema are equal.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct Proviso {
-    /// The position of the happening among all.
-    pub happening: usize,
-    /// Terms that differ where nothing is said; never empty.
-    pub equal: Vec<(Term, Term)>,
-}
 
 /// All invariants that are found.
 pub fn invariants(domain: &Domain, happenings: &[Happening<'_>]) -> Vec<Invariant> {
@@ -148,6 +107,8 @@ fn search(
 
 #[cfg(test)]
 mod tests {
+    use pddl::model::Term;
+
     use super::*;
     use crate::happening::happenings;
 
