@@ -14,7 +14,7 @@ use std::sync::{Arc, Weak};
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
-use self::index::{Gone, Index};
+use self::index::{Gone, Index, Seat, Seats};
 use crate::delta::{Change, Delta};
 use crate::id::{AgentId, TypeId};
 use crate::interest::Interest;
@@ -22,11 +22,6 @@ use crate::mentions::Mentions;
 use crate::pattern::{Clue, Route};
 use crate::state::State;
 use crate::subscription::Queue;
-
-/// A position in the list of subscribers.
-type Seat = usize;
-
-type Seats = SmallVec<[Seat; 2]>;
 
 struct Subscriber {
     queue: Weak<Queue>,

@@ -302,13 +302,21 @@ impl Vocabulary {
         }
         self.permissions.get(&(writer, token)).is_some_and(|ends| {
             ends.iter().any(|(first, second)| {
-                first.admits(self, from)
+                self.admits(first, from)
                     && match to {
-                        Some(to) => second.admits(self, to),
+                        Some(to) => self.admits(second, to),
                         None => *second == End::Any,
                     }
             })
         })
+    }
+
+    fn admits(&self, end: &End, (name, node_type): (NameOf<'_>, TypeId)) -> bool {
+        match end {
+            End::Any => true,
+            End::Named(wanted) => **wanted == *name(),
+            End::OfType(wanted) => self.is_a(node_type, *wanted),
+        }
     }
 }
 

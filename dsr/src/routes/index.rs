@@ -10,7 +10,6 @@ use std::collections::BTreeMap;
 use rustc_hash::FxHashMap;
 use smallvec::SmallVec;
 
-use super::Seat;
 use crate::block::Node;
 use crate::delta::{Change, Delta};
 use crate::id::{AttributeId, EdgeKey, Holder, LabelId, NodeId, TypeId};
@@ -19,7 +18,10 @@ use crate::state::State;
 use crate::value::Value;
 use crate::vocabulary::Vocabulary;
 
-type Seats = SmallVec<[Seat; 2]>;
+/// A position in the list of subscribers.
+pub(super) type Seat = usize;
+
+pub(super) type Seats = SmallVec<[Seat; 2]>;
 
 /// The number of frames that a commit walks for each subscriber that it may so avoid to wake: as many as take the time
 /// of waking a parked thread. Measured at a load of 8: a commit that wakes one subscriber takes 5.8 µs, one that wakes

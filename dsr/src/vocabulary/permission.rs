@@ -7,7 +7,6 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::{NameOf, Vocabulary};
 use crate::id::{AttributeId, LabelId, TypeId};
 
 /// What can be written.
@@ -41,14 +40,6 @@ impl End {
     /// The node of this name.
     pub fn named(name: impl Into<Arc<str>>) -> Self {
         Self::Named(name.into())
-    }
-
-    pub(super) fn admits(&self, vocabulary: &Vocabulary, (name, node_type): (NameOf<'_>, TypeId)) -> bool {
-        match self {
-            Self::Any => true,
-            Self::Named(wanted) => **wanted == *name(),
-            Self::OfType(wanted) => vocabulary.is_a(node_type, *wanted),
-        }
     }
 }
 
