@@ -6,7 +6,7 @@
 
 use super::oracle::Oracle;
 use super::reasons::Reasons;
-use super::{MOST, Never, Part};
+use super::record::{MOST, Never, Part};
 use crate::ids::{FactId, id32};
 use analysis::intervals::{Ranges, Reachable};
 use analysis::{Binding, Compared, Literal};

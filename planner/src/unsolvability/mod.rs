@@ -15,6 +15,7 @@ mod breadth;
 mod goal;
 mod oracle;
 mod reasons;
+mod record;
 mod space;
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test")]
@@ -24,6 +25,7 @@ mod wording;
 pub use analysis::intervals::{Extent, NeverCompares};
 pub use analysis::{Literal, Pattern};
 pub use reasons::{Achiever, Need, Obstruction, Reason, ReasonId, Why};
+pub use record::{Exclusive, Explanation, Never, Part};
 pub use space::{Nearest, Space};
 pub use wording::Wording;
 
@@ -35,63 +37,12 @@ use analysis::{Binding, Instance, Needs, Values};
 use budget::Budget;
 use goal::Walk;
 use oracle::Oracle;
-use pddl::Span;
 use pddl::model::{Action, ConditionKind, Domain, Problem};
 use reasons::Reasons;
+use record::MOST;
 
-/// Parts of the goal, groups and pairs that are reported.
-const MOST: usize = 32;
 /// Operators whose comparisons are looked at.
 const OPERATORS: usize = 5_000;
-
-/// A part of the goal that no reachable state satisfies.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Part {
-    /// Where it stands in the problem.
-    pub span: Span,
-    /// It would take one of these, and none of them is ever so.
-    pub never: Vec<Never>,
-}
-
-/// What is never so.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Never {
-    /// A literal.
-    Literal(ReasonId),
-    /// A comparison of numbers.
-    Number(NeverCompares),
-    /// What no action has any influence on.
-    Condition(Span),
-}
-
-/// Two atoms of the goal of which at most one ever holds.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Exclusive {
-    /// The two, as PDDL writes them.
-    pub pair: [String; 2],
-    /// A group of which at most one holds, both included.
-    pub group: Vec<String>,
-}
-
-/// Why there is no plan.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Explanation {
-    /// Every part of the goal that is never so by itself.
-    pub parts: Vec<Part>,
-    /// The reasons of literals, each once; [`ReasonId`] is the position.
-    pub reasons: Vec<Reason>,
-    /// Pairs of the goal that exclude each other.
-    pub exclusive: Vec<Exclusive>,
-    /// What a visit of the states showed, where that was the proof.
-    pub space: Option<Space>,
-}
-
-impl Explanation {
-    /// A reason.
-    pub fn reason(&self, id: ReasonId) -> &Reason {
-        &self.reasons[id.0 as usize]
-    }
-}
 
 /// Says why `task`, the grounding of `problem`, has no plan from the query's state without the operators that it
 /// excludes; its goal must be the problem's own. `reason` is what the search said of that; `budget` bounds the visits of
