@@ -223,7 +223,7 @@ pub enum RestoreError {
     NodeClash { name: Arc<str> },
     /// The node of an agent or a resource of the vocabulary is missing or has another id.
     #[error("'{name}' does not stand for the agent or the resource of that name")]
-    NotOfDictionary { name: Arc<str> },
+    NotOfVocabulary { name: Arc<str> },
     /// An edge that the vocabulary does not allow.
     #[error("'{label}' does not go from '{from}' to '{to}'")]
     WrongEdge { from: Arc<str>, label: Arc<str>, to: Arc<str> },
@@ -304,7 +304,7 @@ fn check_built_in(vocabulary: &Vocabulary, state: &State) -> Result<(), RestoreE
         if let Some(name) = name
             && state.names.get(name) != id
         {
-            return Err(RestoreError::NotOfDictionary { name: name.clone() });
+            return Err(RestoreError::NotOfVocabulary { name: name.clone() });
         }
     }
     Ok(())

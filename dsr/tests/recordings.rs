@@ -194,7 +194,7 @@ fn a_segment_with_another_vocabulary_is_left_out() {
     let mut segments = ours.segments();
     segments.insert(1, foreign.clone());
     let recording = Recording::read(segments.clone()).unwrap();
-    assert!(matches!(recording.damage(), [Damage::OtherDictionary { segment }] if &**segment == "segment 1"));
+    assert!(matches!(recording.damage(), [Damage::OtherVocabulary { segment }] if &**segment == "segment 1"));
     for (version, _) in versions {
         assert!(recording.at(version).is_ok());
     }
@@ -202,7 +202,7 @@ fn a_segment_with_another_vocabulary_is_left_out() {
     segments.push(foreign);
     let recording = Recording::read(segments).unwrap();
     assert_eq!(recording.last().0, Version(0));
-    assert!(recording.damage().iter().all(|damage| matches!(damage, Damage::OtherDictionary { .. })));
+    assert!(recording.damage().iter().all(|damage| matches!(damage, Damage::OtherVocabulary { .. })));
 }
 
 #[test]

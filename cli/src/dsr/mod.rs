@@ -113,7 +113,7 @@ fn open(path: &Path, console: &mut Console<'_>) -> Result<(Recording, Exit), Fai
         match damage {
             Damage::Torn { .. }
             | Damage::Unfinished { .. }
-            | Damage::OtherDictionary { .. }
+            | Damage::OtherVocabulary { .. }
             | Damage::OtherHistory { .. } => console.note(&format!("note: {damage}")),
             Damage::Corrupt { .. } | Damage::Format { .. } | Damage::Unreadable { .. } => {
                 render::error(damage.to_string(), console);

@@ -52,7 +52,7 @@ pub enum Damage {
     Unfinished { segment: Arc<str> },
     /// It has another vocabulary than the newest segment.
     #[error("`{segment}` has another vocabulary than the segments behind it and is left out")]
-    OtherDictionary { segment: Arc<str> },
+    OtherVocabulary { segment: Arc<str> },
     /// The segments after it do not continue from its end.
     #[error("`{segment}` goes to version {}, the segments behind it begin at {}: it is of another history \
         and left out", last.0, next.0)]

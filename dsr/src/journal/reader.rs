@@ -105,7 +105,7 @@ impl Reader {
             if let Some(next) = kept.last() {
                 let (last, first) = (segment.last.0, next.first.0);
                 if !Arc::ptr_eq(&next.vocabulary, &segment.vocabulary) {
-                    self.damage.push(Damage::OtherDictionary { segment: name });
+                    self.damage.push(Damage::OtherVocabulary { segment: name });
                     continue;
                 }
                 is_next = match last.cmp(&first) {
