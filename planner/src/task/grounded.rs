@@ -17,7 +17,7 @@ use super::relaxation::Relaxation;
 use super::state::State;
 use super::successors::SuccessorTree;
 use crate::ids::{FactId, OperatorId};
-use pddl::model::{GroundApplication, IndexVec, ObjectId, PredicateId};
+use pddl::model::{IndexVec, ObjectId, PredicateId};
 
 /// A grounded task.
 #[derive(Clone, Debug)]
@@ -102,14 +102,6 @@ impl Task {
             AtomStatus::Fact(fact) => Some(fact),
             _ => None,
         }
-    }
-
-    /// The fact that an object fluent has this value, if it is one that changes.
-    pub fn value_fact(&self, fluent: &GroundApplication, value: ObjectId) -> Option<FactId> {
-        let predicate = self.names.values().predicate(fluent.function)?;
-        let mut arguments = fluent.arguments.clone();
-        arguments.push(value);
-        self.fact(predicate, &arguments)
     }
 
     /// The state in which of the basic facts exactly these hold; derived ones follow by the axioms

@@ -28,11 +28,6 @@ impl ValuePredicates {
         self.functions.get(predicate.0.checked_sub(self.first)? as usize).copied()
     }
 
-    pub(crate) fn predicate(&self, function: FunctionId) -> Option<PredicateId> {
-        let position = self.functions.iter().position(|&f| f == function)?;
-        Some(PredicateId(self.first + id32(position)))
-    }
-
     /// The fluent and the value that an atom stands for.
     pub(crate) fn value(
         &self,

@@ -86,13 +86,3 @@ pub enum Repair {
         span: Span,
     },
 }
-
-impl Repair {
-    /// Whether it changes the plan; the others change the domain or the problem.
-    pub fn is_of_plan(&self) -> bool {
-        !matches!(
-            self,
-            Self::Initially(_) | Self::NotInitially(_) | Self::Value { .. } | Self::Without { .. }
-        )
-    }
-}
