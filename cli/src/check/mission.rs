@@ -14,7 +14,7 @@
 //!
 //! `checked` is false, and the counts of what is in it are missing, where a file keeps the rest from being read.
 
-use super::Tally;
+use super::tally::Tally;
 use crate::assemble::{LoadError, assemble, load};
 use crate::console::Console;
 use crate::disk::show;

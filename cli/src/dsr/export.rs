@@ -1,6 +1,7 @@
 //! `pelea dsr export`: a journal as a file that Foxglove and other tools read (MCAP).
 
-use super::{Failed, open, unwritable_file};
+use super::failed::{Failed, unwritable_file};
+use super::journal::open;
 use crate::console::Console;
 use crate::exit::Exit;
 use clap::Args;

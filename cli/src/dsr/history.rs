@@ -1,6 +1,7 @@
 //! `pelea dsr log`, `diff` and `query`: what happened, what differs, and where a pattern matches.
 
-use super::{Failed, Moment, open, state};
+use super::failed::Failed;
+use super::journal::{Moment, open, state};
 use crate::console::Console;
 use crate::exit::Exit;
 use clap::Args;

@@ -1,6 +1,7 @@
 //! `pelea dsr show`: one state.
 
-use super::{Failed, Moment, open, state};
+use super::failed::Failed;
+use super::journal::{Moment, open, state};
 use crate::console::{Console, Form};
 use crate::exit::Exit;
 use clap::{Args, ValueEnum};

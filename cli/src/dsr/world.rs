@@ -1,6 +1,7 @@
 //! `pelea dsr import`: a world of RoboComp's cortex as a journal with one state.
 
-use super::{Failed, begin, unwritable};
+use super::failed::{Failed, unwritable};
+use super::journal::begin;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::files;

@@ -15,25 +15,20 @@
 //! {"kind": "tests", "suites": 2, "unreadable": 0, "passed": 30, "failed": 1, "left_out": 0, "time_ms": 20.1}
 //! ```
 
+mod cases;
 mod find;
 mod init;
 mod report;
 mod watch;
 
-use crate::clock::{Seconds, Stopwatch};
+use crate::clock::Seconds;
 use crate::console::Console;
-use crate::disk;
 use crate::exit::Exit;
-use crate::memory;
-use crate::pool;
 use crate::render;
+use cases::run_folders;
 use clap::Args;
-use diagnostics::Finding;
-use planner::Budget;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
-use suite::{CaseId, Suite};
 
 /// What to test.
 #[derive(Debug, Args)]
@@ -63,7 +58,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     if !arguments.watch {
         return exit;
     }
-    watch::watch(arguments, console, |_| ControlFlow::Continue(()))
+    watch::watch(&arguments.paths, &arguments.filter, console, |_| ControlFlow::Continue(()))
 }
 
 /// Runs every suite at those paths.
@@ -87,60 +82,3 @@ fn once(paths: &[PathBuf], filter: &[String], console: &mut Console<'_>) -> Exit
     }
     run_folders(&folders, filter, console)
 }
-
-/// Runs the suites in those folders.
-fn run_folders(folders: &[PathBuf], filter: &[String], console: &mut Console<'_>) -> Exit {
-    let watch = Stopwatch::start();
-    let (mut suites, mut exit, mut unreadable) = (Vec::new(), Exit::Yes, 0);
-    for folder in folders {
-        match find::read(folder) {
-            Ok(found) => suites.push(Suite::read(found)),
-            Err(error) => {
-                render::error(error.to_string(), console);
-                exit = Exit::Unreadable;
-                unreadable += 1;
-            }
-        }
-    }
-    for suite in &suites {
-        let shown = disk::show(suite.sources(), suite.findings(), console);
-        unreadable += usize::from(shown != Exit::Yes);
-        exit = exit.and(shown);
-    }
-    let mut report = report::Report::new(suites.len(), unreadable);
-    let mut work: Vec<(&Suite, CaseId)> = Vec::new();
-    for suite in &suites {
-        for (id, case) in suite.cases() {
-            if filter.is_empty() || filter.iter().any(|text| case.name.contains(text)) {
-                work.push((suite, id));
-            } else {
-                report.left_out += 1;
-            }
-        }
-    }
-    let start = Instant::now();
-    let now = move || start.elapsed();
-    let budget = Budget { memory_bytes: Some(memory::budget() / pool::width()), ..Budget::default() };
-    pool::in_order(
-        &work,
-        |&(suite, id)| {
-            let watch = Stopwatch::start();
-            let findings = suite.run(id, &now, &budget);
-            (findings, watch.milliseconds())
-        },
-        |&(suite, id), (findings, time)| report.case(suite, id, findings, time, console),
-    );
-    exit = exit.and(report.finish(watch.milliseconds(), console));
-    console.flush();
-    exit
-}
-
-/// A case that failed.
-struct Failed<'a> {
-    suite: &'a Suite,
-    name: &'a str,
-    findings: Vec<Finding>,
-}
-
-/// How long the editor may take to write all that belongs to one change.
-const SETTLED: Duration = Duration::from_millis(50);

@@ -1,6 +1,5 @@
-//! What is shown of a run.
+//! The report of a run: a line per case, the findings of failed cases, and the counts.
 
-use super::Failed;
 use crate::console::{Console, Form};
 use crate::disk;
 use crate::exit::Exit;
@@ -8,7 +7,7 @@ use diagnostics::Finding;
 use serde::Serialize;
 use suite::{CaseId, Suite};
 
-/// What has come of the cases so far.
+/// The outcomes of the cases so far.
 pub(super) struct Report<'a> {
     suites: usize,
     /// Suites that could not be read.
@@ -89,6 +88,13 @@ impl<'a> Report<'a> {
         });
         if failed > 0 { Exit::No } else { Exit::Yes }
     }
+}
+
+/// A case that failed.
+struct Failed<'a> {
+    suite: &'a Suite,
+    name: &'a str,
+    findings: Vec<Finding>,
 }
 
 fn word(passed: bool, colour: bool) -> &'static str {

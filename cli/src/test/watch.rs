@@ -1,10 +1,11 @@
 //! `pelea test --watch`: a suite runs again when one of its files changes.
 //!
-//! The watcher only says which paths changed; which suites that concerns is a pure function ([`suite::touched`]).
-//! Editors write a file in several strokes, so a change is taken together with all that follow it closely. Suites are
-//! found anew at every change: one that is added is run, one that is gone is not missed.
+//! The watcher only reports which paths changed; a pure function ([`suite::touched`]) decides which suites must run.
+//! Editors write a file in several steps, so events that follow each other closely count as one change. Every change
+//! searches for suites again: an added suite runs, and a deleted suite is no error.
 
-use super::{Arguments, SETTLED, find, run_folders};
+use super::cases::run_folders;
+use super::find;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::render;
@@ -14,12 +15,17 @@ use std::fs;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, Receiver};
+use std::time::Duration;
 use suite::{Extent, touched};
 
-/// Runs suites again until `turn` says that it is enough; it is asked when the watcher is ready, with nothing, and
-/// after each run, with the folders that were run. Answers only if the watcher fails, or when it is enough.
+/// A change ends when no event has come for so long: an editor writes a file in several steps.
+const SETTLED: Duration = Duration::from_millis(50);
+
+/// Runs suites again until `turn` breaks. `turn` is called when the watcher is ready, without folders, and after each
+/// run, with the folders that ran. Returns only if the watcher fails or `turn` breaks.
 pub(super) fn watch(
-    arguments: &Arguments,
+    paths: &[PathBuf],
+    filter: &[String],
     console: &mut Console<'_>,
     mut turn: impl FnMut(&[PathBuf]) -> ControlFlow<()>,
 ) -> Exit {
@@ -32,9 +38,9 @@ pub(super) fn watch(
         Ok(watcher) => watcher,
         Err(error) => return failed(&error, console),
     };
-    let folders = suites(&arguments.paths);
+    let folders = suites(paths);
     let extents: Vec<Extent> = folders.iter().map(|folder| extent(folder)).collect();
-    let roots = arguments.paths.iter().map(|path| absolute(path));
+    let roots = paths.iter().map(|path| absolute(path));
     let others = extents.iter().flat_map(|e| &e.elsewhere).filter_map(|path| path.parent());
     let watched: BTreeSet<(PathBuf, bool)> =
         roots.map(|path| (path, true)).chain(others.map(|path| (path.to_owned(), false))).collect();
@@ -49,7 +55,7 @@ pub(super) fn watch(
         return Exit::Yes;
     }
     while let Some(changed) = next(&changes) {
-        let folders = suites(&arguments.paths);
+        let folders = suites(paths);
         let extents: Vec<Extent> = folders.iter().map(|folder| extent(folder)).collect();
         let concerned: Vec<PathBuf> =
             touched(&extents, &changed).into_iter().map(|index| folders[index].clone()).collect();
@@ -57,7 +63,7 @@ pub(super) fn watch(
             continue;
         }
         console.note("");
-        run_folders(&concerned, &arguments.filter, console);
+        run_folders(&concerned, filter, console);
         if turn(&concerned).is_break() {
             return Exit::Yes;
         }
@@ -70,7 +76,7 @@ fn failed(error: &notify::Error, console: &mut Console<'_>) -> Exit {
     Exit::Unreadable
 }
 
-/// The paths of the next change and of those that follow closely; `None` when there will be no more.
+/// The paths of the next change and of those that follow closely; `None` when the watcher is gone.
 fn next(changes: &Receiver<notify::Result<Event>>) -> Option<Vec<PathBuf>> {
     let mut paths = paths(changes.recv().ok()?);
     while let Ok(event) = changes.recv_timeout(SETTLED) {
@@ -81,7 +87,7 @@ fn next(changes: &Receiver<notify::Result<Event>>) -> Option<Vec<PathBuf>> {
     Some(paths)
 }
 
-/// What an event is about. Who only reads changes nothing, and a run reads every file.
+/// The paths that an event changes. Events of reading are ignored: a run itself reads every file.
 fn paths(event: notify::Result<Event>) -> Vec<PathBuf> {
     match event {
         Ok(Event { kind: EventKind::Access(_), .. }) | Err(_) => Vec::new(),
@@ -104,7 +110,7 @@ fn extent(folder: &Path) -> Extent {
     Extent { folder: absolute(folder), elsewhere }
 }
 
-/// As the watcher names it.
+/// The path in the form in which the watcher reports it.
 fn absolute(path: &Path) -> PathBuf {
     fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
 }
@@ -114,16 +120,8 @@ mod tests {
     use super::watch;
     use crate::console::Console;
     use crate::exit::Exit;
-    use crate::test::Arguments;
-    use clap::Parser;
     use std::fs;
     use std::ops::ControlFlow;
-
-    #[derive(Parser)]
-    struct Line {
-        #[command(flatten)]
-        arguments: Arguments,
-    }
 
     const DOMAIN: &str = "(define (domain hall) (:predicates (lit)) (:action switch :effect (lit)))";
     const PROBLEM: &str = "(define (problem dark) (:domain hall) (:init) (:goal (lit)))";
@@ -141,10 +139,10 @@ mod tests {
         }
         let (mut out, mut err) = (Vec::new(), Vec::new());
         let mut console = Console::new(&mut out, &mut err);
-        let line = Line::parse_from(["test".into(), folder.path().as_os_str().to_owned()]);
+        let paths = [folder.path().to_owned()];
         let plan = folder.path().join("b/valid/problem.plan");
         let mut run = Vec::new();
-        let exit = watch(&line.arguments, &mut console, |folders| {
+        let exit = watch(&paths, &[], &mut console, |folders| {
             run.extend(folders.to_vec());
             match run.len() {
                 0 => fs::write(&plan, "").unwrap(),
