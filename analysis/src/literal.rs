@@ -132,7 +132,7 @@ impl<'a> Binding<'a> {
         self.variables.parameter_ids().map(|v| self.term(Term::Variable(v))).collect()
     }
 
-    /// The binding that makes the atom match the pattern; `None` if there is none.
+    /// The binding that makes the atom match the pattern; `None` if they do not match.
     pub fn unified(&self, atom: &Atom, pattern: &Pattern, instance: Instance<'_>) -> Option<Self> {
         if atom.predicate != pattern.predicate {
             return None;
@@ -140,7 +140,7 @@ impl<'a> Binding<'a> {
         self.unified_terms(&atom.arguments, &pattern.arguments, instance)
     }
 
-    /// The binding that makes the terms match the arguments; `None` if there is none.
+    /// The binding that makes the terms match the arguments; `None` if they do not match.
     pub fn unified_terms<V>(
         &self,
         terms: &[Term],
