@@ -1,15 +1,14 @@
-//! Relaxed plans in which operators are repeated, and make up for what they use.
+//! Relaxed plans in which operators are repeated and replace the resources that they consume.
 //!
-//! Problem: a relaxation deletes nothing, so one log is enough for ten houses, and after the first
-//! house is built the estimate rises by the logs for the second. Idea: the plan is walked back from the
-//! dearest propositions to the cheapest. An operator is in it as often as the comparison asks that takes
-//! it most often; each time it takes from the sums that its precondition needs (a tank, a purse, a room),
-//! and when such a sum's turn comes, it must suffice for all but the last taking; a sum that the goal
-//! bounds, for what any operator takes. Where it holds already but does not suffice, the operator that was
-//! first able to raise it supplies the rest. What is taken from a sum whose turn is over gives it another
-//! one, a bounded number of times, because two operators may live off each other. Neither
-//! admissible nor consistent; finite wherever the exploration is, hence safe. Cost: the plan's
-//! propositions in a queue.
+//! Problem: a relaxation ignores decreases, so one log is enough for ten houses; after the first house is built, the
+//! estimate rises by the logs for the second. Idea: extract the plan backwards, from the most expensive propositions to
+//! the cheapest. If several comparisons need an operator, it occurs as often as the most demanding one requires. Each
+//! occurrence takes from the sums that the precondition bounds (a tank, a purse, a room). When the comparison of such a
+//! sum has its turn, the sum must suffice for all takings but the last. A sum that the goal bounds must suffice for the
+//! takings of every operator. If a sum satisfies its comparison already but does not suffice, the first operator that
+//! was able to raise it supplies the rest. A taking from a sum whose turn is over gives its comparison another turn; the
+//! number of turns is bounded, because two operators may supply each other. The estimate is neither admissible nor
+//! consistent. It is finite wherever the exploration is, hence safe. Cost: the plan's propositions in a queue.
 //!
 //! Source: repetitions as in Scala, Haslum, Thiébaux & Ramirez, JAIR 2020; takings as an extension of
 //! relaxed plan extraction in Hoffmann, "The Metric-FF planning system", JAIR 2003, §4.3, ours.
@@ -21,39 +20,39 @@ use crate::task::{AXIOM, Task};
 use rustc_hash::FxHashMap;
 use std::collections::BinaryHeap;
 
-/// What the operators of a plan take from a sum.
+/// How much the operators of a plan take from a sum.
 #[derive(Clone, Copy, Default)]
 struct Taken {
     all: f64,
-    /// That of those whose preconditions bound the sum.
+    /// The part taken by operators whose preconditions bound the sum.
     needed: f64,
-    /// The most that one of these takes at once.
+    /// The most that one application of such an operator takes.
     most: f64,
 }
 
-/// Turns of a comparison that is a goal, and of another one.
+/// The most turns of a comparison that is a goal, and of any other.
 const TURNS: [u32; 2] = [64, 8];
 
 /// Scratch for relaxed plans of one task.
 pub(crate) struct CountedPlan {
-    /// Propositions to be achieved, the dearest first.
+    /// Propositions to be achieved, the most expensive first.
     queue: BinaryHeap<(u32, u32)>,
     /// Generation in which a proposition or operator was last met.
     marked: Vec<u32>,
     used: Vec<u32>,
     count: Vec<u32>,
     generation: u32,
-    /// What the last plan costs.
+    /// The real cost of the last plan.
     real: u64,
     /// By sum.
     taken: FxHashMap<u32, Taken>,
-    /// By sum: the comparisons of it that had their turn.
+    /// By sum: its comparisons that had a turn.
     met: FxHashMap<u32, Vec<u32>>,
-    /// By comparison: how many turns it had.
+    /// By comparison: the number of its turns.
     turns: FxHashMap<u32, u32>,
 }
 
-/// What a walk needs to know.
+/// The input of a walk.
 pub(crate) struct Walk<'w, 'a> {
     pub(crate) task: &'a Task,
     pub(crate) explorer: &'w Explorer<'a>,
@@ -77,8 +76,8 @@ impl CountedPlan {
         })
     }
 
-    /// Walks back from the goal after an exploration. Appends what the plan achieves, and the operators
-    /// that begin it.
+    /// Extracts a plan backwards from the goal, after an exploration. Appends the propositions that the plan achieves to
+    /// `achieved`, and its applicable operators to `preferred`.
     pub(crate) fn walk(
         &mut self,
         walk: &Walk<'_, '_>,
@@ -140,13 +139,13 @@ impl CountedPlan {
         Estimate(total.min(u32::MAX - 1))
     }
 
-    /// What the last plan costs.
+    /// The real cost of the last plan.
     pub(crate) fn real(&self) -> u64 {
         self.real
     }
 
-    /// What a comparison's sum must have beyond what the comparison asks, in the comparison's units, and
-    /// whether this is the first that is heard of it.
+    /// How far a comparison's sum must exceed the comparison's bound, in the comparison's units, and whether this is the
+    /// comparison's first turn.
     fn turn(&mut self, walk: &Walk<'_, '_>, proposition: u32) -> (f64, bool) {
         let Some(comparison) = walk.explorer.graph().ways.comparison(proposition) else { return (0.0, true) };
         let Some((sum, unit)) = walk.task.numeric.sum_of(comparison) else { return (0.0, true) };
@@ -163,7 +162,7 @@ impl CountedPlan {
         (more * unit, first)
     }
 
-    /// Notes what an operator takes that is done so many times more.
+    /// Notes the takings of `times` more applications of an operator.
     fn take(&mut self, walk: &Walk<'_, '_>, operator: u32, times: u32) {
         let explorer = walk.explorer;
         for taking in explorer.graph().ways.takings(operator) {

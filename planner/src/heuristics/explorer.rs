@@ -160,7 +160,7 @@ impl<'a> Explorer<'a> {
         self.supporter[proposition as usize]
     }
 
-    /// The first node that raises a comparison that holds already; [`UNREACHED`] where there is none.
+    /// The first node that raises a comparison that holds already; [`UNREACHED`] without such a node.
     pub(crate) fn supplier(&self, proposition: u32) -> u32 {
         self.supplier.get(proposition as usize).copied().unwrap_or(UNREACHED)
     }

@@ -53,7 +53,7 @@ pub(crate) trait Heuristic {
     /// Receives each step of the search to a new or known state, before the estimate of that state.
     fn step(&mut self, _from: StateId, _operator: OperatorId, _to: StateId, _words: &[u64]) {}
 
-    /// What the way to the goal behind the last estimate costs in real costs; 0 where there is none.
+    /// The real cost of the plan behind the last estimate; 0 without such a plan.
     fn rest(&self) -> u64 {
         0
     }

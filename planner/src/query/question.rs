@@ -32,7 +32,7 @@ impl<'a> Query<'a> {
     }
 }
 
-/// The excluded operators as a bit set; no words if there are none.
+/// The excluded operators as a bit set; empty if no operator is excluded.
 pub(crate) struct Barred {
     words: Vec<u64>,
 }

@@ -35,7 +35,7 @@ pub enum Quality {
 /// What improving came to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Improved {
-    /// The best plan, or why there is none.
+    /// The best plan, or why no plan was found.
     pub report: Report,
     /// What is known about the plan, where there is one.
     pub quality: Quality,

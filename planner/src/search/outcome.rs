@@ -35,7 +35,7 @@ pub enum UnsolvableReason {
 pub enum Outcome {
     /// A plan.
     Solved(Plan),
-    /// Proof that there is none.
+    /// Proof that no plan exists.
     Unsolvable(UnsolvableReason),
     /// No answer within the budget.
     LimitReached(Limit),

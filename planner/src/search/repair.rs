@@ -34,7 +34,7 @@ pub enum Preference {
 /// One way to a plan, and what came of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Attempt {
-    /// The plan, or why there is none, and what that took.
+    /// The plan, or why no plan was found, with the statistics.
     pub report: Report,
     /// How far the plan is from the old one; `None` without a plan.
     pub distance: Option<Distance>,
@@ -63,7 +63,7 @@ pub enum Way {
 /// What repair came to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Repaired {
-    /// Which plan was chosen; `None` where there is none.
+    /// Which plan was chosen; `None` without a plan.
     pub way: Option<Way>,
     /// The attempt to reuse the old plan.
     pub reused: Attempt,
@@ -92,7 +92,7 @@ impl Repaired {
         Self { way, reused, fresh }
     }
 
-    /// The attempt whose plan was chosen, or the one that says why there is none.
+    /// The attempt whose plan was chosen, or the one that explains why no plan was found.
     pub fn chosen(&self) -> &Attempt {
         match (self.way, &self.fresh) {
             (Some(Way::Scratch) | None, Some(fresh)) => fresh,

@@ -1,12 +1,15 @@
 //! Axioms, evaluated per state to a fixpoint.
 //!
-//! Problem: derived facts are functions of the basic ones and must be right in every state. Idea:
-//! facts that depend on each other form components; in topological order each is decided in one
-//! pass, or, where it is recursive, by following what each new fact brings about. After a step only
-//! the components are decided again that read something that changed, and if they come out as before,
-//! nothing above them is. Invariant: no negative dependency inside a component (that is
-//! stratification; grounding refuses anything else). Cost: the rules of the components that are
-//! decided, each once, and once more for each of its recursive conditions.
+//! Problem: derived facts are functions of the basic ones and must be right in every state. Idea: facts that depend on
+//! each other form a strongly connected component. The components are decided in topological order, each in one pass; a
+//! recursive one also follows the consequences of each new fact. After a step, a component is decided again only if
+//! something that it reads has changed. Invariant: no negative dependency inside a component (stratification; grounding
+//! rejects anything else). Cost: each rule of the components that are decided, once, and once more for each of its
+//! recursive conditions.
+//!
+//! The components come from our own Tarjan, because it must neither recurse nor run unmetered: a chain of derived facts
+//! can contain every fact of the task. petgraph's `tarjan_scc` recurses once per fact of such a chain. Its `kosaraju_scc`
+//! is iterative, but the caller's budget could not interrupt it.
 //!
 //! Source: Thiébaux, Hoffmann & Nebel, "In defense of PDDL axioms", AIJ 2005, §2.
 
@@ -16,7 +19,7 @@ use crate::ids::{FactId, id32};
 use budget::{Interrupted, Meter};
 use pddl::model::{Idx, IndexVec};
 
-/// `head` holds where `body` does.
+/// `head` holds in every state in which `body` holds.
 #[derive(Clone, Debug)]
 pub struct AxiomRule {
     /// The derived fact.
@@ -37,7 +40,7 @@ struct Component {
 pub(crate) struct AxiomProgram {
     rules: Vec<AxiomRule>,
     components: Vec<Component>,
-    /// A set bit for each fact that some rule reads.
+    /// A set bit for each fact that a rule reads.
     read: Vec<u64>,
     /// By fact, the components that read it (other than its own).
     readers: Rows,
@@ -100,7 +103,7 @@ impl AxiomProgram {
         Ok(program)
     }
 
-    /// Notes who reads what.
+    /// Fills `read`, `readers` and `followers`.
     fn index(&mut self, facts: usize, component_of: &[usize], meter: &Meter<'_>) -> Result<(), Interrupted> {
         self.read = vec![0; facts.div_ceil(64)];
         let (mut reads, mut needs) = (Rows::default(), Rows::default());
@@ -136,8 +139,8 @@ impl AxiomProgram {
         }
     }
 
-    /// Decides the derived facts after a step from the closed state `before`: `words` has the basic facts
-    /// as they are now, and the derived ones as they were.
+    /// Decides the derived facts after a step from the closed state `before`. `words` has the basic facts of the new
+    /// state and the derived facts of `before`.
     pub(crate) fn update(&self, before: &[u64], words: &mut [u64]) {
         if self.components.is_empty() {
             return;
@@ -157,7 +160,7 @@ impl AxiomProgram {
         if !any {
             return;
         }
-        // Readers of a component come after it, so one walk upwards meets them all.
+        // Readers of a component come after it, so one ascending pass reaches them all.
         for block in 0..waiting.len() {
             while waiting[block] != 0 {
                 let bit = waiting[block].trailing_zeros() as usize;
@@ -173,7 +176,7 @@ impl AxiomProgram {
         }
     }
 
-    /// Decides the facts of one component; those below it are right.
+    /// Decides the facts of one component. The components below it must be up to date.
     fn decide(&self, component: &Component, words: &mut [u64]) {
         component.heads.iter().for_each(|&head| unset(words, head));
         let mut new = Vec::new();

@@ -62,7 +62,7 @@ pub struct ConditionalEffects<'a> {
 }
 
 impl<'a> ConditionalEffects<'a> {
-    /// Whether there are none.
+    /// Whether the list is empty.
     pub fn is_empty(self) -> bool {
         self.first == self.end
     }

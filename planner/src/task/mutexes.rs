@@ -70,7 +70,7 @@ impl Mutexes {
         self.exact.len()
     }
 
-    /// Whether there are none.
+    /// Whether no groups are known.
     pub fn is_empty(&self) -> bool {
         self.exact.is_empty()
     }

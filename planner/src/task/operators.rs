@@ -76,7 +76,7 @@ impl Operators {
         self.actions.len()
     }
 
-    /// Whether there are none.
+    /// Whether the task has no operators.
     pub fn is_empty(&self) -> bool {
         self.actions.is_empty()
     }

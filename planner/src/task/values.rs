@@ -1,12 +1,12 @@
-//! Which predicates of the compiled model stand for object fluents.
+//! The predicates that represent object fluents.
 //!
-//! Grounding turns a function `(f ?x) - t` into a predicate `(f ?x ?value)`. Names, facts and explanations need
-//! the way back.
+//! Grounding compiles a function `(f ?x) - t` into a predicate `(f ?x ?value)`. Names, facts and explanations map such
+//! an atom back to its fluent and value.
 
 use crate::ids::id32;
 use pddl::model::{Domain, FunctionId, GroundApplication, ObjectId, PredicateId};
 
-/// Which predicates stand for functions.
+/// The predicates that represent functions; they follow the declared ones.
 #[derive(Clone, Debug)]
 pub(crate) struct ValuePredicates {
     first: u32,
@@ -14,12 +14,12 @@ pub(crate) struct ValuePredicates {
 }
 
 impl ValuePredicates {
-    /// For these functions, in this order.
+    /// The predicates of these functions, in this order.
     pub(crate) fn new(domain: &Domain, functions: Vec<FunctionId>) -> Self {
         Self { first: id32(domain.predicates.len()), functions }
     }
 
-    /// None in a domain without object fluents.
+    /// No predicates, for a domain without object fluents.
     pub(crate) fn none(domain: &Domain) -> Self {
         Self::new(domain, Vec::new())
     }
@@ -28,7 +28,7 @@ impl ValuePredicates {
         self.functions.get(predicate.0.checked_sub(self.first)? as usize).copied()
     }
 
-    /// The fluent and the value that an atom stands for.
+    /// The fluent and the value that an atom represents.
     pub(crate) fn value(
         &self,
         predicate: PredicateId,

@@ -1,8 +1,8 @@
-//! Which operators would apply, were they not excluded.
+//! Which of the excluded operators would apply otherwise.
 //!
-//! Problem: an operator that the query excludes need not be what is missing; what it needs may never hold, either.
-//! Idea: states that are reached without the excluded operators are visited, breadth first, until each of these
-//! applied in one. Invariant: of an operator it is denied only if all states were visited. Cost: at most [`STATES`]
+//! Problem: allowing an operator that the query excludes may not help, because its precondition may never hold, either.
+//! Idea: visit the states that are reachable without the excluded operators, breadth first, until each of these was
+//! applicable in one. Invariant: an operator is ruled out only if all states were visited. Cost: at most [`STATES`]
 //! states and the caller's budget, once, and only on the first question.
 
 use std::ops::ControlFlow;
@@ -12,13 +12,13 @@ use super::oracle::Oracle;
 use crate::ids::OperatorId;
 use budget::Budget;
 
-/// States that are visited: few, for one line of an explanation that an author waits for.
+/// The most states that are visited: few, because an author waits for one line of an explanation.
 pub(super) const STATES: u32 = 2_000;
 
 pub(super) struct Bans {
-    /// Excluded operators that did not apply in any state visited.
+    /// The excluded operators that were not applicable in any visited state.
     idle: Vec<OperatorId>,
-    /// Whether these were all states.
+    /// Whether all states were visited.
     complete: bool,
 }
 
@@ -33,7 +33,7 @@ impl Bans {
         Self { idle, complete: visited.complete }
     }
 
-    /// Whether an excluded operator may apply in a reachable state; `false` is proven.
+    /// Whether an excluded operator may apply in a reachable state; `false` is a proof.
     pub(super) fn may_bar(&self, operator: OperatorId) -> bool {
         !(self.complete && self.idle.contains(&operator))
     }

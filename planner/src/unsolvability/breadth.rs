@@ -1,7 +1,7 @@
 //! Visits all reachable states, breadth first, within the caller's budget.
 //!
-//! Invariant: `complete` only if every state that can be reached without the excluded operators was looked at. The first
-//! state is always looked at. Cost: the states and operators visited.
+//! Invariant: `complete` only if every state that can be reached without the excluded operators was visited. The first
+//! state is always visited. Cost: the states and operators visited.
 
 use std::ops::ControlFlow;
 
@@ -10,16 +10,17 @@ use crate::search::{Query, StateRegistry};
 use crate::task::Task;
 use budget::Budget;
 
-/// What a visit has left behind.
+/// The result of a visit.
 pub(super) struct Visited<'t> {
     pub(super) registry: StateRegistry<'t>,
-    /// How many states were looked at.
+    /// The number of states visited.
     pub(super) states: u32,
-    /// Whether these were all.
+    /// Whether all reachable states were visited.
     pub(super) complete: bool,
 }
 
-/// Looks at states, at most so many, with all operators that apply there, excluded ones too, until `look` breaks.
+/// Visits at most `most` states, until `look` breaks. `look` gets a state and all operators that are applicable in it,
+/// including excluded ones.
 pub(super) fn visit<'t>(
     task: &'t Task,
     query: &Query<'_>,
@@ -57,7 +58,7 @@ pub(super) fn visit<'t>(
         for &operator in &successors {
             next.copy_from_slice(&here);
             if !task.apply(operator, &here, &mut next) {
-                // A number is too long, and what comes after it is not seen.
+                // A number is too long, so the states behind this operator are not visited.
                 complete = false;
             } else if registry.insert(&next, Some((id, operator))).1 {
                 known += 1;

@@ -1,8 +1,8 @@
-//! Which parts of the goal are never so.
+//! Which parts of the goal never hold.
 //!
-//! Idea: a conjunct is refuted if the oracle or an interval denies it; a disjunction if all its parts are; a
-//! universal part by one instance; an existential one as a whole, its variables open, or by all its instances.
-//! Cost: bounded instances.
+//! Idea: a conjunct is refuted if the oracle or an interval denies it; a disjunction if all its parts are refuted; a
+//! universal part if one instance is refuted. An existential part is refuted as a whole, with open variables, or by
+//! refuting each of its instances. Cost: bounded instances.
 
 use super::oracle::Oracle;
 use super::reasons::Reasons;
@@ -12,7 +12,7 @@ use analysis::intervals::{Ranges, Reachable};
 use analysis::{Binding, Compared, Literal};
 use pddl::model::{Condition, ConditionKind, ObjectId, VariableId};
 
-/// Instances of a quantified part.
+/// The most instances of a quantified part that are checked.
 const INSTANCES: usize = 1_000;
 
 pub(super) struct Walk<'a> {
@@ -25,9 +25,9 @@ impl<'a> Walk<'a> {
         Binding::new(&self.oracle.instance.problem.goal_variables)
     }
 
-    /// The conjuncts that are never so.
+    /// The conjuncts that never hold.
     pub(super) fn parts(&self, reasons: &mut Reasons<'_>) -> Vec<Part> {
-        // What was noted of a part that is possible after all must not be told.
+        // A part may turn out to be possible after some of its literals were noted; those must not be reported.
         let mut noted = reasons.without_nodes();
         let mut found = Vec::new();
         let goal = &self.oracle.instance.problem.goal;
@@ -45,7 +45,7 @@ impl<'a> Walk<'a> {
         found
     }
 
-    /// Facts that the goal needs to be true, whatever else.
+    /// Facts that are true in every state that satisfies the goal.
     pub(super) fn required(&self) -> Vec<FactId> {
         let mut found = Vec::new();
         let binding = self.binding();
@@ -68,7 +68,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// What it would take, if none of that is ever so; `None` if there is no such proof.
+    /// What the part needs, if it is proven that none of this ever holds; `None` without a proof.
     fn refuted(
         &self,
         part: &Condition,
@@ -137,8 +137,8 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Visits instances until one is answered with `false`; whether all were answered with `true`, `None` if there
-    /// are too many.
+    /// Visits instances until `visit` returns `false`. Returns whether it returned `true` for all, or `None` if there are
+    /// too many instances.
     fn instances(
         &self,
         variables: &[VariableId],

@@ -1,12 +1,16 @@
 //! Why there is no plan, as far as that was proven.
 //!
-//! Problem: "no plan" does not help an author to mend a model. Idea: three proofs, each reported in its own terms.
-//! What grounding never reaches although nothing is ever deleted is traced back to what nothing gives
-//! (`reasons`); numbers are bounded by intervals (`ranges`); facts of one mutex group exclude each other; and
-//! where the search has visited every state, they are visited once more, to say which goals never held, which
-//! never together, and how near one came (`space`). An excluded operator is reported only where it would apply
-//! (`bans`). Invariant: nothing is claimed that was not proven; what there is no proof for is left out. Cost: bounded in
-//! all of them.
+//! Problem: "no plan" does not help an author to mend a model. Idea: there are several proofs, and each is reported in
+//! its own terms.
+//! - `reasons` traces a literal that grounding never reaches, although it ignores deletes, back to the literals that no
+//!   action and no axiom achieves.
+//! - `analysis::intervals` bounds the numbers.
+//! - Facts of one mutex group exclude each other.
+//! - Where the search visited every state, `space` visits them once more. It reports which goals never held, which pairs
+//!   never held together, and how near a state came to the goal.
+//! - `bans` reports an excluded operator only where it would otherwise apply.
+//!
+//! Invariant: an explanation claims only what was proven, and leaves out the rest. Cost: bounded in all of them.
 //!
 //! Source: Göbelbecker et al., "Coming up with good excuses", ICAPS 2010, for the question.
 
@@ -44,9 +48,10 @@ use record::MOST;
 /// Operators whose comparisons are looked at.
 const OPERATORS: usize = 5_000;
 
-/// Says why `task`, the grounding of `problem`, has no plan from the query's state without the operators that it
-/// excludes; its goal must be the problem's own. `reason` is what the search said of that; `budget` bounds the visits of
-/// states: where these were exhausted, and where it is to be told whether it is an excluded operator that is missing.
+/// Explains why `task`, the grounding of `problem`, has no plan for the query: from its state, without the operators that
+/// it excludes. The query's goal must be the problem's own. `reason` is the result of the search. `budget` bounds both
+/// visits of states: the one after the search exhausted them, and the one that finds out whether an excluded operator is
+/// missing.
 pub fn explain(
     domain: &Domain,
     problem: &Problem,
@@ -82,7 +87,7 @@ fn values(instance: Instance<'_>, task: &Task, state: &State) -> Values {
     values
 }
 
-/// Operators that need a comparison that never holds.
+/// The operators whose precondition has a comparison that never holds.
 fn out_of_range(oracle: &Oracle<'_>, values: &Values) -> Vec<OperatorId> {
     let (domain, task) = (oracle.instance.domain, oracle.task);
     let compares = |action: &Action| {
@@ -106,9 +111,9 @@ fn out_of_range(oracle: &Oracle<'_>, values: &Values) -> Vec<OperatorId> {
     candidates.take(OPERATORS).filter(|(_, operator)| never(operator)).map(|(id, _)| id).collect()
 }
 
-/// The pairs of which the task's groups say that they exclude each other.
+/// The pairs of facts that share a mutex group of the task.
 fn exclusive(task: &Task, state: &State, facts: &[FactId], reason: &UnsolvableReason) -> Vec<Exclusive> {
-    // Groups are kept by whatever operators do, if they hold at first.
+    // If the groups hold in this state, every operator keeps them.
     if !task.mutexes().keep(state.words()) {
         return Vec::new();
     }
@@ -122,7 +127,7 @@ fn exclusive(task: &Task, state: &State, facts: &[FactId], reason: &UnsolvableRe
             }
         }
     }
-    // Where one of the two never changes, it is no fact of the task, and grounding alone has seen the group.
+    // An atom that never changes is not a fact of the task. Only grounding has then seen the group.
     if let (true, UnsolvableReason::Impossible(Impossible::Exclusive(atoms))) = (found.is_empty(), reason)
         && let [a, b] = atoms.as_slice()
     {

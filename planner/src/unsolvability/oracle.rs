@@ -1,8 +1,8 @@
-//! What may ever hold: the one place that decides it.
+//! Which literals may ever hold: the one place that decides it.
 //!
-//! Idea: grounding reached every atom that is true in some state if nothing is ever deleted, and knows the atoms
-//! that nothing deletes; one more exploration of the grounded relaxation from the query's state adds what only
-//! shows there. Invariant: what may hold in a reachable state is never denied.
+//! Idea: grounding has reached every atom that is true in some state if deletes are ignored, and it knows the atoms that
+//! nothing deletes. One more exploration of the grounded relaxation from the query's state rules out more. Invariant: the
+//! oracle never denies a literal that holds in a reachable state.
 
 use crate::heuristics::{Combine, Costs, Explorer};
 use crate::ids::{FactId, OperatorId, id32};
@@ -16,7 +16,7 @@ use pddl::model::{ActionId, EffectKind, Idx, Name, ObjectId, PredicateId};
 pub(super) struct Oracle<'a> {
     pub(super) instance: Instance<'a>,
     pub(super) task: &'a Task,
-    /// From where, and without what.
+    /// The state in which the query starts, and the operators that it excludes.
     pub(super) query: Query<'a>,
     /// By predicate: the atoms that may hold.
     possible: Vec<Vec<u32>>,
@@ -24,12 +24,12 @@ pub(super) struct Oracle<'a> {
     is_static: Vec<bool>,
     /// By fact: whether it may become false.
     may_fail: Vec<bool>,
-    /// Operators that the query excludes, and of which everything that they need may hold.
+    /// The excluded operators whose needs may all hold.
     may_apply: Vec<OperatorId>,
 }
 
 impl<'a> Oracle<'a> {
-    /// `never` are operators that are known never to apply.
+    /// `never` lists operators that provably never apply.
     pub(super) fn new(
         instance: Instance<'a>,
         task: &'a Task,
@@ -81,13 +81,13 @@ impl<'a> Oracle<'a> {
         Self { instance, task, query, possible, is_static, may_fail, may_apply }
     }
 
-    /// The arguments of the atoms that may hold and fit.
+    /// The arguments of the atoms that may hold and match `wanted`.
     pub(super) fn matches<'s>(&'s self, wanted: &'s Literal) -> impl Iterator<Item = &'s [u32]> {
         let atoms = self.possible.get(wanted.pattern.predicate.index()).map_or(&[][..], Vec::as_slice);
         atoms.iter().map(|&atom| self.task.atoms.row(atom)).filter(|row| fits(wanted, row))
     }
 
-    /// The operators of an action that fit and that the query excludes, with their arguments.
+    /// The operators of an action that the query excludes and whose arguments match, with these arguments.
     pub(super) fn excluded<'s>(
         &'s self,
         action: ActionId,
@@ -102,12 +102,12 @@ impl<'a> Oracle<'a> {
             .map(|(id, o)| (id, o.arguments))
     }
 
-    /// Whether each literal that an excluded operator needs may hold in some reachable state; `false` is proven.
+    /// Whether each literal that an excluded operator needs may hold in some reachable state; `false` is a proof.
     pub(super) fn may_apply(&self, excluded: OperatorId) -> bool {
         self.may_apply.contains(&excluded)
     }
 
-    /// Whether nothing ever changes atoms of the predicate.
+    /// Whether no action and no axiom changes atoms of the predicate.
     pub(super) fn is_static(&self, predicate: PredicateId) -> bool {
         self.is_static.get(predicate.index()).copied().unwrap_or(false)
     }
@@ -128,7 +128,7 @@ impl Reachable for Oracle<'_> {
     }
 }
 
-/// Whether a row fits, equal variables being equal objects.
+/// Whether a row matches the pattern: equal variables must have equal objects.
 fn fits(wanted: &Literal, row: &[u32]) -> bool {
     let arguments = &wanted.pattern.arguments;
     arguments.iter().zip(row).enumerate().all(|(i, (argument, &object))| match argument {

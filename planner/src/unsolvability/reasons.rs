@@ -1,11 +1,12 @@
-//! Why a literal is never so: what would give it, and what that lacks, down to what nothing gives.
+//! Why a literal never holds: what would achieve it and what these achievers lack, down to literals without achievers.
 //!
-//! Idea: of a literal that the oracle denies, every effect (or axiom) that would give it is denied, too: it needs
-//! a literal that is never so, or a comparison that never holds, or its conditions never come together. Each
-//! literal is a node of one graph, looked at once, breadth first; a cycle is an edge to a node that is known. Where
-//! no single condition of an achiever is denied, its static conditions are joined, and each instance that these leave is
-//! asked by itself; where that is not enough, all its conditions are. Only those of the query's bans are reported that keep
-//! an instance that lacks nothing else. Cost: bounded nodes, achievers of each and rows of a join; what is beyond is counted.
+//! Idea: if the oracle denies a literal, then every effect (or axiom) that would achieve it is impossible, too. It needs a
+//! literal that never holds or a comparison that never holds, or its conditions never hold together. Each literal is a
+//! node of one graph, explored once, breadth first; a cycle is an edge to a known node. If no single condition of an
+//! achiever is denied, its static conditions are joined, and each instance in the result is checked by itself. If that is
+//! not enough, all its conditions are joined. A ban of the query is reported only if the banned instance lacks nothing
+//! else. Cost: the nodes, the achievers of each node and the rows of a join are bounded; achievers beyond the bound are
+//! counted.
 
 use super::bans::Bans;
 use super::oracle::Oracle;
@@ -17,68 +18,69 @@ use budget::Budget;
 use pddl::model::{Action, ActionId, Axiom, Condition, Name, ObjectId};
 use std::cell::OnceCell;
 
-/// Literals that are looked at.
+/// The most literals that are explored.
 const REASONS: usize = 48;
-/// Achievers told of each literal.
+/// The most achievers of a literal that are reported.
 const GIVERS: usize = 8;
-/// Rows looked at in a join, and instances told apart.
+/// The most rows that a join reads.
 const ROWS: usize = 20_000;
+/// The most instances of an achiever that are reported one by one.
 const INSTANCES: usize = 24;
 
 /// A position in [`Explanation::reasons`](super::Explanation::reasons).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ReasonId(pub u32);
 
-/// A literal that is never so.
+/// A literal that never holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Reason {
     /// The literal.
     pub wanted: Literal,
-    /// Why it is never so.
+    /// Why it never holds.
     pub why: Why,
 }
 
-/// Why a literal is never so.
+/// Why a literal never holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Why {
-    /// No action and no axiom gives it, and it is not so to begin with.
+    /// No action and no axiom achieves it, and it does not hold in the initial state.
     NothingAchieves,
-    /// Whatever would give it never does.
+    /// None of its achievers ever applies.
     Achievers {
-        /// What would.
+        /// The achievers.
         achievers: Vec<Achiever>,
-        /// How many more there are.
+        /// The number of achievers that are left out.
         more: usize,
     },
-    /// That was not looked at: there are too many reasons.
+    /// Not explored: there are too many reasons.
     Unexplored,
 }
 
-/// What would give a literal.
+/// An action or axiom that would achieve a literal.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Achiever {
     /// The action; `None` for an axiom of the wanted predicate.
     pub action: Option<ActionId>,
-    /// Its parameters, as far as they are known.
+    /// Its arguments: an object, or the name of a parameter that is not bound.
     pub arguments: Vec<Result<ObjectId, Name>>,
-    /// What is in its way.
+    /// Why it never achieves the literal.
     pub obstruction: Obstruction,
 }
 
-/// What is in the way of an achiever.
+/// Why an achiever never achieves its literal.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Obstruction {
-    /// Each of these is enough.
+    /// It needs all of these, and each of them never holds.
     Needs(Vec<Need>),
-    /// Each of these may be so at some time, for some objects, but never all for the same ones.
+    /// Each of these literals may hold for some objects, but never all of them for the same objects.
     NeverTogether(Vec<Literal>),
     /// Its conditions never hold together.
     NeverApplies,
-    /// The query excludes it, and nothing else is known to be in its way.
+    /// The query excludes it, and no other reason is known.
     Excluded,
 }
 
-/// Something that is needed and never so.
+/// A need that never holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Need {
     /// A literal.
@@ -111,12 +113,12 @@ impl Candidate<'_> {
 }
 
 impl<'a> Reasons<'a> {
-    /// `budget` bounds the visit of states that tells what the bans are to blame for.
+    /// `budget` bounds the visit of states that finds out which bans matter.
     pub(super) fn new(oracle: &'a Oracle<'a>, ranges: &'a Ranges<'a>, budget: &'a Budget<'a>) -> Self {
         Self { oracle, ranges, budget, bans: OnceCell::new(), found: Vec::new() }
     }
 
-    /// Another graph on the same ground.
+    /// An empty graph for the same oracle, ranges and budget.
     pub(super) fn without_nodes(&self) -> Self {
         Self::new(self.oracle, self.ranges, self.budget)
     }
@@ -134,7 +136,7 @@ impl<'a> Reasons<'a> {
         &self.found[id.0 as usize].wanted
     }
 
-    /// Looks at all nodes, those that come up on the way included.
+    /// Explores all nodes, including those that are added on the way.
     pub(super) fn finish(mut self) -> Vec<Reason> {
         let mut next = 0;
         while next < self.found.len().min(REASONS) {
@@ -146,7 +148,7 @@ impl<'a> Reasons<'a> {
     }
 
     fn why(&mut self, wanted: &Literal) -> Why {
-        // Values of object fluents are predicates that the domain does not have, and a negated axiom has no achiever.
+        // The predicates of object fluents are not declared in the domain, and a negated derived atom has no achiever.
         let predicates = &self.oracle.instance.domain.predicates;
         let is_known = (wanted.pattern.predicate.0 as usize) < predicates.len();
         if !is_known || (!wanted.positive && predicates[wanted.pattern.predicate].derived) {
@@ -159,7 +161,7 @@ impl<'a> Reasons<'a> {
         if achievers.is_empty() {
             return Why::NothingAchieves;
         }
-        // Those that lack one thing say most.
+        // An achiever that lacks a single thing is the most helpful.
         achievers.sort_by_key(|achiever| match &achiever.obstruction {
             Obstructed::Needs(needs) => needs.len(),
             Obstructed::Excluded => 0,
@@ -192,7 +194,7 @@ impl<'a> Reasons<'a> {
         Achiever { action: achiever.action, arguments: achiever.arguments, obstruction }
     }
 
-    /// Every effect and axiom that would give it.
+    /// Every effect and axiom that would achieve the literal.
     fn candidates(&self, wanted: &Literal) -> Vec<Candidate<'a>> {
         let oracle = self.oracle;
         let mut found = Vec::new();
@@ -224,7 +226,7 @@ impl<'a> Reasons<'a> {
         found
     }
 
-    /// What is in the way of an achiever, or of each instance of it.
+    /// Why an achiever, or each instance of it, never achieves its literal.
     fn hindered(&self, candidate: &Candidate<'a>) -> Vec<Denied> {
         let Some(needs) = self.needs(candidate, &candidate.binding) else { return Vec::new() };
         let denied = |binding: &Binding<'_>, obstruction: Obstructed| candidate.denied(binding, obstruction);
@@ -245,7 +247,7 @@ impl<'a> Reasons<'a> {
         let Some(rows) = join.all(&fixed, &candidate.binding, INSTANCES) else { return together() };
         let mut found = Vec::new();
         for row in &rows {
-            // An instance that equality or types rule out is no achiever.
+            // An instance that equality or types rule out is not an achiever.
             let Some(needs) = self.needs(candidate, row) else { continue };
             let lacking = self.lacking(&needs, row);
             if lacking.is_empty() {
@@ -259,7 +261,7 @@ impl<'a> Reasons<'a> {
         if found.is_empty() { together() } else { found }
     }
 
-    /// What is in the way of each instance that the literals leave, where no single need of the achiever is denied.
+    /// Why each instance in the join of `literals` is impossible, if no single need of the achiever is denied.
     fn each(&self, candidate: &Candidate<'a>, literals: &[&Literal]) -> Vec<Denied> {
         let denied = |binding: &Binding<'_>, obstruction: Obstructed| candidate.denied(binding, obstruction);
         let mut join = Join { oracle: self.oracle, rows: 0 };
@@ -284,7 +286,7 @@ impl<'a> Reasons<'a> {
                 }
             }
         }
-        // What nothing but a ban keeps from applying must not be among what never applies.
+        // "Never applies" would be wrong of an instance that only a ban keeps from applying.
         let bars = found.iter().any(|found| found.obstruction == Obstructed::Excluded);
         if bars {
             open.dedup();
@@ -295,8 +297,8 @@ impl<'a> Reasons<'a> {
         found
     }
 
-    /// The instances of an achiever that the query excludes: what they lack, or that nothing else is in their way. What is
-    /// in the way of others is left out.
+    /// The instances of an achiever that the query excludes: those that lack something, and those that only the ban keeps
+    /// from applying. Instances that are impossible for another reason are left out.
     fn excluded(&self, candidate: &Candidate<'a>, binding: &Binding<'a>) -> Vec<Denied> {
         let Some(action) = candidate.action else { return Vec::new() };
         let wanted = binding.parameters();
@@ -341,7 +343,7 @@ impl<'a> Reasons<'a> {
         lacking
     }
 
-    /// The first conditions of which it is known that no objects satisfy all.
+    /// The shortest prefix of the conditions that provably no objects satisfy.
     fn never_together(
         &self,
         fixed: &[&Literal],
@@ -353,7 +355,7 @@ impl<'a> Reasons<'a> {
         let mut join = Join { oracle: self.oracle, rows: 0 };
         for count in 2..=all.len() {
             match join.all(&all[..count], &candidate.binding, 1) {
-                // A row proves that they hold together; no row proves nothing where the limit was reached.
+                // No row is a proof, unless the join reached its limit.
                 Some(rows) if rows.is_empty() => {
                     let together = all[..count].iter().map(|&w| w.clone()).collect();
                     return Some(Obstructed::NeverTogether(together));
@@ -366,7 +368,7 @@ impl<'a> Reasons<'a> {
     }
 }
 
-/// A achiever before its needs have nodes.
+/// An achiever whose needs have no nodes yet.
 #[derive(PartialEq)]
 struct Denied {
     action: Option<ActionId>,
@@ -395,7 +397,7 @@ struct Join<'a> {
 }
 
 impl Join<'_> {
-    /// All bindings that satisfy the literals; `None` if there are more than `most`, or it takes too long.
+    /// All bindings that satisfy the literals; `None` if there are more than `most`, or if the join reads too many rows.
     fn all<'v>(
         &mut self,
         literals: &[&Literal],

@@ -5,53 +5,53 @@ use super::space::Space;
 use analysis::intervals::NeverCompares;
 use pddl::Span;
 
-/// Parts of the goal, groups and pairs that are reported.
+/// How many parts of the goal, and how many pairs, are reported at most.
 pub(super) const MOST: usize = 32;
 
 /// A part of the goal that no reachable state satisfies.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Part {
-    /// Where it stands in the problem.
+    /// Its place in the problem.
     pub span: Span,
-    /// It would take one of these, and none of them is ever so.
+    /// The part needs one of these, and none of them ever holds.
     pub never: Vec<Never>,
 }
 
-/// What is never so.
+/// Something that never holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Never {
     /// A literal.
     Literal(ReasonId),
     /// A comparison of numbers.
     Number(NeverCompares),
-    /// What no action has any influence on.
+    /// A condition that no action can influence.
     Condition(Span),
 }
 
 /// Two atoms of the goal of which at most one ever holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Exclusive {
-    /// The two, as PDDL writes them.
+    /// The two atoms in PDDL.
     pub pair: [String; 2],
-    /// A group of which at most one holds, both included.
+    /// The mutex group that contains both: at most one of its atoms holds at a time.
     pub group: Vec<String>,
 }
 
 /// Why there is no plan.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Explanation {
-    /// Every part of the goal that is never so by itself.
+    /// Every part of the goal that never holds by itself.
     pub parts: Vec<Part>,
-    /// The reasons of literals, each once; [`ReasonId`] is the position.
+    /// The reasons of literals, each once. A [`ReasonId`] is a position in this list.
     pub reasons: Vec<Reason>,
     /// Pairs of the goal that exclude each other.
     pub exclusive: Vec<Exclusive>,
-    /// What a visit of the states showed, where that was the proof.
+    /// The result of visiting the states, if that was the proof.
     pub space: Option<Space>,
 }
 
 impl Explanation {
-    /// A reason.
+    /// The reason with this id.
     pub fn reason(&self, id: ReasonId) -> &Reason {
         &self.reasons[id.0 as usize]
     }

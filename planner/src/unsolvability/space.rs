@@ -1,9 +1,9 @@
 //! A visit of all states: which goals hold where.
 //!
-//! Problem: where the search has seen every state, none of the goal's parts need be impossible by itself. Idea:
-//! visit the states once more, breadth first, and note which goals held in any state, which together, how far
-//! numbers got, and which state had most. Invariant: what is said of all states is said only if all were visited. Cost:
-//! at most [`STATES`] states and the caller's budget.
+//! Problem: if the search exhausted the states, each part of the goal may be possible by itself. Idea: visit the states
+//! once more, breadth first. Note which goals held in a state, which held together, the extent of the numbers, and the
+//! state that satisfied most goals. Invariant: a claim about all states is made only if all were visited. Cost: at most
+//! [`STATES`] states and the caller's budget.
 
 use super::breadth::{self, Visited};
 use crate::ids::{FactId, FluentId, OperatorId, StateId, id32};
@@ -14,37 +14,37 @@ use budget::Budget;
 use pddl::model::{GroundApplication, Idx};
 use std::ops::ControlFlow;
 
-/// States that are visited.
+/// The most states that are visited.
 pub(super) const STATES: u32 = 200_000;
-/// Goals of which pairs are counted: bits of a word.
+/// The number of goals whose pairs are checked: the bits of a word.
 const PAIRED: usize = 64;
 
 /// A goal: a fact and whether it must hold.
 type Literal = (FactId, bool);
 
-/// What a visit of the states showed.
+/// The result of visiting the states.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Space {
-    /// States visited.
+    /// The number of states visited.
     pub states: u32,
     /// Whether these were all.
     pub complete: bool,
-    /// Goals that held in none of them.
+    /// Goals that held in no visited state.
     pub never: Vec<Literal>,
-    /// Pairs of other goals that held, and never together; of the first 64 goals.
+    /// Pairs of goals, among the first 64, that each held in some state but never together.
     pub apart: Vec<[Literal; 2]>,
-    /// Numeric fluents that the goal reads: the least and the largest value.
+    /// The numeric fluents that the goal reads, each with its least and its largest value.
     pub numbers: Vec<(GroundApplication, Number, Number)>,
-    /// The state that satisfies most.
+    /// A state that satisfies most goals.
     pub nearest: Nearest,
 }
 
-/// A state that satisfies as much of the goal as any.
+/// A state that satisfies at least as many goals as any other.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Nearest {
-    /// A shortest way there.
+    /// A shortest sequence of operators that leads there.
     pub steps: Vec<OperatorId>,
-    /// The goals that it lacks.
+    /// The goals that do not hold there.
     pub missing: Vec<Literal>,
 }
 
@@ -113,7 +113,7 @@ pub(super) fn visit(task: &Task, query: &Query<'_>, budget: &Budget<'_>) -> Spac
     }
 }
 
-/// The numeric fluents that comparisons among the goals read.
+/// The numeric fluents that the comparisons among the goals read.
 fn fluents(task: &Task, goals: &[Literal]) -> Vec<FluentId> {
     let mut found = Vec::new();
     for comparison in &task.numeric.comparisons {

@@ -1,8 +1,8 @@
 //! An explanation in words: a sentence, and a tree of reasons below it.
 //!
-//! Idea: what nothing can bring about comes first, as one sentence of the goal's parts; below it each reason once, indented
-//! by what needs it, until nothing is left that gives it. Invariant: nothing is said that the explanation does not hold.
-//! Cost: lines and names of a list are bounded.
+//! Idea: the sentence names the parts of the goal that nothing can achieve. The tree below it shows each reason once,
+//! indented under the literal that needs it, down to the literals without achievers. Invariant: the words claim nothing
+//! that the explanation does not contain. Cost: the lines, and the names of a list, are bounded.
 
 use super::{
     Achiever, Explanation, Extent, Literal, Need, Never, NeverCompares, Obstruction, ReasonId, Space, Why,
@@ -11,8 +11,9 @@ use crate::ids::FactId;
 use crate::task::Task;
 use analysis::text::listed;
 
-/// Lines of a tree, and names in a list.
+/// The most lines of a tree.
 const LINES: usize = 40;
+/// The most names of a list.
 const NAMES: usize = 12;
 
 /// An explanation with the names of its task.
@@ -23,12 +24,12 @@ pub struct Wording<'a> {
 }
 
 impl<'a> Wording<'a> {
-    /// Of an explanation of a task.
+    /// The wording of an explanation for this task.
     pub fn new(task: &'a Task, explanation: &'a Explanation) -> Self {
         Self { task, explanation }
     }
 
-    /// The whole in a sentence.
+    /// The whole explanation in one sentence.
     pub fn sentence(&self) -> String {
         let Explanation { parts, exclusive, space, .. } = self.explanation;
         let mut sentences = Vec::new();
@@ -60,7 +61,7 @@ impl<'a> Wording<'a> {
         sentences.join("; ")
     }
 
-    /// What is below the sentence, a line each.
+    /// The lines below the sentence.
     pub fn lines(&self) -> Vec<String> {
         let mut tree =
             Tree { of: self, shown: vec![false; self.explanation.reasons.len()], lines: Vec::new() };
@@ -87,8 +88,8 @@ impl<'a> Wording<'a> {
         lines
     }
 
-    /// The shortest way from the goal down to what the query excludes or, where there is nothing of that, to what nothing
-    /// gives: a line for each literal on it. Empty where the goal's parts are no literals.
+    /// The shortest path from the goal down to an achiever that the query excludes or, without one, to a literal without
+    /// achievers. Has a line for each literal on the path. Empty if no part of the goal is a literal.
     pub fn chain(&self) -> Vec<String> {
         let mut above: Vec<Option<(ReasonId, &Achiever)>> = vec![None; self.explanation.reasons.len()];
         let parts = self.explanation.parts.iter().flat_map(|part| &part.never);
@@ -134,7 +135,7 @@ impl<'a> Wording<'a> {
         lines
     }
 
-    /// What is in the way of an achiever, in a line.
+    /// Why an achiever is impossible, in one line.
     fn hindered(&self, wanted: &str, achiever: &Achiever, name: impl Fn(ReasonId) -> String) -> String {
         let by = self.achiever(achiever).unwrap_or_else(|| "its axiom".to_owned());
         let head = format!("{wanted} by {by}");
@@ -196,13 +197,13 @@ impl<'a> Wording<'a> {
         }
     }
 
-    /// A literal, as PDDL writes it.
+    /// A literal in PDDL.
     pub fn wanted(&self, wanted: &Literal) -> String {
         let name = self.task.pattern_name(&wanted.pattern);
         if wanted.positive { name } else { format!("(not {name})") }
     }
 
-    /// A goal of the task, as PDDL writes it.
+    /// A goal of the task in PDDL.
     pub fn goal(&self, (fact, positive): (FactId, bool)) -> String {
         let known = &self.task.facts()[fact];
         let name = if known.atom.is_none() && known.value.is_none() && !known.compares {
@@ -213,13 +214,13 @@ impl<'a> Wording<'a> {
         if positive { name } else { format!("(not {name})") }
     }
 
-    /// The action with what is known of its parameters; `None` for an axiom.
+    /// The action with its arguments as far as they are bound; `None` for an axiom.
     pub fn achiever(&self, achiever: &Achiever) -> Option<String> {
         achiever.action.map(|action| self.task.schema_name(action, &achiever.arguments))
     }
 }
 
-/// Reasons as lines, each reason once.
+/// The tree of reasons as lines, each reason once.
 struct Tree<'a> {
     of: &'a Wording<'a>,
     shown: Vec<bool>,
@@ -286,7 +287,7 @@ fn bounded(never: &NeverCompares) -> String {
     }
 }
 
-/// The first of many.
+/// The first [`NAMES`] of a list, and the number of the others.
 fn first(all: &[String]) -> String {
     let shown = all.iter().take(NAMES).cloned().collect::<Vec<_>>().join(", ");
     if all.len() > NAMES { format!("{shown} and {} more", all.len() - NAMES) } else { shown }

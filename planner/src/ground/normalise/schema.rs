@@ -35,25 +35,25 @@ pub(crate) struct NumericEffect {
     pub(crate) condition: Formula,
     pub(crate) operator: AssignOperator,
     pub(crate) fluent: Application,
-    /// `None` takes the value away.
+    /// The new value; `None` makes the fluent undefined.
     pub(crate) value: Option<Expression>,
 }
 
-/// What an action does to numbers.
+/// The numeric effects of an action.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct NumericEffects {
-    /// Of fluents that something reads.
+    /// Effects on fluents that a condition or an expression reads.
     pub(crate) changes: Vec<NumericEffect>,
-    /// Changes of fluents that nothing reads by what is static: all of this must have a value.
+    /// Effects on fluents that nothing reads, with static expressions. Only their values must be defined.
     pub(crate) defined: Vec<(AssignOperator, Application, Expression)>,
 }
 
-/// What a schema's instances are.
+/// What the instances of a schema become.
 #[derive(Clone, Debug)]
 pub(crate) enum Product {
     /// Operators.
     Action { id: ActionId, effects: Vec<SchemaEffect>, costs: Vec<CostTerm>, numbers: NumericEffects },
-    /// Rules for this head.
+    /// Rules with this head.
     Axiom { predicate: PredicateId, arguments: Box<[Term]> },
 }
 
@@ -63,14 +63,14 @@ pub(crate) struct Schema {
     pub(crate) name: Name,
     pub(crate) slots: Vec<Arc<Range>>,
     pub(crate) parameters: usize,
-    /// Existential variables of the top level.
+    /// Existential variables at the top level of the condition.
     pub(crate) hoisted: Vec<VariableId>,
     pub(crate) condition: Formula,
     pub(crate) product: Product,
 }
 
 impl Schema {
-    /// Bytes that an instance takes at least.
+    /// A lower bound on the bytes of an instance.
     pub(crate) fn instance_bytes(&self) -> usize {
         let effects = match &self.product {
             Product::Action { effects, .. } => effects.iter().map(|e| 1 + e.condition.leaves()).sum(),
@@ -80,7 +80,7 @@ impl Schema {
     }
 }
 
-/// Disjuncts of an axiom's body that become rules of their own.
+/// The most disjuncts of an axiom's body that become separate rules.
 const RULES_PER_AXIOM: usize = 32;
 
 /// All schemas of a domain.
@@ -154,8 +154,9 @@ struct Collected {
     numbers: NumericEffects,
 }
 
-/// What is around an effect. An atom may be added once per witness of an existential condition, so these
-/// are quantified like universal ones; a number must not be increased once per witness.
+/// The quantifiers and conditions around an effect. For an atom, the variables of existential conditions are quantified
+/// like universal ones, because adding an atom once per witness changes nothing. For a number this would be wrong: it must
+/// not be increased once per witness.
 #[derive(Clone)]
 struct Around {
     quantified: Vec<VariableId>,
