@@ -1,9 +1,9 @@
-//! A domain with or without a problem as Datalog rules over an initial database.
+//! Compiles a domain, with or without a problem, to Datalog rules over an initial database.
 //!
-//! Invariant: whatever a plan can make true, some rule derives. A durative action is two rules: its
-//! start needs what must hold then, its end all that it ever needs, so that what its own start makes
-//! true counts; each conditional effect is a rule of its own. Heads whose slots are among another
-//! head's share its rule; others get one each, since a join for fewer slots is cheaper.
+//! Invariant: the rules derive every atom that a plan can make true. A durative action becomes two rules. The start rule
+//! needs the conditions at the start; the end rule needs all conditions of the action, so that the effects of its own
+//! start count. Each conditional effect becomes a rule of its own. A head whose slots are among the slots of another head
+//! shares its rule. Any other head gets its own rule, because a join for fewer slots is cheaper.
 
 use std::rc::Rc;
 
@@ -23,17 +23,17 @@ use super::relax::{Conjunction, Knowledge, Relaxer, free_slots, slots_of};
 use super::rule::{Check, Origin, Pattern, Rule};
 use super::world::{Range, World};
 
-/// Everything that evaluation starts with.
+/// The input of the evaluation.
 pub(crate) struct Compiled<'a> {
     pub(crate) evaluator: Evaluator<'a>,
     pub(crate) rows: Rows,
     pub(crate) tasks: Vec<RelationId>,
     pub(crate) rules: Vec<Rule>,
-    /// All that may fire, whether or not there is a rule for it.
+    /// Every origin in the domain, with or without a rule.
     pub(crate) origins: Vec<Origin>,
 }
 
-/// The rules of all but the hierarchy.
+/// Compiles everything except the task hierarchy.
 pub(crate) fn compile<'a>(world: &Rc<World<'a>>, hulls: &Rc<Hulls>) -> Compiled<'a> {
     let domain = world.domain;
     let mut rows = Rows::default();
@@ -151,7 +151,7 @@ impl Compiled<'_> {
                         let arguments = application.arguments.iter().copied().chain([*value]).collect();
                         Pattern { relation, arguments, span: application.span }
                     }
-                    // It is reported when nothing ever meets its condition, whatever it does.
+                    // A conditional effect always gets a rule: a condition that never holds is reported.
                     _ if context.when.is_empty() => return,
                     _ => {
                         group(&mut groups, &context.when);
@@ -170,7 +170,7 @@ impl Compiled<'_> {
             let mut body = base.clone();
             if !when.is_empty() {
                 let more = self.relaxer().conjoin(&when);
-                // Too many alternatives: the effect's own condition is what tells.
+                // With too many alternatives, the effect's own condition is the more informative one.
                 let both: Vec<_> = base.iter().flat_map(|b| more.iter().map(|m| b.and(m))).collect();
                 body = if both.len() > 64 { more } else { both };
             }
@@ -274,7 +274,7 @@ impl Compiled<'_> {
                 }
             };
             let alternatives = self.relaxer().conjoin(&conditions);
-            // More are left out: that only makes more methods usable.
+            // Further conditions are left out, which only makes more methods usable.
             let [alternative] = alternatives.as_slice() else {
                 if alternatives.is_empty() {
                     rows.clear();
@@ -303,7 +303,7 @@ impl Compiled<'_> {
     }
 }
 
-/// A conjunction with other terms; checks that hold whole conditions are left out.
+/// A conjunction with its terms replaced, without its comparisons and residual checks.
 fn inlined(conjunction: &Conjunction, into: &dyn Fn(Term) -> Term) -> Conjunction {
     let pattern = |p: &Pattern| Pattern {
         relation: p.relation,
@@ -336,7 +336,7 @@ fn group<'g, 'c>(
     &mut groups[at].1
 }
 
-/// Heads by rule; one empty list if there is no head.
+/// Groups heads by rule. Without heads, the result is one empty list.
 fn shared(mut heads: Vec<Pattern>) -> Vec<Vec<Pattern>> {
     let slots = |p: &Pattern| -> Vec<usize> {
         let mut slots: Vec<usize> = slots_of(&p.arguments).collect();
@@ -374,10 +374,10 @@ fn needs(check: &Check) -> Vec<usize> {
     slots
 }
 
-/// The conjuncts of the goal, what holds for all objects one by one: condition and values of slots.
+/// The conjuncts of the goal, each with the values of its slots. A universal part contributes one conjunct per object.
 pub(crate) fn goals<'a>(world: &World<'a>) -> Vec<(&'a Condition, Vec<(VariableId, ObjectId)>)> {
     use pddl::model::ConditionKind;
-    /// A goal of more conjuncts is not looked at one by one.
+    /// A goal with more conjuncts is kept whole.
     const MOST: usize = 20_000;
     let Some(problem) = world.problem else { return Vec::new() };
     let mut goals = vec![(&problem.goal, Vec::new())];
@@ -408,7 +408,7 @@ pub(crate) fn goals<'a>(world: &World<'a>) -> Vec<(&'a Condition, Vec<(VariableI
     goals
 }
 
-/// A goal's alternatives as rules without heads, with the values that are given.
+/// The alternatives of a goal as rules without heads.
 pub(crate) fn goal_rules(
     compiled: &Compiled<'_>,
     number: usize,

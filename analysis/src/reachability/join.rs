@@ -1,10 +1,9 @@
 //! The order in which a rule's atoms are joined, and the search along it.
 //!
-//! Idea: greedy, by the number of rows that each atom is expected to add: those of static relations
-//! are measured, those of changing ones guessed from what their free slots range over. As soon as
-//! the slots of the heads have values, the rest is only asked for *one* solution, and for none if the
-//! heads are known already. Invariant: a plan visits every solution up to those that differ only in
-//! slots that no head names.
+//! Idea: a greedy order, by the number of rows that each atom is expected to add. For static relations this number is
+//! measured; for changing relations it is estimated from the ranges of the free slots. As soon as all slots of the heads
+//! have values, *one* solution of the rest is enough, and the search skips it if the heads are known already. Invariant:
+//! of the solutions that agree on the slots of the heads, a plan visits at least one.
 
 use budget::{Interrupted, Meter};
 
@@ -19,17 +18,17 @@ use super::world::{UNBOUND, resolve, with_row};
 pub(crate) enum Step {
     /// A side condition, by position.
     Check(usize),
-    /// Looks an atom's candidates up; those of its slots that have no value yet get one.
+    /// Looks up the candidates of an atom, and binds its slots that have no value yet.
     Scan { atom: usize, index: usize, binds: Box<[usize]> },
-    /// An atom all of whose slots have values.
+    /// Looks up an atom whose slots all have values.
     Probe(usize),
-    /// All objects of a slot.
+    /// Tries all objects of a slot.
     Enumerate(usize),
-    /// From here on one solution is enough.
+    /// From here on, one solution is enough.
     Decided,
 }
 
-/// Plans a rule whose `bound` slots have values; `trigger` is joined already.
+/// Plans the join of a rule whose `bound` slots have values. The atom `trigger` is joined already.
 pub(crate) fn plan(
     rule: &Rule,
     bound: &mut [bool],
@@ -103,7 +102,7 @@ pub(crate) fn plan(
             steps.push(Step::Scan { atom, index, binds: binds.into() });
             continue;
         }
-        // Nothing left to join: what checks need, one slot at a time.
+        // All atoms are joined. Enumerate the slots that the checks need, one at a time.
         let next = checks.iter().flat_map(|&c| &rule.needs[c]).find(|&&s| !bound[s]).copied();
         if let Some(slot) = next {
             bound[slot] = true;
@@ -117,11 +116,11 @@ pub(crate) fn plan(
 
 /// The consumer of solutions.
 pub(crate) trait Sink {
-    /// Whether solutions are wanted with these values of the heads' slots.
+    /// Whether a solution with these values of the heads' slots is wanted.
     fn wanted(&mut self, rows: &Rows, binding: &[u32]) -> bool;
-    /// A solution.
+    /// Receives a solution.
     fn found(&mut self, rows: &mut Rows, binding: &[u32]);
-    /// A binding for which only a residual check fails, so far.
+    /// Receives a binding for which only a residual check has failed so far.
     fn open(&mut self, binding: &[u32]);
 }
 
@@ -138,7 +137,7 @@ pub(crate) struct Join<'a, S> {
 }
 
 impl<S: Sink> Join<'_, S> {
-    /// Follows the plan from a step; whether there was a solution.
+    /// Follows the plan from a step. Returns whether it found a solution.
     pub(crate) fn run(
         &mut self,
         at: usize,
@@ -188,7 +187,7 @@ impl<S: Sink> Join<'_, S> {
                         break;
                     }
                 }
-                // A solution stays in the binding for the caller to read.
+                // The caller reads the solution from the binding.
                 if !(any && decided) {
                     binding[*slot] = UNBOUND;
                 }
@@ -217,7 +216,7 @@ impl<S: Sink> Join<'_, S> {
     }
 }
 
-/// Matches terms with a row; slots without a value get one of their range.
+/// Matches terms with a row and binds the slots without a value. Fails if an object is not in the range of its slot.
 pub(crate) fn unify(rule: &Rule, terms: &[pddl::model::Term], row: &[u32], binding: &mut [u32]) -> bool {
     terms.iter().zip(row).all(|(&term, &object)| match term {
         pddl::model::Term::Object(o) => o.0 == object,

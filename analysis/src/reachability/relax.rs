@@ -1,10 +1,9 @@
 //! Conditions as alternatives of atoms to join and checks to make.
 //!
-//! Idea: disjunctions multiply out while they stay few; a larger one, and what holds for all
-//! objects, is left whole as a check that is evaluated under a complete binding. Invariant: if a
-//! state that the relaxation covers satisfies the condition, then some alternative holds in the
-//! relaxation: a negated atom that something may delete, a comparison of numbers that something may
-//! change far enough, count as true.
+//! Idea: disjunctions are multiplied out while the number of alternatives stays small. A larger disjunction and a
+//! universal condition are kept whole, as a check that is evaluated under a complete binding. Invariant: if a state that
+//! the relaxation covers satisfies the condition, then some alternative holds in the relaxation. So a negated atom counts
+//! as true if it may be deleted, and a comparison if its numbers may change far enough.
 
 use std::rc::Rc;
 
@@ -16,7 +15,7 @@ use crate::walk::Polarity;
 use super::database::RelationId;
 use super::rule::{Check, Pattern};
 
-/// More alternatives than this are not multiplied out.
+/// The most alternatives that are multiplied out.
 const ALTERNATIVES: usize = 24;
 
 /// Atoms and checks that must all hold.
@@ -43,18 +42,18 @@ impl Conjunction {
     }
 }
 
-/// What is known of a relation before anything is joined.
+/// What is known of a relation before the first join.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Knowledge {
-    /// What is no initial fact and cannot be derived never holds; something may delete it.
+    /// An atom holds only if it is an initial fact or can be derived. It may be deleted.
     Deletable,
-    /// Likewise, and nothing deletes it.
+    /// An atom holds only if it is an initial fact or can be derived. It is never deleted.
     Kept,
-    /// Anything may hold from the start.
+    /// Any atom may hold initially.
     Open,
 }
 
-/// Turns conditions into alternatives.
+/// Converts conditions to alternatives.
 pub(crate) struct Relaxer<'a> {
     pub(crate) predicates: &'a [RelationId],
     pub(crate) fluents: &'a [RelationId],
@@ -63,7 +62,7 @@ pub(crate) struct Relaxer<'a> {
 }
 
 impl Relaxer<'_> {
-    /// The alternatives; none if it can never hold.
+    /// The alternatives of a condition; empty if it can never hold.
     pub(crate) fn relax(&self, condition: &Condition, polarity: Polarity) -> Vec<Conjunction> {
         let span = condition.span;
         match (&condition.kind, polarity) {
@@ -107,7 +106,7 @@ impl Relaxer<'_> {
                 let arguments = application.arguments.iter().copied().chain([*value]).collect();
                 self.literal(Pattern { relation, arguments, span }, polarity)
             }
-            // Which it is of is not looked at: it may hold.
+            // Types are not checked here, so the condition may hold.
             (ConditionKind::HasType(..), _) => vec![Conjunction::default()],
             (ConditionKind::Same(a, b), Polarity::Positive) => vec![Conjunction::check(Check::Same(*a, *b))],
             (ConditionKind::Same(a, b), Polarity::Negative) => {
@@ -137,7 +136,7 @@ impl Relaxer<'_> {
         }
     }
 
-    /// A comparison with something that may have any value cannot be refuted.
+    /// Whether the expression may have any value. A comparison with it cannot be refuted.
     fn is_anything(&self, expression: &Expression) -> bool {
         let mut known = true;
         expression.each(&mut |part| {
@@ -154,7 +153,7 @@ impl Relaxer<'_> {
 
     fn all(mut parts: Vec<(&Condition, Vec<Conjunction>)>, polarity: Polarity) -> Vec<Conjunction> {
         let mut rows = vec![Conjunction::default()];
-        // Those with one alternative first: they cost nothing and may be false.
+        // Conditions with the fewest alternatives first: one alternative multiplies nothing, and none ends the product.
         parts.sort_by_key(|(_, alternatives)| alternatives.len());
         for (condition, alternatives) in parts {
             if rows.len() * alternatives.len() > ALTERNATIVES {
@@ -178,7 +177,7 @@ impl Relaxer<'_> {
     }
 }
 
-/// What the numbers must do for a polarity.
+/// The result that a comparison needs under a polarity.
 pub(crate) fn expected(polarity: Polarity) -> Expected {
     match polarity {
         Polarity::Positive => Expected::Holds,
@@ -202,7 +201,7 @@ pub(crate) fn free_slots(condition: &Condition) -> Vec<usize> {
         Part::Binds(variables) => bound.extend(variables.iter().map(|v| v.index())),
         part => read.extend(slots_of(part.terms())),
     });
-    // Every variable of a schema has a slot of its own: bound anywhere is bound everywhere.
+    // Every variable of a schema has its own slot, so a slot that is bound in one place is free in no other.
     read.retain(|slot| !bound.contains(slot));
     read.sort_unstable();
     read.dedup();

@@ -1,4 +1,4 @@
-//! Datalog rules with side conditions, as conditions and effects are relaxed to.
+//! Datalog rules with side conditions: the relaxed form of conditions and effects.
 
 use std::rc::Rc;
 
@@ -25,44 +25,44 @@ pub struct Origin {
 /// A relation applied to terms.
 #[derive(Clone, Debug)]
 pub(crate) struct Pattern {
-    /// Which relation.
+    /// The relation.
     pub(crate) relation: RelationId,
     /// Its arguments.
     pub(crate) arguments: Vec<Term>,
-    /// Where it stands.
+    /// Its place in the source.
     pub(crate) span: Span,
 }
 
 /// A side condition on a binding.
 #[derive(Clone, Debug)]
 pub(crate) enum Check {
-    /// Same object.
+    /// The terms are the same object.
     Same(Term, Term),
-    /// Different objects.
+    /// The terms are different objects.
     Different(Term, Term),
-    /// No initial fact; only for what nothing ever deletes.
+    /// The atom is not an initial fact. Only for relations whose atoms are never deleted.
     Absent(Pattern),
-    /// The numbers may compare so.
+    /// The comparison may have this result.
     Compare(Polarity, Comparison, Rc<(Expression, Expression)>, Span),
     /// A condition that is evaluated when all atoms are joined.
     Residual(Polarity, Rc<Condition>),
 }
 
-/// `heads` hold where `body` and `checks` do.
+/// `heads` hold for every binding that satisfies `body` and `checks`.
 #[derive(Clone, Debug)]
 pub(crate) struct Rule {
-    /// What it stands for.
+    /// The part of the domain that the rule represents.
     pub(crate) origin: Origin,
-    /// What each slot ranges over.
+    /// The range of each slot.
     pub(crate) slots: Rc<[Rc<Range>]>,
     /// How many of the first slots must have an object.
     pub(crate) parameters: usize,
-    /// All must hold.
+    /// The atoms that must hold.
     pub(crate) body: Vec<Pattern>,
-    /// All must hold.
+    /// The checks that must succeed.
     pub(crate) checks: Vec<Check>,
-    /// Free slots of each check, in the same order.
+    /// The free slots of each check, in the same order.
     pub(crate) needs: Vec<Vec<usize>>,
-    /// What follows.
+    /// The atoms that follow.
     pub(crate) heads: Vec<Pattern>,
 }
