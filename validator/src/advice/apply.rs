@@ -11,7 +11,7 @@ use pddl::model::{
 use pddl::{Decimal, Plan, Span, TemporalPlan};
 
 impl Repair {
-    /// Changes what the repair is about. What is not there is left alone.
+    /// Applies the repair to the domain, the problem or the plan. Does nothing if its target does not exist.
     pub fn apply(&self, domain: &mut Domain, problem: &mut Problem, plan: &mut Plan) {
         match self {
             Self::Initially(atom) => problem.init.push(Fact {
@@ -39,7 +39,7 @@ impl Repair {
         }
     }
 
-    /// The plan after it; `None` if it is no change of this plan.
+    /// The repaired plan; `None` if the repair does not change this plan.
     pub fn applied(&self, plan: &Plan) -> Option<Plan> {
         match plan {
             Plan::Sequential(plan) => {

@@ -14,19 +14,19 @@ use pddl::PlanStep;
 use pddl::model::GroundApplication;
 use std::collections::{BTreeMap, BTreeSet, HashSet, VecDeque};
 
-/// How many steps are inserted at most.
+/// The most steps that are inserted.
 pub(super) const LONGEST: usize = 3;
 
-/// How many states are looked at.
+/// The most states that are visited.
 const STATES: usize = 20_000;
 
-/// How many bridges are tried.
+/// The most bridges that are tried.
 const BRIDGES: usize = 2_000;
 
-/// What is different from the state where the search began.
+/// The difference to the state where the search began.
 type Difference = (BTreeSet<GroundAtom>, BTreeMap<(u32, Vec<u32>), String>);
 
-/// Short sequences after which the failing step can be taken.
+/// Short sequences of steps after which the failing step is applicable.
 pub(super) fn bridge(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
     let before = case.fails;
     track.go_to(before);
@@ -67,7 +67,7 @@ pub(super) fn bridge(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
     edits
 }
 
-/// Goes to where the path leads.
+/// Moves the track to the end of the path.
 fn follow(track: &mut Track<'_, '_>, before: usize, path: &[PlanStep]) -> bool {
     track.back_to(before);
     path.iter().all(|step| track.take(step))

@@ -37,7 +37,7 @@ impl Edit {
                 Some(behind) => new.get(behind).or_else(|| steps.get(position - new.len())),
             },
             Self::Move { step, before } => {
-                // Where the step comes to stand, once it was taken out.
+                // The position of the step after its removal from the old one.
                 let to = if before > step { before - 1 } else { *before };
                 steps.get(match position {
                     _ if position == to => *step,

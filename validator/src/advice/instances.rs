@@ -12,13 +12,13 @@ use pddl::model::{ActionId, Condition, Effect, EffectKind, ObjectId, Term, TimeS
 use pddl::{PlanStep, Span};
 use std::ops::ControlFlow;
 
-/// How many instances of an action are looked at for one effect in one state.
+/// The most instances of an action that are tried for one effect in one state.
 const INSTANCES: usize = 64;
 
-/// Parameters that are fixed already.
+/// The parameters that are already fixed.
 pub(super) type Fixed = Vec<Option<ObjectId>>;
 
-/// The parameters under which an effect brings about what is wanted.
+/// The parameters with which an effect achieves a want.
 pub(super) fn each_match(
     prepared: &Prepared<'_>,
     variables: &Variables,
@@ -79,14 +79,14 @@ fn visit_unified(
     visit(fixed);
 }
 
-/// An action with what is fixed of its parameters.
+/// An action with its fixed parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Template {
     pub(super) action: ActionId,
     pub(super) fixed: Fixed,
 }
 
-/// The actions that could bring about something that is wanted.
+/// The actions that could achieve a want.
 pub(super) fn templates(prepared: &Prepared<'_>, wants: &Wants) -> Vec<Template> {
     let mut templates = Vec::new();
     for (action, schema) in prepared.domain.actions.enumerate() {
@@ -102,7 +102,7 @@ pub(super) fn templates(prepared: &Prepared<'_>, wants: &Wants) -> Vec<Template>
     templates
 }
 
-/// Whether a step may bring about something that is wanted.
+/// Whether a step may achieve a want.
 pub(super) fn may_help(prepared: &Prepared<'_>, wants: &[Want], step: &PlanStep) -> bool {
     let Some(schema) = prepared.domain.actions.get(step.action) else { return false };
     let mut helps = false;
@@ -114,7 +114,7 @@ pub(super) fn may_help(prepared: &Prepared<'_>, wants: &[Want], step: &PlanStep)
     helps
 }
 
-/// The steps that differ from a step in one argument and may bring about something that is wanted.
+/// The steps that differ from a step in one argument and may achieve a want.
 pub(super) fn nearly(prepared: &Prepared<'_>, wants: &[Want], step: &PlanStep) -> Vec<PlanStep> {
     let Some(schema) = prepared.domain.actions.get(step.action) else { return Vec::new() };
     let mut found: Vec<PlanStep> = Vec::new();
@@ -133,7 +133,7 @@ pub(super) fn nearly(prepared: &Prepared<'_>, wants: &[Want], step: &PlanStep) -
     found
 }
 
-/// A state in which steps could be taken.
+/// A state whose applicable steps are searched.
 pub(super) struct Look<'l, 'a> {
     pub(super) prepared: &'l Prepared<'a>,
     pub(super) state: &'l State,
@@ -173,7 +173,7 @@ impl Look<'_, '_> {
         debug_assert_eq!(flow.is_break(), left == 0);
     }
 
-    /// The instances of an action that can be taken here.
+    /// The instances of an action that are applicable here.
     pub(super) fn steps(&self, template: &Template, visit: &mut dyn FnMut(PlanStep)) {
         let Some(schema) = self.prepared.domain.actions.get(template.action) else { return };
         self.applicable(&schema.variables, &[&schema.precondition], &template.fixed, &mut |arguments| {
@@ -181,7 +181,7 @@ impl Look<'_, '_> {
         });
     }
 
-    /// The steps that differ from a step in one argument and can be taken here.
+    /// The steps that differ from a step in one argument and are applicable here.
     pub(super) fn others(&self, step: &PlanStep, visit: &mut dyn FnMut(PlanStep)) {
         for free in 0..step.arguments.len() {
             let mut fixed: Fixed = step.arguments.iter().copied().map(Some).collect();
@@ -195,7 +195,7 @@ impl Look<'_, '_> {
         }
     }
 
-    /// All steps that can be taken here.
+    /// All steps that are applicable here.
     pub(super) fn all(&self, visit: &mut dyn FnMut(PlanStep)) {
         for (action, schema) in self.prepared.domain.actions.enumerate() {
             let fixed = vec![None; schema.variables.parameters];

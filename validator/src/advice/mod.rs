@@ -36,14 +36,14 @@ use pddl::model::Idx;
 use pddl::{DecompositionId, HierarchicalPlan, Plan, PlanLabel, SequentialPlan};
 use trials::Trials;
 
-/// How many changed plans are searched for a decomposition.
+/// The most changed plans for which a decomposition is searched.
 const SEARCHED_PLANS: usize = 400;
 
 impl Validator<'_> {
-    /// Looks for single changes that make the plan valid, the smallest and most likely first; `failure` is why it is
-    /// not.
+    /// Searches for single changes that make the plan valid, the smallest and most likely first. `failure` is the reason
+    /// why the plan is invalid.
     pub fn advise(&self, plan: &Plan, failure: &Failure, budget: AdviceLimits) -> Vec<Repair> {
-        // For a task network each plan that is tried is searched for a decomposition.
+        // With a task network, each changed plan needs a search for a decomposition.
         let (brief, budget) = match (plan, &self.prepared.problem.htn) {
             (Plan::Sequential(_), Some(_)) => {
                 let plans = budget.plans.min(SEARCHED_PLANS);
@@ -60,7 +60,7 @@ impl Validator<'_> {
             Plan::Temporal(plan) => timed::repairs(&mut trials, plan, failure),
             Plan::Hierarchical(plan) => self.decomposed_otherwise(plan, failure).into_iter().collect(),
         };
-        // What remains of the budget for the plan is not what the task may cost.
+        // Changes of the task have their own budget.
         trials.budget = budget;
         let weaker = repairs.is_empty();
         repairs.extend(task::repairs(&mut trials, plan.into(), failure));
@@ -72,7 +72,7 @@ impl Validator<'_> {
 }
 
 impl Validator<'_> {
-    /// The same steps with another decomposition, if it is the decomposition that is wrong.
+    /// The same steps with another decomposition, if only the decomposition is invalid.
     fn decomposed_otherwise(&self, plan: &HierarchicalPlan, failure: &Failure) -> Option<Repair> {
         if !matches!(failure, Failure::Network { .. }) {
             return None;

@@ -18,16 +18,16 @@ use pddl::model::{ActionId, ObjectId};
 use pddl::{PlanStep, SequentialPlan};
 use rustc_hash::FxHashMap;
 
-/// How near to the failure changes are tried that are not known to touch it.
+/// How far from the failure changes are tried that are not known to affect it.
 const NEAR: usize = 8;
 
-/// How many candidates one way of looking may have.
+/// The most candidates of one strategy.
 const CANDIDATES: usize = 512;
 
-/// A way of looking for changes.
+/// A strategy that finds changes.
 type Way = fn(&mut Track<'_, '_>, &Case) -> Vec<Edit>;
 
-/// What is likely comes first.
+/// The strategies, the most likely to succeed first.
 const WAYS: [Way; 8] =
     [other_argument, drops, inserts, moves, earlier_argument, far_moves, anything_near, bridge];
 
@@ -63,7 +63,7 @@ pub(super) fn repairs(trials: &mut Trials<'_, '_>, plan: &SequentialPlan, failur
     found.into_iter().map(Edit::repair).collect()
 }
 
-/// Whether another change makes the same plan.
+/// Whether another change results in the same plan.
 fn is_known(found: &[Edit], edit: &Edit, steps: &[PlanStep]) -> bool {
     let end = steps.len() + LONGEST + 1;
     found.iter().any(|other| {
@@ -95,12 +95,12 @@ fn others(track: &mut Track<'_, '_>, index: usize, step: &PlanStep) -> Vec<Edit>
     edits
 }
 
-/// The failing step is too much, or one that took something away.
+/// The failing step is superfluous, or a step that undid a want.
 fn drops(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
     track.go_to(case.fails);
     let mut places: Vec<usize> = (case.fails < track.steps.len()).then_some(case.fails).into_iter().collect();
     places.extend(case.culprits());
-    // Before the last one who took it there are others, and of a number each change counts.
+    // Earlier steps undid a want, too, and each change of a fluent matters.
     let earlier = (0..track.taken().len())
         .rev()
         .filter(|&k| case.wants.list.iter().any(|want| takes(&track.taken()[k], want)));
@@ -112,7 +112,7 @@ fn drops(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
     places.into_iter().map(Edit::Drop).collect()
 }
 
-/// A step is missing. It is tried as late as it can be taken, and again wherever that was interrupted.
+/// A step is missing. It is tried at the last position of each run of positions at which it is applicable.
 fn inserts(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
     let templates = templates(track.prepared, &case.wants);
     if templates.is_empty() {
@@ -147,7 +147,7 @@ fn moves(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
     let mut edits = Vec::new();
     let prepared = track.prepared;
     let helps = |k: &usize| may_help(prepared, &case.wants.list, &track.steps[*k]);
-    // Who could help comes too late.
+    // Steps that could help, but come too late.
     let late: Vec<usize> = (fails + 1..count).filter(helps).take(NEAR).collect();
     for &step in &late {
         edits.push(Edit::Move { step, before: fails });
@@ -182,8 +182,8 @@ fn moves(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
     edits
 }
 
-/// Steps have changed places over a long distance. With the right step instead of the failing one (or before it), the
-/// plan goes on until the place where that step stands now: so that is where to look for it.
+/// Two steps are exchanged over a long distance. With the right step instead of the failing one (or before it), the plan
+/// is applicable up to the present position of that step, so the next failure shows where to search.
 fn far_moves(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
     let (fails, steps) = (case.fails, track.steps);
     if fails >= steps.len() {
@@ -225,7 +225,7 @@ fn far_moves(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
     edits
 }
 
-/// A step before the failure has a wrong argument: with another one it would help, or do no harm.
+/// A step before the failure has a wrong argument: with another one it could achieve a want, or not undo it.
 fn earlier_argument(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
     let mut edits = Vec::new();
     let earliest = case.earliest();
@@ -244,7 +244,7 @@ fn earlier_argument(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
     edits
 }
 
-/// What is not known to touch the failure, near to it.
+/// Changes near the failure that are not known to affect it.
 fn anything_near(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
     let (fails, count) = (case.fails, track.steps.len());
     let mut edits = Vec::new();

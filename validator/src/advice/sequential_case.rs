@@ -1,4 +1,4 @@
-//! What is known of the failure of a plan without times.
+//! The analysis of a failure of a plan without times.
 
 use super::track::Track;
 use super::wants::{Want, Wants};
@@ -6,18 +6,18 @@ use crate::cause::Cause;
 use crate::trace::Diff;
 use crate::verdict::{Breach, Failure};
 
-/// A failing plan, and what is known of its failure.
+/// The analysis of a failing plan.
 pub(super) struct Case {
-    /// The step that fails; the plan's length if none does.
+    /// The step that fails; the plan's length if no step fails.
     pub(super) fails: usize,
     pub(super) wants: Wants,
-    /// For each want the last step that took it away, or changed it, with its position.
+    /// For each want, the position of the last step that undid it or changed it.
     pub(super) taken_by: Vec<(usize, Want)>,
 }
 
 impl Case {
-    /// From where on a step that brings about what is wanted is not undone before the failure. Fluents change in
-    /// steps, each of which counts.
+    /// The first position from which a step that achieves the want is not undone before the failure. For a fluent it is
+    /// the start of the plan, because each change of the fluent matters.
     fn window(&self, want: &Want) -> usize {
         if matches!(want, Want::Another(_)) {
             return 0;
@@ -29,7 +29,7 @@ impl Case {
         self.wants.list.iter().map(|want| self.window(want)).min().unwrap_or(self.fails)
     }
 
-    /// The steps that took something away, the last ones first.
+    /// The steps that undid a want, the last ones first.
     pub(super) fn culprits(&self) -> Vec<usize> {
         let mut culprits: Vec<usize> = self.taken_by.iter().map(|(position, _)| *position).collect();
         culprits.sort_unstable_by(|a, b| b.cmp(a));
@@ -37,14 +37,14 @@ impl Case {
         culprits
     }
 
-    /// Looks at a failure; the track is then right before it.
+    /// Analyses a failure. Afterwards the track is right before it.
     pub(super) fn new(track: &mut Track<'_, '_>, failure: &Failure) -> Self {
         let count = track.steps.len();
         let fails = match failure {
             Failure::Precondition { at: Cause::Step(step), .. }
             | Failure::Effect { at: Cause::Step(step), .. }
             | Failure::Step { step, .. } => step.0 as usize,
-            // The step into the state that should be another one.
+            // The step that leads into the state that breaks the constraint.
             Failure::Constraint { breach: Breach::Here(state) | Breach::Again(state), .. } => {
                 state.saturating_sub(1).min(count)
             }
@@ -58,7 +58,7 @@ impl Case {
     }
 }
 
-/// Whether a step took away what is wanted.
+/// Whether a step undid a want.
 pub(super) fn takes(diff: &Diff, want: &Want) -> bool {
     match want {
         Want::Holds(atom) => diff.deleted.contains(atom),

@@ -14,7 +14,7 @@ use pddl::model::{Comparison, GroundApplication};
 use pddl::{Span, StepHead};
 
 pub(super) fn repairs(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, failure: &Failure) -> Vec<Repair> {
-    // That the goal would hold if it held is no advice.
+    // Adding the goal itself to the initial state would not be helpful.
     if matches!(failure, Failure::Goal { .. } | Failure::Constraint { .. }) {
         return Vec::new();
     }
@@ -43,17 +43,17 @@ pub(super) fn repairs(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, failure: &
     found
 }
 
-/// A part of the failing step's condition without which the plan passes: for want of a better change, since what a
-/// condition asks for is seldom there by mistake.
+/// A part of the failing step's condition without which the plan passes. This is the last resort, because a condition is
+/// rarely a mistake.
 pub(super) fn weaker(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, failure: &Failure) -> Option<Repair> {
     let Failure::Precondition { at, .. } = failure else { return None };
-    // What stands deeper is not a part of the condition that could be taken away alone.
+    // Only a top-level part of the condition can be removed alone; a nested part cannot.
     let span =
         failure.parts().iter().map(Unsatisfied::span).find(|&span| without(trials, plan, *at, span))?;
     Some(Repair::Without { span })
 }
 
-/// Whether the plan passes from another initial state.
+/// Whether the plan passes from the repaired initial state.
 fn begins_well(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, repair: &Repair) -> bool {
     let mut changed: Validator<'_> = trials.validator.clone();
     let initial = &mut changed.prepared.initial;
@@ -62,7 +62,7 @@ fn begins_well(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, repair: &Repair) 
             initial.facts[atom.predicate].add(&atom.arguments, 0);
         }
         Repair::NotInitially(atom) => {
-            // Any moment but that of the initial facts, over whose adds no delete wins.
+            // Any moment but 0: at the same moment, the add of the initial fact would win over the delete.
             initial.facts[atom.predicate].delete(&atom.arguments, 1);
         }
         Repair::Value { fluent, value } => initial.set_fluent(fluent.clone(), Some(Value::Number(*value))),
@@ -71,8 +71,8 @@ fn begins_well(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, repair: &Repair) 
     trials.passes_under(Ok(changed), plan)
 }
 
-/// Initial values with which a comparison would come out: the difference between its sides is made up for in one
-/// fluent, as if what happens in between added to it, or multiplied it by one.
+/// Initial values with which a comparison would hold. One fluent absorbs the difference between the sides, on the
+/// assumption that the plan only adds to it.
 fn values(
     validator: &Validator<'_>,
     comparison: Comparison,
@@ -109,7 +109,7 @@ fn values(
     }
 }
 
-/// Whether the plan passes when the failing action does not ask for what stands at `span`.
+/// Whether the plan passes if the condition at `span` is removed from the failing action.
 fn without(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, at: Cause, span: Span) -> bool {
     let Some(index) = at.step().map(|step| step.0 as usize) else { return false };
     let mut domain = trials.validator.prepared.domain.clone();

@@ -15,16 +15,16 @@ use crate::verdict::Failure;
 use pddl::model::{ObjectId, TimeSpecifier};
 use pddl::{StepHead, TemporalPlan};
 
-/// How many candidates one way of looking may have.
+/// The most candidates of one strategy.
 const CANDIDATES: usize = 512;
 
-/// How many starts and ends, the nearest, a step may be moved to.
+/// To how many of the nearest starts and ends a step may be moved.
 const NEAREST: usize = 2 * CANDIDATES;
 
-/// A way of looking for changes.
+/// A strategy that finds changes.
 type Way = fn(&Prepared<'_>, &Case<'_>) -> Vec<Repair>;
 
-/// What is likely comes first.
+/// The strategies, the most likely to succeed first.
 const WAYS: [Way; 7] = [stretches, arguments, shifts, delays, drops, insertions, swaps];
 
 pub(super) fn repairs(trials: &mut Trials<'_, '_>, plan: &TemporalPlan, failure: &Failure) -> Vec<Repair> {
@@ -56,7 +56,7 @@ pub(super) fn repairs(trials: &mut Trials<'_, '_>, plan: &TemporalPlan, failure:
     found
 }
 
-/// A step takes as long as its bound says; or, if that is not it, ends where something else does.
+/// A step has a wrong duration. Tries the bound of its duration first, and then ends near other happenings.
 fn stretches(prepared: &Prepared<'_>, case: &Case<'_>) -> Vec<Repair> {
     let mut repairs = Vec::new();
     if let Failure::Duration { step, bound, .. } = case.failure
@@ -140,12 +140,12 @@ fn delays(prepared: &Prepared<'_>, case: &Case<'_>) -> Vec<Repair> {
     repairs
 }
 
-/// A step is too much.
+/// A step is superfluous.
 fn drops(_: &Prepared<'_>, case: &Case<'_>) -> Vec<Repair> {
     case.likely().into_iter().map(|index| Repair::Drop(StepIndex::at(index))).collect()
 }
 
-/// Two steps have each other's times.
+/// Two steps have exchanged times.
 fn swaps(_: &Prepared<'_>, case: &Case<'_>) -> Vec<Repair> {
     let likely = case.likely();
     let mut repairs = Vec::new();
@@ -161,8 +161,8 @@ fn swaps(_: &Prepared<'_>, case: &Case<'_>) -> Vec<Repair> {
     repairs
 }
 
-/// Times at which a step could start: just after and just before something else happens, or so that it ends
-/// then; the nearest first.
+/// Times at which a step could start, the nearest first: those at which it starts or ends just after or just before
+/// another happening.
 fn times(prepared: &Prepared<'_>, plan: &TemporalPlan, index: usize) -> Vec<Number> {
     let step = &plan.steps[index];
     let (now, until) = (start(step), end(step));

@@ -1,4 +1,4 @@
-//! What is known of the failure of a plan with times.
+//! The analysis of a failure of a plan with times.
 
 use super::wants::Wants;
 use crate::cause::Cause;
@@ -13,25 +13,25 @@ use pddl::TemporalPlan;
 use std::cell::Cell;
 use std::ops::Range;
 
-/// How many happenings are gone through to see earlier states, and facts copied for that.
+/// The most happenings replayed, and facts copied, to restore earlier states.
 const REPLAYED: usize = 100_000;
 
-/// A failing plan, and what is known of its failure.
+/// A failing plan with the analysis of its failure.
 pub(super) struct Case<'c> {
     pub(super) plan: &'c TemporalPlan,
     pub(super) failure: &'c Failure,
     pub(super) wants: Wants,
-    /// What happened before it failed.
+    /// The happenings before the failure.
     pub(super) trace: Trace,
-    /// When it fails, as far as that is one time.
+    /// The time of the failure, or the end of the plan if the failure has no single time.
     pub(super) time: Number,
-    /// The steps that fail or are to blame.
+    /// The steps that fail or cause the failure.
     pub(super) suspects: Vec<usize>,
-    /// What may still be gone through.
+    /// The rest of the budget for replays ([`REPLAYED`]).
     replays: Cell<usize>,
 }
 
-/// The state after so many happenings.
+/// The state after the first `happenings` happenings.
 fn state_after(prepared: &Prepared<'_>, trace: &Trace, happenings: usize) -> State {
     let mut state = prepared.initial.clone();
     state.work = Work::for_steps(0);
@@ -39,7 +39,7 @@ fn state_after(prepared: &Prepared<'_>, trace: &Trace, happenings: usize) -> Sta
     state
 }
 
-/// Takes a state through some more happenings.
+/// Applies a range of happenings to a state.
 pub(super) fn advance(state: &mut State, trace: &Trace, happenings: Range<usize>) {
     let first = u32::try_from(happenings.start).unwrap_or(u32::MAX - 1) + 1;
     for (happening, moment) in trace.happenings[happenings].iter().zip(first..) {
@@ -57,7 +57,7 @@ pub(super) fn advance(state: &mut State, trace: &Trace, happenings: Range<usize>
 }
 
 impl<'c> Case<'c> {
-    /// Looks at a failure; `trace` is what happened before it.
+    /// Analyses a failure. `trace` has the happenings before it.
     pub(super) fn new(
         prepared: &Prepared<'_>,
         plan: &'c TemporalPlan,
@@ -71,7 +71,7 @@ impl<'c> Case<'c> {
         Self { plan, failure, wants, trace, time, suspects, replays: Cell::new(REPLAYED) }
     }
 
-    /// The state after so many happenings, with what follows by axioms, as long as that may cost something.
+    /// The state after the first `happenings` happenings, with its derived atoms; `None` if the budget is exhausted.
     pub(super) fn state_after(&self, prepared: &Prepared<'_>, happenings: usize) -> Option<State> {
         let problem = prepared.problem;
         let price = happenings + problem.init.len() + problem.fluents.len() + 1;
@@ -81,7 +81,7 @@ impl<'c> Case<'c> {
         Some(state)
     }
 
-    /// All steps: the suspects, then the others, those near to the failure first.
+    /// All steps: the suspects, then the others, the nearest to the failure first.
     pub(super) fn likely(&self) -> Vec<usize> {
         let mut others: Vec<usize> =
             (0..self.plan.steps.len()).filter(|index| !self.suspects.contains(index)).collect();
@@ -90,7 +90,7 @@ impl<'c> Case<'c> {
     }
 }
 
-/// When it fails; at the end of the plan if that is not said.
+/// The time of the failure, or the end of the plan if the failure has no single time.
 fn time(plan: &TemporalPlan, failure: &Failure) -> Number {
     let last = || plan.steps.iter().map(end).max().unwrap_or(Number::ZERO);
     let of = |cause: Cause| {
@@ -110,7 +110,7 @@ fn time(plan: &TemporalPlan, failure: &Failure) -> Number {
     .unwrap_or_else(last)
 }
 
-/// The steps that fail or are to blame, without repetition.
+/// The steps that fail or cause the failure, without repetition.
 fn suspects(plan: &TemporalPlan, failure: &Failure) -> Vec<usize> {
     let mut steps: Vec<StepIndex> = match failure {
         Failure::Precondition { at, .. } | Failure::Effect { at, .. } => at.step().into_iter().collect(),

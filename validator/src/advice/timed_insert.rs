@@ -15,7 +15,7 @@ use crate::state::State;
 use pddl::model::{Comparison, DurativeActionId, ObjectId, TimeSpecifier};
 use pddl::{Decimal, Span, StepHead, TemporalStep};
 
-/// After how many happenings before the failure it is tried.
+/// The number of happenings before the failure after which the step is tried.
 const PLACES: usize = 24;
 
 pub(super) fn insertions(prepared: &Prepared<'_>, case: &Case<'_>) -> Vec<Repair> {
@@ -51,7 +51,7 @@ pub(super) fn insertions(prepared: &Prepared<'_>, case: &Case<'_>) -> Vec<Repair
             };
             let length = duration.unwrap_or(Number::ZERO);
             repairs.push(Repair::InsertAt { step: step(after), delay: Decimal::ZERO });
-            // Rather at the last moment, if there is time for it.
+            // As late as possible, if there is enough time.
             let latest =
                 case.time.minus(length).and_then(|time| time.minus(gap)).ok().and_then(Number::decimal);
             if let Some(latest) = latest.filter(|time| !time.is_negative() && *time != after) {
@@ -71,7 +71,7 @@ pub(super) fn insertions(prepared: &Prepared<'_>, case: &Case<'_>) -> Vec<Repair
 
 type Candidate = (StepHead, Vec<ObjectId>, Option<Number>);
 
-/// The steps that could start in a state and bring about something that is wanted.
+/// The steps that could start in a state and achieve a want.
 fn candidates(prepared: &Prepared<'_>, case: &Case<'_>, state: &State) -> Vec<Candidate> {
     let look = Look { prepared, state };
     let mut found: Vec<Candidate> = Vec::new();
@@ -109,7 +109,7 @@ fn candidates(prepared: &Prepared<'_>, case: &Case<'_>, state: &State) -> Vec<Ca
     with_durations.collect()
 }
 
-/// How long it may take: as little and as much as its bounds allow in this state.
+/// The least and the greatest duration that its bounds allow in this state.
 fn durations(
     prepared: &Prepared<'_>,
     state: &State,

@@ -27,21 +27,21 @@ pub(super) struct Track<'t, 'a> {
     pub(super) prepared: &'t Prepared<'a>,
     pub(super) steps: &'t [PlanStep],
     state: State,
-    /// What each step so far has changed.
+    /// The changes of each executed step.
     taken: Vec<Diff>,
-    /// How many of them are the plan's own.
+    /// How many of them are steps of the original plan.
     own: usize,
     moment: Moment,
     changes: Changes,
     binding: Binding,
-    /// How many steps may still be taken.
+    /// How many steps may still be executed.
     pub(super) left: usize,
 }
 
 impl<'t, 'a> Track<'t, 'a> {
     pub(super) fn new(prepared: &'t Prepared<'a>, steps: &'t [PlanStep], left: usize) -> Self {
         let mut state = State::empty(prepared.domain, &vec![true; prepared.domain.predicates.len()]);
-        // One purse for all trials.
+        // All trials share one budget.
         state.work = Work::for_steps(steps.len());
         for (predicate, relation) in prepared.initial.facts.enumerate() {
             for arguments in relation.holding() {
@@ -64,19 +64,19 @@ impl<'t, 'a> Track<'t, 'a> {
         }
     }
 
-    /// The state, with what follows by the axioms.
+    /// The state with its derived atoms.
     pub(super) fn state(&mut self) -> &State {
         self.moment += 1;
         self.prepared.derive(&mut self.state, self.moment);
         &self.state
     }
 
-    /// What the steps before this place have changed.
+    /// The changes of the executed steps.
     pub(super) fn taken(&self) -> &[Diff] {
         &self.taken
     }
 
-    /// Walks to before the plan's step at `position`, or as near to it as steps can be taken.
+    /// Goes to the state before the plan's step at `position`, or as near to it as its steps are applicable.
     pub(super) fn go_to(&mut self, position: usize) {
         self.back_to(position.min(self.own));
         while self.own < position {
@@ -88,7 +88,7 @@ impl<'t, 'a> Track<'t, 'a> {
         }
     }
 
-    /// Takes steps back until so many are left.
+    /// Undoes steps until this many are left.
     pub(super) fn back_to(&mut self, count: usize) {
         while self.taken.len() > count {
             let Some(diff) = self.taken.pop() else { return };
@@ -106,7 +106,7 @@ impl<'t, 'a> Track<'t, 'a> {
         self.own = self.own.min(count);
     }
 
-    /// Takes a step, if it can be taken and may be paid for.
+    /// Executes a step, if it is applicable and the budget allows it.
     pub(super) fn take(&mut self, step: &PlanStep) -> bool {
         let Some(left) = self.left.checked_sub(1) else { return false };
         self.left = left;
@@ -148,12 +148,12 @@ impl<'t, 'a> Track<'t, 'a> {
         scene.holds(&problem.goal, &mut Binding::new(variables, &[]))
     }
 
-    /// Whether all steps of the changed plan can be taken and the goal holds in the end.
+    /// Whether all steps of the changed plan are applicable and the goal holds at its end.
     pub(super) fn passes(&mut self, edit: &Edit) -> bool {
         self.fails(edit).is_none()
     }
 
-    /// Where the changed plan fails: at a step that cannot be taken, or behind the last one.
+    /// Where the changed plan fails: at an inapplicable step, or after the last step.
     pub(super) fn fails(&mut self, edit: &Edit) -> Option<usize> {
         let first = edit.first();
         self.go_to(first);

@@ -4,7 +4,7 @@ use crate::plan::PlanRef;
 use crate::validator::Validator;
 use crate::verdict::Verdict;
 
-/// What a step with times costs, in steps without: it starts and ends, and things must hold in between.
+/// The cost of a step with times, in steps without times. It has a start, an end, and invariants in between.
 const TIMED: usize = 8;
 
 /// The budget of a search for changes.
@@ -32,7 +32,7 @@ pub(super) struct Trials<'v, 'a> {
 }
 
 impl Trials<'_, '_> {
-    /// Whether the plan is valid; no, if the budget is spent.
+    /// Whether the plan is valid; false if the budget is exhausted.
     pub(super) fn passes(&mut self, plan: PlanRef<'_>) -> bool {
         self.pays_for(plan) && self.validator.validate(plan).is_valid()
     }

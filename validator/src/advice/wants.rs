@@ -11,10 +11,10 @@ use crate::verdict::{Failure, Operand, Unsatisfied};
 use crate::why::Why;
 use pddl::model::GroundApplication;
 
-/// How deep axioms are followed.
+/// How deep wants are followed through axioms.
 const DEPTH: usize = 4;
 
-/// How much is wanted at most.
+/// The most wants.
 const MOST: usize = 64;
 
 /// Something that a change should bring about.
@@ -28,7 +28,7 @@ pub(super) enum Want {
     Another(GroundApplication),
 }
 
-/// All that is wanted, and who is to blame for the lack of it.
+/// The wants of a failure, and the causes of the failure.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Wants {
     pub(super) list: Vec<Want>,
@@ -36,7 +36,7 @@ pub(super) struct Wants {
 }
 
 impl Wants {
-    /// What a failure asks for; `state` is the one in which it failed, with what follows by axioms.
+    /// The wants of a failure. `state` is the state of the failure with its derived atoms.
     pub(super) fn of(prepared: &Prepared<'_>, state: &State, failure: &Failure) -> Self {
         let mut wants = Self::default();
         match failure {

@@ -2,11 +2,11 @@
 
 use crate::relation::Mark;
 
-/// How far the components' readings of their inputs have come.
+/// By component: the inputs that it has read.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Lag(pub(crate) Vec<Option<Seen>>);
 
-/// What a component saw when it was last derived.
+/// The state of a component's inputs when it was last derived.
 #[derive(Clone, Debug)]
 pub(crate) struct Seen {
     pub(crate) inputs: Vec<Mark>,

@@ -32,23 +32,23 @@ impl Equivalent<GroundApplication> for Borrowed<'_> {
     }
 }
 
-/// A fluent that grows as time passes.
+/// A fluent that changes linearly with time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Line {
-    /// When it was what the state has noted, in seconds.
+    /// The time at which the fluent had its stored value, in seconds.
     pub(crate) since: Number,
-    /// By how much it grows in a second.
+    /// The change per second.
     pub(crate) slope: Number,
 }
 
-/// Fluents that run in straight lines, and the time at which the state is looked at.
+/// The fluents that change linearly, and the time at which they are read.
 #[derive(Clone, Debug)]
 struct Lines {
     by_fluent: IndexMap<GroundApplication, Line, FxBuildHasher>,
     now: Number,
 }
 
-/// Facts, what follows from them, and fluents.
+/// The facts, the derived atoms and the fluents.
 #[derive(Clone, Debug)]
 pub(crate) struct State {
     pub(crate) facts: IndexVec<PredicateId, Relation>,
@@ -57,20 +57,20 @@ pub(crate) struct State {
     lines: Lines,
     /// The old values of assigned fluents, if a recorder needs them.
     before: Option<FxHashMap<GroundApplication, Option<Value>>>,
-    /// How often a fluent of the function was given a value.
+    /// By function: how often one of its fluents was assigned a value.
     fluent_changes: IndexVec<FunctionId, u64>,
     /// How far `derived` lags behind the facts.
     pub(crate) lag: Lag,
-    /// How fluents run through the present instant; `None` if all of them are what `fluents` says.
+    /// The curves of the fluents through the present instant; `None` if every fluent has its value in `fluents`.
     pub(crate) passage: Option<Arc<Passage>>,
-    /// Whether a fluent may be rounded because something happened at an instant that is no fraction.
+    /// Whether a fluent may be rounded, because of a happening at an instant that is not a fraction.
     pub(crate) rounded: bool,
-    /// The work that judging this plan may still cost.
+    /// The rest of the budget for this plan.
     pub(crate) work: Work,
 }
 
 impl State {
-    /// Nothing holds. `joined` says which predicates are looked up by pattern.
+    /// A state in which nothing holds. `joined` marks the predicates that are looked up by pattern.
     pub(crate) fn empty(domain: &Domain, joined: &[bool]) -> Self {
         let relations = || {
             domain
@@ -111,7 +111,7 @@ impl State {
         self.on_line(self.lines.by_fluent.get(application), value)
     }
 
-    /// The same without a key of its own.
+    /// The value of a fluent, without an owned key.
     pub(crate) fn fluent_of(&self, function: FunctionId, arguments: &[ObjectId]) -> Option<Value> {
         let fluent = Borrowed { function, arguments };
         let value = *self.fluents.get(&fluent)?;
@@ -121,7 +121,7 @@ impl State {
         self.on_line(self.lines.by_fluent.get(&fluent), value)
     }
 
-    /// What a fluent is now, if it was `value` when its line began.
+    /// The present value of a fluent that had `value` when its line began.
     fn on_line(&self, line: Option<&Line>, value: Value) -> Option<Value> {
         let (Some(line), Value::Number(number)) = (line, value) else { return Some(value) };
         let passed = self.lines.now.minus(line.since).ok()?;
@@ -132,7 +132,7 @@ impl State {
         Some(Value::Number(number))
     }
 
-    /// From now on a fluent grows from its value.
+    /// Lets a fluent change linearly from its value.
     pub(crate) fn draw_line(&mut self, fluent: GroundApplication, line: Line) {
         self.lines.by_fluent.insert(fluent, line);
     }
@@ -149,12 +149,12 @@ impl State {
         !self.lines.by_fluent.is_empty()
     }
 
-    /// Looks at fluents that run in lines as they are at a time.
+    /// Sets the time at which linearly changing fluents are read.
     pub(crate) fn look_at(&mut self, time: Number) {
         self.lines.now = time;
     }
 
-    /// Ends all lines where they are.
+    /// Ends all lines; each fluent keeps its present value.
     pub(crate) fn settle_lines(&mut self) {
         let fluents: Vec<GroundApplication> = self.lines.by_fluent.keys().cloned().collect();
         for fluent in fluents {
@@ -163,27 +163,27 @@ impl State {
         }
     }
 
-    /// How often a fluent of the function was given a value.
+    /// How often a fluent of the function was assigned a value.
     pub(crate) fn fluent_changes(&self, function: FunctionId) -> u64 {
         self.fluent_changes[function]
     }
 
-    /// All that have a value, in no order.
+    /// All fluents that have a value, in no particular order.
     pub(crate) fn fluents(&self) -> impl Iterator<Item = (&GroundApplication, Value)> {
         self.fluents.iter().filter_map(|(fluent, _)| Some((fluent, self.fluent(fluent)?)))
     }
 
-    /// Begins to remember what fluents were.
+    /// Begins to record the old values of assigned fluents.
     pub(crate) fn remember_fluents(&mut self) {
         self.before.get_or_insert_default().clear();
     }
 
-    /// The fluents that were given a value since [`State::remember_fluents`], with what they were, in no order.
+    /// The fluents assigned since [`State::remember_fluents`], with their old values, in no particular order.
     pub(crate) fn remembered(&self) -> impl Iterator<Item = (&GroundApplication, Option<Value>)> {
         self.before.iter().flatten().map(|(fluent, &before)| (fluent, before))
     }
 
-    /// Gives a fluent a value, or takes it away.
+    /// Assigns a value to a fluent, or makes it undefined.
     pub(crate) fn set_fluent(&mut self, application: GroundApplication, value: Option<Value>) {
         self.fluent_changes[application.function] += 1;
         if !self.lines.by_fluent.is_empty() {

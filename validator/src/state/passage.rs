@@ -9,7 +9,7 @@ use std::sync::Arc;
 /// The fluents that change continuously, each with its curve.
 pub(crate) type Curves = FxHashMap<GroundApplication, Curve>;
 
-/// An instant in the middle of continuous change at which no number says exactly what a fluent is.
+/// An instant in the middle of continuous change at which the value of a fluent has no exact number.
 #[derive(Clone, Debug)]
 pub(crate) struct Passage {
     pub(crate) curves: Arc<Curves>,
@@ -17,7 +17,7 @@ pub(crate) struct Passage {
 }
 
 impl Passage {
-    /// From now on a fluent is what the state says.
+    /// Removes the curve of a fluent, so that its value in the state counts again.
     pub(crate) fn forget(&mut self, fluent: &GroundApplication) {
         if self.curves.contains_key(fluent) {
             Arc::make_mut(&mut self.curves).remove(fluent);

@@ -10,7 +10,7 @@
 
 use pddl::model::{Idx, IndexVec, MethodId, ObjectId, TaskId};
 
-/// Moments are numbers of steps before them.
+/// A moment: the number of steps before it.
 pub(super) type Slot = u32;
 
 /// A task with its objects, an action of the plan, or a guard.
@@ -41,28 +41,28 @@ impl Idx for RuleId {
 
 #[derive(Clone, Debug)]
 pub(super) enum Symbol {
-    /// What the whole plan must come out of.
+    /// The symbol that must yield the whole plan.
     Root,
     Task {
         task: TaskId,
         arguments: Box<[ObjectId]>,
     },
-    /// An action with its objects, by its number among those of the plan.
+    /// An action with its objects, by its number among the actions of the plan.
     Action(u32),
-    /// At which moments it holds.
+    /// For each moment, whether the guard holds.
     Guard(Box<[bool]>),
 }
 
 #[derive(Clone, Debug)]
 pub(super) struct Rule {
-    /// `None` is the problem's network.
+    /// The method; `None` for the problem's network.
     pub(super) method: Option<MethodId>,
     pub(super) head: SymbolId,
-    /// None before one that must come before it.
+    /// In a topological order: each node after its predecessors.
     pub(super) nodes: Vec<SymbolId>,
-    /// Per node, those directly before it.
+    /// By node: its direct predecessors.
     pub(super) before: Vec<Vec<u32>>,
-    /// Per node, which subtask of the network it is; `None` is the guard.
+    /// By node: the subtask of the network; `None` for the guard.
     pub(super) subtask: Vec<Option<u32>>,
 }
 
@@ -70,12 +70,12 @@ pub(super) struct Rule {
 pub(super) struct Grammar {
     pub(super) symbols: IndexVec<SymbolId, Symbol>,
     pub(super) rules: IndexVec<RuleId, Rule>,
-    /// Per symbol, the rules for it.
+    /// By symbol: its rules.
     pub(super) ways: IndexVec<SymbolId, Vec<RuleId>>,
     pub(super) root: SymbolId,
-    /// Per step of the plan, its action.
+    /// By step of the plan: its action.
     pub(super) steps: Vec<SymbolId>,
-    /// How many different actions there are.
+    /// The number of different actions.
     pub(super) actions: usize,
 }
 
@@ -85,7 +85,7 @@ impl Grammar {
         Slot::try_from(self.steps.len()).unwrap_or(Slot::MAX - 1)
     }
 
-    /// The same for the plan read from its end.
+    /// The grammar of the reversed plan.
     pub(super) fn reversed(&self) -> Self {
         let mut other = self.clone();
         other.steps.reverse();
@@ -100,7 +100,7 @@ impl Grammar {
             let mut before = vec![Vec::new(); rule.nodes.len()];
             for (after, nodes) in (0u32..).zip(&rule.before) {
                 for &node in nodes {
-                    // What came before comes after, and both are counted from the other end.
+                    // Predecessors become successors, and both are counted from the other end.
                     let place = u32::try_from(last).unwrap_or(u32::MAX) - after;
                     before[last - node as usize].push(place);
                 }

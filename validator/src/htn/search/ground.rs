@@ -32,14 +32,14 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
 
-/// What a plan comes to before anything is searched.
+/// The result of grounding.
 pub(super) enum Ground {
     Grammar(Grammar),
-    /// No decomposition has only steps of the plan: these subtasks of the problem's network have none.
+    /// No decomposition exists, because these subtasks of the problem's network cannot yield steps of the plan only.
     Impossible(Vec<Span>),
 }
 
-/// A method, or the problem's network, and what must be so for an instance of it to matter.
+/// A method, or the problem's network, with the condition under which an instance matters.
 struct Form<'a> {
     method: Option<MethodId>,
     schema: Schema<'a>,
@@ -51,16 +51,16 @@ type Objects = Box<[ObjectId]>;
 struct Grounding<'g, 'a> {
     prepared: &'g Prepared<'a>,
     forms: Vec<Form<'a>>,
-    /// Which forms have such a subtask, and where.
+    /// By subtask: the forms that contain it, and the positions.
     occurrences: FxHashMap<SubtaskHead, Vec<(usize, usize)>>,
-    /// What holds at some moment, and in more tables the tasks and actions that are there.
+    /// The atoms that hold at some moment; further tables have the instances of tasks and actions found so far.
     table: State,
     tables: FxHashMap<SubtaskHead, PredicateId>,
     there: FxHashSet<(SubtaskHead, Objects)>,
     waiting: VecDeque<(SubtaskHead, Objects)>,
     instances: Vec<Instance>,
     seen: FxHashSet<(usize, Vec<Option<ObjectId>>)>,
-    /// Per task, the instances for it.
+    /// By task: the instances that decompose it.
     ways: FxHashMap<(SubtaskHead, Objects), Vec<usize>>,
     roots: Vec<usize>,
 }
@@ -70,7 +70,7 @@ struct Instance {
     values: Vec<Option<ObjectId>>,
 }
 
-/// Makes the grammar; the plan's steps must be such that they can be taken.
+/// Builds the grammar. The steps of the plan must be applicable.
 pub(super) fn ground(
     prepared: &Prepared<'_>,
     plan: &SequentialPlan,
@@ -111,7 +111,7 @@ impl<'g, 'a> Grounding<'g, 'a> {
         let mut forms = Vec::new();
         let mut occurrences = FxHashMap::<SubtaskHead, Vec<(usize, usize)>>::default();
         for (method, schema) in methods.chain(root) {
-            // No plan without times has an action that takes time.
+            // A plan without times has no durative actions.
             if schema.durative().is_some() {
                 continue;
             }
@@ -138,7 +138,7 @@ impl<'g, 'a> Grounding<'g, 'a> {
         Ok(grounding)
     }
 
-    /// Enters what holds at some moment.
+    /// Adds the atoms that hold at some moment.
     fn fill(&mut self, plan: &SequentialPlan, meter: &Meter<'_>) -> Result<(), Interrupted> {
         let prepared = self.prepared;
         let mut read = Vec::new();
@@ -169,7 +169,7 @@ impl<'g, 'a> Grounding<'g, 'a> {
         outcome
     }
 
-    /// The fixed point.
+    /// Computes the fixed point.
     fn close(&mut self, plan: &SequentialPlan, meter: &Meter<'_>) -> Result<(), Interrupted> {
         for step in &plan.steps {
             self.appears(SubtaskHead::Action(step.action), step.arguments.as_slice().into());
@@ -196,7 +196,7 @@ impl<'g, 'a> Grounding<'g, 'a> {
         }
     }
 
-    /// Adds each instance of the form, one of whose subtasks has these objects.
+    /// Adds each instance of the form whose given subtask has these objects.
     fn join(
         &mut self,
         index: usize,
@@ -224,7 +224,7 @@ impl<'g, 'a> Grounding<'g, 'a> {
         let _ = scene.each_binding(&open, &guards, Strictness::Certain, &mut binding, &mut |binding| {
             outcome = meter.spend(1 + schema.determined.len());
             found.push(schema.determined.iter().map(|&v| binding.get(v)).collect::<Vec<_>>());
-            // Without a variable to look for, one way is as good as all.
+            // Without an open variable, one match is enough.
             if outcome.is_err() || open.is_empty() {
                 ControlFlow::Break(())
             } else {
@@ -278,7 +278,7 @@ impl<'g, 'a> Grounding<'g, 'a> {
         terms.iter().filter_map(|&term| binding.term(term)).collect()
     }
 
-    /// The subtasks of the problem's network that nothing is there for; all, if that does not tell.
+    /// The subtasks of the problem's network without an instance; all subtasks if each has one.
     fn impossible(&self) -> Vec<Span> {
         let Some((variables, network)) = &self.prepared.problem.htn else { return Vec::new() };
         let nothing_for = |subtask: &&pddl::model::Subtask| {
@@ -295,7 +295,7 @@ impl<'g, 'a> Grounding<'g, 'a> {
         if lacking.is_empty() { network.subtasks.iter().map(|s| s.span).collect() } else { lacking }
     }
 
-    /// What the problem's network needs.
+    /// The grammar of the instances that the problem's network reaches.
     fn grammar(&self, plan: &SequentialPlan, meter: &Meter<'_>) -> Result<Grammar, Interrupted> {
         let mut symbols = IndexVec::new();
         let mut ids = FxHashMap::<(SubtaskHead, Objects), SymbolId>::default();
@@ -369,7 +369,7 @@ impl<'g, 'a> Grounding<'g, 'a> {
         Ok(Grammar { symbols, rules, ways, root, steps, actions: actions as usize })
     }
 
-    /// Asks each guard at each moment.
+    /// Evaluates each guard at each moment.
     fn ask(
         &self,
         plan: &SequentialPlan,
@@ -406,7 +406,7 @@ impl<'g, 'a> Grounding<'g, 'a> {
     }
 }
 
-/// That all subtasks are there, and what of the precondition can be asked of all moments together.
+/// The condition that each subtask has an instance, and the weaker precondition that does not depend on the moment.
 fn query(schema: &Schema<'_>, tables: &FxHashMap<SubtaskHead, PredicateId>) -> Condition {
     let span = Span::default();
     let mut parts = Vec::new();
@@ -421,7 +421,7 @@ fn query(schema: &Schema<'_>, tables: &FxHashMap<SubtaskHead, PredicateId>) -> C
     Condition { kind: ConditionKind::And(parts), span }
 }
 
-/// What of a condition holds at some moment, at least, where the condition does.
+/// A weaker condition: each of its atoms must hold at some moment, but not all at the same one.
 fn relaxed(condition: &Condition) -> Condition {
     let kind = match &condition.kind {
         ConditionKind::And(parts) => ConditionKind::And(parts.iter().map(relaxed).collect()),

@@ -35,7 +35,7 @@ const REBUILD: u64 = 300_000;
 /// The budget of each round of the search, from each end.
 const ROUNDS: [u64; 3] = [60_000, 600_000, 6_000_000];
 
-/// What a search for a decomposition comes to.
+/// The result of a search for a decomposition.
 pub(super) enum Outcome {
     /// One decomposition.
     Found(HierarchicalPlan),
@@ -71,7 +71,7 @@ fn decide(prepared: &Prepared<'_>, plan: &SequentialPlan) -> Result<Outcome, Int
                     return Ok(Outcome::Found(found));
                 }
                 Answer::None => {
-                    // The caller drops the reason for one trial of many.
+                    // The caller ignores the reason if this is one trial of many.
                     let why = match thoroughness {
                         Thoroughness::Full => shortfall(sides[0].1, sides[0].2),
                         Thoroughness::Brief => Shortfall::Explained(0),
@@ -97,7 +97,7 @@ fn shortfall(grammar: &Grammar, outlook: &Outlook) -> Shortfall {
     }
     let search = Search::new(grammar, outlook, Ahead::Near, &Meter::of_work(GROUND));
     let explained = search.map(|mut search| {
-        // Whatever it comes to, it got so far.
+        // Whatever the result is, the search explained this many steps.
         let _ = search.run(&Meter::of_work(ROUNDS[0]));
         search.explained
     });

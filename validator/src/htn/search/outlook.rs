@@ -11,7 +11,7 @@ use budget::{Interrupted, Meter};
 use pddl::model::{Idx, IndexVec};
 use std::collections::VecDeque;
 
-/// The end of what takes no step, and by which rule.
+/// The end of a symbol that yields no step, and the rule for it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Vanishing {
     pub(super) end: Slot,
@@ -50,17 +50,17 @@ impl Sets {
 
 #[derive(Debug)]
 pub(super) struct Outlook {
-    /// The fewest steps; `u32::MAX` for what cannot end.
+    /// The fewest steps; `u32::MAX` for a symbol that cannot end.
     pub(super) least: IndexVec<SymbolId, u32>,
-    /// Which actions can come first.
+    /// The actions that can come first.
     pub(super) first: Sets,
-    /// Which actions can come at all.
+    /// The actions that can occur.
     pub(super) may: Sets,
-    /// Which actions must come.
+    /// The actions that must occur.
     pub(super) must: Sets,
-    /// Whether there is a guard in anything that it can become.
+    /// Whether its expansions can contain a guard.
     pub(super) guarded: IndexVec<SymbolId, bool>,
-    /// Per moment; empty for what always takes a step.
+    /// By moment; empty for a symbol that always yields a step.
     vanishing: IndexVec<SymbolId, Vec<Vanishing>>,
     /// Whether a rule can be used at all.
     pub(super) alive: IndexVec<RuleId, bool>,
@@ -112,12 +112,12 @@ impl Outlook {
         Ok(outlook)
     }
 
-    /// At which moment a symbol is over that takes no step and begins at `start` or later.
+    /// The earliest end of a symbol that yields no step and begins at `start` or later.
     pub(super) fn vanish(&self, symbol: SymbolId, start: Slot) -> Option<Vanishing> {
         self.vanishing[symbol].get(start as usize).copied().filter(|vanishing| vanishing.end < Slot::MAX)
     }
 
-    /// Applies `improve` to each rule until it changes no head any more.
+    /// Applies `improve` to each rule until no head changes any more.
     fn fixed_point(
         &mut self,
         grammar: &Grammar,
@@ -181,7 +181,7 @@ impl Outlook {
         Ok(changed)
     }
 
-    /// When a rule is over, all of whose nodes take no step; `ends` gets each node's end.
+    /// The end of a rule whose nodes all yield no step. Writes the end of each node to `ends`.
     fn end_of(&self, rule: &Rule, start: Slot, ends: &mut Vec<Slot>) -> Option<Slot> {
         ends.clear();
         let mut last = start;
@@ -194,7 +194,7 @@ impl Outlook {
         Some(last)
     }
 
-    /// When each node of a rule begins that takes no step.
+    /// The start of each node of a rule that yields no step.
     pub(super) fn starts(&self, rule: &Rule, start: Slot) -> Vec<Slot> {
         let mut ends = Vec::with_capacity(rule.nodes.len());
         let _ = self.end_of(rule, start, &mut ends);
@@ -221,7 +221,7 @@ impl Outlook {
         Ok(changed)
     }
 
-    /// Leaves only what all rules must have.
+    /// Keeps only the actions that every rule for the head must yield.
     fn demand_less(&mut self, grammar: &Grammar, head: SymbolId) -> bool {
         let mut common = vec![u64::MAX; self.must.words];
         for &way in grammar.ways[head].iter().filter(|way| self.alive[**way]) {
@@ -252,7 +252,7 @@ fn unite(sets: &mut Sets, into: SymbolId, from: SymbolId) -> bool {
     changed
 }
 
-/// Per symbol, the rules that have it.
+/// By symbol: the rules that contain it.
 fn users(grammar: &Grammar) -> IndexVec<SymbolId, Vec<RuleId>> {
     let mut users: IndexVec<SymbolId, Vec<RuleId>> = grammar.symbols.iter().map(|_| Vec::new()).collect();
     for (id, rule) in grammar.rules.enumerate() {
@@ -265,7 +265,7 @@ fn users(grammar: &Grammar) -> IndexVec<SymbolId, Vec<RuleId>> {
     users
 }
 
-/// Per moment, the first from then on at which a guard holds.
+/// By moment: the first moment from then on at which a guard holds.
 fn next_moments(holds: &[bool]) -> Vec<Vanishing> {
     let mut next = Slot::MAX;
     let mut moments: Vec<Vanishing> = (0..holds.len())

@@ -23,37 +23,38 @@ use super::situation::{Duty, NodeId, Part, Pending, Situation};
 use budget::{Interrupted, Meter};
 use rustc_hash::FxHashSet;
 
-/// What became of a node.
+/// What happened to a node.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Event {
-    /// It was expanded; the nodes of the rule are numbered from here on.
+    /// It was expanded by a rule, whose nodes are numbered from `first`.
     Applied { node: NodeId, rule: RuleId, first: u32 },
-    /// It began then, and took no step.
+    /// It began at `start` and yielded no step.
     Vanished { node: NodeId, symbol: SymbolId, start: Slot },
-    /// It is this step.
+    /// It yielded this step.
     Taken { node: NodeId, step: u32 },
 }
 
 #[derive(Debug)]
 pub(super) enum Answer {
-    /// What happened, in order.
+    /// The events of a decomposition, in order.
     Found(Vec<Event>),
-    /// Nothing yields the steps.
+    /// No decomposition yields the steps.
     None,
-    /// That would cost more than was to be spent.
+    /// The budget is exhausted.
     Limit,
 }
 
 /// How far ahead of the next step the search looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ahead {
-    /// To the end of the plan: what cannot become the rest is cut.
+    /// To the end of the plan: prunes situations that cannot yield the rest.
     Far,
-    /// To what a decomposition still needs, to see how many steps there is one for that begins with them.
+    /// Only to the steps that a decomposition still needs, to find the longest prefix of the plan that a decomposition
+    /// begins with.
     Near,
 }
 
-/// A situation that was entered, for its story.
+/// How a situation was entered: from which one, and by which events.
 struct Entered {
     from: Option<u32>,
     events: Box<[Event]>,
@@ -62,17 +63,17 @@ struct Entered {
 pub(super) struct Search<'g> {
     grammar: &'g Grammar,
     outlook: &'g Outlook,
-    /// Per action, the steps that are it.
+    /// By action: the steps with this action.
     places: Vec<Vec<u32>>,
-    /// Per step, which actions come from it on.
+    /// By step: the set of actions from this step on.
     rest: Vec<Box<[u64]>>,
-    /// Per action, how often it must come: scratch.
+    /// By action: how often it must occur. Scratch.
     demand: Vec<u32>,
     seen: FxHashSet<Box<[u32]>>,
     story: Vec<Entered>,
     open: Vec<(Situation, u32)>,
     ahead: Ahead,
-    /// How many steps some decomposition begins with.
+    /// The length of the longest prefix of the plan that a decomposition begins with.
     pub(super) explained: u32,
 }
 
@@ -141,13 +142,13 @@ impl<'g> Search<'g> {
                 }
                 None => self.focus(&situation, place, meter)?,
             }
-            // What was thought of first is looked at first.
+            // The stack returns the last situation first; the first one should be explored first.
             self.open[known..].reverse();
         }
         Ok(None)
     }
 
-    /// Everything that happened on the way to a situation, and then this.
+    /// The events on the way to a situation, followed by `events`.
     fn told(&self, place: u32, events: Vec<Event>) -> Vec<Event> {
         let mut chapters = vec![events.into_boxed_slice()];
         let mut next = Some(place);
@@ -158,7 +159,7 @@ impl<'g> Search<'g> {
         chapters.into_iter().rev().flat_map(<[Event]>::into_vec).collect()
     }
 
-    /// Remembers a situation to be looked at, unless it was seen or cannot become the rest of the plan.
+    /// Adds a situation to the open ones, unless it was seen or cannot yield the rest of the plan.
     fn enter(
         &mut self,
         mut situation: Situation,
@@ -178,7 +179,7 @@ impl<'g> Search<'g> {
         Ok(())
     }
 
-    /// Lets vanish what has to and can begin; answers whether all that has to could.
+    /// Lets every node vanish that must and has no predecessor. Returns false if one of them cannot vanish.
     fn settle(&self, situation: &mut Situation, events: &mut Vec<Event>) -> bool {
         loop {
             let mut ends = vec![None; situation.pending.len()];
@@ -200,13 +201,13 @@ impl<'g> Search<'g> {
         }
     }
 
-    /// Everything that a situation's future depends on.
+    /// Everything on which the future of a situation depends.
     fn key(&self, situation: &Situation) -> Box<[u32]> {
         let mut key = Vec::with_capacity(2 + 4 * situation.pending.len());
         key.push(situation.step);
         key.push(situation.focus.map_or(0, |focus| focus + 1));
         for pending in &situation.pending {
-            // Since when it waits matters to guards only, and to what it passes that on to.
+            // The start of a node matters only to guards, and to nodes that pass it on to guards.
             let matters = self.outlook.guarded[pending.symbol]
                 || self.outlook.guarded[self.grammar.root] && self.outlook.least[pending.symbol] == 0;
             let start = pending.start.saturating_sub(if matters { 0 } else { situation.step });
@@ -275,7 +276,7 @@ impl<'g> Search<'g> {
         self.ahead == Ahead::Near || coming.iter().zip(may).all(|(coming, may)| coming & !may == 0)
     }
 
-    /// The ends of nodes that would vanish as early as they can, and each one's beginning; `None` where that cannot be.
+    /// The start and the end of each node if all nodes vanish as early as possible; `None` where this is impossible.
     fn vanishing(&self, situation: &Situation) -> Vec<(Option<Slot>, Option<Slot>)> {
         let mut moments: Vec<(Option<Slot>, Option<Slot>)> = Vec::with_capacity(situation.pending.len());
         for pending in &situation.pending {
@@ -289,7 +290,7 @@ impl<'g> Search<'g> {
         moments
     }
 
-    /// All that is left vanishes.
+    /// Lets all remaining nodes vanish; `None` if one cannot.
     fn vanish_all(&self, situation: &Situation) -> Option<Vec<Event>> {
         let moments = self.vanishing(situation);
         let mut events = Vec::with_capacity(moments.len());
@@ -300,7 +301,7 @@ impl<'g> Search<'g> {
         Some(events)
     }
 
-    /// Whether the next step can come out of a symbol first.
+    /// Whether a symbol can yield the step as its first.
     fn begins(&self, symbol: SymbolId, step: u32) -> bool {
         match self.grammar.symbols[self.grammar.steps[step as usize]] {
             Symbol::Action(action) => self.outlook.first.has(symbol, action),
@@ -308,7 +309,7 @@ impl<'g> Search<'g> {
         }
     }
 
-    /// Decides which node the next step comes out of.
+    /// Chooses the node that yields the next step.
     fn focus(&mut self, situation: &Situation, place: u32, meter: &Meter<'_>) -> Result<(), Interrupted> {
         let moments = self.vanishing(situation);
         let mut tried: Vec<usize> = Vec::new();
@@ -344,7 +345,7 @@ impl<'g> Search<'g> {
         Ok(())
     }
 
-    /// The focus is the step, or becomes more by some rule.
+    /// Consumes the step if the focus is an action, or expands the focus by each of its rules.
     fn expand(
         &mut self,
         situation: &Situation,
@@ -368,7 +369,7 @@ impl<'g> Search<'g> {
         for &id in grammar.ways[pending.symbol].iter().filter(|id| self.outlook.alive[**id]) {
             let rule = &grammar.rules[id];
             meter.spend(1 + rule.nodes.len())?;
-            // As in a situation: when each node begins if all before it vanishes.
+            // The start and the end of each node if all its predecessors vanish, as in a situation.
             let mut moments: Vec<(Option<Slot>, Option<Slot>)> = Vec::with_capacity(rule.nodes.len());
             for (&node, before) in rule.nodes.iter().zip(&rule.before) {
                 let start = before
@@ -387,7 +388,7 @@ impl<'g> Search<'g> {
         Ok(())
     }
 
-    /// Expands the focus by a rule; the next step comes out of the rule's node `next`.
+    /// Expands the focus by a rule whose node `next` yields the next step.
     #[expect(clippy::too_many_arguments, reason = "one step of one search")]
     fn descend(
         &mut self,
@@ -440,7 +441,7 @@ impl<'g> Search<'g> {
         if takes {
             return go(&parts, Vec::new());
         }
-        // Either all beside it vanishes, and then nothing may come twice on the way; or something does not.
+        // Either all siblings vanish, and then no symbol may occur twice on the way down, or one of them yields a step.
         let mut none = parts.clone();
         optional.iter().for_each(|&index| none[index] = Part::Left(Duty::Nothing));
         if !trail.contains(&rule.nodes[next]) {
@@ -460,7 +461,7 @@ fn vanished(pending: &Pending, start: Slot) -> Event {
     Event::Vanished { node: pending.node, symbol: pending.symbol, start }
 }
 
-/// Whether nothing tells two nodes apart.
+/// Whether two nodes are interchangeable.
 fn twins(situation: &Situation, one: usize, other: usize) -> bool {
     let (left, right) = (&situation.pending[one], &situation.pending[other]);
     let place = |index: usize| u32::try_from(index).unwrap_or(u32::MAX);

@@ -13,14 +13,14 @@ use pddl::{
 use rustc_hash::FxHashMap;
 use std::collections::VecDeque;
 
-/// From which end the search read the plan.
+/// The end from which the search read the plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Direction {
     Forward,
     Backward,
 }
 
-/// What a node became.
+/// The result for a node.
 #[derive(Clone, Copy)]
 enum Became {
     Rule { rule: RuleId, first: u32 },
@@ -33,7 +33,7 @@ struct Rebuild<'r> {
     outlook: &'r Outlook,
     nodes: FxHashMap<NodeId, Became>,
     plan: HierarchicalPlan,
-    /// Tasks whose subtasks are yet to be entered; `None` is the root.
+    /// The tasks whose subtasks are still to be added; `None` is the root.
     waiting: VecDeque<(Option<DecompositionId>, RuleId, Vec<Became>)>,
 }
 
@@ -77,7 +77,7 @@ pub(super) fn rebuild(
 }
 
 impl Rebuild<'_> {
-    /// By which rule it was carried out, and what became of the rule's nodes.
+    /// The rule that decomposes a node, with the results for the rule's nodes.
     fn parts(&self, became: Became) -> Option<(RuleId, Vec<Became>)> {
         match became {
             Became::Step(_) => None,

@@ -5,18 +5,18 @@
 
 use super::grammar::{Rule, Slot, SymbolId};
 
-/// What was decided of a node that could take no step.
+/// The decision whether a node yields a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Duty {
-    /// Nothing yet.
+    /// Not decided.
     Open,
-    /// It takes a step.
+    /// It yields at least one step.
     Something,
-    /// It takes none.
+    /// It yields no step.
     Nothing,
 }
 
-/// A node of the decomposition that is being made.
+/// A node of the decomposition under construction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct NodeId(pub(super) u32);
 
@@ -24,9 +24,9 @@ pub(super) struct NodeId(pub(super) u32);
 pub(super) struct Pending {
     pub(super) symbol: SymbolId,
     pub(super) duty: Duty,
-    /// It begins at this moment or later.
+    /// The earliest moment at which it may begin.
     pub(super) start: Slot,
-    /// Places of what must be over first.
+    /// The positions of its direct predecessors.
     pub(super) before: Vec<u32>,
     pub(super) node: NodeId,
 }
@@ -34,16 +34,16 @@ pub(super) struct Pending {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Situation {
     pub(super) step: u32,
-    /// The node that the next step comes out of, once that is decided.
+    /// The node that yields the next step, once chosen.
     pub(super) focus: Option<u32>,
-    /// What the focus came out of, without anything that takes a step beside it.
+    /// The ancestors of the focus since the last one with a sibling that yields a step.
     pub(super) trail: Vec<SymbolId>,
     pub(super) pending: Vec<Pending>,
-    /// The next node's number.
+    /// The number of the next node.
     pub(super) next: u32,
 }
 
-/// Where a node of a rule goes: over already, or left to do.
+/// The status of a rule's node: completed, or left to do.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Part {
     Gone(Slot),
@@ -51,7 +51,7 @@ pub(super) enum Part {
 }
 
 impl Situation {
-    /// Takes out the nodes that `end` gives a moment at which they are over.
+    /// Removes the nodes for which `end` has the moment of their end.
     pub(super) fn without(&mut self, end: &[Option<Slot>]) {
         let mut places = Vec::with_capacity(self.pending.len());
         let mut kept = 0u32;
@@ -78,7 +78,7 @@ impl Situation {
         self.focus = self.focus.map(|focus| places[focus as usize]);
     }
 
-    /// Puts a rule's nodes in the place of the focus; the focus is then the node of the rule at `next`.
+    /// Replaces the focus by the nodes of a rule. The new focus is the rule's node at `next`.
     pub(super) fn expand(&mut self, focus: u32, rule: &Rule, parts: &[Part], starts: &[Slot], next: usize) {
         let first = self.next;
         self.next += u32::try_from(rule.nodes.len()).unwrap_or(u32::MAX);
