@@ -1,15 +1,16 @@
-//! `pelea plan --anytime`: better and better plans until the time is over or none is better.
+//! `pelea plan --anytime`: better and better plans, until the time is over or a proof that no plan is better.
 //!
-//! The search runs in a thread of its own and sends its plans; here each one is validated, written as
-//! `PLAN.1`, `PLAN.2` … and reported before the next is looked at. The best one is written as `PLAN`, too, or
-//! printed where there is no such file. As JSON each plan is
+//! The search runs in its own thread and sends its plans. This thread validates each plan, writes it as `PLAN.1`,
+//! `PLAN.2` … and reports it before it receives the next. The best plan is also written as `PLAN`, or printed if no
+//! file was named. As JSON each plan is
 //!
 //! ```json
 //! {"kind": "better_plan", "number": 2, "steps": 7, "cost": 12, "cost_kind": "general_cost",
 //!  "after_ms": 812.5, "file": "PLAN.2"}
 //! ```
 
-use super::{CostKind, bug, written};
+use super::record::{BetterPlanRecord, CostKind};
+use super::written::{bug, written};
 use crate::clock::Stopwatch;
 use crate::console::Console;
 use crate::exit::Exit;
@@ -18,25 +19,12 @@ use crate::render;
 use crate::task::TaskFiles;
 use pddl::model::Objective;
 use planner::{Budget, Improved, Query, SearchConfiguration, Task, improve};
-use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc;
-use validator::{Number, Valid, Verdict};
+use validator::{Valid, Verdict};
 
-/// A plan on its way.
-#[derive(Serialize)]
-struct Better {
-    kind: &'static str,
-    number: usize,
-    steps: u32,
-    cost: Number,
-    cost_kind: CostKind,
-    after_ms: f64,
-    file: Option<String>,
-}
-
-/// Where plans go.
+/// Validates, writes and reports the plans of a search.
 struct Writer<'a> {
     files: &'a TaskFiles,
     task: &'a Task,
@@ -46,11 +34,11 @@ struct Writer<'a> {
     best: Option<Valid>,
 }
 
-/// Looks for better plans until a proof that none is better, or the end of `budget`. Every better plan is written when
-/// it is found.
+/// Searches for better plans until a proof that no plan is better, or the end of `budget`. Every better plan is written
+/// when it is found.
 ///
 /// # Errors
-/// The exit code where a plan is not valid or cannot be written; the reason has been shown.
+/// The exit code if a plan is invalid or cannot be written; the reason has been shown.
 pub(super) fn run(
     files: &TaskFiles,
     task: &Task,
@@ -86,7 +74,7 @@ pub(super) fn run(
 }
 
 impl Writer<'_> {
-    /// Validates, writes and tells a plan, if it is better.
+    /// Validates a plan; writes and reports it if it is better than the best so far.
     fn take(&mut self, found: &planner::Plan, console: &mut Console<'_>) -> Result<(), Exit> {
         let (text, plan) = written(self.task, found);
         let verdict = validator::validate(&self.files.domain, &self.files.problem, &plan);
@@ -116,7 +104,7 @@ impl Writer<'_> {
             valid.cost(),
             place.unwrap_or_default()
         ));
-        console.record(&Better {
+        console.record(&BetterPlanRecord {
             kind: "better_plan",
             number: self.count,
             steps: valid.steps,

@@ -1,166 +1,25 @@
-//! `pelea plan --repair OLD_PLAN`: what can be reused of a plan that no longer fits, beside a new plan.
+//! `pelea plan --repair OLD_PLAN`: reuses a plan that no longer fits, and searches for a new plan to compare.
 //!
-//! Both are validated, and both are reported with their cost, their distance from the old plan, the time and the
-//! states that they took; the preference decides which one is written. As JSON the last record has
-//!
-//! ```json
-//! {"repair": {"old": "OLD_PLAN", "old_steps": 4, "left_out": ["(fly a b)"], "prefer": "stability", "way": "reuse",
-//!   "reused": {"steps": 5, "cost": 5, "distance": 1, "removed": 0, "added": 1, "moved": 0, "search_ms": 0.1,
-//!              "expanded": 3},
-//!   "scratch": {…}, "scratch_limit": null}}
-//! ```
-//!
-//! `reused` and `scratch` are null where there is no such plan; `scratch_limit` says which limit ended the search for a
-//! new one.
+//! Both plans are validated and reported: their cost, their distance from the old plan, the time and the states
+//! expanded. The preference decides which plan is written.
 
-use super::{bug, limit_words, written};
+use super::limit::limit_words;
+use super::old_plan::OldPlan;
+use super::prefer::Prefer;
+use super::record::{Figures, RepairRecord};
+use super::written::{bug, written};
 use crate::clock::{Deadline, Seconds, Stopwatch};
 use crate::console::Console;
 use crate::exit::Exit;
-use crate::render::{show, show_all};
-use crate::task::{TaskFiles, read_source};
-use clap::ValueEnum;
-use diagnostics::{Finding, Place, SourceId, Sources};
-use pddl::model::{ActionId, ObjectId};
-use pddl::{Plan, PlanStep, Severity, parse_plan};
-use planner::{
-    Attempt, Budget, OperatorId, Outcome, Preference, Query, Repair, Repaired, Report, SearchConfiguration,
-    Task, Way,
-};
-use serde::Serialize;
-use std::collections::HashMap;
-use std::path::Path;
+use crate::task::TaskFiles;
+use planner::{Attempt, Budget, Outcome, Query, Repair, Repaired, Report, SearchConfiguration, Task, Way};
 use std::time::Duration;
-use validator::{Number, Verdict};
+use validator::Verdict;
 
-/// What decides between the repaired plan and the new one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum Prefer {
-    /// The one that is nearer to the old plan.
-    #[default]
-    Stability,
-    /// The cheaper one.
-    Cost,
-    /// The first one: a new plan is looked for only where nothing can be reused.
-    Speed,
-}
-
-impl Prefer {
-    fn preference(self) -> Preference {
-        match self {
-            Self::Stability => Preference::Stability,
-            Self::Cost => Preference::Cost,
-            Self::Speed => Preference::Fastest,
-        }
-    }
-}
-
-/// The plan that no longer fits.
-pub(super) struct OldPlan {
-    sources: Sources,
-    file: SourceId,
-    steps: Vec<PlanStep>,
-}
-
-impl OldPlan {
-    /// Reads it; what is wrong is shown.
-    ///
-    /// # Errors
-    /// The exit code where it cannot be read, or is no sequence of steps.
-    pub(super) fn read(path: &Path, files: &TaskFiles, console: &mut Console<'_>) -> Result<Self, Exit> {
-        let (sources, file) = Sources::of(read_source(path, console)?);
-        let parsed = parse_plan(&sources[file], &files.domain, &files.problem);
-        let findings: Vec<_> = parsed.diagnostics.iter().map(|d| d.finding(file)).collect();
-        let worst = show_all(&sources, &findings, console);
-        let kind = match parsed.model {
-            Some(Plan::Sequential(plan)) => return Ok(Self { sources, file, steps: plan.steps }),
-            Some(Plan::Temporal(_)) => "a plan with times",
-            Some(Plan::Hierarchical(_)) => "a plan with its decomposition",
-            None if worst == Some(Severity::Unsupported) => return Err(Exit::Unsupported),
-            None => return Err(Exit::Unreadable),
-        };
-        let refusal = Finding::answer(Sources::start_of(file), format!("{kind} cannot be repaired"));
-        show(&sources, &Finding { severity: Severity::Unsupported, ..refusal }, console);
-        Err(Exit::Unsupported)
-    }
-
-    /// Its steps as operators; those that no operator stands for are shown and left out.
-    fn operators(&self, task: &Task, console: &mut Console<'_>) -> (Vec<OperatorId>, Vec<String>) {
-        let mut known: HashMap<(ActionId, &[ObjectId]), Option<OperatorId>> =
-            self.steps.iter().map(|step| ((step.action, step.arguments.as_slice()), None)).collect();
-        for (id, operator) in task.operators().enumerate() {
-            if let Some(place) = known.get_mut(&(operator.action, operator.arguments)) {
-                place.get_or_insert(id);
-            }
-        }
-        let (mut operators, mut left_out) = (Vec::new(), Vec::new());
-        for step in &self.steps {
-            if let Some(&Some(operator)) = known.get(&(step.action, step.arguments.as_slice())) {
-                operators.push(operator);
-                continue;
-            }
-            let text = self.sources[self.file].slice(step.span);
-            left_out.push(text.to_owned());
-            if left_out.len() > WARNINGS {
-                continue;
-            }
-            let place = Place { source: self.file, span: step.span };
-            let message = format!(
-                "{text} can never be done in this problem, or does nothing for its goal; it is left out"
-            );
-            let severity = Severity::Warning;
-            show(&self.sources, &Finding { severity, ..Finding::answer(place, message) }, console);
-        }
-        if left_out.len() > WARNINGS {
-            console.note(&format!("left out as well: {}", left_out[WARNINGS..].join(" ")));
-        }
-        (operators, left_out)
-    }
-}
-
-/// What became of the old plan.
-#[derive(Serialize)]
-pub(super) struct RepairRecord {
-    old: String,
-    old_steps: usize,
-    left_out: Vec<String>,
-    prefer: Prefer,
-    way: Option<Way>,
-    reused: Option<Figures>,
-    scratch: Option<Figures>,
-    scratch_limit: Option<&'static str>,
-}
-
-/// A plan, what it took, and how far it is from the old one.
-#[derive(Serialize)]
-struct Figures {
-    steps: usize,
-    cost: Number,
-    distance: usize,
-    removed: usize,
-    added: usize,
-    moved: usize,
-    search_ms: f64,
-    expanded: u64,
-}
-
-impl Figures {
-    fn line(&self, name: &str) -> String {
-        let moved = if self.moved > 0 { format!(", {} moved", self.moved) } else { String::new() };
-        format!(
-            "{name}: {} steps, cost {}, distance {} (+{} -{}{moved}), {} ms, {} expanded",
-            self.steps, self.cost, self.distance, self.added, self.removed, self.search_ms, self.expanded
-        )
-    }
-}
-
-/// Steps that are left out, each with its place.
-const WARNINGS: usize = 3;
-/// A new plan is looked for so many times as long as it took to repair the old one, and at least so long.
+/// The search for a new plan may take this multiple of the time of the repair, and at least this long.
 const PATIENCE: (f64, Duration) = (10.0, Duration::from_secs(1));
 
-/// Repairs the plan.
+/// Repairs the old plan and searches for a new one; with the preference for speed, only if the repair fails.
 ///
 /// # Errors
 /// The exit code if a plan is invalid; the reason has been shown.
@@ -230,8 +89,8 @@ pub(super) fn run(
         Some(Way::Scratch) => console.note("the plan from scratch is taken"),
         None => {}
     }
-    let old_steps = old.steps.len();
-    let old = old.sources[old.file].name().to_owned();
+    let old_steps = old.length();
+    let old = old.name().to_owned();
     let record = RepairRecord { old, old_steps, left_out, prefer, way, reused, scratch, scratch_limit };
     Ok((record, repaired.report()))
 }

@@ -1,0 +1,48 @@
+//! Plans of the planner as texts that the validator checks.
+
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::render::{self, show};
+use crate::task::TaskFiles;
+use crate::validate::answer;
+use pddl::{PlanStep, Source, Span};
+use planner::Task;
+use validator::{Verdict, explain};
+
+/// A plan as the text of a plan file, a step a line, and as the parser reads that text.
+pub(crate) fn written(task: &Task, found: &planner::Plan) -> (String, pddl::SequentialPlan) {
+    let mut text = String::new();
+    let mut plan = pddl::SequentialPlan::default();
+    for &id in &found.operators {
+        let line = task.operator_name(id);
+        let start = u32::try_from(text.len()).unwrap_or(u32::MAX);
+        let end = u32::try_from(text.len() + line.len()).unwrap_or(u32::MAX);
+        let operator = task.operator(id);
+        plan.steps.push(PlanStep {
+            action: operator.action,
+            arguments: operator.arguments.to_vec(),
+            span: Span::new(start, end),
+        });
+        text.push_str(&line);
+        text.push('\n');
+    }
+    (text, plan)
+}
+
+/// Reports a plan of the planner that is invalid. The whole plan is shown, since a bug report needs it.
+pub(super) fn bug(
+    verdict: &Verdict,
+    plan: &pddl::SequentialPlan,
+    text: &str,
+    files: &TaskFiles,
+    console: &mut Console<'_>,
+) -> Exit {
+    let mut sources = files.sources.clone();
+    let file = sources.push(Source::new("<plan>", text));
+    if let Some(finding) = explain(&files.domain, &files.problem, plan, verdict) {
+        show(&sources, &answer(&finding, verdict, files, file), console);
+    }
+    let text = "a bug in pelea: the planner's plan is not valid, so it was not written; please report it";
+    render::error(text, console);
+    Exit::Bug
+}
