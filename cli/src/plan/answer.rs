@@ -2,7 +2,7 @@
 
 use super::record::{CostKind, PlanRecord, UnsolvableRecord};
 use super::unsolvable::Unsolvable;
-use super::written::{bug, written};
+use super::written::validated;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::files;
@@ -13,7 +13,6 @@ use pddl::Severity;
 use planner::{GroundError, Origin, Task};
 use std::fmt::Write;
 use std::path::Path;
-use validator::Verdict;
 
 /// A limit ended the search.
 pub(super) fn no_answer(limit: &str, answer: &mut PlanRecord, console: &mut Console<'_>) -> Exit {
@@ -68,12 +67,11 @@ pub(super) fn solved(
     answer: &mut PlanRecord,
     console: &mut Console<'_>,
 ) -> Exit {
-    let (mut text, plan) = written(task, found);
-    answer.steps = text.lines().map(str::to_owned).collect();
-    let verdict = validator::validate(&files.domain, &files.problem, &plan);
-    let Verdict::Valid(valid) = verdict else {
-        return bug(&verdict, &plan, &text, files, console);
+    let (mut text, valid) = match validated(files, task, found, console) {
+        Ok(validated) => validated,
+        Err(exit) => return exit,
     };
+    answer.steps = text.lines().map(str::to_owned).collect();
     let kind = CostKind::of(&files.problem);
     writeln!(text, "; cost = {} ({})", valid.cost(), kind.text()).expect("a string takes all");
     match output {

@@ -10,7 +10,7 @@
 //! ```
 
 use super::record::{BetterPlanRecord, CostKind};
-use super::written::{bug, written};
+use super::written::validated;
 use crate::clock::Stopwatch;
 use crate::console::Console;
 use crate::exit::Exit;
@@ -22,7 +22,7 @@ use planner::{Budget, Improved, Query, SearchConfiguration, Task, improve};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc;
-use validator::{Valid, Verdict};
+use validator::Valid;
 
 /// Validates, writes and reports the plans of a search.
 struct Writer<'a> {
@@ -76,11 +76,7 @@ pub(super) fn run(
 impl Writer<'_> {
     /// Validates a plan; writes and reports it if it is better than the best so far.
     fn take(&mut self, found: &planner::Plan, console: &mut Console<'_>) -> Result<(), Exit> {
-        let (text, plan) = written(self.task, found);
-        let verdict = validator::validate(&self.files.domain, &self.files.problem, &plan);
-        let Verdict::Valid(valid) = verdict else {
-            return Err(bug(&verdict, &plan, &text, self.files, console));
-        };
+        let (text, valid) = validated(self.files, self.task, found, console)?;
         if self.best.as_ref().is_some_and(|best| !is_better(&valid, best)) {
             return Ok(());
         }

@@ -7,14 +7,13 @@ use super::limit::limit_words;
 use super::old_plan::OldPlan;
 use super::prefer::Prefer;
 use super::record::{Figures, RepairRecord};
-use super::written::{bug, written};
+use super::written::validated;
 use crate::clock::{Deadline, Seconds, Stopwatch};
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::task::TaskFiles;
 use planner::{Attempt, Budget, Outcome, Query, Repair, Repaired, Report, SearchConfiguration, Task, Way};
 use std::time::Duration;
-use validator::Verdict;
 
 /// The search for a new plan may take this multiple of the time of the repair, and at least this long.
 const PATIENCE: (f64, Duration) = (10.0, Duration::from_secs(1));
@@ -50,15 +49,11 @@ pub(super) fn run(
 
     let mut figures = |attempt: &Attempt, search_ms: f64| {
         let Some((plan, distance)) = attempt.plan() else { return Ok(None) };
-        let (text, steps) = written(task, plan);
-        let cost = match validator::validate(&files.domain, &files.problem, &steps) {
-            Verdict::Valid(valid) => valid.cost(),
-            verdict => return Err(bug(&verdict, &steps, &text, files, console)),
-        };
+        let (_, valid) = validated(files, task, plan, console)?;
         let removed = distance.removed + left_out.len();
         Ok(Some(Figures {
             steps: plan.operators.len(),
-            cost,
+            cost: valid.cost(),
             distance: removed + distance.added,
             removed,
             added: distance.added,

@@ -7,7 +7,7 @@ use crate::task::TaskFiles;
 use crate::validate::answer;
 use pddl::{PlanStep, Source, Span};
 use planner::Task;
-use validator::{Verdict, explain};
+use validator::{Valid, Verdict, explain, validate};
 
 /// A plan as the text of a plan file, a step a line, and as the parser reads that text.
 pub(crate) fn written(task: &Task, found: &planner::Plan) -> (String, pddl::SequentialPlan) {
@@ -29,8 +29,25 @@ pub(crate) fn written(task: &Task, found: &planner::Plan) -> (String, pddl::Sequ
     (text, plan)
 }
 
+/// A plan of the planner as the text of a plan file, and what the validator finds of it.
+///
+/// # Errors
+/// [`Exit::Bug`] if the plan is invalid; the reason has been shown.
+pub(super) fn validated(
+    files: &TaskFiles,
+    task: &Task,
+    found: &planner::Plan,
+    console: &mut Console<'_>,
+) -> Result<(String, Valid), Exit> {
+    let (text, plan) = written(task, found);
+    match validate(&files.domain, &files.problem, &plan) {
+        Verdict::Valid(valid) => Ok((text, valid)),
+        verdict => Err(bug(&verdict, &plan, &text, files, console)),
+    }
+}
+
 /// Reports a plan of the planner that is invalid. The whole plan is shown, since a bug report needs it.
-pub(super) fn bug(
+fn bug(
     verdict: &Verdict,
     plan: &pddl::SequentialPlan,
     text: &str,
