@@ -60,7 +60,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
                 Some(nearest) => format!("did you mean `{nearest}`?"),
                 None => "`pelea explain` lists all codes".to_owned(),
             };
-            error_with_help(format!("no diagnostic has the code `{code}`"), Some(help), console);
+            error_with_help(format!("no diagnostic has the code `{code}`"), Some(&help), console);
             Exit::Unreadable
         }
     }

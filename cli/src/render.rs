@@ -35,9 +35,9 @@ pub(crate) fn error(text: impl Into<String>, console: &mut Console<'_>) {
 }
 
 /// Shows an error that has no place in a text, with advice.
-pub(crate) fn error_with_help(text: impl Into<String>, help: Option<String>, console: &mut Console<'_>) {
+pub(crate) fn error_with_help(text: impl Into<String>, help: Option<&str>, console: &mut Console<'_>) {
     let text = text.into();
-    let advice = help.as_ref().map(|help| format!("  help: {help}\n")).unwrap_or_default();
+    let advice = help.map(|help| format!("  help: {help}\n")).unwrap_or_default();
     console.block(&format!("{}: {text}\n{advice}", word(Severity::Error)));
     console.record(&DiagnosticRecord {
         kind: "diagnostic",
@@ -46,7 +46,7 @@ pub(crate) fn error_with_help(text: impl Into<String>, help: Option<String>, con
         message: &text,
         place: None,
         labels: Vec::new(),
-        help: help.as_deref(),
+        help,
     });
 }
 

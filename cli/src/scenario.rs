@@ -77,7 +77,7 @@ impl ScenarioError {
         match self {
             Self::Wrong(errors) => show(&errors.sources, &errors.findings, console),
             Self::Unknown { help, .. } => {
-                render::error_with_help(self.to_string(), help.clone(), console);
+                render::error_with_help(self.to_string(), help.as_deref(), console);
                 Exit::Unreadable
             }
         }

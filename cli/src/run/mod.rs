@@ -89,7 +89,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         let text = format!("`{}` has no words in `{language}`", arguments.mission.display());
         let known: Vec<_> = mission.languages().collect();
         let help = format!("its languages are: {}", known.join(", "));
-        render::error_with_help(text, Some(help), console);
+        render::error_with_help(text, Some(&help), console);
         return Exit::Unreadable;
     }
     let runtime = tokio::runtime::Builder::new_current_thread()

@@ -75,7 +75,7 @@ fn once(paths: &[PathBuf], filter: &[String], console: &mut Console<'_>) -> Exit
     }
     folders.dedup();
     if folders.is_empty() {
-        let help = "`pelea test --init FOLDER` writes a first one".to_owned();
+        let help = "`pelea test --init FOLDER` writes a first one";
         let text = "there is no suite here: no folder has an `expected.toml`";
         render::error_with_help(text, Some(help), console);
         return Exit::Unreadable;
