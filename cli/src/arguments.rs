@@ -45,7 +45,7 @@ enum Command {
     Explain(explain::Arguments),
 }
 
-/// Reads the arguments (the first is the program's name) and does what they say.
+/// Parses the arguments (the first is the program's name) and runs the command.
 pub fn run<I>(arguments: I, console: &mut Console<'_>) -> Exit
 where
     I: IntoIterator,

@@ -68,7 +68,7 @@ pub(crate) fn load(path: &Path) -> Result<Mission, LoadError> {
     Ok(Mission::load(&Disk, &path.to_string_lossy())?)
 }
 
-/// All findings about a mission that could be read, and what runs it if none of them is an error.
+/// All findings about a mission that could be read, and its assembly if no finding is an error.
 pub(crate) fn assemble(mission: &Mission) -> (Option<Assembly>, Vec<Finding>) {
     let mut findings = mission.warnings.clone();
     findings.extend(mission.check());

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 pub(crate) struct Deadline(Option<Instant>);
 
 impl Deadline {
-    /// In `seconds` from now; never, if there is no limit or it is beyond what a clock counts.
+    /// The deadline in `seconds` from now; without a limit, or beyond the range of the clock, it never comes.
     pub(crate) fn after(seconds: Option<Seconds>) -> Self {
         Self(seconds.and_then(|s| Instant::now().checked_add(s.0)))
     }

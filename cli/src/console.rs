@@ -1,7 +1,7 @@
 //! Output: results to standard output, everything else to standard error.
 //!
-//! A reader that closes the pipe (`pelea … | head`) is no error: what cannot be written any more is
-//! dropped, and the exit code still says what came out. Colours only where a terminal shows them.
+//! A reader that closes the pipe (`pelea … | head`) is no error: further output is dropped, and the exit code is still
+//! that of the command. Colours are written only to a terminal that shows them.
 
 use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
@@ -15,7 +15,7 @@ pub enum Form {
     Json,
 }
 
-/// Standard output and standard error, or what a test puts in their place.
+/// Standard output and standard error, or a test's replacements for them.
 pub struct Console<'a> {
     out: Box<dyn Write + 'a>,
     err: Box<dyn Write + 'a>,
@@ -25,7 +25,7 @@ pub struct Console<'a> {
     result_width: Option<usize>,
 }
 
-/// Output of another thread, kept until its turn.
+/// The output of another thread, kept until its turn.
 #[derive(Debug, Default)]
 pub(crate) struct Said {
     out: Vec<u8>,
@@ -41,7 +41,7 @@ pub(crate) struct Manner {
 }
 
 impl Manner {
-    /// A console that keeps what is said until [`Console::replay`].
+    /// A console that keeps its output until [`Console::replay`].
     pub(crate) fn console(self, said: &mut Said) -> Console<'_> {
         let Said { out, err } = said;
         let mut console = Console::new(out, err);
@@ -65,7 +65,7 @@ impl<'a> Console<'a> {
         }
     }
 
-    /// The process's own.
+    /// The standard output and standard error of the process.
     pub fn of_process() -> Console<'static> {
         let wanted = std::env::var_os("NO_COLOR").is_none();
         Console {
@@ -78,12 +78,12 @@ impl<'a> Console<'a> {
         }
     }
 
-    /// Its settings, for consoles on other threads.
+    /// The settings of this console, for consoles on other threads.
     pub(crate) fn manner(&self) -> Manner {
         Manner { form: self.form, colour: self.colour, result_colour: self.result_colour }
     }
 
-    /// Writes what was kept.
+    /// Writes the kept output.
     pub(crate) fn replay(&mut self, said: &Said) {
         dropped(self.err.write_all(&said.err));
         dropped(self.out.write_all(&said.out));

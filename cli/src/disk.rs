@@ -1,4 +1,4 @@
-//! Mission folders on a disk, and what is wrong with them.
+//! Mission folders on a disk, and the findings about them.
 
 use crate::console::Console;
 use crate::exit::Exit;

@@ -1,14 +1,14 @@
-//! `pelea explain [CODE]`: what a diagnostic's code means, with a wrong example and a right one.
+//! `pelea explain [CODE]`: the meaning of a diagnostic's code, with a wrong example and a right one.
 //!
-//! Without a code, all of them in a line each. As JSON there is a line per code:
+//! Without a code, it lists all codes, a line each. With `--json`, a line per code:
 //!
 //! ```json
 //! {"kind": "explanation", "code": "E0202", "title": "unknown predicate", "meaning": "…", "why": "…",
 //!  "wrong": ["…"], "right": ["…"]}
 //! ```
 //!
-//! `wrong` and `right` hold the texts of files, those that others need before them; a lint's code has the field
-//! `lint` as well, its name.
+//! `wrong` and `right` hold the texts of files; a file comes after those that it needs. The code of a lint also has the
+//! field `lint`, the lint's name.
 
 use crate::console::{Console, Form};
 use crate::exit::Exit;
@@ -66,7 +66,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     }
 }
 
-/// How to be rid of a lint where what it finds is meant.
+/// How to silence a lint where its finding is intended.
 fn silencing(lint: &Lint) -> String {
     let shown = match lint.level {
         Level::Default => "",

@@ -73,7 +73,7 @@ pub(crate) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let failed = |source| FileError::Write { path: path.to_owned(), source };
     let existing = fs::metadata(path).ok();
     if existing.as_ref().is_some_and(|m| !m.is_file()) {
-        // A device or a pipe stays what it is.
+        // A device or a pipe must not be replaced by a file.
         return OpenOptions::new()
             .write(true)
             .open(path)
@@ -89,7 +89,7 @@ pub(crate) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
         .and_then(|()| existing.map_or(Ok(()), |m| fs::set_permissions(&beside, m.permissions())))
         .and_then(|()| fs::rename(&beside, &target));
     written.map_err(|source| {
-        // The write failed already; a remainder that cannot be removed adds nothing to that.
+        // The write has failed already; that error is reported even if the remainder cannot be removed.
         let _ = fs::remove_file(&beside);
         failed(source)
     })

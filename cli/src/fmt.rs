@@ -2,13 +2,13 @@
 //!
 //! Folders stand for all `.pddl` and `.hddl` files below them, `-` for standard input, which goes to standard
 //! output. Only files that change are written, each whole or not at all, in the encoding that they had; a file
-//! whose parentheses do not match is reported and left alone. As JSON there is a line per file:
+//! whose parentheses do not match is reported and left alone. With `--json`, a line per file:
 //!
 //! ```json
 //! {"kind": "formatted", "file": "p.pddl", "changed": true, "written": true}
 //! ```
 //!
-//! With `--stdout`, and for standard input, it has the field `text` as well.
+//! With `--stdout`, and for standard input, the record also has the field `text`.
 
 use crate::console::{Console, Form};
 use crate::exit::Exit;

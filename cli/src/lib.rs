@@ -1,8 +1,8 @@
 //! The command line of pelea: arguments, files, the terminal. The only composition root.
 //!
-//! Each command is a module with its clap arguments and one function from arguments to [`Exit`]; what it
-//! says goes through a [`Console`], results to standard output and everything else to standard error.
-//! The crates below never print, read files or look at the clock; that happens here.
+//! Each command is a module with its clap arguments and one function from arguments to [`Exit`]. It writes
+//! to a [`Console`]: results to standard output and everything else to standard error. The crates below never print,
+//! read files or read the clock; that happens here.
 //!
 //! ```
 //! use pelea::{Console, Exit};
@@ -17,7 +17,7 @@
 //!
 //! Members: `arguments` (the tree of commands), `run`, `plan`, `validate`, `check`, `test`, `fmt`, `dsr`, `lsp`, `explain` (one each),
 //! `task` (a domain with its problem, read from files), `assemble` (a mission, from its folder to what runs it),
-//! `scenario`, `pool` (work on all cores), `files`, `nearby` (what is in folders), `disk` (mission folders), `memory`, `clock`, `render`
+//! `scenario`, `pool` (work on all cores), `files`, `nearby` (the contents of folders), `disk` (mission folders), `memory`, `clock`, `render`
 //! (diagnostics as text with excerpts, or as JSON), `console` and `exit`.
 
 mod arguments;
@@ -49,7 +49,7 @@ pub use exit::Exit;
 
 use std::process::ExitCode;
 
-/// The whole program. `PELEA_LOG=debug` writes what its parts do to standard error.
+/// The whole program. `PELEA_LOG=debug` logs the work of its parts to standard error.
 pub fn main() -> ExitCode {
     if let Ok(filter) = tracing_subscriber::EnvFilter::try_from_env("PELEA_LOG") {
         tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr).init();

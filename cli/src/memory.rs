@@ -1,8 +1,8 @@
 //! How much memory a task and the search on it may hold.
 //!
 //! A process that asks for more than its address space aborts, which is no answer. So the search gets a
-//! budget well below what the process may have: 4 GiB, or a part of a smaller limit (`ulimit -v`) or of
-//! a smaller machine. What is not known (another system than Linux) does not count.
+//! budget well below the memory that the process may have: 4 GiB, or a part of a smaller limit (`ulimit -v`) or of
+//! a smaller machine. A limit that cannot be read (on systems other than Linux) is ignored.
 
 use std::fs;
 

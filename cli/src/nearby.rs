@@ -1,4 +1,4 @@
-//! What is in folders, and which file near another one defines a domain.
+//! The contents of folders, and the file near another one that defines a domain.
 
 use crate::files;
 use pddl::Source;
@@ -6,15 +6,15 @@ use project::{FileKind, Header};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What makes a folder a mission.
+/// The file that makes a folder a mission.
 pub(crate) const MANIFEST: &str = "mission.toml";
 
-/// Whether a file is checked and formatted where its folder is given; plans are only where they are named.
+/// Whether a file is checked and formatted when its folder is given. Plans are so only when they are named.
 pub(crate) fn is_source(path: &Path) -> bool {
     FileKind::is_definition(&path.to_string_lossy())
 }
 
-/// What is in a folder, in order; nothing if it cannot be read.
+/// The paths in a folder, in order; empty if the folder cannot be read.
 pub(crate) fn entries(folder: &Path) -> Vec<PathBuf> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let mut paths: Vec<PathBuf> =

@@ -1,7 +1,7 @@
 //! Diagnostics as text with an excerpt, or as JSON.
 //!
-//! The crates below say what is wrong as data with spans; here it gets a file, a line, a column and the
-//! lines around it. As JSON a diagnostic is one line:
+//! The crates below report findings as data with spans. This module adds the file, the line, the column and the
+//! surrounding lines. As JSON a diagnostic is one line:
 //!
 //! ```json
 //! {"kind": "diagnostic", "severity": "error", "code": "E0101", "message": "…",
@@ -205,7 +205,7 @@ fn harmless(text: &str) -> Cow<'_, str> {
     if text.contains(harmful) { Cow::Owned(text.replace(harmful, "?")) } else { Cow::Borrowed(text) }
 }
 
-/// The span inside its text, on the boundaries of characters, and never empty where there is a character.
+/// The span clamped to its text and to character boundaries. It is empty only at the end of the text.
 fn bytes(at: At<'_>) -> Range<usize> {
     let text = at.source.text();
     let mut start = at.span.range().start.min(text.len());

@@ -62,7 +62,7 @@ impl Staged {
     }
 }
 
-/// Why there is no scenario.
+/// Why a scenario cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum ScenarioError {
     #[error("`{mission}` has no scenario `{name}`")]
@@ -97,7 +97,7 @@ pub(crate) fn read(mission: &Mission, name: &str) -> Result<Scenario, ScenarioEr
         if mission.scenarios().any(|known| known == name) {
             return errors.into();
         }
-        // What was wrong is an argument, and has no place in a file.
+        // The error is in an argument, so it has no place in a file.
         let help = errors.findings.into_iter().find_map(|finding| finding.help);
         ScenarioError::Unknown { mission: mission.folder.clone(), name: name.to_owned(), help }
     })

@@ -1,4 +1,4 @@
-//! A domain, what it imports, and a problem, read from files.
+//! A domain, its imports, and a problem, read from files.
 
 use crate::console::Console;
 use crate::exit::Exit;
@@ -12,7 +12,7 @@ use project::{Header, Need, read_domain};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// What `plan` and `validate` work on.
+/// The task that `plan` and `validate` work on.
 pub(crate) struct TaskFiles {
     pub(crate) sources: Sources,
     pub(crate) domain_file: SourceId,
@@ -22,7 +22,7 @@ pub(crate) struct TaskFiles {
 }
 
 impl TaskFiles {
-    /// Reads both files and shows what is wrong with them. The domains that the domain imports are looked for among
+    /// Reads both files and shows their findings. The domains that the domain imports are looked for among
     /// `imports`, then near the file that needs them.
     ///
     /// # Errors
@@ -90,7 +90,7 @@ fn found_imports(
     Ok(found)
 }
 
-/// Reads a file; what goes wrong is shown.
+/// Reads a file, and shows the error if it cannot be read.
 ///
 /// # Errors
 /// [`Exit::Unreadable`].

@@ -1,10 +1,9 @@
-//! A mission checked as a whole: its files, what the layers do to each other, what they compile to, and all its
-//! scenarios.
+//! A mission checked as a whole: its files, the layers against each other, their compilation, and all its scenarios.
 //!
-//! Lints look at its files as far as these are a project by themselves.
+//! Lints run on those of its files that form a project by themselves.
 //!
-//! It is the road of `pelea run` up to the point where something would move. As JSON there is, after its
-//! diagnostics, a line:
+//! The check takes the same steps as `pelea run` before it moves anything. With `--json`, a line follows its
+//! diagnostics:
 //!
 //! ```json
 //! {"kind": "checked", "mission": "domains/tea", "files": 12, "agents": 1, "rules": 2, "methods": 2,
@@ -12,7 +11,8 @@
 //!  "checked": true}
 //! ```
 //!
-//! `checked` is false, and the counts of what is in it are missing, where a file keeps the rest from being read.
+//! If an error in one file prevents the rest from being read, `checked` is false and the counts of its contents are
+//! missing.
 
 use super::tally::Tally;
 use crate::assemble::{LoadError, assemble, load};
@@ -69,8 +69,8 @@ pub(super) fn check(path: &Path, level: Level, console: &mut Console<'_>) -> Exi
     if tally.errors == 0 { Exit::Yes } else { Exit::No }
 }
 
-/// What lints say of the mission's PDDL, by the mission's own numbers of the files. A layer whose names come from more
-/// than a domain that it names is no project's file by itself, and nothing is said of it.
+/// The lint findings of the mission's PDDL, with the mission's ids of the files. Lints skip a layer whose names come
+/// from more than the domain that it names, since it is not a project's file by itself.
 fn lints(mission: &Mission, level: Level) -> Vec<Finding> {
     let mut project = Project::without_names();
     project.set_lint_level(level);
@@ -97,7 +97,7 @@ fn tally(findings: &[Finding]) -> Tally {
     Tally::of(findings.iter().map(|f| f.severity))
 }
 
-/// What was checked.
+/// The contents of a checked mission.
 #[derive(Serialize)]
 struct Content<'a> {
     files: usize,

@@ -1,4 +1,4 @@
-//! `pelea dsr log`, `diff` and `query`: what happened, what differs, and where a pattern matches.
+//! `pelea dsr log`, `diff` and `query`: the commits, the difference of two versions, and the matches of a pattern.
 
 use super::failed::Failed;
 use super::journal::{Moment, open, state};
@@ -115,12 +115,13 @@ pub(super) fn query(arguments: &QueryArguments, console: &mut Console<'_>) -> Re
     Ok(exit.and(if any { Exit::Yes } else { Exit::No }))
 }
 
-/// Tells of every match the version in which it appeared and the one in which it was gone; whether there is any.
+/// Reports for every match the version in which it appeared and the version in which it disappeared. Returns whether
+/// there was a match.
 ///
-/// No snapshot is kept while the replay goes on: it would make it copy the state.
+/// No snapshot is kept while the replay advances: the replay would have to copy the state.
 fn history(recording: &Recording, pattern: &Pattern, console: &mut Console<'_>) -> Result<bool, Failed> {
     let mut replay = recording.replay()?;
-    // With the names that the nodes have: one that is gone has none any more.
+    // The names are kept because a deleted node no longer has one.
     let mut held: BTreeMap<Binding, Names<'_>> = BTreeMap::new();
     let (mut any, mut first) = (false, true);
     loop {
@@ -146,7 +147,7 @@ fn history(recording: &Recording, pattern: &Pattern, console: &mut Console<'_>) 
             }
             first = false;
         }
-        // What does not touch the pattern's tokens changes no match.
+        // A commit that does not touch the pattern's tokens changes no match.
         loop {
             match replay.next().transpose()? {
                 None => return Ok(any),
@@ -166,7 +167,7 @@ fn named<'p>(pattern: &'p Pattern, binding: &Binding, snapshot: &Snapshot) -> Na
     nodes.map(|((variable, _), id)| (variable, snapshot.name(*id).unwrap_or("?").to_owned())).collect()
 }
 
-/// Tells of a match that holds at `at`, or no longer does.
+/// Reports a match that holds at `at`, or no longer does.
 fn tell(at: &Snapshot, bindings: &Names<'_>, holds: bool, before: &str, console: &mut Console<'_>) {
     let said: Vec<_> = bindings.iter().map(|(variable, name)| format!("?{variable} = {name}")).collect();
     console.result(&format!("{before}{}", if said.is_empty() { "yes".to_owned() } else { said.join(", ") }));

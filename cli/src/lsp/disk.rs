@@ -24,7 +24,7 @@ impl ::lsp::Disk for Disk {
         let path = Path::new(path);
         let about = fs::metadata(path).map_err(|error| ReadError::Unreadable(error.to_string()))?;
         if !about.is_file() {
-            // A pipe would keep us waiting.
+            // Reading a pipe would block.
             return Err(ReadError::Unreadable("it is no file".to_owned()));
         }
         if about.len() > max_bytes {
@@ -35,7 +35,7 @@ impl ::lsp::Disk for Disk {
     }
 }
 
-/// Names that are no Unicode cannot be said in a URI that every client understands.
+/// A name that is not Unicode has no URI that every client understands.
 fn entry_of(entry: &DirEntry) -> Option<Entry> {
     let name = entry.file_name().into_string().ok()?;
     let kind = entry.file_type().ok()?;

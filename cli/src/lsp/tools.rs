@@ -10,7 +10,7 @@ use planner::{
 };
 use validator::{Verdict, explain, validate};
 
-/// Ours.
+/// The planner and the validator of this workspace.
 pub(super) struct Tools;
 
 impl ::lsp::Tools for Tools {

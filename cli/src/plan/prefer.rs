@@ -4,7 +4,7 @@ use clap::ValueEnum;
 use planner::Preference;
 use serde::Serialize;
 
-/// What decides between the repaired plan and the new one.
+/// The criterion that decides between the repaired plan and the new one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Prefer {

@@ -15,7 +15,7 @@ use planner::Way;
 use serde::Serialize;
 use std::collections::BTreeSet;
 
-/// Collects what expectations are about.
+/// Collects the figures that the expectations are about.
 pub(super) struct Record<'a> {
     mission: &'a Mission,
     /// The label of the edge from an item's answer to the item.
@@ -39,7 +39,7 @@ pub(super) struct Repairs {
     removed: usize,
     /// Steps that were new.
     added: usize,
-    /// Steps that came to be done in another order.
+    /// Steps that moved to another place in the order.
     moved: usize,
 }
 

@@ -4,7 +4,7 @@
 //! the story take their turns in a fixed order. With `--speed max` tokio's clock is paused and jumps to the
 //! next event, so the same mission, scenario and seed give the same bytes.
 //!
-//! From the ground up: `script`, `director` (what happens in the room), `story` (what happened, as one stream), `content`
+//! From the ground up: `script`, `director` (the disruptions in the room), `story` (all events as one stream), `content`
 //! (the mission's words) → `judge`, `terminal`, `teller` (reports of the story) → `play`.
 
 mod content;

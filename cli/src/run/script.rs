@@ -1,4 +1,4 @@
-//! From a scenario, which names items and questions, to what the simulated room can do.
+//! Translates a scenario, which names items and questions, into scripts of the simulated room.
 //!
 //! A seed other than 0 varies how long the simulated person takes to answer, by up to half, so that a
 //! campaign meets other interleavings; the same seed gives the same delays.

@@ -1,4 +1,4 @@
-//! The story of a run: one linear stream of what happened in the room, in the graph and in PELEA.
+//! The story of a run: one linear stream of the events in the room, in the graph and in PELEA.
 //!
 //! Reporters (terminal, JSON) only read it. Before an entry is added, the commits until then are, so that the order is
 //! that of the versions. The story reads edges, and the values of functions of two nodes; other commits do not reach it.
@@ -13,7 +13,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 use tokio::sync::mpsc::UnboundedSender;
 
-/// An entry: when, in which version, what.
+/// An entry: its time, its version, its event.
 #[derive(Clone, Debug, Serialize)]
 #[serde(tag = "kind", rename = "event")]
 pub(super) struct Entry {
@@ -25,7 +25,7 @@ pub(super) struct Entry {
     pub(super) what: What,
 }
 
-/// What happened.
+/// An event.
 #[derive(Clone, Debug, Serialize)]
 #[serde(tag = "source", rename_all = "snake_case")]
 pub(super) enum What {
@@ -37,10 +37,10 @@ pub(super) enum What {
     Pelea(Narration),
 }
 
-/// What a commit changed, in the paper's sentences.
+/// The changes of a commit, in the paper's sentences.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Commit {
-    /// Who wrote it.
+    /// The agent that wrote it.
     pub(super) writer: String,
     /// Tokens that stand in the graph now.
     pub(super) now: Vec<String>,
@@ -71,7 +71,7 @@ impl Story {
         Self(Arc::new(Mutex::new(Telling { graph: graph.clone(), subscription, reader })))
     }
 
-    /// Adds an entry, after what the graph has done until now.
+    /// Adds an entry, after the graph's commits until now.
     pub(super) fn tell(&self, time: f64, what: What) {
         let mut telling = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         telling.catch_up();
@@ -79,7 +79,7 @@ impl Story {
         let _ = telling.reader.send(Entry { time, version, what });
     }
 
-    /// Adds what the graph has done until now.
+    /// Adds the graph's commits until now.
     pub(super) fn catch_up(&self) {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).catch_up();
     }
@@ -154,7 +154,7 @@ fn commit(delta: &dsr::Delta, after: &Snapshot) -> Commit {
     Commit { writer, now, no_longer, reflex: !delta.reflexes.is_empty(), edges }
 }
 
-/// Seconds, to the millisecond: what a person can tell apart, and short in JSON.
+/// Seconds, to the millisecond: as fine as a person notices, and short in JSON.
 pub(super) fn seconds(time: Duration) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "2^53 ms are longer than any mission")]
     let millis = time.as_millis() as f64;

@@ -14,7 +14,7 @@ pub(super) struct Terminal {
     colour: bool,
     /// Columns, if it is a terminal.
     width: Option<usize>,
-    /// What the robot said last, and which page it showed, so that neither is printed twice.
+    /// The robot's last sentence and the page it showed, so that neither is printed twice.
     said: String,
     options: Vec<String>,
     /// How many steps the current plan has.
@@ -59,7 +59,7 @@ impl Terminal {
         Self { lines: Vec::new(), colour, width, said, options, steps: 0, verbose }
     }
 
-    /// What to print of an entry.
+    /// The lines to print of an entry.
     pub(super) fn lines(&mut self, entry: &Entry) -> Vec<String> {
         match &entry.what {
             What::Room(event) => self.room(entry.time, event),
@@ -134,7 +134,7 @@ impl Terminal {
         self.line(time, tone, head, &text);
     }
 
-    /// A page without what was just said, and with its options when they are new.
+    /// A page without the sentence just spoken, and with its options when they are new.
     fn page(&mut self, page: &hal::Page) -> String {
         let text = if page.text == self.said { "" } else { page.text.as_str() };
         let parts = [page.title.as_str(), text];

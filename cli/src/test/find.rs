@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use suite::{File, Folder};
 
-/// What makes a folder a suite.
+/// The file that makes a folder a suite.
 pub(super) const EXPECTED: &str = "expected.toml";
 
 /// The folders with an `expected.toml` at or below a folder, in order. Hidden folders and `target` are passed over.
@@ -30,13 +30,13 @@ fn folders_in(folder: &Path) -> Vec<PathBuf> {
     below
 }
 
-/// Reads what a suite is made of.
+/// Reads the files of a suite.
 pub(super) fn read(folder: &Path) -> Result<Folder, FileError> {
     let expected = files::read(&folder.join(EXPECTED))?;
     read_with(folder, &expected)
 }
 
-/// The same with another `expected.toml` than the one on the disk.
+/// Reads the files of a suite, with `expected` in place of the `expected.toml` on the disk.
 pub(super) fn read_with(folder: &Path, expected: &Source) -> Result<Folder, FileError> {
     let expected = Source::new(shown(&folder.join(EXPECTED)), expected.text());
     let mut files = Vec::new();
@@ -61,7 +61,7 @@ fn files_below(root: &Path, folder: &Path, found: &mut Vec<File>) -> Result<(), 
     Ok(())
 }
 
-/// The files that define what those of the suite need and none of them defines.
+/// Files elsewhere that define the names that the suite's files need and do not define.
 fn elsewhere(folder: &Path, files: &[File]) -> Vec<Source> {
     let headers: Vec<Header> = files.iter().map(|file| Header::of(&file.path, file.source.text())).collect();
     let mut needed: Vec<String> =

@@ -1,4 +1,4 @@
-//! `pelea test --init FOLDER...`: a first `expected.toml` from what is found.
+//! `pelea test --init FOLDER...`: a first `expected.toml` from the present results.
 
 use super::find;
 use crate::clock::Seconds;

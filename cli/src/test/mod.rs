@@ -1,15 +1,15 @@
 //! `pelea test PATH...`: tests for domains as text.
 //!
-//! Every folder with an `expected.toml`, at a path or below it, is a suite (`suite`); docs/testing.md says what is in
-//! it. Cases of all suites run side by side, and are shown one a line in the order of suites and cases whatever comes
-//! first. What failed is explained at the end. As JSON a case is
+//! Every folder with an `expected.toml`, at a path or below it, is a suite (`suite`); docs/testing.md documents its
+//! format. The cases of all suites run in parallel; each is shown on a line, in the order of suites and cases. The failed
+//! cases are explained at the end. As JSON a case is
 //!
 //! ```json
 //! {"kind": "case", "suite": "domains/tea", "name": "domains/tea/plans/valid/a.plan::valid", "outcome": "pass",
 //!  "time_ms": 0.4}
 //! ```
 //!
-//! `outcome` is `pass` or `fail`; diagnostics that say why come before it. The last line is
+//! `outcome` is `pass` or `fail`; the diagnostics of a failed case come before it. The last line is
 //!
 //! ```json
 //! {"kind": "tests", "suites": 2, "unreadable": 0, "passed": 30, "failed": 1, "left_out": 0, "time_ms": 20.1}

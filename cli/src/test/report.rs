@@ -50,7 +50,7 @@ impl<'a> Report<'a> {
         }
     }
 
-    /// All cases are done: what failed is explained, then counted.
+    /// All cases are done: explains those that failed, then counts.
     pub(super) fn finish(self, time_ms: f64, console: &mut Console<'_>) -> Exit {
         if console.form() == Form::Text {
             for Failed { suite, name, findings } in &self.failed {

@@ -1,11 +1,11 @@
-//! Which plans are to be judged, and under which task.
+//! The plans to judge, each with its task.
 //!
 //! Either a domain, a problem and plans are given, or folders that hold all three. A folder among plans stands for
 //! every plan file in it and below. In folders of their own, files belong together by the rules of the crate
 //! `project`: a problem to the nearest file that defines its domain, a plan to the problem beside it whose name its
 //! own starts with, or to the only one.
 //!
-//! Invariant: whatever was asked for and leads to no plan is a [`Fault`]; nothing is passed over in silence.
+//! Invariant: every argument that leads to no plan is a [`Fault`]; none is ignored silently.
 
 use crate::files::{self, FileError};
 use diagnostics::SourceId;
@@ -25,7 +25,7 @@ pub(super) struct Group {
     pub(super) plans: Vec<PathBuf>,
 }
 
-/// What cannot be judged.
+/// An argument or file that cannot be judged.
 #[derive(Debug, Error)]
 pub(super) enum Fault {
     /// A folder among plans, or of tasks.
@@ -135,7 +135,7 @@ impl Gathered {
         for path in paths {
             let name = path.display().to_string();
             if FileKind::is_plan(&name) {
-                // What is in it is read when it is judged.
+                // The plan is read when it is judged.
                 sources.push(Source::new(name, ""));
             } else {
                 match files::read(&path) {

@@ -1,4 +1,4 @@
-//! One plan: read, judged, and what there is to say about it.
+//! One plan: read, judged and reported.
 
 use crate::console::{Console, Form};
 use crate::render::{show, show_all};
@@ -11,7 +11,7 @@ use validator::{
     VerdictRecord, Word, explain, html, show_cause, show_diff,
 };
 
-/// What came of a plan.
+/// The outcome of a plan.
 #[derive(Debug)]
 pub(super) struct Outcome {
     pub(super) word: Word,
@@ -109,7 +109,7 @@ impl Judge<'_> {
         Outcome { word: record.word(), section, fixed }
     }
 
-    /// Changes that were tried and help, if that is asked for.
+    /// Changes that make the plan valid, with `--advice`.
     fn advise(&self, plan: &Plan, verdict: &Verdict) -> Vec<Repair> {
         match (self.validator, verdict, self.advice) {
             (Ok(validator), Verdict::Invalid(failure), true) => {
@@ -158,7 +158,7 @@ fn help(record: &VerdictRecord) -> Option<String> {
     (!texts.is_empty()).then(|| texts.join("\nor "))
 }
 
-/// Whether reading the files has said the same already.
+/// Whether the parser has reported the same already.
 fn reported_by_the_parser(verdict: &Verdict) -> bool {
     matches!(
         verdict,

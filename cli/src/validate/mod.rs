@@ -1,12 +1,11 @@
 //! `pelea validate DOMAIN PROBLEM PLAN...` or `pelea validate FOLDER...`: one verdict a line.
 //!
-//! What is to be judged is gathered first (`gather`); then all cores judge (`judge`), and what they say comes out in
-//! the order of the plans. With several tasks a core takes a task with all its plans, so that no more tasks are in
-//! memory than there are cores; with one task it takes a plan. A last line counts the verdicts where there are
-//! several. Invariant: the exit code is 0 only if at least one plan was given and every one was read to its end
-//! and is valid.
+//! The plans are gathered first (`gather`); then all cores judge (`judge`), and the verdicts come out in the order of
+//! the plans. With several tasks a core takes a task with all its plans, so memory holds at most one task per core;
+//! with one task a core takes a plan. If there are several verdicts, a last line counts them. Invariant: the exit code
+//! is 0 only if at least one plan was given and every plan was read to its end and is valid.
 //!
-//! A verdict as text, JSON and HTML is made by the crate `validator`.
+//! The crate `validator` renders a verdict as text, JSON and HTML.
 
 mod gather;
 mod judge;
@@ -123,7 +122,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     exit.and(tally.exit())
 }
 
-/// Says what cannot be judged.
+/// Reports an argument or file that cannot be judged.
 fn refuse(fault: &Fault, tally: &mut Tally, console: &mut Console<'_>) -> Exit {
     render::error(fault.to_string(), console);
     if let Some(plan) = fault.plan() {

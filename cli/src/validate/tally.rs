@@ -1,10 +1,10 @@
-//! How many plans got which verdict, and the exit code that follows.
+//! The number of plans with each verdict, and the exit code that follows.
 
 use crate::exit::Exit;
 use serde::Serialize;
 use validator::Word;
 
-/// How many plans got which verdict.
+/// The number of plans with each verdict.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(super) struct Tally {
     kind: &'static str,
@@ -46,7 +46,7 @@ impl Tally {
         format!("{} plans: {}", self.plans(), parts.join(", "))
     }
 
-    /// No plan at all is no success.
+    /// The worst outcome; without any plan it is not success.
     pub(super) fn exit(&self) -> Exit {
         let outcomes = [
             (self.invalid > 0, Exit::No),

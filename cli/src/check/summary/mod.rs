@@ -1,10 +1,10 @@
 //! `pelea check --summary PATH...`: which files of a collection can be read.
 //!
-//! A line a file, `parsed` or `failed` with the first reason, then totals by folder (the folders in the paths
-//! given) and kind. Domains are found by place and by what files are called (`project`), since a collection has many of one
-//! name. Nothing is looked at by lints, and missions are folders like others. A domain is a piece of work with
-//! all its problems and their plans; as many threads as the machine has cores take them one by one, and no more
-//! than one problem is in memory for each. As JSON:
+//! A line per file, `parsed` or `failed` with the first reason, then totals by folder (the folders in the given
+//! paths) and kind. Domains are found by their place and the names of files (`project`), since a collection has many
+//! domains of one name. Lints do not run, and a mission is a folder like others. A domain with all its problems and
+//! their plans is one piece of work. The machine's cores take the pieces one by one, and each holds at most one problem
+//! in memory. As JSON:
 //!
 //! ```json
 //! {"kind": "parsed", "file": "a/p1.pddl", "what": "problem", "parsed": false,
@@ -37,7 +37,7 @@ struct Entry {
     folder: String,
 }
 
-/// What came of a file.
+/// The outcome of a file.
 #[derive(Clone, Debug, Default)]
 struct Outcome {
     /// Why it could not be read.
@@ -130,7 +130,7 @@ fn below(root: &Path, folder: &Path, found: &mut Vec<(PathBuf, String)>) {
     }
 }
 
-/// The folder in `root` that a file is in; `root` itself for what is directly in it.
+/// The folder in `root` that a file is in; `root` itself for a file directly in it.
 fn folder_of(root: &Path, path: &Path) -> String {
     let inside = path.parent().and_then(|p| p.strip_prefix(root).ok()).and_then(|p| p.components().next());
     let folder = inside.map_or_else(|| root.to_owned(), |first| root.join(first));
@@ -151,7 +151,7 @@ struct Collection<'a> {
     entries: &'a [Entry],
     /// Of each domain its problems, of each problem its plans.
     members: Vec<Vec<usize>>,
-    /// What belongs to nothing.
+    /// Files that belong to no other.
     stray: Vec<usize>,
     domains: Vec<usize>,
 }
@@ -191,7 +191,7 @@ impl<'a> Collection<'a> {
             self.fail(index, &format!("there is no {what} for it"))
         });
         for (index, outcome) in results.into_iter().chain(strays) {
-            // What could not be opened has failed already.
+            // A file that could not be opened has failed already.
             if outcomes[index].failed.is_none() {
                 outcomes[index] = outcome;
             }
@@ -293,7 +293,7 @@ fn word(kind: FileKind) -> &'static str {
     }
 }
 
-/// How many files of a kind there are, and how many of them were parsed.
+/// The number of files of a kind, and how many of them were parsed.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 struct Total {
     parsed: usize,
