@@ -1,10 +1,10 @@
-//! Every folder of `cases/`: what the binary says.
+//! Every folder of `cases/`: the output of the binary.
 //!
 //! `cmd` holds the arguments, one command a file; the binary runs in a copy of the folder, and its
-//! standard output, standard error and exit code must be what `stdout`, `stderr` and `exit` hold (no file
-//! means nothing). A case about a mission says only what differs: `mission` names a folder of `missions` that is
+//! standard output, standard error and exit code must equal the files `stdout`, `stderr` and `exit` (a missing file
+//! stands for nothing). A case about a mission holds only the differences: `mission` names a folder of `missions` that is
 //! copied too, and in `edits` each block `edit PATH` replaces the one text between `<<<<` and `====` by the text
-//! between `====` and `>>>>`. What is measured is written as `#`. `UPDATE_EXPECT=1 cargo test -p pelea` writes them anew.
+//! between `====` and `>>>>`. Measured figures are written as `#`. `UPDATE_EXPECT=1 cargo test -p pelea` rewrites the files.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -61,7 +61,7 @@ fn apply(edits: &str, folder: &Path) {
 }
 
 /// Times differ from run to run and effort from search to search: `0.123 ms` becomes `# ms`,
-/// `12 expanded` becomes `# expanded`, `[   0.012s]` becomes `[#s]`, and so in JSON.
+/// `12 expanded` becomes `# expanded`, `[   0.012s]` becomes `[#s]`, likewise in JSON.
 fn without_measurements(text: &str) -> String {
     const AFTER: [&str; 7] = ["s]", " ms", " facts", " operators", " instances", " expanded", " evaluated"];
     const BEFORE: [&str; 6] =

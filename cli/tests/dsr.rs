@@ -1,11 +1,11 @@
-//! A run is journaled, and `pelea dsr` looks at it: states, history, differences, questions, MCAP, torn and damaged files.
+//! A run is journaled, and `pelea dsr` reads the journal: states, history, differences, questions, MCAP, torn and damaged files.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use dsr::{AgentId, Graph, Isometry3, Nature, Reflex, Time, Transaction, VocabularyBuilder};
 use pelea::{Console, Exit};
 use std::path::Path;
 
-/// What a command says: its exit, standard output and standard error.
+/// The exit code, standard output and standard error of a command.
 fn pelea(arguments: &[&str]) -> (Exit, String, String) {
     let (mut out, mut err) = (Vec::new(), Vec::new());
     let mut console = Console::new(&mut out, &mut err);
@@ -199,7 +199,8 @@ fn what_no_change_shows_is_told_and_foxglove_gets_what_it_knows() {
             other => panic!("{other:?}"),
         }
     }
-    // What moves at once does not glide: where it was is told once more. What is sampled has the times of its samples.
+    // A jump must not be interpolated, so the pose before it is written once more.
+    // Sampled poses have the times of their samples.
     let frame = |time, parent: &str, child: &str, x| (time, parent.to_owned(), child.to_owned(), x);
     let wanted = [
         frame(2_000_000_000, "room", "robot", 1.0),

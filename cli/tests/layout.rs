@@ -1,4 +1,4 @@
-//! The files of this project are laid out as `pelea fmt` does it; and what `pelea fmt` does with files.
+//! The files of this project have the layout of `pelea fmt`; and the effects of `pelea fmt` on files.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 

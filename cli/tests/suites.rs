@@ -1,4 +1,4 @@
-//! The suites of this project pass, and what `pelea test --init` writes passes too.
+//! The suites of this project pass, and the suites that `pelea test --init` writes pass too.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 

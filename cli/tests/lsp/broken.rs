@@ -1,4 +1,4 @@
-//! What is no message, and messages that nobody knows: the session goes on.
+//! Malformed and unknown messages: the session continues.
 
 use crate::client::{Client, framed};
 use serde_json::{Value, json};
@@ -25,7 +25,7 @@ fn garbage_is_answered_and_passed_over() {
 }
 
 #[test]
-fn methods_that_nobody_knows() {
+fn unknown_methods() {
     let mut client = Client::begin(&[]);
     let refused = client.ask("textDocument/moonPhase", json!({})).unwrap_err();
     assert_eq!(refused["code"], -32601);

@@ -1,7 +1,7 @@
-//! A client as small as can be: it writes messages, and reads until what it waits for has come.
+//! A minimal client: it writes messages, and reads until the expected message has come.
 //!
-//! There is no clock in it. A test that waits for what never comes hangs, and the runner's time limit says so; when the
-//! server ends, the client says what it had waited for.
+//! It has no clock. A test that waits for a message that never comes hangs until the runner's time limit. When the server
+//! ends, the client reports the message that it waited for.
 
 use serde_json::{Value, json};
 use std::collections::VecDeque;
@@ -17,12 +17,12 @@ pub(crate) struct Client {
     output: BufReader<ChildStdout>,
     folder: TempDir,
     next: i64,
-    /// What came while something else was waited for.
+    /// Messages that came while the client waited for another.
     kept: VecDeque<Value>,
 }
 
 impl Client {
-    /// A server that nobody has spoken to, in a folder with these files.
+    /// A server that has received no message, in a folder with these files.
     pub(crate) fn silent(files: &[(&str, &str)]) -> Self {
         let folder = tempfile::tempdir().unwrap();
         for (name, text) in files {
@@ -190,7 +190,7 @@ impl Client {
         );
     }
 
-    /// What is wrong with a document, as published next for that version (or for a closed one).
+    /// The diagnostics of a document, as published next for that version (or for a closed document).
     pub(crate) fn diagnostics(&mut self, name: &str, version: Option<i64>) -> Vec<Value> {
         let uri = self.uri(name);
         let message = self.wait(|m| {
@@ -201,7 +201,7 @@ impl Client {
         message["params"]["diagnostics"].as_array().unwrap().clone()
     }
 
-    /// The codes of what is wrong with it.
+    /// The codes of its diagnostics.
     pub(crate) fn codes(&mut self, name: &str, version: Option<i64>) -> Vec<String> {
         let codes = self.diagnostics(name, version);
         codes.iter().map(|d| d["code"].as_str().unwrap_or("none").to_owned()).collect()
@@ -219,7 +219,7 @@ impl Client {
         self.ask(method, json!({"textDocument": {"uri": uri}, "position": super::position(line, character)}))
     }
 
-    /// Ends the session as the protocol wants it, and gives back the exit code.
+    /// Ends the session as the protocol requires, and returns the exit code.
     pub(crate) fn end(mut self) -> i32 {
         assert_eq!(self.ask("shutdown", Value::Null), Ok(Value::Null));
         self.tell("exit", Value::Null);

@@ -79,7 +79,7 @@ fn what_cannot_be_planned_for_is_said() {
     assert_eq!(client.end(), 0);
 }
 
-/// A puzzle that nobody solves while this test runs: sorting by exchanging neighbours on many places.
+/// A puzzle that no search solves while this test runs: sorting many places by exchanging neighbours.
 fn endless() -> (String, String) {
     let domain = "(define (domain exchange) (:requirements :typing) (:types place thing)
       (:predicates (at ?t - thing ?p - place) (beside ?p ?q - place))
@@ -98,7 +98,7 @@ fn endless() -> (String, String) {
 }
 
 #[test]
-fn planning_can_be_stopped_and_keeps_nobody_waiting() {
+fn planning_can_be_stopped_and_blocks_no_other_request() {
     let (domain, problem) = endless();
     let mut client = Client::begin(&[("d.pddl", &domain)]);
     client.open("p.pddl", &problem);

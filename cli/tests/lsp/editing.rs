@@ -7,7 +7,7 @@ use serde_json::json;
 const DOMAIN: &str = "(define (domain hall)\n  (:requirements :strips)\n  (:predicates (lit))\n  (:action switch\n    :parameters ()\n    :precondition (and)\n    :effect (lit)))\n";
 const PROBLEM: &str = "(define (problem dark)\n  (:domain hall)\n  (:init)\n  (:goal (lit)))\n";
 
-/// No lints, for tests of what must be right at once.
+/// No lints, for tests of diagnostics that must be correct immediately.
 fn begin(files: &[(&str, &str)], encoding: &str) -> Client {
     Client::begin_with(files, &json!({"lints": false}), &[encoding])
 }
@@ -37,7 +37,7 @@ fn a_change_of_the_domain_reaches_its_problems_open_and_closed() {
     assert_eq!(client.codes("a/d.pddl", Some(2)), [""; 0]);
     assert_eq!(client.codes("a/open.pddl", Some(1)), ["E0202"]);
     assert_eq!(client.codes("a/closed.pddl", None), ["E0202"]);
-    // Closed without saving: the disk counts again, and nobody looks at closed files any more.
+    // Closed without saving: the text on the disk counts again, and both problems are right.
     let uri = client.uri("a/d.pddl");
     client.tell("textDocument/didClose", json!({"textDocument": {"uri": uri}}));
     assert_eq!(client.codes("a/open.pddl", Some(1)), [""; 0]);

@@ -48,7 +48,7 @@ fn requests_out_of_turn_are_refused() {
 }
 
 #[test]
-fn odd_capabilities_keep_nobody_out() {
+fn odd_capabilities_are_accepted() {
     let mut client = Client::silent(&[]);
     let params = json!({"capabilities": {"textDocument": 5, "workspace": {"workspaceEdit": []},
         "general": {"positionEncodings": ["utf-7", 3]}}, "workspaceFolders": 7, "trace": "loud"});
