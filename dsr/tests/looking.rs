@@ -232,7 +232,7 @@ fn what_is_no_pattern_is_told_with_its_place() {
         (< (bearing ?a ?b) 1 far)
             byte 21: a number of radians belongs here
         (< (distance ?a ?b) 2 1)
-            byte 0: no threshold: appears at 2, disappears at 1
+            byte 0: invalid threshold: appears at 2, disappears at 1
         (< (distance ?a ?b) (score ?a))
             byte 20: `<=` and an attribute of the first node belongs here
         (< (score ?t) 1 2)
