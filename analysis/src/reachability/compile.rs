@@ -1,9 +1,9 @@
 //! Compiles a domain, with or without a problem, to Datalog rules over an initial database.
 //!
-//! Invariant: the rules derive every atom that a plan can make true. A durative action becomes two rules. The start rule
-//! needs the conditions at the start; the end rule needs all conditions of the action, so that the effects of its own
-//! start count. Each conditional effect becomes a rule of its own. A head whose slots are among the slots of another head
-//! shares its rule. Any other head gets its own rule, because a join for fewer slots is cheaper.
+//! Invariant: the rules derive every atom that a plan can make true. A durative action becomes two rules. The start
+//! rule needs the conditions at the start; the end rule needs all conditions of the action, so that the effects of its
+//! own start count. Each conditional effect becomes a rule of its own. A head whose slots are among the slots of
+//! another head shares its rule. Any other head gets its own rule, because a join for fewer slots is cheaper.
 
 use std::rc::Rc;
 

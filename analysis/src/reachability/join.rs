@@ -1,9 +1,9 @@
 //! The order in which a rule's atoms are joined, and the search along it.
 //!
 //! Idea: a greedy order, by the number of rows that each atom is expected to add. For static relations this number is
-//! measured; for changing relations it is estimated from the ranges of the free slots. As soon as all slots of the heads
-//! have values, *one* solution of the rest is enough, and the search skips it if the heads are known already. Invariant:
-//! of the solutions that agree on the slots of the heads, a plan visits at least one.
+//! measured; for changing relations it is estimated from the ranges of the free slots. As soon as all slots of the
+//! heads have values, *one* solution of the rest is enough, and the search skips it if the heads are known already.
+//! Invariant: of the solutions that agree on the slots of the heads, a plan visits at least one.
 
 use budget::{Interrupted, Meter};
 

@@ -1,9 +1,9 @@
 //! Conditions as alternatives of atoms to join and checks to make.
 //!
 //! Idea: disjunctions are multiplied out while the number of alternatives stays small. A larger disjunction and a
-//! universal condition are kept whole, as a check that is evaluated under a complete binding. Invariant: if a state that
-//! the relaxation covers satisfies the condition, then some alternative holds in the relaxation. So a negated atom counts
-//! as true if it may be deleted, and a comparison if its numbers may change far enough.
+//! universal condition are kept whole, as a check that is evaluated under a complete binding. Invariant: if a state
+//! that the relaxation covers satisfies the condition, then some alternative holds in the relaxation. So a negated atom
+//! counts as true if it may be deleted, and a comparison if its numbers may change far enough.
 
 use std::rc::Rc;
 

@@ -8,8 +8,8 @@
 //! recursive conditions.
 //!
 //! The components come from our own Tarjan, because it must neither recurse nor run unmetered: a chain of derived facts
-//! can contain every fact of the task. petgraph's `tarjan_scc` recurses once per fact of such a chain. Its `kosaraju_scc`
-//! is iterative, but the caller's budget could not interrupt it.
+//! can contain every fact of the task. petgraph's `tarjan_scc` recurses once per fact of such a chain. Its
+//! `kosaraju_scc` is iterative, but the caller's budget could not interrupt it.
 //!
 //! Source: Thiébaux, Hoffmann & Nebel, "In defense of PDDL axioms", AIJ 2005, §2.
 

@@ -137,8 +137,8 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Visits instances until `visit` returns `false`. Returns whether it returned `true` for all, or `None` if there are
-    /// too many instances.
+    /// Visits instances until `visit` returns `false`. Returns whether it returned `true` for all, or `None` if there
+    /// are too many instances.
     fn instances(
         &self,
         variables: &[VariableId],

@@ -48,10 +48,10 @@ use record::MOST;
 /// Operators whose comparisons are looked at.
 const OPERATORS: usize = 5_000;
 
-/// Explains why `task`, the grounding of `problem`, has no plan for the query: from its state, without the operators that
-/// it excludes. The query's goal must be the problem's own. `reason` is the result of the search. `budget` bounds both
-/// visits of states: the one after the search exhausted them, and the one that finds out whether an excluded operator is
-/// missing.
+/// Explains why `task`, the grounding of `problem`, has no plan for the query: from its state, without the operators
+/// that it excludes. The query's goal must be the problem's own. `reason` is the result of the search. `budget` bounds
+/// both visits of states: the one after the search exhausted them, and the one that finds out whether an excluded
+/// operator is missing.
 pub fn explain(
     domain: &Domain,
     problem: &Problem,

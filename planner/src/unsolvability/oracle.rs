@@ -1,8 +1,8 @@
 //! Which literals may ever hold: the one place that decides it.
 //!
-//! Idea: grounding has reached every atom that is true in some state if deletes are ignored, and it knows the atoms that
-//! nothing deletes. One more exploration of the grounded relaxation from the query's state rules out more. Invariant: the
-//! oracle never denies a literal that holds in a reachable state.
+//! Idea: grounding has reached every atom that is true in some state if deletes are ignored, and it knows the atoms
+//! that nothing deletes. One more exploration of the grounded relaxation from the query's state rules out more.
+//! Invariant: the oracle never denies a literal that holds in a reachable state.
 
 use crate::heuristics::{Combine, Costs, Explorer};
 use crate::ids::{FactId, OperatorId, id32};

@@ -1,12 +1,12 @@
 //! Why a literal never holds: what would achieve it and what these achievers lack, down to literals without achievers.
 //!
-//! Idea: if the oracle denies a literal, then every effect (or axiom) that would achieve it is impossible, too. It needs a
-//! literal that never holds or a comparison that never holds, or its conditions never hold together. Each literal is a
-//! node of one graph, explored once, breadth first; a cycle is an edge to a known node. If no single condition of an
-//! achiever is denied, its static conditions are joined, and each instance in the result is checked by itself. If that is
-//! not enough, all its conditions are joined. A ban of the query is reported only if the banned instance lacks nothing
-//! else. Cost: the nodes, the achievers of each node and the rows of a join are bounded; achievers beyond the bound are
-//! counted.
+//! Idea: if the oracle denies a literal, then every effect (or axiom) that would achieve it is impossible, too. It
+//! needs a literal that never holds or a comparison that never holds, or its conditions never hold together. Each
+//! literal is a node of one graph, explored once, breadth first; a cycle is an edge to a known node. If no single
+//! condition of an achiever is denied, its static conditions are joined, and each instance in the result is checked by
+//! itself. If that is not enough, all its conditions are joined. A ban of the query is reported only if the banned
+//! instance lacks nothing else. Cost: the nodes, the achievers of each node and the rows of a join are bounded;
+//! achievers beyond the bound are counted.
 
 use super::bans::Bans;
 use super::oracle::Oracle;
@@ -297,8 +297,8 @@ impl<'a> Reasons<'a> {
         found
     }
 
-    /// The instances of an achiever that the query excludes: those that lack something, and those that only the ban keeps
-    /// from applying. Instances that are impossible for another reason are left out.
+    /// The instances of an achiever that the query excludes: those that lack something, and those that only the ban
+    /// keeps from applying. Instances that are impossible for another reason are left out.
     fn excluded(&self, candidate: &Candidate<'a>, binding: &Binding<'a>) -> Vec<Denied> {
         let Some(action) = candidate.action else { return Vec::new() };
         let wanted = binding.parameters();
@@ -397,7 +397,8 @@ struct Join<'a> {
 }
 
 impl Join<'_> {
-    /// All bindings that satisfy the literals; `None` if there are more than `most`, or if the join reads too many rows.
+    /// All bindings that satisfy the literals; `None` if there are more than `most`, or if the join reads too many
+    /// rows.
     fn all<'v>(
         &mut self,
         literals: &[&Literal],

@@ -88,8 +88,8 @@ impl<'a> Wording<'a> {
         lines
     }
 
-    /// The shortest path from the goal down to an achiever that the query excludes or, without one, to a literal without
-    /// achievers. Has a line for each literal on the path. Empty if no part of the goal is a literal.
+    /// The shortest path from the goal down to an achiever that the query excludes or, without one, to a literal
+    /// without achievers. Has a line for each literal on the path. Empty if no part of the goal is a literal.
     pub fn chain(&self) -> Vec<String> {
         let mut above: Vec<Option<(ReasonId, &Achiever)>> = vec![None; self.explanation.reasons.len()];
         let parts = self.explanation.parts.iter().flat_map(|part| &part.never);

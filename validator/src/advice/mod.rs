@@ -40,8 +40,8 @@ use trials::Trials;
 const SEARCHED_PLANS: usize = 400;
 
 impl Validator<'_> {
-    /// Searches for single changes that make the plan valid, the smallest and most likely first. `failure` is the reason
-    /// why the plan is invalid.
+    /// Searches for single changes that make the plan valid, the smallest and most likely first. `failure` is the
+    /// reason why the plan is invalid.
     pub fn advise(&self, plan: &Plan, failure: &Failure, budget: AdviceLimits) -> Vec<Repair> {
         // With a task network, each changed plan needs a search for a decomposition.
         let (brief, budget) = match (plan, &self.prepared.problem.htn) {

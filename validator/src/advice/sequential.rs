@@ -182,8 +182,8 @@ fn moves(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
     edits
 }
 
-/// Two steps are exchanged over a long distance. With the right step instead of the failing one (or before it), the plan
-/// is applicable up to the present position of that step, so the next failure shows where to search.
+/// Two steps are exchanged over a long distance. With the right step instead of the failing one (or before it), the
+/// plan is applicable up to the present position of that step, so the next failure shows where to search.
 fn far_moves(track: &mut Track<'_, '_>, case: &Case) -> Vec<Edit> {
     let (fails, steps) = (case.fails, track.steps);
     if fails >= steps.len() {

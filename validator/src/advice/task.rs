@@ -43,8 +43,8 @@ pub(super) fn repairs(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, failure: &
     found
 }
 
-/// A part of the failing step's condition without which the plan passes. This is the last resort, because a condition is
-/// rarely a mistake.
+/// A part of the failing step's condition without which the plan passes. This is the last resort, because a condition
+/// is rarely a mistake.
 pub(super) fn weaker(trials: &mut Trials<'_, '_>, plan: PlanRef<'_>, failure: &Failure) -> Option<Repair> {
     let Failure::Precondition { at, .. } = failure else { return None };
     // Only a top-level part of the condition can be removed alone; a nested part cannot.

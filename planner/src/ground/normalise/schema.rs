@@ -155,8 +155,8 @@ struct Collected {
 }
 
 /// The quantifiers and conditions around an effect. For an atom, the variables of existential conditions are quantified
-/// like universal ones, because adding an atom once per witness changes nothing. For a number this would be wrong: it must
-/// not be increased once per witness.
+/// like universal ones, because adding an atom once per witness changes nothing. For a number this would be wrong: it
+/// must not be increased once per witness.
 #[derive(Clone)]
 struct Around {
     quantified: Vec<VariableId>,
