@@ -1,6 +1,6 @@
 //! Plan validation by the semantics of PDDL, on an evaluator of its own.
 //!
-//! The planner that finds a plan must not judge it, so this crate shares nothing with it but `pddl`'s typed model: no
+//! The planner that finds a plan must not judge it, so this crate shares nothing with it but `pddl`'s typed model and `budget`'s counters: no
 //! grounding, no compiled operators. Conditions and effects are read from the model, over one state that is changed in
 //! place.
 //!
