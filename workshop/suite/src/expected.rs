@@ -152,3 +152,14 @@ pub(crate) fn literal(text: &str) -> String {
     }
     written
 }
+
+#[cfg(test)]
+mod tests {
+    use super::literal;
+
+    #[test]
+    fn spelling_does_not_count() {
+        assert_eq!(literal(" ( NOT\n(at  ?x a ) )"), "(not (at ?x a))");
+        assert_eq!(literal("(>=(level)0.5)"), "(>= (level) 0.5)");
+    }
+}

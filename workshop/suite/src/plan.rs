@@ -127,14 +127,3 @@ impl Found {
 fn with_details(word: &str, details: &[String]) -> String {
     if details.is_empty() { word.to_owned() } else { format!("{word} ({})", details.join(", ")) }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::literal;
-
-    #[test]
-    fn spelling_does_not_count() {
-        assert_eq!(literal(" ( NOT\n(at  ?x a ) )"), "(not (at ?x a))");
-        assert_eq!(literal("(>=(level)0.5)"), "(>= (level) 0.5)");
-    }
-}
