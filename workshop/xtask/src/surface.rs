@@ -23,7 +23,7 @@ const EXCEPTIONS: &str = "workshop/xtask/surface.exceptions";
 pub(crate) fn check(root: &Path, packages: &[Package]) -> Result<Vec<String>, Failure> {
     let texts = packages
         .iter()
-        .map(|package| Ok(words(&root.join(&package.folder).join("src"))?))
+        .map(|package| words(&root.join(&package.folder).join("src")))
         .collect::<Result<Vec<_>, Failure>>()?;
     let mut unused = BTreeSet::new();
     for (index, package) in packages.iter().enumerate() {
