@@ -74,6 +74,12 @@ impl Effect {
                 mentions.extend(guard.mentions());
             }
             match &update.change {
+                Change::Adjust { by: number, .. } | Change::Set { given: Given::Number(number), .. } => {
+                    number.mention(&mut mentions);
+                }
+                _ => {}
+            }
+            match &update.change {
                 Change::AddEdge { label, .. } | Change::RemoveEdge { label, .. } => {
                     mentions.add_label(*label);
                 }

@@ -1,6 +1,6 @@
 //! Numeric expressions over a graph.
 
-use dsr::{AttributeId, NodeId, Snapshot};
+use dsr::{AttributeId, Mentions, NodeId, Snapshot};
 use pddl::model::ArithmeticOperator;
 
 use crate::binding::Binding;
@@ -24,6 +24,21 @@ impl Number {
             Self::Arithmetic(operator, operands) => {
                 calculate(*operator, &operands.iter().map(Self::constant).collect::<Option<Vec<_>>>()?)
             }
+        }
+    }
+
+    /// Adds the tokens that its value depends on.
+    pub(crate) fn mention(&self, mentions: &mut Mentions) {
+        match self {
+            Self::Constant(_) => {}
+            Self::Attribute(holder, attribute) => {
+                mentions.add_attribute(*attribute);
+                if let Holder::Edge { label, .. } = holder {
+                    mentions.add_label(*label);
+                }
+            }
+            Self::Distance(..) => mentions.add_transforms(),
+            Self::Arithmetic(_, operands) => operands.iter().for_each(|operand| operand.mention(mentions)),
         }
     }
 

@@ -22,7 +22,8 @@ enum Method {
 }
 
 impl Monitor {
-    /// Monitors `plan` for `goal`, starting from `state`.
+    /// Monitors `plan` for `goal`, starting from `state`. The plan must be valid there: kernels do not notice a step that
+    /// takes away what a later one needs.
     pub fn new(task: &Task, plan: Vec<OperatorId>, goal: Goal, state: &State) -> Self {
         let method = if Kernel::is_exact(task, &plan) {
             Method::Regressed(Kernels::new(task, &plan, &goal, state))

@@ -8,8 +8,8 @@
 //! that changes numbers, since any other step leaves it as it is. Conditional effects are not followed back, and a
 //! step that takes away what is wanted after it is not noticed. A caller that needs a plan therefore replays it.
 //!
-//! Invariant: where [`Kernel::is_exact`], the kernel of a suffix of a plan holds exactly in the states from which the
-//! suffix reaches the goal. Cost: a step is linear in the kernel, times a search in the step's effects.
+//! Invariant: where [`Kernel::is_exact`], and the steps are a suffix of some valid plan for that goal, the kernel of the
+//! steps holds exactly in the states from which they reach the goal. Cost: a step is linear in the kernel, times a search in the step's effects.
 //!
 //! Source: Fikes, Hart & Nilsson, "Learning and executing generalized robot plans", AIJ 1972.
 
