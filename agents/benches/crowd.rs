@@ -21,7 +21,7 @@ const PEOPLE: usize = 1_000;
 
 fn read(path: &str) -> Source {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../robots/clarc").join(path);
-    Source::new(&path.display().to_string(), &fs::read_to_string(&path).unwrap())
+    Source::new(path.display().to_string(), fs::read_to_string(&path).unwrap())
 }
 
 struct Crowd {

@@ -80,6 +80,7 @@ pub enum Fallback {
 
 /// How a mission ended.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "there is one, at the end of a mission")]
 pub enum Ending {
     /// The goal was seen to hold.
     Accomplished,

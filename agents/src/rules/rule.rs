@@ -72,7 +72,7 @@ pub(crate) enum EndError {
 impl Rule {
     /// The patterns of which each match is a binding for which the condition before holds.
     pub(crate) fn triggers(&self) -> impl Iterator<Item = &Arc<Pattern>> {
-        self.trigger.alternatives().iter().map(|alternative| alternative.pattern())
+        self.trigger.alternatives().iter().map(vocabulary::Alternative::pattern)
     }
 
     /// The tokens of which every change may let the rule start, whatever matches its triggers. Empty for a rule whose

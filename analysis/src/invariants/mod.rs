@@ -2,7 +2,7 @@
 //!
 //! Two use them: `lints`, because two conditions of which one excludes the other are a mistake that
 //! relaxed reachability cannot see, and `planner`, for mutex groups and finite-domain variables. What
-//! changes the state is handed in as [`Happening`]s, since the two do not look at the same parts of
+//! changes the state is handed in as [`Happening`](crate::happening::Happening)s, since the two do not look at the same parts of
 //! the language; an [`Invariant`] says that the number of its atoms never becomes more than one, and
 //! [`Counts`] says where a problem lets it start. A caller that knows the instances can ask for those that
 //! hold unless parameters are equal ([`conditional_invariants`]).

@@ -15,7 +15,7 @@ pub struct Variable {
 }
 
 impl Variable {
-    /// The position of the variable in a [`Binding`]; `None` for a local of a negated part.
+    /// The position of the variable in a [`Binding`](super::Binding); `None` for a local of a negated part.
     pub fn position(self) -> Option<usize> {
         (self.scope == Scope::Top).then_some(usize::from(self.index))
     }

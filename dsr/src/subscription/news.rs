@@ -28,7 +28,7 @@ pub struct Changed {
 pub struct News {
     /// The state.
     pub snapshot: Snapshot,
-    /// The commits that led to it and concern the subscriber: one, or several with [`Delivery::Newest`]. None at the
+    /// The commits that led to it and concern the subscriber: one, or several with [`Delivery::Newest`](super::Delivery::Newest). None at the
     /// start and after commits were missed: then the state has to be read as a whole.
     pub deltas: Vec<Arc<Delta>>,
     /// The patterns whose matches changed, in the order of the interest. At the start, everything that matches.

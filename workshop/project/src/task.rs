@@ -154,7 +154,7 @@ mod tests {
         let a = sources.push(Source::new("a.pddl", "(define (domain a) (:import b))"));
         let b = sources.push(Source::new("b.pddl", "(define (domain b) (:import a))"));
         let (domain, findings) = read_domain(&sources, a, &[b]);
-        assert!(domain.is_none() && findings.iter().any(|finding| finding.is_error()));
+        assert!(domain.is_none() && findings.iter().any(diagnostics::Finding::is_error));
     }
 
     #[test]
