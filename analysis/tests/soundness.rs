@@ -10,25 +10,18 @@ use analysis::happening::{Phase, Schema, happenings};
 use analysis::intervals::Hulls;
 use analysis::invariants::{Counts, Invariant, invariants};
 use analysis::reachability::{Origin, Summary, Wording};
+use pddl::Source;
 use pddl::model::{
     Action, AssignOperator, AssignedValue, Comparison, Condition, ConditionKind, Domain, Effect, EffectKind,
     Expression, ExpressionKind, Idx, ObjectId, PredicateId, Problem, Term, VariableId, Variables,
 };
-use pddl::{Source, parse_domain, parse_problem};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
-/// A domain and a problem that have no errors.
-fn both(domain: &str, problem: &str) -> (Domain, Problem) {
-    let source = Source::new("domain", domain);
-    let parsed = parse_domain(&source, &[]);
-    let said: String = parsed.diagnostics.iter().map(|d| d.describe(&source)).collect();
-    let domain = parsed.model.unwrap_or_else(|| panic!("{said}"));
-    let source = Source::new("problem", problem);
-    let parsed = parse_problem(&source, &domain);
-    let said: String = parsed.diagnostics.iter().map(|d| d.describe(&source)).collect();
-    (domain, parsed.model.unwrap_or_else(|| panic!("{said}")))
-}
+#[path = "../src/test_support.rs"]
+mod test_support;
+
+use test_support::both;
 
 /// States of one task that are explored.
 const STATES: usize = 400;

@@ -14,7 +14,7 @@ use pddl::model::{AssignOperator, Name, VariableId};
 use crate::binding::{Binding, Datum};
 use crate::condition::Condition;
 use crate::formula::{Holder, Term};
-use crate::number::Number;
+use crate::number::{Number, mention_attribute};
 use crate::scope::Scope;
 
 /// Why an effect cannot be written now.
@@ -86,10 +86,7 @@ impl Effect {
                 Change::Set { holder, attribute, .. }
                 | Change::Adjust { holder, attribute, .. }
                 | Change::Clear { holder, attribute } => {
-                    mentions.add_attribute(*attribute);
-                    if let Holder::Edge { label, .. } = holder {
-                        mentions.add_label(*label);
-                    }
+                    mention_attribute(holder, *attribute, &mut mentions);
                 }
                 Change::SetTransform { .. } | Change::RemoveTransform { .. } => mentions.add_transforms(),
             }

@@ -31,12 +31,7 @@ impl Number {
     pub(crate) fn mention(&self, mentions: &mut Mentions) {
         match self {
             Self::Constant(_) => {}
-            Self::Attribute(holder, attribute) => {
-                mentions.add_attribute(*attribute);
-                if let Holder::Edge { label, .. } = holder {
-                    mentions.add_label(*label);
-                }
-            }
+            Self::Attribute(holder, attribute) => mention_attribute(holder, *attribute, mentions),
             Self::Distance(..) => mentions.add_transforms(),
             Self::Arithmetic(_, operands) => operands.iter().for_each(|operand| operand.mention(mentions)),
         }
@@ -58,6 +53,14 @@ impl Number {
                 calculate(*operator, &values?)
             }
         }
+    }
+}
+
+/// Adds the tokens of an attribute: itself, and its edge if an edge holds it.
+pub(crate) fn mention_attribute(holder: &Holder, attribute: AttributeId, mentions: &mut Mentions) {
+    mentions.add_attribute(attribute);
+    if let Holder::Edge { label, .. } = holder {
+        mentions.add_label(*label);
     }
 }
 
