@@ -6,7 +6,7 @@ use crate::ground::normalise::Range;
 use pddl::model::{Term, VariableId};
 use std::sync::Arc;
 
-/// The object that a term stands for.
+/// Returns the object of a term under a binding.
 pub(crate) fn resolve(term: Term, binding: &[u32]) -> u32 {
     match term {
         Term::Variable(v) => binding[v.0 as usize],

@@ -1,37 +1,38 @@
-//! What grounding asks for and how it refuses.
+//! The options and errors of grounding.
 
 use budget::{Budget, Interrupted};
 use pddl::Span;
 use pddl::model::{Name, PredicateId};
 
-/// How to ground.
+/// The options of grounding.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct GroundOptions<'a> {
-    /// Predicates whose facts outside events may make true or false: every type-correct instance
-    /// becomes a fact that is never taken as constant and never pruned, so that any perceived state
-    /// can be planned from without grounding again.
+    /// Predicates whose facts an outside event may change. Every type-correct instance becomes a
+    /// fact that is never treated as constant and never pruned. A plan can thus start in any
+    /// observed state without grounding again.
     pub exogenous: &'a [PredicateId],
-    /// What grounding may use up. A unit of work takes about a nanosecond; the bytes are an estimate of what
-    /// atoms and instances take, and without a limit they are as many as 32-bit numbers can count.
+    /// The limits of grounding. A unit of work takes about a nanosecond. The bytes are an estimate
+    /// of the memory for atoms and instances; without a limit, they are limited by what 32-bit
+    /// numbers can count.
     pub budget: Budget<'a>,
 }
 
 /// A language feature that forward search does not handle yet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Feature {
-    /// Numbers of more digits than 128 bits hold.
+    /// Numbers with more digits than 128 bits hold.
     LargeNumbers,
     /// Durative actions.
     DurativeActions,
-    /// A proof that no plan is better, by a metric that is not a sum of costs of actions.
+    /// A proof of optimality for a metric that is not a sum of action costs.
     OptimalMetric,
     /// Axioms that depend on their own negation.
     UnstratifiedAxioms,
     /// An initial task network.
     TaskNetwork,
-    /// A part of the language.
+    /// A language feature by name.
     Language(pddl::model::Feature),
-    /// What the model itself does not hold; the span tells.
+    /// A construct that the model cannot represent; the error's span locates it.
     OutsideTheModel,
 }
 
@@ -49,12 +50,12 @@ impl std::fmt::Display for Feature {
     }
 }
 
-/// Whose text a span is of.
+/// The text that a span refers to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// The domain's.
+    /// The domain.
     Domain,
-    /// The problem's.
+    /// The problem.
     Problem,
 }
 
@@ -65,39 +66,39 @@ fn too_large(schema: &Name, instances: usize) -> String {
     }
 }
 
-/// Why there is no grounded task.
+/// The reason why there is no grounded task.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GroundError {
     /// The instances take more bytes than allowed.
     #[error("the grounded task does not fit into the memory: {}", too_large(schema, *instances))]
     Limit {
-        /// The action, axiom or predicate that blew up.
+        /// The action, axiom or predicate with the most bytes.
         schema: Name,
-        /// How many of its instances were found until then.
+        /// The number of its instances found so far.
         instances: usize,
     },
-    /// The caller cancelled, or the work was used up.
+    /// The caller cancelled, or the work budget was used up.
     #[error("grounding was interrupted in `{schema}`")]
     Interrupted {
-        /// The action or axiom at work, or with the most instances.
+        /// The action or axiom that was being grounded, or the one with the most instances.
         schema: Name,
     },
-    /// The task needs what the planner does not do.
+    /// The task needs a feature that the planner does not support.
     #[error("the planner does not support {feature}")]
     Unsupported {
-        /// What.
+        /// The feature.
         feature: Feature,
-        /// Whose text.
+        /// The text that uses it.
         origin: Origin,
-        /// Where.
+        /// Its place in the text.
         span: Span,
     },
 }
 
-/// Why a stage of grounding ended early.
+/// The reason why a stage of grounding ended early.
 pub(crate) enum Failure {
     Ground(GroundError),
-    /// Costs are no sum: an operator improves the metric.
+    /// Costs do not add up: an operator improves the metric.
     NegativeCost,
     /// The caller cancelled, or the budget was used up.
     Interrupted,

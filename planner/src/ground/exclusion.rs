@@ -1,12 +1,13 @@
-//! Which reachable atoms exclude each other.
+//! Mutual exclusion of reachable atoms.
 //!
-//! Problem: relaxed reachability lets a robot be in two rooms, so that it finds instances that no
-//! state can apply. Idea: the domain's invariants, counted in the initial state, give groups of atoms
-//! of which at most one ever holds; a conjunction with two atoms of a group is impossible, and where
-//! one holds the others do not. What would not hold if two parameters of an action were equal is taken
-//! where no instance that was reached has them equal. Invariant: an invariant over a predicate that the outside changes gives
-//! no group, so what is left is kept by the operators alone. Cost: one hash look-up for each atom of
-//! each invariant, bounded; then a few array reads a literal.
+//! Problem: relaxed reachability lets a robot be in two rooms, so it finds instances that are never
+//! applicable. Idea: the domain's invariants, counted in the initial state, give groups of atoms of
+//! which at most one ever holds. A conjunction with two atoms of a group is impossible; if one of
+//! them holds, the others do not. Some invariants hold only if certain parameters of an action are
+//! different; such an invariant is used if no reached instance has these parameters equal.
+//! Invariant: an invariant over an exogenous predicate gives no group, so operators alone keep
+//! every group. Cost: one hash look-up for each atom of each invariant, bounded; then a few array
+//! reads for each literal.
 //!
 //! Source: Helmert, "Concise finite-domain representations for PDDL planning tasks", AIJ 2009, §5.
 
@@ -22,26 +23,26 @@ use budget::{Interrupted, Meter};
 use pddl::model::{Domain, PredicateId, Term};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// Atoms in groups, over all of them; invariants beyond that are left out.
+/// The most entries in all groups; further invariants are dropped.
 const ENTRIES: usize = 20_000_000;
 
 /// Groups of atoms of which at most one holds.
 #[derive(Default)]
 pub(crate) struct Exclusions {
-    /// By atom, its groups.
+    /// By atom: its groups.
     groups: Rows,
     count: usize,
 }
 
 impl Exclusions {
-    /// Of the atoms that were reached.
+    /// The exclusions among the reached atoms.
     pub(crate) fn new(
         model: &Normalised<'_>,
         Reached { table, statics, initial, bindings }: &Reached,
         meter: &Meter<'_>,
     ) -> Result<Self, Interrupted> {
         let Normalised { domain, problem, exogenous, values, .. } = model;
-        // Invariants take an object to be of one type.
+        // Invariants assume that an object has one type.
         if problem.objects.iter().any(|o| o.types.0.len() > 1) {
             return Ok(Self::default());
         }
@@ -103,13 +104,13 @@ impl Exclusions {
         if (atom as usize) < self.groups.len() { self.groups.row(atom) } else { &[] }
     }
 
-    /// How many groups.
+    /// The number of groups.
     pub(crate) fn len(&self) -> usize {
         self.count
     }
 }
 
-/// Whether no instance that was reached has all these terms equal.
+/// Whether no reached instance has all these terms equal.
 fn keeps(
     proviso: &Proviso,
     domain: &Domain,
@@ -120,7 +121,7 @@ fn keeps(
     let Some(action) = domain.actions.iter().nth(proviso.happening) else { return Ok(false) };
     let own = &bindings[proviso.happening];
     let parameters = action.variables.parameters;
-    // Quantified variables are not in the row.
+    // The row does not contain quantified variables.
     let is_bound = |t: &Term| !matches!(t, Term::Variable(v) if v.0 as usize >= parameters);
     if !proviso.equal.iter().all(|(a, b)| is_bound(a) && is_bound(b)) {
         return Ok(false);
@@ -135,7 +136,7 @@ fn keeps(
     Ok(true)
 }
 
-/// An object fluent has one value: the compilation sees to it.
+/// An object fluent has one value; the compilation guarantees it.
 fn of_values(domain: &Domain, values: &ValuePredicates) -> Vec<Invariant> {
     let is_value = |&p: &PredicateId| values.function(p).is_some();
     let one = |predicate: PredicateId| {
@@ -147,7 +148,7 @@ fn of_values(domain: &Domain, values: &ValuePredicates) -> Vec<Invariant> {
     domain.predicates.ids().filter(is_value).map(one).collect()
 }
 
-/// The instances of which one atom holds initially and more are known.
+/// The groups of an invariant of which at most one atom holds initially and at least two are reached.
 fn instances(
     invariant: &Invariant,
     table: &AtomTable,
@@ -178,7 +179,7 @@ fn instances(
     Ok(exclusive.map(|(_, group)| group).collect())
 }
 
-/// Which groups the conjunction at hand has an atom of.
+/// The groups with an atom in the current conjunction.
 #[derive(Default)]
 pub(crate) struct Marks {
     generation: u32,
@@ -196,7 +197,7 @@ impl Marks {
         self.add(exclusions, literals)
     }
 
-    /// Marks more.
+    /// Marks further literals; `false` if two are of one group.
     fn add(&mut self, exclusions: &Exclusions, literals: &[Lit]) -> bool {
         let mut possible = true;
         for &l in literals.iter().filter(|&&l| l & 1 == 0) {
@@ -208,7 +209,7 @@ impl Marks {
         possible
     }
 
-    /// Whether one of the marked literals excludes an atom that is not among them.
+    /// Whether a marked literal excludes this unmarked atom.
     pub(crate) fn exclude(&self, exclusions: &Exclusions, atom: u32) -> bool {
         exclusions.of(atom).iter().any(|&g| self.of[g as usize] == self.generation)
     }

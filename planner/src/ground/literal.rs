@@ -3,7 +3,7 @@
 /// A ground literal: `atom << 1 | negated`.
 pub(crate) type Lit = u32;
 
-/// Sorted without duplicates; `None` if it holds a literal and its negation.
+/// Sorts without duplicates; `None` if the literals contain a literal and its negation.
 pub(crate) fn consistent(mut literals: Vec<Lit>) -> Option<Vec<Lit>> {
     literals.sort_unstable();
     literals.dedup();

@@ -1,6 +1,6 @@
-//! From a domain and a problem to a grounded task.
+//! Grounding: from a domain and a problem to a grounded task.
 //!
-//! A problem goes one way through five stages. Each is a module whose input and output are types of their own:
+//! Grounding has five stages. Each stage is a module with its own input and output types:
 //!
 //! | stage | in | out |
 //! |---|---|---|
@@ -10,11 +10,11 @@
 //! | `prune` | `RawTask` | `Pruned`: what is constant, what is irrelevant |
 //! | `finish` | all of these | [`Task`] |
 //!
-//! `exclusion` finds between the second and the third which atoms exclude each other. Below the stages are `error`,
-//! `memory` (bytes), `binding` and `literal`.
+//! Between the second and the third stage, `exclusion` finds the atoms that exclude each other. All
+//! stages use `error`, `memory` (bytes), `binding` and `literal`.
 //!
-//! Invariant: every plan of the problem is a sequence of the task's operators, and every plan of the task is a plan
-//! of the problem.
+//! Invariant: every plan of the problem is a sequence of the task's operators, and every plan of
+//! the task is a plan of the problem.
 //!
 //! Source: Helmert, "Concise finite-domain representations for PDDL planning tasks", AIJ 2009.
 
@@ -43,12 +43,12 @@ use std::cmp::Reverse;
 /// Grounds `problem` of `domain`.
 ///
 /// # Errors
-/// A feature that the planner does not support, a limit of `options`, or its interruption.
+/// An unsupported feature, an exceeded limit of `options`, or an interruption.
 pub fn ground(domain: &Domain, problem: &Problem, options: &GroundOptions<'_>) -> Result<Task, GroundError> {
     metered(domain, problem, options.exogenous, &Meter::new(memory::limited(options.budget)))
 }
 
-/// The same, with a meter that its caller can read.
+/// The same, with a meter that the caller can read.
 fn metered(
     domain: &Domain,
     problem: &Problem,
@@ -72,7 +72,7 @@ fn metered(
     .map_err(|failure| match failure {
         Failure::Ground(error) => error,
         Failure::Interrupted => GroundError::Interrupted { schema: problem.name.clone() },
-        // Costs that are evaluated along the plan are never negative ones.
+        // Unreachable: without additive costs, no operator has a negative cost.
         Failure::NegativeCost => GroundError::Unsupported {
             feature: Feature::OptimalMetric,
             origin: Origin::Problem,
@@ -81,13 +81,13 @@ fn metered(
     })
 }
 
-/// The stages after the first.
+/// Runs the stages after the first.
 fn stages(model: &Normalised<'_>, meter: &Meter<'_>) -> Result<Task, Failure> {
     let mut reached = relax::relax(model, meter)?;
     let exclusions = Exclusions::new(model, &reached, meter)?;
     let raw = instantiate::instantiate(model, &reached, &exclusions, meter)?;
     let largest = (0..model.schemas.len()).max_by_key(|&i| (reached.bindings[i].rows, Reverse(i)));
-    // The instances hold the objects from here on.
+    // The instances contain their objects, so the bindings are no longer needed.
     reached.bindings = Vec::new();
     let named = |failure| match (failure, largest) {
         (Failure::Interrupted, Some(schema)) => {

@@ -1,13 +1,14 @@
-//! From the raw instances to the task: constants folded, the irrelevant dropped.
+//! Pruning of the raw task: folds constants and drops irrelevant parts.
 //!
-//! Idea: (1) a relaxed reachability over literals of both signs on the ground level: an atom whose
-//! negation is never reached always holds, one that is never reached never does; (2) relevance
-//! backwards from the goal: an atom that no relevant condition reads is no fact. Invariant: atoms of
-//! exogenous predicates are neither folded nor dropped. Cost: linear in the raw task.
+//! Idea: (1) a relaxed reachability analysis over ground literals of both signs: an atom whose
+//! negation is unreachable always holds, and an unreachable atom never holds; (2) relevance,
+//! backwards from the goal: an atom that no relevant condition reads does not become a fact.
+//! Invariant: atoms of exogenous predicates are neither folded nor dropped. Cost: linear in the raw
+//! task.
 //!
 //! Source: Helmert, "The Fast Downward planning system", JAIR 2006, §5.1 (relevance); Helmert 2009.
 //!
-//! In: the raw task, and what reachability knows of its atoms. Out: [`Pruned`].
+//! In: the raw task and its reached atoms. Out: [`Pruned`].
 
 use super::instantiate::{Comparison, RawChange, RawEffects, RawTask};
 use super::literal::Lit;
@@ -19,28 +20,28 @@ use crate::task::Rows;
 use budget::{Interrupted, Meter};
 use pddl::model::Objective;
 
-/// What is known of each atom.
+/// The results of pruning for atoms, fluents and operators.
 pub(crate) struct Pruned {
-    /// Holds always.
+    /// By atom: it always holds.
     pub(crate) always: Vec<bool>,
-    /// Never holds.
+    /// By atom: it never holds.
     pub(crate) never: Vec<bool>,
-    /// Read by the goal, a condition of a useful operator, or the outside.
+    /// By atom: the goal, a condition of a useful operator, or the caller reads it.
     pub(crate) needed: Vec<bool>,
-    /// Numeric fluents that something needed reads.
+    /// By numeric fluent: something needed reads it.
     pub(crate) read: Vec<bool>,
-    /// Numeric fluents that only the metric reads.
+    /// By numeric fluent: only the metric reads it.
     pub(crate) measured: Vec<bool>,
-    /// By operator: whether it may make a metric better that is no sum of costs.
+    /// By operator: whether it may improve a metric that is not a sum of costs.
     pub(crate) improves: Vec<bool>,
-    /// By atom: whether axioms decide it.
+    /// By atom: whether axioms define it.
     pub(crate) derived: Vec<bool>,
-    /// By atom: whether it compares numbers.
+    /// By atom: whether it is a comparison of numbers.
     pub(crate) compared: Vec<bool>,
 }
 
 impl Pruned {
-    /// Whether the literal is true (`Some(true)`), false or open.
+    /// `Some(true)` if the literal always holds, `Some(false)` if it never does, otherwise `None`.
     pub(crate) fn constant(&self, literal: Lit) -> Option<bool> {
         let atom = (literal >> 1) as usize;
         let positive = literal & 1 == 0;
@@ -59,8 +60,8 @@ impl Pruned {
     }
 }
 
-/// What each way to reach literals gives. The operators' own needs are their preconditions as they are;
-/// ways beyond that, by conditional effects, changes of numbers and rules, come after the operators.
+/// The literals that each way of reaching needs and gives. The first ways are the operators, which
+/// need their preconditions. Conditional effects, changes of numbers and rules follow.
 #[derive(Default)]
 struct Ways {
     needs: Rows,
@@ -118,7 +119,7 @@ pub(crate) fn prune(
     Ok(pruned)
 }
 
-/// Marks what follows by rules from what always holds.
+/// Marks the atoms that rules derive from atoms that always hold.
 fn always_derived(raw: &RawTask, pruned: &mut Pruned, meter: &Meter<'_>) -> Result<(), Interrupted> {
     let mut readers = Rows::default();
     let mut missing: Vec<usize> = Vec::with_capacity(raw.rules.len());
@@ -127,7 +128,7 @@ fn always_derived(raw: &RawTask, pruned: &mut Pruned, meter: &Meter<'_>) -> Resu
         meter.spend(16 + 4 * body.len())?;
         let open = body.iter().filter(|&&l| pruned.constant(l) != Some(true));
         missing.push(open.clone().count());
-        // A negative literal that is open stays so: atoms only come to hold.
+        // An open negative literal stays open, because only atoms become known to hold.
         readers.push(open.filter(|&&l| l & 1 == 0).map(|l| l >> 1));
         if missing.last() == Some(&0) {
             queue.push(rule);
@@ -240,7 +241,7 @@ fn readers(raw: &RawTask) -> Vec<Vec<u32>> {
     readers
 }
 
-/// The comparisons that a change may make true and false.
+/// The comparisons that a change may make true, and those that it may make false.
 fn influenced(
     raw: &RawTask,
     readers: &[Vec<u32>],
@@ -263,8 +264,8 @@ fn influenced(
     Ok(effects)
 }
 
-/// Marks what the metric reads, directly or through effects, and the operators that may make it better;
-/// gives the changes of what it reads.
+/// Marks the fluents that the metric reads, directly or through effects, and the operators that may
+/// improve it. Returns the changes of these fluents.
 fn measured<'r>(
     raw: &'r RawTask,
     changed_by: &Rows,
@@ -295,8 +296,8 @@ fn measured<'r>(
     Ok(changes)
 }
 
-/// Whether a change of what the metric reads, directly or through effects, may make it better. Where a sum
-/// moves by a constant, the sign decides.
+/// Whether a change of a fluent that the metric reads, directly or through effects, may improve it.
+/// If a sum changes by a constant, the sign decides.
 fn may_improve(objective: Objective, metric: &Expression<u32>, change: &RawChange) -> bool {
     let above = (Relation::Positive, metric);
     let influence = Influence::of(above, &change.fluent, change.change, change.value.as_ref());
@@ -307,8 +308,8 @@ fn may_improve(objective: Objective, metric: &Expression<u32>, change: &RawChang
     }
 }
 
-/// By atom, and after the atoms by numeric fluent: the operators that change it and the rules that derive
-/// it (numbered after them).
+/// By atom, and after the atoms by numeric fluent: the operators that change it and the rules that
+/// derive it. Rules are numbered after operators.
 fn changed_by(raw: &RawTask, meter: &Meter<'_>) -> Result<Rows, Interrupted> {
     let mut changes = Rows::default();
     for op in raw.operators.iter() {

@@ -1,10 +1,10 @@
-//! What forward search does not take, refused by name and place.
+//! Rejects models with features that forward search does not support.
 
 use super::error::{Feature, GroundError, Origin};
 use pddl::Diagnostic;
 use pddl::model::{Domain, Feature as Language, Problem};
 
-/// Refuses what forward search cannot take, by name and place.
+/// Rejects the first unsupported feature, with its name and span.
 pub(crate) fn refuse(domain: &Domain, problem: &Problem) -> Result<(), GroundError> {
     let refuse = |feature, origin, span| Err(GroundError::Unsupported { feature, origin, span });
     let first = |list: &[Diagnostic]| list.first().map(|d| d.span);
@@ -14,7 +14,7 @@ pub(crate) fn refuse(domain: &Domain, problem: &Problem) -> Result<(), GroundErr
     if let Some(span) = first(&problem.unsupported) {
         return refuse(Feature::OutsideTheModel, Origin::Problem, span);
     }
-    // Types in conditions are looked up while grounding; methods are not read.
+    // Grounding evaluates type predicates, and the planner does not read methods.
     let is_read = |feature| !matches!(feature, Language::TypePredicates | Language::NetworkConstraints);
     if let Some((feature, span)) = domain.features().into_iter().find(|(f, _)| is_read(*f)) {
         return refuse(Feature::Language(feature), Origin::Domain, span);

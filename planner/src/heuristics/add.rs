@@ -1,5 +1,6 @@
-//! hadd: the sum of what the goal's propositions cost in the delete relaxation, as if they were
-//! independent, an operator as often as a comparison of numbers takes it. Neither admissible nor consistent; safe.
+//! hadd: the sum of the costs of the goal's propositions in the delete relaxation, as if they were
+//! independent. A comparison of numbers costs as many repetitions of an operator as it needs.
+//! Neither admissible nor consistent; safe.
 //!
 //! Source: Bonet & Geffner, "Planning as heuristic search", AIJ 2001, §3.
 

@@ -1,14 +1,16 @@
 //! Relaxed plans in which operators are repeated and replace the resources that they consume.
 //!
-//! Problem: a relaxation ignores decreases, so one log is enough for ten houses; after the first house is built, the
-//! estimate rises by the logs for the second. Idea: extract the plan backwards, from the most expensive propositions to
-//! the cheapest. If several comparisons need an operator, it occurs as often as the most demanding one requires. Each
-//! occurrence takes from the sums that the precondition bounds (a tank, a purse, a room). When the comparison of such a
-//! sum has its turn, the sum must suffice for all takings but the last. A sum that the goal bounds must suffice for the
-//! takings of every operator. If a sum satisfies its comparison already but does not suffice, the first operator that
-//! was able to raise it supplies the rest. A taking from a sum whose turn is over gives its comparison another turn;
-//! the number of turns is bounded, because two operators may supply each other. The estimate is neither admissible nor
-//! consistent. It is finite wherever the exploration is, hence safe. Cost: the plan's propositions in a queue.
+//! Problem: a relaxation ignores decreases, so one log is enough for ten houses; after the first
+//! house is built, the estimate rises by the logs for the second. Idea: extract the plan backwards,
+//! from the most expensive propositions to the cheapest. If several comparisons need an operator,
+//! it occurs as often as the most demanding one requires. Each occurrence takes from the sums that
+//! the precondition bounds (a tank, a purse, a room). When the comparison of such a sum has its
+//! turn, the sum must suffice for all takings but the last. A sum that the goal bounds must suffice
+//! for the takings of every operator. If a sum satisfies its comparison already but does not
+//! suffice, the first operator that was able to raise it supplies the rest. A taking from a sum
+//! whose turn is over gives its comparison another turn; the number of turns is bounded, because
+//! two operators may supply each other. The estimate is neither admissible nor consistent. It is
+//! finite wherever the exploration is, hence safe. Cost: the plan's propositions in a queue.
 //!
 //! Source: repetitions as in Scala, Haslum, Thiébaux & Ramirez, JAIR 2020; takings as an extension of
 //! relaxed plan extraction in Hoffmann, "The Metric-FF planning system", JAIR 2003, §4.3, ours.
@@ -76,8 +78,8 @@ impl CountedPlan {
         })
     }
 
-    /// Extracts a plan backwards from the goal, after an exploration. Appends the propositions that the plan achieves
-    /// to `achieved`, and its applicable operators to `preferred`.
+    /// Extracts a plan backwards from the goal, after an exploration. Appends the propositions that
+    /// the plan achieves to `achieved`, and its applicable operators to `preferred`.
     pub(crate) fn walk(
         &mut self,
         walk: &Walk<'_, '_>,
@@ -144,8 +146,8 @@ impl CountedPlan {
         self.real
     }
 
-    /// How far a comparison's sum must exceed the comparison's bound, in the comparison's units, and whether this is
-    /// the comparison's first turn.
+    /// How far a comparison's sum must exceed the comparison's bound, in the comparison's units,
+    /// and whether this is the comparison's first turn.
     fn turn(&mut self, walk: &Walk<'_, '_>, proposition: u32) -> (f64, bool) {
         let Some(comparison) = walk.explorer.graph().ways.comparison(proposition) else { return (0.0, true) };
         let Some((sum, unit)) = walk.task.numeric.sum_of(comparison) else { return (0.0, true) };

@@ -1,12 +1,12 @@
-//! Cheapest achievement in the delete relaxation: a generalised Dijkstra.
+//! Costs of propositions in the delete relaxation, by a generalised Dijkstra search.
 //!
-//! Problem: hmax, hadd and hFF all need, per state, the cost of every proposition. Idea: settle
-//! propositions in order of cost; a node whose last precondition is settled offers its effects at the
-//! sum (or maximum) of its preconditions' costs plus its own. Invariant: when a proposition is
-//! popped at its cost, that cost is final. Comparisons of numbers count repetitions where that is asked
-//! for (`repetitions`). Moves need no counter: they fire when their one precondition is settled, and of
-//! a clique only the first. Cost: linear in the relaxation, plus the queue; arrays are
-//! reset by copying templates, nothing is allocated.
+//! Problem: hmax, hadd and hFF all need the cost of every proposition, in each state. Idea: settle
+//! propositions in order of cost. When the last precondition of a node is settled, the node offers
+//! its effects at its own cost plus the sum (or maximum) of its preconditions' costs. Invariant:
+//! when a proposition is popped at its cost, that cost is final. On request, comparisons of numbers
+//! count repetitions (`repetitions`). A move needs no counter: it fires when its only precondition
+//! is settled, and only the first settled member of a clique fires. Cost: linear in the relaxation,
+//! plus the queue. Arrays are reset by copying templates; nothing is allocated.
 //!
 //! Source: Bonet & Geffner, "Planning as heuristic search", AIJ 2001; Liu, Koenig & Furcy, "Speeding
 //! up the calculation of heuristics for heuristic search-based planning", AAAI 2002.
@@ -20,29 +20,29 @@ use crate::task::{ALONE, AXIOM, Relaxation, Way};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Nodes between two looks at the meter.
+/// Nodes between two checks of the meter.
 const STRIDE: usize = 1 << 12;
 
-/// Not reached.
+/// The cost of an unreached proposition.
 pub(crate) const UNREACHED: u32 = u32::MAX;
-/// Costs above this saturate.
+/// Higher costs saturate at this.
 const HIGHEST: u32 = u32::MAX / 4;
-/// Queue entries cheaper than this have a bucket of their own.
+/// Queue entries with a lower cost have their own bucket.
 const BUCKETS: usize = 1 << 14;
 
-/// How the costs of a conjunction combine.
+/// How the costs of the preconditions combine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Combine {
     Sum,
     Max,
 }
 
-/// What achieving a comparison of numbers takes.
+/// How often an operator is counted to achieve a comparison of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Counting {
-    /// The operator once.
+    /// The operator counts once.
     Once,
-    /// As many repetitions as the state's numbers ask for.
+    /// The operator counts as often as the state's numbers require.
     Repetitions,
 }
 
@@ -52,18 +52,19 @@ struct Node {
     missing: u32,
 }
 
-/// Scratch for explorations of one task under one set of costs.
+/// Buffers for explorations of one task with one set of costs.
 pub(crate) struct Explorer<'a> {
     graph: &'a Relaxation,
     meter: &'a SearchMeter<'a>,
     combine: Combine,
     repetitions: Option<Repetitions<'a>>,
-    /// The first node that raises a comparison that holds already; empty where repetitions are not counted.
+    /// The first node that raises a comparison that holds already; empty if repetitions are not
+    /// counted.
     supplier: Vec<u32>,
     template: Vec<Node>,
-    /// Without the moves.
+    /// The state of every node but the moves.
     nodes: Vec<Node>,
-    /// The exploration in which the moves of each clique were made.
+    /// By clique: the exploration in which its moves fired.
     moved: Vec<u32>,
     exploration: u32,
     cost: Vec<u32>,
@@ -77,12 +78,12 @@ pub(crate) struct Explorer<'a> {
 }
 
 impl<'a> Explorer<'a> {
-    /// On the undominated relaxation.
+    /// Explores the undominated relaxation.
     pub(crate) fn new(job: &Job<'a>, goal: Vec<u32>, costs: Costs, combine: Combine) -> Self {
         Self::on(job.relaxation(), job, goal, costs, combine, Counting::Repetitions)
     }
 
-    /// On a graph of the caller's choice.
+    /// Explores the relaxation `graph`.
     pub(crate) fn on(
         graph: &'a Relaxation,
         job: &Job<'a>,
@@ -94,14 +95,14 @@ impl<'a> Explorer<'a> {
         let barred = job.barred;
         let mut template = vec![Node { cost: 0, missing: 0 }; graph.nodes()];
         for (n, node) in template.iter_mut().enumerate() {
-            // What is not filled in when the meter is stopped is not explored.
+            // If the meter is stopped, the remaining nodes stay unexplored.
             if n.is_multiple_of(STRIDE) && job.meter.spend(8 * STRIDE) {
                 break;
             }
             let operator = graph.operator[n];
             node.cost = if operator == AXIOM { 0 } else { costs.of(graph.cost[n]) };
             let missing = id32(graph.preconditions.row(id32(n)).len());
-            // A barred node waits for a precondition that never comes.
+            // A barred node waits for one more precondition, which is never reached.
             node.missing = missing + u32::from(operator != AXIOM && barred.contains_number(operator));
         }
         let repetitions = match counting {
@@ -155,18 +156,19 @@ impl<'a> Explorer<'a> {
         self.cost[proposition as usize]
     }
 
-    /// The node that achieves it most cheaply; [`UNREACHED`] for what holds already.
+    /// The node that achieves a proposition most cheaply; [`UNREACHED`] if the proposition holds
+    /// already.
     pub(crate) fn supporter(&self, proposition: u32) -> u32 {
         self.supporter[proposition as usize]
     }
 
-    /// The first node that raises a comparison that holds already; [`UNREACHED`] without such a node.
+    /// The first node that raises a comparison that holds already; [`UNREACHED`] if there is none.
     pub(crate) fn supplier(&self, proposition: u32) -> u32 {
         self.supplier.get(proposition as usize).copied().unwrap_or(UNREACHED)
     }
 
-    /// How often a node must be done in this state for a proposition that it achieves, where its
-    /// comparison needs `more` units than it says.
+    /// How often a node must be applied in this state to achieve a proposition, if its comparison
+    /// needs `more` units than its bound.
     pub(crate) fn times(&self, node: u32, proposition: u32, more: f64, words: &[u64]) -> u32 {
         let Some(repetitions) = &self.repetitions else { return 1 };
         let effects = &self.graph.effects;
@@ -174,7 +176,7 @@ impl<'a> Explorer<'a> {
         effect.and_then(|effect| repetitions.count(effect, more, words)).unwrap_or(1)
     }
 
-    /// Whether everything that the node needs costs nothing.
+    /// Whether all preconditions of the node cost nothing.
     pub(crate) fn is_ready(&self, node: u32) -> bool {
         match self.nodes.get(node as usize) {
             Some(state) => state.cost == self.template[node as usize].cost,
@@ -182,7 +184,7 @@ impl<'a> Explorer<'a> {
         }
     }
 
-    /// Whether everything that the node needs was reached.
+    /// Whether all preconditions of the node were reached.
     pub(crate) fn is_fired(&self, node: u32) -> bool {
         match self.nodes.get(node as usize) {
             Some(state) => state.missing == 0,
@@ -190,13 +192,14 @@ impl<'a> Explorer<'a> {
         }
     }
 
-    /// Changes the cost of a node for the explorations to come.
+    /// Changes the cost of a node for later explorations.
     pub(crate) fn set_cost(&mut self, node: u32, cost: u32) {
         self.template[node as usize].cost = cost;
     }
 
-    /// Settles propositions from the state until the whole goal is settled (or all, without goals).
-    /// Answers whether the goal was reached; where the meter is stopped, that is not to be believed.
+    /// Settles propositions from the state until the whole goal is settled (or all propositions,
+    /// without a goal). Returns whether the goal was reached; if the meter is stopped, the result
+    /// is unreliable.
     pub(crate) fn explore(&mut self, words: &[u64]) -> bool {
         if self.meter.spend((self.nodes.len() + self.cost.len()) / 8) {
             return false;
@@ -254,7 +257,7 @@ impl<'a> Explorer<'a> {
         everything
     }
 
-    /// Whether no member of the clique has been settled before.
+    /// Whether no member of the clique was settled before.
     fn is_first(&mut self, clique: u32) -> bool {
         clique == ALONE
             || std::mem::replace(&mut self.moved[clique as usize], self.exploration) != self.exploration
@@ -277,7 +280,7 @@ impl<'a> Explorer<'a> {
         self.lowest = 0;
     }
 
-    /// Offers the effects of a node that costs so much with all that it needs.
+    /// Offers the effects of a node at this cost, which includes its preconditions.
     #[inline]
     fn fire(&mut self, node: u32, cost: u32, words: &[u64]) {
         if self.repetitions.is_some() {
@@ -288,7 +291,7 @@ impl<'a> Explorer<'a> {
         }
     }
 
-    /// The same where comparisons of numbers count repetitions.
+    /// The same, if comparisons of numbers count repetitions.
     fn fire_repeatedly(&mut self, node: u32, cost: u32, words: &[u64]) {
         let effects = &self.graph.effects;
         for effect in effects.range(node) {
@@ -307,7 +310,7 @@ impl<'a> Explorer<'a> {
         }
     }
 
-    /// What an effect of a node costs with its repetitions; `None` where it never comes about.
+    /// The cost of a node's effect with its repetitions; `None` if it can never be achieved.
     fn repeated(&self, node: u32, cost: u32, effect: usize, words: &[u64]) -> Option<u32> {
         let Some(repetitions) = &self.repetitions else { return Some(cost) };
         let times = repetitions.count(effect, 0.0, words)?;
@@ -341,7 +344,7 @@ impl<'a> Explorer<'a> {
         self.lowest = self.lowest.min(bucket);
     }
 
-    /// Where there is no bucket yet, or never will be.
+    /// Handles costs without a bucket.
     #[cold]
     fn push_far(&mut self, cost: u32, proposition: u32) {
         let bucket = cost as usize;

@@ -1,9 +1,9 @@
-//! hFF: the cost of a relaxed plan, with the operators that begin it as preferred ones.
+//! hFF: the cost of a relaxed plan; its first operators are the preferred ones.
 //!
-//! Idea: supporters chosen by hadd; walking them back from the goal gives a plan of the relaxation,
-//! whose applicable operators are the ones worth trying first. Neither admissible nor consistent;
-//! safe. Where numbers ask for repetitions, the plan is a counted one (`counted_plan`).
-//! Cost: one exploration plus the plan.
+//! Idea: choose supporters by hadd and follow them back from the goal. The result is a plan of the
+//! relaxation; its applicable operators are the helpful ones. Neither admissible nor consistent;
+//! safe. If numbers require repetitions, the plan is a counted one (`counted_plan`). Cost: one
+//! exploration plus the plan.
 //!
 //! Source: Hoffmann & Nebel, "The FF planning system", JAIR 2001, §4; supporters by hadd: Keyder &
 //! Geffner, "Heuristics for planning with action costs revisited", ECAI 2008.
@@ -19,16 +19,17 @@ pub(crate) struct Ff<'a> {
     task: &'a Task,
     costs: Costs,
     explorer: Explorer<'a>,
-    /// Where operators may have to be repeated.
+    /// Set if operators may have to be repeated.
     counted: Option<CountedPlan>,
-    /// Generation in which a proposition or operator was last marked; empty where plans are counted.
+    /// The generation in which a proposition or operator was last marked; empty if `counted` is
+    /// set.
     marked: Vec<u32>,
     used: Vec<u32>,
     generation: u32,
     stack: Vec<u32>,
-    /// What the last relaxed plan achieves.
+    /// The propositions that the last relaxed plan achieves.
     achieved: Vec<u32>,
-    /// What it costs.
+    /// The real cost of the last relaxed plan.
     real: u64,
 }
 
@@ -53,7 +54,7 @@ impl<'a> Ff<'a> {
         }
     }
 
-    /// The length or cost of a relaxed plan from the state.
+    /// Returns the length or cost of a relaxed plan from the state.
     pub(crate) fn relaxed_plan(
         &mut self,
         words: &[u64],

@@ -1,4 +1,4 @@
-//! How many literals of the goal do not hold. Neither admissible nor consistent; safe.
+//! The number of literals of the goal that do not hold. Neither admissible nor consistent; safe.
 
 use super::{Estimate, Heuristic, View};
 use crate::ids::{OperatorId, id32};
@@ -20,7 +20,7 @@ impl Heuristic for GoalCount<'_> {
     }
 }
 
-/// How many literals of the goal do not hold.
+/// The number of literals of the goal that do not hold.
 fn open_goals(goal: &Goal, words: &[u64]) -> u32 {
     let literals = &goal.literals;
     let missing = literals.positive.iter().filter(|&&f| !contains(words, f)).count();

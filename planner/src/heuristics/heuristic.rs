@@ -1,20 +1,20 @@
-//! What every heuristic is: an estimator of states, and the costs that it counts.
+//! The interface of every heuristic, and the costs that it counts.
 
 use crate::ids::{OperatorId, StateId};
 
 /// Which costs of operators a heuristic counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Costs {
-    /// Each operator counts 1: estimates the length of the plan.
+    /// Each operator counts 1: the heuristic estimates the length of the plan.
     Unit,
-    /// Operators count what they cost and 1 more, so that no step is free.
+    /// Each operator counts its cost plus 1, so no step is free.
     PlusOne,
-    /// Operators count what they cost.
+    /// Each operator counts its cost.
     Real,
 }
 
 impl Costs {
-    /// What an operator of this cost counts.
+    /// The cost that is counted for an operator of this cost.
     pub(crate) fn of(self, cost: u32) -> u32 {
         match self {
             Self::Unit => 1,
@@ -24,7 +24,7 @@ impl Costs {
     }
 }
 
-/// An estimate; [`Estimate::DEAD_END`] says that the goal cannot be reached.
+/// An estimate; [`Estimate::DEAD_END`] means that the goal is unreachable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Estimate(pub(crate) u32);
 
@@ -32,7 +32,7 @@ impl Estimate {
     pub(crate) const DEAD_END: Self = Self(u32::MAX);
 }
 
-/// What an estimator may look at.
+/// The input of an estimate.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct View<'v> {
     pub(crate) id: StateId,
@@ -41,16 +41,16 @@ pub(crate) struct View<'v> {
     pub(crate) applicable: &'v [OperatorId],
 }
 
-/// An estimator bound to a task, a goal and the operators that may be used.
+/// A heuristic for one task, one goal and a set of allowed operators.
 pub(crate) trait Heuristic {
-    /// Estimates a state. Where `preferred` is given, appends those of the applicable operators that
-    /// look promising.
+    /// Estimates a state. Appends the preferred operators among the applicable ones to `preferred`,
+    /// if it is given.
     fn estimate(&mut self, view: &View<'_>, preferred: Option<&mut Vec<OperatorId>>) -> Estimate;
 
     /// Receives the first state, before any estimate.
     fn start(&mut self, _id: StateId, _words: &[u64]) {}
 
-    /// Receives each step of the search to a new or known state, before the estimate of that state.
+    /// Receives each step to a new or known state, before that state is estimated.
     fn step(&mut self, _from: StateId, _operator: OperatorId, _to: StateId, _words: &[u64]) {}
 
     /// The real cost of the plan behind the last estimate; 0 without such a plan.
@@ -58,7 +58,7 @@ pub(crate) trait Heuristic {
         0
     }
 
-    /// Bytes held, where they grow with the search.
+    /// The bytes held, if they grow with the search.
     fn memory(&self) -> usize {
         0
     }

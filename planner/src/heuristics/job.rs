@@ -1,4 +1,4 @@
-//! One search's share of a question: what it needs to know, and the bound that searches share.
+//! The input of one search, and the data that the searches of one query share.
 
 use super::landmarks::LandmarkGraph;
 use crate::query::{Barred, SearchMeter};
@@ -6,7 +6,7 @@ use crate::task::{Goal, Relaxation, State, Task};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
-/// What a search works on.
+/// The input of one search.
 #[derive(Clone, Copy)]
 pub(crate) struct Job<'a> {
     pub(crate) task: &'a Task,
@@ -18,28 +18,29 @@ pub(crate) struct Job<'a> {
     pub(crate) shared: &'a Shared,
 }
 
-/// What the first search that needs it finds out for all searches on one question.
+/// Data that the first search computes when needed, for all searches of the query.
 #[derive(Default)]
 pub(crate) struct Shared {
     landmarks: OnceLock<LandmarkGraph>,
 }
 
 impl<'a> Job<'a> {
-    /// The landmarks of the question. Incomplete where the meter is stopped, and then the search ends.
+    /// The landmarks of the query. They are incomplete if the meter is stopped; the search then
+    /// ends.
     pub(crate) fn landmarks(&self) -> &'a LandmarkGraph {
         let graph = self.relaxation();
         let of = || LandmarkGraph::of(self.task, graph, (self.state, self.goal), self.barred, self.meter);
         self.shared.landmarks.get_or_init(of)
     }
 
-    /// The relaxation for estimates that never count an operator twice for two ends.
+    /// The relaxation for heuristics that never count an operator twice for two effects.
     pub(crate) fn relaxation(&self) -> &'a Relaxation {
-        // What dominates may be barred.
+        // An operator that dominates others may be barred.
         if self.barred.is_empty() { &self.task.undominated } else { &self.task.relaxation }
     }
 }
 
-/// Plans must cost less than this. Several searches lower it, and none raises it.
+/// Plans must cost less than this. Several searches lower it; none raises it.
 #[derive(Debug)]
 pub(crate) struct Bound(AtomicU64);
 

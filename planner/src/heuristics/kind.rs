@@ -1,4 +1,4 @@
-//! The heuristics by name, and what each promises.
+//! The heuristics by name, with the properties of each.
 
 use super::add::Add;
 use super::blind::Blind;
@@ -10,47 +10,47 @@ use super::landmarks::LandmarkCount;
 use super::lm_cut::LmCut;
 use super::max::Max;
 
-/// What a search may rely on.
+/// The properties that a search may rely on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Properties {
     /// Never above the true cost.
     pub(crate) admissible: bool,
-    /// Falls by no more than the operator's cost along any step.
+    /// Decreases by at most the operator's cost along any step.
     pub(crate) consistent: bool,
-    /// Infinite only where the goal cannot be reached.
+    /// Infinite only if the goal is unreachable.
     pub(crate) safe: bool,
-    /// Parts of the language under which the above holds.
+    /// The language features for which these properties hold.
     pub(crate) supports: &'static [Supported],
 }
 
-/// A part of the language that estimates must know of.
+/// A language feature that a heuristic must take into account.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Supported {
     /// Literals that must not hold.
     NegativeConditions,
-    /// Effects under a condition.
+    /// Conditional effects.
     ConditionalEffects,
     /// Derived facts; their negation counts as true.
     Axioms,
-    /// What operators cost.
+    /// The costs of operators.
     ActionCosts,
-    /// How often an operator must be repeated for a comparison of numbers; the others take once for
-    /// enough.
+    /// The number of repetitions of an operator that a comparison of numbers needs; other
+    /// heuristics assume that one application is enough.
     Repetitions,
 }
 
-/// The estimators that configurations name; [`HeuristicKind::properties`] says what they promise.
+/// The heuristics that configurations name; see [`HeuristicKind::properties`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum HeuristicKind {
     /// 0 everywhere.
     Blind,
     /// Unsatisfied goals.
     GoalCount,
-    /// Cost of the dearest proposition of the goal in the delete relaxation.
+    /// The cost of the most expensive proposition of the goal in the delete relaxation.
     Max,
-    /// Sum of the costs of the goal's propositions in the delete relaxation.
+    /// The sum of the costs of the goal's propositions in the delete relaxation.
     Add,
-    /// Cost of a relaxed plan.
+    /// The cost of a relaxed plan.
     Ff,
     /// Landmarks still to be achieved.
     Landmarks,
@@ -64,7 +64,7 @@ impl HeuristicKind {
     pub(crate) const ALL: &'static [Self] =
         &[Self::Blind, Self::GoalCount, Self::Max, Self::Add, Self::Ff, Self::Landmarks, Self::LmCut];
 
-    /// What holds of it with real costs.
+    /// The properties with real costs.
     #[cfg_attr(not(test), expect(dead_code, reason = "a promise to readers, which a test holds"))]
     pub(crate) fn properties(self) -> Properties {
         let (admissible, consistent) = match self {
@@ -72,7 +72,7 @@ impl HeuristicKind {
             Self::LmCut => (true, false),
             Self::GoalCount | Self::Add | Self::Ff | Self::Landmarks => (false, false),
         };
-        // Those that count facts or landmarks take every operator for the same.
+        // Heuristics that count facts or landmarks treat all operators alike.
         const ALL: &[Supported] = &[
             Supported::NegativeConditions,
             Supported::ConditionalEffects,
@@ -88,7 +88,8 @@ impl HeuristicKind {
         Properties { admissible, consistent, safe: true, supports }
     }
 
-    /// An estimator for one job. Where its meter is stopped meanwhile, it is of no use.
+    /// Creates the heuristic for one job. If the job's meter stops meanwhile, the result is
+    /// unusable.
     pub(crate) fn build<'a>(self, job: &Job<'a>, costs: Costs) -> Box<dyn Heuristic + Send + 'a> {
         match self {
             Self::Blind => Box::new(Blind),

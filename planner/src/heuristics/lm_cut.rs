@@ -1,9 +1,11 @@
 //! LM-cut: a sum of disjunctive landmarks of the delete relaxation.
 //!
-//! Idea: while hmax of the goal is positive, the operators that cross into the zone from which the
-//! goal costs nothing form a landmark; count its cheapest cost, take it off all of them, repeat.
-//! Costs are per operator, so the nodes of conditional effects share theirs and the sum stays
-//! admissible; axioms cost nothing. Admissible, not consistent, safe. Cost: one exploration per cut.
+//! Idea: compute hmax. The goal zone is the set of propositions from which the goal costs nothing.
+//! While hmax of the goal is positive, the operators that cross into the goal zone form a landmark.
+//! Add the cost of its cheapest operator to the estimate, subtract it from all operators of the
+//! landmark, and repeat. Costs are per operator: the nodes of conditional effects share the cost of
+//! their operator, so the sum stays admissible. Axioms cost nothing. Admissible, not consistent,
+//! safe. Cost: one exploration per cut.
 //!
 //! Source: Helmert & Domshlak, "Landmarks, critical paths and abstractions: what's the difference
 //! anyway?", ICAPS 2009.
@@ -23,9 +25,9 @@ pub(crate) struct LmCut<'a> {
     achieved_by: Rows,
     costs: Vec<u32>,
     remaining: Vec<u32>,
-    /// The dearest precondition of each node.
+    /// The most expensive precondition of each node.
     dearest: Vec<u32>,
-    /// Nodes by their dearest precondition, rebuilt for each cut.
+    /// Nodes by their most expensive precondition, rebuilt for each cut.
     waiting: Vec<Vec<u32>>,
 }
 
@@ -56,7 +58,7 @@ impl<'a> LmCut<'a> {
         }
     }
 
-    /// Propositions from which the goal costs nothing, as marks.
+    /// Marks the propositions from which the goal costs nothing.
     fn zone(&self, goal: u32) -> Vec<bool> {
         let mut zone = vec![false; self.graph.propositions()];
         let mut stack = vec![goal];
@@ -73,7 +75,7 @@ impl<'a> LmCut<'a> {
         zone
     }
 
-    /// The nodes that lead from outside into the zone.
+    /// The nodes that cross into the zone from outside.
     fn cut(&mut self, words: &[u64], zone: &[bool]) -> Vec<u32> {
         let mut seen = vec![false; self.graph.propositions()];
         let mut stack = Vec::new();
@@ -143,7 +145,7 @@ impl Heuristic for LmCut<'_> {
             let zone = self.zone(goal);
             let crossing = self.cut(words, &zone);
             let Some(least) = crossing.iter().map(|&n| self.price(n)).min().filter(|&l| l > 0) else {
-                // Every path into the zone costs something, so this does not happen.
+                // Every path into the zone has a positive cost, so this is unreachable.
                 debug_assert!(false, "a cut of positive cost exists while hmax is positive");
                 return Estimate(total);
             };

@@ -1,5 +1,6 @@
-//! hmax: the dearest proposition of the goal, a comparison of numbers no less than what it lacks costs
-//! at the lowest price of a unit. Admissible (with real costs), consistent, safe.
+//! hmax: the cost of the most expensive proposition of the goal. A comparison of numbers costs at
+//! least what it lacks times the lowest price of a unit. Admissible (with real costs), consistent,
+//! safe.
 //!
 //! Source: Bonet & Geffner, "Planning as heuristic search", AIJ 2001, §4.
 

@@ -1,7 +1,7 @@
 //! Heuristics, one file each.
 //!
-//! A heuristic estimates how far a state is from the goal of one query. It declares what a search
-//! may rely on (`kind::Properties`); a test walks the registry of configurations and holds it to that.
+//! A heuristic estimates the distance from a state to the goal of one query. It declares its
+//! properties (`kind::Properties`); a test checks them for every configuration in the registry.
 
 mod add;
 mod blind;

@@ -1,14 +1,14 @@
 //! Repetitions of operators while costs are propagated.
 //!
-//! Idea: where costs are added up, an achiever counts as often as it must be done to satisfy the
-//! comparison from the state on; it is enough that one achiever does it alone. Where the dearest part
-//! counts, that would not be admissible, because two achievers may share the work. There a comparison costs
-//! what it lacks times the lowest price of a unit, which is admissible for any achiever. Both are finite wherever the
-//! comparison can be satisfied. Cost: one look at a comparison's numbers per state and comparison.
+//! Idea: if costs are added up, an achiever counts as often as it must be applied in the state to
+//! satisfy the comparison; one achiever has to do it alone. If costs are maximised, that would not
+//! be admissible, because two achievers may share the work. There a comparison costs what it lacks
+//! times the lowest price of a unit, which is admissible for any achiever. Both are finite whenever
+//! the comparison can be satisfied. Cost: one evaluation of a comparison per state.
 //!
-//! Source: Scala, Haslum, Thiébaux & Ramirez, "Subgoaling techniques for satisficing and optimal numeric
-//! planning", JAIR 2020, §4.2 and §4.3, whose bound for hmax ours is below: theirs adds what the achiever
-//! needs, and counts twice what achieves both.
+//! Source: Scala, Haslum, Thiébaux & Ramirez, "Subgoaling techniques for satisficing and optimal
+//! numeric planning", JAIR 2020, §4.2 and §4.3. Our bound for hmax is below theirs: they add the
+//! achiever's preconditions and count twice what achieves both.
 
 use crate::task::{Numeric, Relaxation, Way};
 use rustc_hash::FxHashMap;
@@ -16,21 +16,22 @@ use rustc_hash::FxHashMap;
 /// The largest number of repetitions that is counted exactly.
 const MOST: f64 = 1e6;
 
-/// Counts for explorations of one graph.
+/// Counts repetitions for explorations of one graph.
 pub(crate) struct Repetitions<'a> {
     graph: &'a Relaxation,
     numeric: &'a Numeric,
-    /// By comparison: the least cost of a unit upwards and downwards; empty where prices are not needed.
+    /// By comparison: the lowest cost of a unit upwards and downwards; empty if prices are not
+    /// needed.
     prices: Vec<[f64; 2]>,
 }
 
 impl<'a> Repetitions<'a> {
-    /// `None` where no operator needs repetition.
+    /// `None` if no operator needs repetition.
     pub(crate) fn new(graph: &'a Relaxation, numeric: &'a Numeric) -> Option<Self> {
         (!graph.ways.is_empty()).then(|| Self { graph, numeric, prices: Vec::new() })
     }
 
-    /// The same, with prices by the cost of each node.
+    /// Adds prices, from the cost of each node.
     pub(crate) fn with_prices(mut self, cost: impl Fn(u32) -> u32) -> Self {
         self.prices = vec![[f64::INFINITY; 2]; self.numeric.comparisons.len()];
         let positions = self.numeric.comparisons.iter().zip(0..);
@@ -54,20 +55,20 @@ impl<'a> Repetitions<'a> {
         self
     }
 
-    /// How often a node must be done for this effect of its, were the comparison to need `more` units;
-    /// `None`: it never achieves it.
+    /// How often a node must be applied for this effect, if the comparison needs `more` units than
+    /// its bound; `None` if the node never achieves it.
     pub(crate) fn count(&self, effect: usize, more: f64, words: &[u64]) -> Option<u32> {
         let times = self.numeric.repetitions(self.graph.ways.get(effect), more, words)?;
         Some(whole(times))
     }
 
-    /// What satisfying the comparison of this effect costs at least, for any achiever.
+    /// A lower bound on the cost of the comparison of this effect, for any achiever.
     pub(crate) fn bound(&self, effect: usize, words: &[u64]) -> u32 {
         let Way::Steps { comparison, .. } = self.graph.ways.get(effect) else { return 0 };
         let Some(lack) = self.numeric.lack(*comparison, words) else { return 0 };
         let price = self.prices[*comparison as usize][usize::from(lack < 0.0)];
         let least = lack.abs() * price;
-        // A little less, for what doubles round.
+        // Slightly less, to stay below the exact value despite rounding.
         if least.is_finite() { whole((least * (1.0 - 1e-9) - 1e-9).ceil()) } else { 0 }
     }
 }

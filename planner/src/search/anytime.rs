@@ -1,10 +1,10 @@
-//! Plans that get better while there is time.
+//! Anytime search: keeps improving the plan while the budget lasts.
 //!
-//! Idea: once there is a plan, its cost is a bound for all that follows. Steps that the plan can do
-//! without are taken out; then greedy search that counts costs, and weighted A* with falling weights,
-//! each started afresh with the bound of the last. When the last of them has nothing left below the
-//! bound, the plan is optimal. Meanwhile windows of the best plan are made cheaper, on a thread of their
-//! own unless the same call has to give the same answer.
+//! Idea: the cost of the best plan bounds every later search. First remove the steps that the plan
+//! does not need (`elimination`). Then run greedy search that counts costs, and weighted A* with
+//! decreasing weights; each search starts afresh with the current bound. If the last search
+//! exhausts the states below the bound, the plan is optimal. Meanwhile `windows` makes parts of the
+//! best plan cheaper, on a second thread unless the configuration is deterministic.
 //!
 //! Source: Richter & Westphal, "The LAMA planner", JAIR 2010, §6; restarts: Richter, Thayer & Ruml, "The
 //! joy of forgetting: faster anytime search via restarting", ICAPS 2010.
@@ -23,28 +23,28 @@ use budget::Budget;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::{Mutex, PoisonError};
 
-/// How good the last plan is.
+/// What is known about the quality of the last plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quality {
     /// No plan is cheaper.
     Optimal,
-    /// There may be cheaper plans: this limit ended the work.
+    /// There may be cheaper plans; this limit ended the search.
     Unproven(Limit),
 }
 
-/// What improving came to.
+/// The result of [`improve`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Improved {
     /// The best plan, or why no plan was found.
     pub report: Report,
-    /// What is known about the plan, where there is one.
+    /// The quality of the plan, if one was found.
     pub quality: Quality,
 }
 
-/// Looks for a plan by `configuration`, then for better ones until the budget is used up or the plan is
-/// known to be optimal. Each plan is handed to `on_plan` when it is found, each cheaper than those
-/// before; the calls come one after the other, from any thread. The closure can end the work
-/// through the budget's `interrupted`.
+/// Searches for a plan with `configuration`, then for cheaper ones until the budget is used up or
+/// the plan is proven optimal. Calls `on_plan` with each plan when it is found; each plan is
+/// cheaper than all before. The calls never overlap, but may come from any thread. To stop the
+/// search, `on_plan` can set what the budget's `interrupted` reads.
 pub fn improve(
     task: &Task,
     query: &Query<'_>,
@@ -78,7 +78,7 @@ pub fn improve(
     let work = budget.work.map(|e| e.saturating_sub(report.statistics.expanded));
     let over = AtomicBool::new(false);
     let interrupted = || over.load(Relaxed) || (budget.interrupted)();
-    // The searches below the bound have most of the memory: windows are small.
+    // The searches below the bound get most of the memory, because windows are small.
     let rest = Budget { work, memory_bytes: budget.memory_bytes.map(|m| m / 8 * 7), ..*budget };
     let small =
         Budget { work: None, memory_bytes: budget.memory_bytes.map(|m| m / 8), interrupted: &interrupted };
@@ -100,8 +100,8 @@ pub fn improve(
             let other = scope.spawn(|| polish(u64::MAX));
             let _alarm = Alarm(&over);
             let more = search();
-            // What is proven to be the best cannot be polished; what was interrupted may not be. Where
-            // the searches are merely at their end, windows go on.
+            // Stop the windows if the plan is proven optimal or the search was interrupted. If the
+            // search has merely run out of memory or of states, let the windows continue.
             let ended = [Limit::Memory, Limit::Incomplete].map(Outcome::LimitReached);
             over.store(!ended.contains(&more.outcome), Relaxed);
             (other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), more)
@@ -120,8 +120,9 @@ pub fn improve(
     Improved { report, quality }
 }
 
-/// Improves a metric that is no sum of costs: no bound holds, so searches of several kinds go on past
-/// the plans that they find, and each plan that measures better is handed on. Nothing is proven.
+/// Improves a metric that is not a sum of costs. No cost bound prunes such a search, so several
+/// kinds of search continue past the plans that they find, and each plan with a better metric value
+/// is passed on. Nothing is proven.
 fn improve_metric(
     task: &Task,
     query: &Query<'_>,
@@ -155,7 +156,7 @@ fn improve_metric(
     Improved { report, quality }
 }
 
-/// Work on windows where there is only one thread.
+/// The work spent on windows if there is only one thread.
 const POLISH: u64 = 1 << 27;
 
 /// The best plan so far, and the callback for better ones.

@@ -1,11 +1,13 @@
 //! Best-first width search, BFWS(f5).
 //!
-//! Problem: heuristics are dear, and plateaus long. Idea: prefer states that are novel, that is, show
-//! some fact (or pair of facts) that no state with the same two counters has shown: open goals
-//! (`#g`), and facts of a relaxed plan achieved since `#g` last fell (`#r`). The queue orders by
-//! novelty, then by open goals. A relaxed plan is computed only where `#g` falls, so states are cheap.
-//! Landmarks that are still to be achieved can stand for open goals: they see goals that must be undone.
-//! Complete unless states without novelty are dropped ([`Width::One`], [`Width::Two`]).
+//! Problem: heuristics are expensive, and plateaus are large. Idea: prefer novel states. A state is
+//! novel if it holds a fact (or a pair of facts) that no earlier state with the same two counters
+//! has held. The counters are the number of open goals (`#g`) and the number of facts of a relaxed
+//! plan that were achieved since `#g` last decreased (`#r`). The queue orders states by novelty,
+//! then by open goals. A relaxed plan is computed only where `#g` decreases, so most states are
+//! cheap to evaluate. Instead of open goals, `#g` can count the landmarks that are still to be
+//! achieved, which also reflect goals that must be undone. The search is complete unless states
+//! without novelty are dropped ([`Width::One`], [`Width::Two`]).
 //!
 //! Source: Lipovetzky & Geffner, "Best-first width search: exploration and exploitation in classical
 //! planning", AAAI 2017; the same, "A polynomial planning algorithm that beats LAMA and FF", ICAPS 2017.
@@ -19,10 +21,10 @@ use crate::heuristics::{Costs, Estimate, Ff, Heuristic, HeuristicKind, View};
 use crate::ids::{FactId, StateId, id32};
 use crate::task::contains;
 
-/// Bytes for pairs of facts, at most.
+/// The most bytes for the table of pairs.
 const PAIRS: usize = 1 << 29;
 
-/// What counts as novel, and what happens to states that are not.
+/// Which states count as novel, and what happens to the others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Width {
     /// States without a new fact are dropped: polynomial and incomplete.
@@ -31,8 +33,8 @@ pub(crate) enum Width {
     Two,
     /// States without a new fact wait behind all others.
     AnyOne,
-    /// States without a new pair of facts wait behind those that have one, and these behind those that
-    /// have a new fact.
+    /// States without a new pair of facts wait behind those that have one, and these wait behind
+    /// those with a new fact.
     AnyTwo,
 }
 
@@ -50,11 +52,11 @@ pub(crate) enum Count {
 pub(crate) struct BfwsSettings {
     /// The width of the novelty measure.
     pub(crate) width: Width,
-    /// What is to fall.
+    /// The count that the search tries to decrease.
     pub(crate) count: Count,
 }
 
-/// Facts to count since the number of open goals last fell.
+/// The facts that `#r` counts since `#g` last decreased.
 struct Counter {
     facts: Vec<u32>,
 }
@@ -62,14 +64,14 @@ struct Counter {
 #[derive(Clone, Copy)]
 struct Node {
     goals: u32,
-    /// Which counter, and where its marks start.
+    /// The index of the counter, and where its marks start.
     counter: u32,
     marks: u32,
     achieved: u32,
     cost: u64,
 }
 
-/// The search.
+/// The search state.
 pub(crate) struct Bfws<'a> {
     space: Space<'a>,
     ff: Ff<'a>,
@@ -143,7 +145,7 @@ impl<'a> Bfws<'a> {
         None
     }
 
-    /// Counts, judges and queues the new state in `next`.
+    /// Counts the state in `next`, judges its novelty and queues it.
     fn add(&mut self, id: StateId, from: Option<StateId>, cost: u64) {
         self.space.statistics.evaluated += 1;
         let estimate = self.count.estimate(&View { id, words: &self.space.next, applicable: &[] }, None);
@@ -158,7 +160,7 @@ impl<'a> Bfws<'a> {
             _ => match self.fresh_counter(goals, cost) {
                 Some(node) => node,
                 None => {
-                    // A dead end: known, never expanded.
+                    // A dead end: it is recorded, but never expanded.
                     self.nodes.push(Node { goals, counter: 0, marks: 0, achieved: 0, cost });
                     return;
                 }
@@ -196,7 +198,7 @@ impl<'a> Bfws<'a> {
         Some(Node { goals, counter: id32(self.counters.len() - 1), marks, achieved: 0, cost })
     }
 
-    /// The node with what of its counter holds now marked off.
+    /// Marks the facts of the node's counter that hold in `next` as achieved.
     fn mark_off(&mut self, mut node: Node) -> Node {
         let counter = &self.counters[node.counter as usize];
         let mut own = false;
@@ -207,7 +209,7 @@ impl<'a> Bfws<'a> {
                 continue;
             }
             if !own {
-                // The parent's marks are shared until they differ.
+                // A node shares its parent's marks until they differ.
                 own = true;
                 let range = node.marks as usize..node.marks as usize + counter.facts.len().div_ceil(64);
                 node.marks = id32(self.marks.len());

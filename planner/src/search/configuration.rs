@@ -1,7 +1,7 @@
 //! Search configurations by name.
 //!
-//! A test walks [`SearchConfiguration::ALL`] and compares answers and optimal costs, so a new row is
-//! tested the day it is added.
+//! A test iterates over [`SearchConfiguration::ALL`] and compares answers and optimal costs, so a
+//! new row is tested as soon as it is added.
 
 use super::bfws::{BfwsSettings, Count, Width};
 use super::eager::EagerSettings;
@@ -12,18 +12,18 @@ use super::portfolio::Threads;
 use crate::heuristics::{Costs, HeuristicKind};
 use HeuristicKind::{Add, Blind, Ff, GoalCount, Landmarks, LmCut, Max};
 
-/// A named configuration.
+/// A search configuration with its name and properties.
 #[derive(Clone, Copy, Debug)]
 pub struct SearchConfiguration {
     /// Its name on the command line.
     pub name: &'static str,
-    /// What it is good for, one line.
+    /// What it is good for, in one line.
     pub summary: &'static str,
     /// Whether its plans are optimal.
     pub optimal: bool,
     /// Whether the same call always gives the same answer.
     pub deterministic: bool,
-    /// Whether it finds a plan wherever there is one, given time and memory.
+    /// Whether it finds a plan if one exists, given enough time and memory.
     pub complete: bool,
     /// Searches that take turns, each with its weight.
     pub(crate) members: &'static [(Engine, u32)],
@@ -79,19 +79,15 @@ impl SearchConfiguration {
             threads: Threads::Two,
             ..Self::row(
                 "dual",
-                "lama-novelty, width searches and others in turns, on two threads where it pays",
+                "lama-novelty, width searches and others in turns, on up to two threads",
                 &[(LAMA_NOVELTY, 3), (BFWS_LANDMARKS, 3), (BFWS, 2), (LANDMARKS, 1), (Engine::BackEnd, 4)],
             )
         },
-        Self::row(
-            "lama-novelty",
-            "lama that also visits states that show something new",
-            &[(LAMA_NOVELTY, 1)],
-        ),
+        Self::row("lama-novelty", "lama that also visits novel states", &[(LAMA_NOVELTY, 1)]),
         Self::row("lama-types", "lama that also visits random states of rare types", &[(LAMA_TYPES, 1)]),
         Self::row(
             "dual-bfws",
-            "width search without what is not novel, then a complete one on landmarks and relaxed plans",
+            "width search on novel states only, then a complete one on landmarks and relaxed plans",
             &[(Engine::DualBfws, 1)],
         ),
         Self::row("dual-bfws-back", "the second part of dual-bfws alone", &[(Engine::BackEnd, 1)]),
@@ -109,7 +105,7 @@ impl SearchConfiguration {
         ),
         Self::row(
             "bfws-landmarks",
-            "bfws that counts landmarks to be achieved instead of open goals",
+            "bfws that counts unachieved landmarks instead of open goals",
             &[(BFWS_LANDMARKS, 1)],
         ),
         Self::row(
@@ -119,12 +115,12 @@ impl SearchConfiguration {
         ),
         Self::incomplete(
             "bfws-1",
-            "bfws without what is not novel: fast and incomplete",
+            "bfws that drops states without novelty: fast and incomplete",
             &[(bfws(Width::One, Count::Goals), 1)],
         ),
         Self::incomplete(
             "bfws-2",
-            "bfws-pairs without what is not novel: incomplete",
+            "bfws-pairs that drops states without novelty: incomplete",
             &[(bfws(Width::Two, Count::Goals), 1)],
         ),
         Self::incomplete(
@@ -133,11 +129,11 @@ impl SearchConfiguration {
             &[(Engine::HillClimbing, 1)],
         ),
         Self::row("greedy-ff", "eager greedy search on relaxed plans", &[(greedy(Ff), 1)]),
-        Self::row("greedy-add", "eager greedy search on sums of costs", &[(greedy(Add), 1)]),
-        Self::row("greedy-max", "eager greedy search on maxima of costs", &[(greedy(Max), 1)]),
+        Self::row("greedy-add", "eager greedy search with hadd", &[(greedy(Add), 1)]),
+        Self::row("greedy-max", "eager greedy search with hmax", &[(greedy(Max), 1)]),
         Self::row("greedy-goals", "eager greedy search on open goals", &[(greedy(GoalCount), 1)]),
         Self::row("greedy-landmarks", "eager greedy search on landmarks", &[(greedy(Landmarks), 1)]),
-        Self::row("greedy-lmcut", "eager greedy search on landmark cuts", &[(greedy(LmCut), 1)]),
+        Self::row("greedy-lmcut", "eager greedy search with landmark cuts", &[(greedy(LmCut), 1)]),
         Self::row("greedy-blind", "breadth-first search", &[(greedy(Blind), 1)]),
         Self::row(
             "wastar-ff",
@@ -173,17 +169,17 @@ impl SearchConfiguration {
         Self { optimal: true, ..Self::row(name, summary, members) }
     }
 
-    /// The configuration of that name.
+    /// Returns the configuration with this name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.iter().find(|c| c.name == name).copied()
     }
 
-    /// The one for the command line: uses two threads, so its answers may vary.
+    /// The default of the command line. It uses two threads, so its answers may vary.
     pub fn portfolio() -> Self {
         Self::named("dual").expect("it is in the table above")
     }
 
-    /// The one to use when an optimal plan is asked for.
+    /// The configuration to use for an optimal plan.
     pub fn best_optimal() -> Self {
         Self::named("astar-lmcut").expect("it is in the table above")
     }

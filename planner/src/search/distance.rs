@@ -1,31 +1,31 @@
-//! How far a plan is from another.
+//! The distance between two plans.
 //!
-//! Idea: the distance is how many steps the old plan has that the new one lacks, and the other way round,
-//! each step as often as it occurs. That says nothing of their order, so what is common and not in the
-//! order of a longest common subsequence is counted as moved. Invariant: insertions and deletions that make
-//! one plan of the other are `removed + added + 2 moved`. Cost: linear in the old plan times the new one,
-//! without what they begin and end with alike.
+//! Idea: the distance is the number of steps that occur in only one of the two plans, as multisets.
+//! That ignores their order, so the common steps outside a longest common subsequence are counted
+//! as moved. Invariant: `removed + added + 2 moved` insertions and deletions turn one plan into the
+//! other. Cost: the product of the lengths of both plans, without their common prefix and suffix.
 //!
-//! Source: Fox, Gerevini, Long & Serina, "Plan stability: replanning versus plan repair", ICAPS 2006, §2
-//! (there plans are sets of steps).
+//! Source: Fox, Gerevini, Long & Serina, "Plan stability: replanning versus plan repair", ICAPS
+//! 2006, §2 (which treats plans as sets of steps).
 
 use crate::ids::OperatorId;
 use crate::task::Task;
 use rustc_hash::FxHashMap;
 
-/// What changed from one plan to another.
+/// The difference between two plans.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Distance {
     /// Steps of the old plan that the new one lacks.
     pub removed: usize,
     /// Steps of the new plan that the old one lacks.
     pub added: usize,
-    /// Common steps that are in another place among the common ones.
+    /// Common steps whose order among the common steps has changed.
     pub moved: usize,
 }
 
 impl Distance {
-    /// Between two plans of a task. Operators of the same action with the same arguments are the same step.
+    /// The distance between two plans of a task. Operators of the same action with the same
+    /// arguments count as the same step.
     pub fn between(task: &Task, old: &[OperatorId], new: &[OperatorId]) -> Self {
         let mut numbers = FxHashMap::default();
         let mut number = |&operator: &OperatorId| {
@@ -38,7 +38,7 @@ impl Distance {
         Self::of(&old, &new)
     }
 
-    /// Steps removed and added: the distance of Fox et al.
+    /// The number of removed and added steps: the distance of Fox et al.
     pub fn steps(self) -> usize {
         self.removed + self.added
     }
@@ -62,7 +62,7 @@ impl Distance {
     }
 }
 
-/// The length of a longest common subsequence.
+/// Returns the length of a longest common subsequence.
 fn in_order(old: &[usize], new: &[usize]) -> usize {
     let mut before = vec![0_usize; new.len() + 1];
     for a in old {

@@ -1,16 +1,17 @@
-//! Dual-BFWS: a fast incomplete width search first, a complete one with more knowledge after it.
+//! Dual-BFWS: a fast incomplete width search, then a complete best-first width search.
 //!
-//! Problem: most tasks are easy for a search that keeps only what is novel and estimates almost
-//! nothing; the others need estimates of every state. Idea: the front end is 1-BFWS, which ends soon
-//! with or without a plan. The back end keeps all states and orders them by novelty, in classes by
-//! landmarks to be achieved (`h_L`) and by relaxed plans (`h_FF`), pairs of facts counting; then by
-//! `h_L`, by novelty in `h_FF` alone, and by `h_FF`. Among equally novel ones those reached by a helpful
-//! operator come first, and only these are estimated by a relaxed plan when they are generated: others
-//! take their parent's estimate until they are expanded. Complete.
+//! Problem: most tasks are easy for a search that keeps only novel states and estimates almost
+//! nothing; the others need an estimate for every state. Idea: the front end is 1-BFWS, which ends
+//! soon with or without a plan. The back end keeps all states. It orders them by novelty of facts
+//! and pairs, measured within classes of equal `h_L` (landmarks still to be achieved) and of equal
+//! `h_FF` (relaxed plans); then by `h_L`, by novelty in the classes of `h_FF` alone, and by `h_FF`.
+//! Among equally novel states, those reached by a helpful operator come first. Only these get a
+//! relaxed plan when they are generated; the others inherit their parent's estimate until they are
+//! expanded. The search is complete.
 //!
-//! Source: Lipovetzky & Geffner, "Best-first width search: exploration and exploitation in classical
-//! planning", AAAI 2017, § Dual-BFWS. We sum the two novelties where they use one measure over both
-//! estimates, as their own implementation does.
+//! Source: Lipovetzky & Geffner, "Best-first width search: exploration and exploitation in
+//! classical planning", AAAI 2017, § Dual-BFWS. The paper uses one novelty measure over both
+//! estimates; we sum the two novelties, as the authors' own implementation does.
 
 use super::bfws::{Bfws, BfwsSettings, Count, Width};
 use super::novelty::NoveltyTable;
@@ -21,13 +22,13 @@ use super::{Job, Limit, Outcome, Searcher, Statistics, Turn};
 use crate::heuristics::{Costs, Estimate, Ff, Heuristic, HeuristicKind, View};
 use crate::ids::{OperatorId, StateId, id32};
 
-/// Bytes for the pairs of facts of one table, at most.
+/// The most bytes for the pairs of facts of one table.
 const PAIRS: usize = 1 << 28;
 
-/// One after the other.
+/// Runs the front end, then the back end.
 pub(crate) struct DualBfws<'a> {
     job: Job<'a>,
-    /// Until it gives up.
+    /// `None` once it has given up.
     front: Option<Box<Bfws<'a>>>,
     back: Option<Box<BackEnd<'a>>>,
     before: Statistics,
@@ -66,20 +67,20 @@ impl Searcher for DualBfws<'_> {
 #[derive(Clone, Copy)]
 struct Node {
     landmarks: u32,
-    /// Its own estimate, or its parent's.
+    /// The state's own estimate, or its parent's.
     ff: u32,
-    /// Whether its own; then these are its helpful operators.
+    /// The range of its helpful operators, if the estimate is its own.
     helpful: Option<(u32, u32)>,
     cost: u64,
 }
 
-/// The complete part.
+/// The complete back end.
 pub(crate) struct BackEnd<'a> {
     space: Space<'a>,
     ff: Ff<'a>,
     landmarks: Box<dyn Heuristic + Send + 'a>,
     nodes: Vec<Node>,
-    /// Helpful operators of all nodes that have them.
+    /// The helpful operators of all nodes that have their own estimate.
     helpful: Vec<OperatorId>,
     by_landmarks: NoveltyTable,
     by_ff: NoveltyTable,
@@ -137,8 +138,8 @@ impl<'a> BackEnd<'a> {
         None
     }
 
-    /// The helpful operators of the state in `here`, which is estimated now if it was not before; `None`
-    /// for a dead end.
+    /// The helpful operators of the state in `here`. Estimates the state if that was not done
+    /// before; `None` for a dead end.
     fn helpful_of(&mut self, id: StateId) -> Option<(u32, u32)> {
         let node = self.nodes[id.0 as usize];
         if node.helpful.is_some() {
@@ -167,7 +168,8 @@ impl<'a> BackEnd<'a> {
         (from, id32(self.helpful.len()))
     }
 
-    /// Estimates, judges and queues the new state in `next`, which came from the one in `here`.
+    /// Estimates the new state in `next`, judges its novelty and queues it. `here` holds its
+    /// parent.
     fn add(&mut self, id: StateId, from: Option<StateId>, is_helpful: bool, cost: u64) {
         let landmarks = self.landmarks.estimate(&View { id, words: &self.space.next, applicable: &[] }, None);
         let parent = from.map(|s| self.nodes[s.0 as usize]);

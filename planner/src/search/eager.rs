@@ -1,8 +1,9 @@
 //! Best-first search that estimates states when they are generated: A*, weighted A*, greedy.
 //!
-//! With weight 1 and an admissible heuristic on real costs the first plan is optimal; states are
-//! reopened when a cheaper way is found, so consistency is not required. With weight `w` the plan costs
-//! at most `w` times the optimum. Ties on `f` go to the smaller estimate. Complete.
+//! With weight 1 and an admissible heuristic on real costs, the first plan is optimal. A state is
+//! reopened when a cheaper path to it is found, so the heuristic need not be consistent. With
+//! weight `w` the plan costs at most `w` times the optimum. Ties on `f` are broken by the smaller
+//! estimate. The search is complete.
 //!
 //! Source: Hart, Nilsson & Raphael, "A formal basis for the heuristic determination of minimum cost
 //! paths", 1968; Pohl, "Heuristic search viewed as path finding in a graph", AIJ 1970.
@@ -19,24 +20,24 @@ use std::collections::BinaryHeap;
 /// The parameters.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EagerSettings {
-    /// The estimator.
+    /// The heuristic.
     pub(crate) heuristic: HeuristicKind,
-    /// What it counts.
+    /// Which operator costs the heuristic counts.
     pub(crate) costs: Costs,
-    /// What the queue is sorted by.
+    /// The key by which the queue is sorted.
     pub(crate) order: Order,
 }
 
-/// Cost of the best known way, and the estimate.
+/// The cost of the cheapest known path, and the estimate.
 struct Node {
     g: u64,
     h: Estimate,
 }
 
-/// In the order of expansion: f, h, order of insertion, g, state.
+/// Sorted in the order of expansion: f, h, order of insertion, g, state.
 type Entry = (u64, u32, u64, u64, u32);
 
-/// The search.
+/// The search state.
 pub(crate) struct Eager<'a> {
     space: Space<'a>,
     order: Order,
@@ -82,7 +83,7 @@ impl<'a> Eager<'a> {
 
     fn step(&mut self) -> Option<Outcome> {
         let Some(Reverse((_, _, _, g, id))) = self.open.pop() else {
-            // What keeps the cheapest ways has lost nothing below the bound.
+            // A search that keeps the cheapest paths has lost no plan below the bound.
             return Some(self.space.exhausted(self.space.is_bounded && self.order == Order::Greedy));
         };
         let id = StateId(id);

@@ -1,23 +1,24 @@
-//! Successors that are not built yet.
+//! Open lists of successors that are not generated yet.
 //!
-//! Problem: a search with deferred evaluation queues every successor of a state it visits in every
-//! list, and a state can have thousands of them. Idea: its operators stand once in an arena, and lists
-//! hold where they stand and how far they have come. Invariant: a list of runs gives the same edges in
-//! the same order as a list of single edges. Cost: four bytes an edge, and a few for each list.
+//! Problem: a search with deferred evaluation queues every successor of a visited state in every
+//! open list, and a state can have thousands of successors. Idea: an arena stores the operators of
+//! a state once. The lists hold their position in the arena and how many were taken. Invariant: a
+//! list of runs gives the same edges in the same order as a list of single edges. Cost: four bytes
+//! an edge, and a few bytes for each list.
 
 use super::open_list::OpenList;
 use crate::ids::{OperatorId, StateId, id32};
 use crate::query::UNLIMITED;
 
-/// Operators of a piece of the arena; pieces never move.
+/// Operators in one piece of the arena; pieces never move.
 const PIECE: usize = 1 << 18;
-/// Positions stay well below 2^32.
+/// Keeps positions well below 2^32.
 const MOST_PIECES: usize = 16_000;
 
-/// A successor.
+/// A state and an operator that is applicable in it.
 pub(crate) type Edge = (StateId, OperatorId);
 
-/// Successors of one state.
+/// Consecutive operators in the arena that are applicable in one state.
 #[derive(Clone, Copy)]
 pub(crate) struct Run {
     state: StateId,
@@ -25,18 +26,19 @@ pub(crate) struct Run {
     end: u32,
 }
 
-/// The operators of all runs.
+/// Stores the operators of all runs.
 #[derive(Default)]
 pub(crate) struct Arena {
     pieces: Vec<Vec<OperatorId>>,
 }
 
 impl Arena {
-    /// Keeps the operators; there is more than one run only of very many.
+    /// Stores the operators and calls `each` for each run. There is more than one run only if there
+    /// are more than [`PIECE`] operators.
     pub(crate) fn keep(&mut self, state: StateId, operators: &[OperatorId], mut each: impl FnMut(Run)) {
         for part in operators.chunks(PIECE) {
             match self.pieces.last() {
-                // Small searches never need a whole piece.
+                // Small searches never fill a piece, so none is reserved.
                 None => self.pieces.push(Vec::new()),
                 Some(last) if last.len() + part.len() > PIECE => self.pieces.push(Vec::with_capacity(PIECE)),
                 Some(_) => {}
@@ -48,7 +50,7 @@ impl Arena {
         }
     }
 
-    /// Takes the first edge out of a list.
+    /// Removes and returns the first edge of a list.
     pub(crate) fn pop(&self, list: &mut OpenList<Run>) -> Option<Edge> {
         let run = list.first_mut()?;
         let at = run.at as usize;
@@ -60,7 +62,7 @@ impl Arena {
         Some(edge)
     }
 
-    /// Bytes held; more than any budget allows where positions run out.
+    /// The bytes held; more than any budget allows once positions run out.
     pub(crate) fn memory(&self) -> usize {
         match self.pieces.last() {
             None => 0,
@@ -84,7 +86,8 @@ mod tests {
             assert_eq!(arena.pop(runs), expected);
             expected.is_some()
         };
-        // Some larger than a piece, many that do not fit into the rest of one; keys of both kinds.
+        // Some runs are larger than a piece, and many do not fit into the rest of one. Some keys
+        // are dense, some are not.
         let sizes = [3, 0, PIECE - 2, 7, 2 * PIECE + 5, 1, 4];
         for (state, (size, key)) in sizes.into_iter().zip([2, 2, 1, 9_000, 2, 9_000, 0]).enumerate() {
             let state = StateId(id32(state));

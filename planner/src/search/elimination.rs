@@ -1,8 +1,9 @@
-//! Steps that a plan can do without.
+//! Action elimination: removes steps that a plan does not need.
 //!
-//! Idea: leave one step out, and with it every later one that thereby becomes inapplicable; if the goal
-//! still holds at the end, the plan is better without them. Invariant: what is returned reaches the
-//! goal and costs no more. Cost: quadratic in the length, so very long plans stay as they are.
+//! Idea: leave out one step, and every later step that is therefore inapplicable. If the goal still
+//! holds at the end, the plan does not need these steps. Invariant: the result reaches the goal and
+//! costs no more. Cost: quadratic in the length of the plan, so very long plans are returned
+//! unchanged.
 //!
 //! Source: Nakhost & Müller, "Action elimination and plan neighborhood graph search", ICAPS 2010.
 
@@ -10,10 +11,10 @@ use super::{Plan, Query};
 use crate::ids::OperatorId;
 use crate::task::Task;
 
-/// Words copied, at most.
+/// The most words that are copied.
 const WORK: usize = 1 << 23;
 
-/// The plan without what it does not need, as far as that is known when the caller interrupts.
+/// Returns the plan without needless steps. Stops early if the caller interrupts.
 pub(crate) fn without_needless(
     task: &Task,
     query: &Query<'_>,
@@ -42,7 +43,7 @@ pub(crate) fn without_needless(
         i += 1;
     }
     let shorter = Plan::of(task, kept);
-    // A step that the goal does not need may be good for the metric.
+    // A step that the goal does not need may still improve the metric.
     let measure = |plan: &Plan| task.quality(query.state, &plan.operators);
     match (measure(plan), measure(&shorter)) {
         (Some(whole), Some(less)) if whole.is_below(less) => plan.clone(),
@@ -50,7 +51,7 @@ pub(crate) fn without_needless(
     }
 }
 
-/// The steps after the first, as far as they can be done without it, if they reach the goal.
+/// Returns the steps after the first that are applicable without it, if they reach the goal.
 fn left_out(task: &Task, query: &Query<'_>, from: &[u64], steps: &[OperatorId]) -> Option<Vec<OperatorId>> {
     let mut state = from.to_vec();
     let mut next = state.clone();

@@ -15,25 +15,26 @@ use crate::heuristics::Job;
 pub(crate) enum Engine {
     /// Best-first with deferred evaluation and preferred operators.
     Lazy(LazySettings),
-    /// Best-first that estimates what it generates: A* and its kin.
+    /// Best-first search that estimates states when they are generated: A* and its variants.
     Eager(EagerSettings),
     /// Enforced hill-climbing on relaxed plans.
     HillClimbing,
     /// Best-first width search.
     Bfws(BfwsSettings),
-    /// Width search without what is not novel, then one that keeps everything and knows more.
+    /// A width search that drops states without novelty, then a complete one with better estimates.
     DualBfws,
-    /// The second of these alone.
+    /// The second part of [`Self::DualBfws`] alone.
     BackEnd,
     /// Searches for better and better plans below a bound.
     Improving,
-    /// Searches for ways that measure better, where the metric is no sum of costs.
+    /// Searches for paths with a better metric value, if the metric is not a sum of costs.
     Measured,
 }
 
 impl Engine {
-    /// The work that others of a portfolio do before this one joins them: what estimates everything
-    /// is for tasks on which others have failed, and small tasks should not wait for it.
+    /// The work that the other members of a portfolio do before this one joins. An engine that
+    /// estimates every state is for tasks on which the others fail; small tasks should not wait for
+    /// it.
     pub(crate) fn joins_after(self) -> u64 {
         match self {
             Self::BackEnd => 1 << 32,

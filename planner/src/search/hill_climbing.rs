@@ -1,9 +1,9 @@
 //! Enforced hill-climbing on relaxed plans.
 //!
-//! Idea: from the current state search breadth first, through operators that begin a relaxed plan,
-//! until some state is estimated lower; go there and never come back. Where the helpful operators do
-//! not lead lower, all are tried. Fast where plateaus are shallow and there are no dead ends;
-//! incomplete otherwise.
+//! Idea: search breadth-first from the current state, only through helpful operators (the first
+//! steps of a relaxed plan), until some state has a lower estimate; commit to that state and
+//! repeat. If the helpful operators do not lead to a lower estimate, try all operators. Fast if
+//! plateaus are small and there are no dead ends; otherwise incomplete.
 //!
 //! Source: Hoffmann & Nebel, "The FF planning system", JAIR 2001, §5.1.
 
@@ -21,18 +21,18 @@ enum Followed {
     All,
 }
 
-/// The search.
+/// The search state.
 pub(crate) struct HillClimbing<'a> {
-    /// What the current breadth-first search has met.
+    /// The states that the current breadth-first search has met.
     space: Space<'a>,
     ff: Ff<'a>,
-    /// The steps to the state from which it starts, and what they cost.
+    /// The steps to the state where the current breadth-first search starts, and their cost.
     steps: Vec<OperatorId>,
     cost: u64,
     base: Vec<u64>,
     height: Estimate,
     followed: Followed,
-    /// States, what their ways cost, and the operators to follow from them.
+    /// States, the costs of their paths, and the operators to try in them.
     queue: VecDeque<(StateId, u64, Vec<OperatorId>)>,
     begun: bool,
 }
@@ -85,7 +85,7 @@ impl<'a> HillClimbing<'a> {
     fn step(&mut self) -> Option<Outcome> {
         let Some((id, cost, helpful)) = self.queue.pop_front() else {
             if self.followed == Followed::All {
-                // From the very first state, everything was visited.
+                // If the search began in the initial state, it has visited every reachable state.
                 return Some(self.space.exhausted(!self.steps.is_empty() || self.space.is_bounded));
             }
             self.plateau(Followed::All, Vec::new());
@@ -131,7 +131,7 @@ impl Stepwise for HillClimbing<'_> {
     }
 
     fn memory(&self) -> usize {
-        // The lists of helpful operators hold a few each.
+        // Each list of helpful operators is short; 64 bytes are an estimate.
         let entry = size_of::<(StateId, u64, Vec<OperatorId>)>() + 64;
         self.space.registry.memory() + self.queue.capacity() * entry
     }
@@ -142,7 +142,7 @@ impl Stepwise for HillClimbing<'_> {
 
     fn next(&mut self) -> Option<Outcome> {
         let answer = if std::mem::replace(&mut self.begun, true) { self.step() } else { self.begin() };
-        // What a stopped step did not find is no answer: the meter says why.
+        // If the meter stopped the step, an empty queue proves nothing; the meter holds the reason.
         answer.filter(|answer| !self.space.job.meter.is_stopped() || matches!(answer, Outcome::Solved(_)))
     }
 }

@@ -1,4 +1,4 @@
-//! Searches for cheaper and cheaper plans, one after the other.
+//! A sequence of searches for cheaper and cheaper plans.
 
 use super::lazy::{Lazy, LazySettings, Pruning};
 use super::order::Order;
@@ -8,19 +8,19 @@ use crate::heuristics::{Costs, HeuristicKind, Job};
 use crate::query::{Limit, Turn};
 use crate::task::Task;
 
-/// What estimates count where costs are to fall: where all operators cost the same nothing is added, so
-/// that estimates and costs have one scale.
+/// The costs that the heuristics count if plans should get cheaper. If all operators cost the same,
+/// one is not added to each, so that estimates and costs have the same scale.
 pub(crate) fn counted(task: &Task) -> Costs {
     let mut costs = task.operators().iter().map(|o| o.cost);
     let first = costs.next().unwrap_or(1);
     if first > 0 && costs.all(|cost| cost == first) { Costs::Real } else { Costs::PlusOne }
 }
 
-/// The weights of the estimates, one search each; the first search is greedy.
+/// The order of each search: the first is greedy, the others weight the estimate.
 const ORDERS: [Order; 5] =
     [Order::Greedy, Order::Weighted(5), Order::Weighted(3), Order::Weighted(2), Order::Weighted(1)];
 
-/// Searches below the bound, one after the other.
+/// Runs searches below the bound, one after the other.
 pub(crate) struct Improving<'a> {
     job: Job<'a>,
     costs: Costs,
@@ -44,7 +44,7 @@ impl<'a> Improving<'a> {
         )
     }
 
-    /// Whether there is another search to go to.
+    /// Starts the next search. Returns whether there was one.
     fn next(&mut self) -> bool {
         if self.stage + 1 == ORDERS.len() {
             return false;
@@ -65,7 +65,7 @@ impl Searcher for Improving<'_> {
                     self.next();
                     return Some(Outcome::Solved(plan));
                 }
-                // The next one starts with empty hands, and goes other ways.
+                // The next search starts with no states and takes other paths.
                 Outcome::LimitReached(limit @ (Limit::Incomplete | Limit::Memory)) => {
                     if !self.next() {
                         return Some(Outcome::LimitReached(limit));

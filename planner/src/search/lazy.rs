@@ -1,15 +1,17 @@
 //! Best-first search with deferred evaluation, several heuristics and preferred operators.
 //!
 //! Idea: a state is estimated when it is taken from an open list, and its successors are queued
-//! under its own estimate, so that only states worth visiting are ever built. Each heuristic has a
-//! list of all successors and one of the preferred ones; lists take turns, and the preferred ones get
-//! a boost whenever some heuristic finds a new best. Where no best has been found for a while, lists for
-//! exploration get their turns too. Greedy, or weighted A* with states reopened when a cheaper way is
-//! found. Complete; not optimal.
+//! under its estimate, so only states that are visited are ever generated. Each heuristic has an
+//! open list of all successors and one of the preferred successors. The lists take turns, and the
+//! preferred lists get a boost whenever some heuristic finds a new best estimate. Without a new
+//! best estimate for a while, the lists for exploration get turns too. The order is greedy, or
+//! weighted A* that reopens a state when a cheaper path is found. The search is complete, but not
+//! optimal.
 //!
-//! Source: Richter & Westphal, "The LAMA planner", JAIR 2010, §3 and §5; Helmert 2006, §5.3; novelty
-//! with respect to estimates: Katz, Lipovetzky, Moshkovich & Tuisov, "Adapting novelty to classical
-//! planning as heuristic search", ICAPS 2017 (they sort by it, here it has a list of its own).
+//! Source: Richter & Westphal, "The LAMA planner", JAIR 2010, §3 and §5; Helmert 2006, §5.3;
+//! novelty with respect to estimates: Katz, Lipovetzky, Moshkovich & Tuisov, "Adapting novelty to
+//! classical planning as heuristic search", ICAPS 2017 (they sort the open list by novelty, we give
+//! it a list of its own).
 
 use super::edges::{Arena, Edge, Run};
 use super::novelty::{Novelty, NoveltyTable};
@@ -23,42 +25,43 @@ use crate::heuristics::{Costs, Estimate, Heuristic, HeuristicKind, View};
 use crate::ids::{OperatorId, StateId};
 use crate::query;
 
-/// How much a new best estimate moves the preferred lists ahead.
+/// How far a new best estimate moves the preferred lists ahead.
 const BOOST: i64 = 1000;
 
-/// What else the lists take turns with: ways out of plateaus on which all estimates mislead.
+/// An extra open list that leads out of plateaus on which all estimates mislead.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Exploration {
-    /// A random edge of a random type: depth and two estimates of the state.
+    /// A random edge of a random type. A type is the depth and two estimates of the state.
     Types,
-    /// Edges of states first that show a fact which no state with the same estimates has shown.
+    /// Edges of novel states first: those with a fact that no state with the same estimates has
+    /// held.
     Novelty,
 }
 
 /// The parameters.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LazySettings {
-    /// One pair of open lists each.
+    /// The heuristics; each has a pair of open lists.
     pub(crate) heuristics: &'static [HeuristicKind],
-    /// Those of them whose preferred operators are tried first.
+    /// The heuristics whose preferred operators are tried first.
     pub(crate) preferred: &'static [HeuristicKind],
-    /// What the heuristics count.
+    /// Which operator costs the heuristics count.
     pub(crate) costs: Costs,
-    /// What the queues are sorted by.
+    /// The key by which the queues are sorted.
     pub(crate) order: Order,
-    /// One more list each.
+    /// The extra lists for exploration.
     pub(crate) explorations: &'static [Exploration],
-    /// Which states are left out where there is a bound.
+    /// Which states are pruned if there is a bound.
     pub(crate) pruning: Pruning,
 }
 
-/// Which states are left out where plans must cost less than a bound.
+/// Which states are pruned if a plan must cost less than a bound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Pruning {
-    /// Those whose way alone costs as much: no plan below the bound is lost.
+    /// States whose path alone reaches the bound: no plan below the bound is lost.
     Spent,
-    /// Those whose way and relaxed plan together cost as much: there may be plans below the bound, but
-    /// few states are left, and the search ends soon.
+    /// States whose path and relaxed plan together reach the bound: plans below the bound may be
+    /// lost, but few states are left, and the search ends soon.
     Estimated,
 }
 
@@ -70,7 +73,7 @@ struct Lists<'a> {
     open_priority: i64,
     preferred_priority: i64,
     best: Estimate,
-    /// Of the state that is being visited.
+    /// The estimate of the state that is being visited.
     estimate: Estimate,
 }
 
@@ -115,7 +118,7 @@ struct Exploring {
     priority: i64,
 }
 
-/// Whose turn it is.
+/// The list whose turn it is.
 #[derive(Clone, Copy)]
 enum List {
     Open(usize),
@@ -123,7 +126,7 @@ enum List {
     Exploring(usize),
 }
 
-/// The search.
+/// The search state.
 pub(crate) struct Lazy<'a> {
     job: Job<'a>,
     order: Order,
@@ -131,13 +134,13 @@ pub(crate) struct Lazy<'a> {
     lists: Vec<Lists<'a>>,
     explorations: Vec<Exploring>,
     arena: Arena,
-    /// The number of steps by which each state was reached, where types need it.
+    /// The number of steps by which each state was reached; types need it.
     depths: Vec<u32>,
     registry: StateRegistry<'a>,
-    /// The cost of the way by which each state was reached.
+    /// The cost of the path by which each state was reached.
     reached_at: Vec<u64>,
     begun: bool,
-    /// Whether a state was left out that may have been on a way that is cheap enough.
+    /// Whether a pruned state may have been on a plan below the bound.
     pruned: bool,
     statistics: Statistics,
     successors: Vec<OperatorId>,
@@ -192,7 +195,7 @@ impl<'a> Lazy<'a> {
         self.visit(start)
     }
 
-    /// Builds the next state of the lists; visits it if it is new, or cheaper than before.
+    /// Generates the next state of the lists. Visits it if it is new, or reached by a cheaper path.
     fn step(&mut self) -> Option<Outcome> {
         let Some((from, operator)) = self.pop() else {
             return Some(match self.pruned {
@@ -232,7 +235,7 @@ impl<'a> Lazy<'a> {
         self.visit(id)
     }
 
-    /// Tests and estimates the state in `next`, and queues its successors.
+    /// Tests the goal in the state in `next`, estimates it and queues its successors.
     fn visit(&mut self, id: StateId) -> Option<Outcome> {
         let task = self.job.task;
         if self.job.goal.holds_in(&self.next) {
@@ -247,7 +250,7 @@ impl<'a> Lazy<'a> {
         let view = View { id, words: &self.next, applicable: &self.successors };
         for list in &mut self.lists {
             list.estimate = list.heuristic.estimate(&view, list.prefers.then_some(&mut self.preferred));
-            // All our heuristics are safe: one dead end is enough.
+            // All heuristics are safe, so one that reports a dead end is enough.
             if list.estimate == Estimate::DEAD_END {
                 return None;
             }

@@ -1,11 +1,11 @@
-//! Better ways to states that are known already, by a metric that is no sum of costs.
+//! Search for better paths to known states, for a metric that is not a sum of costs.
 //!
-//! Problem: what a step is worth may depend on numbers that states do not hold, and a search that keeps
-//! the first way to each state never sees the better ones. Idea: a node is a way and carries what only
-//! the metric reads; a state gets another node when a way to it measures better, as if it ended there.
-//! Nodes are taken by measure and by relaxed plan in turns. Invariant: a state has no more than so many
-//! nodes, since a metric may get better for ever. Nothing is proven: a way that measures worse now may
-//! measure better in the end.
+//! Problem: the value of a step may depend on numbers that states do not hold, and a search that
+//! keeps only the first path to each state never finds the better ones. Idea: a node is a path, and
+//! it carries the numbers that only the metric reads. A state gets another node when a path to it
+//! has a better metric value, as if the plan ended there. Nodes are taken in turns by metric value
+//! and by relaxed plan. Invariant: a state has at most [`WAYS`] nodes, because a metric may improve
+//! without end. Nothing is proven: a path with a worse value now may have a better one at the end.
 
 use super::registry::StateRegistry;
 use super::searcher::Stepwise;
@@ -18,7 +18,7 @@ use crate::task::{State, Tally};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Nodes of one state, at most.
+/// The most nodes of one state.
 const WAYS: u8 = 16;
 const NONE: u32 = u32::MAX;
 
@@ -30,17 +30,17 @@ struct Way {
     expanded: bool,
 }
 
-/// What is known of a state.
+/// What the search knows about a state.
 struct Known {
     measure: Option<Number>,
     estimate: Estimate,
     ways: u8,
 }
 
-/// Measure or estimate, the other one, the way.
+/// The metric value or the estimate, the other of the two as a tie-breaker, and the path.
 type Entry = Reverse<(u64, u64, u32)>;
 
-/// The search.
+/// The search state.
 pub(crate) struct Measured<'a> {
     job: Job<'a>,
     ff: Ff<'a>,
@@ -76,8 +76,8 @@ impl<'a> Measured<'a> {
         }
     }
 
-    /// Takes a way to the state in `next`, unless a better one is known. Answers its plan where it ends
-    /// in the goal and is the best so far.
+    /// Adds a path to the state in `next`, unless a better one is known. Returns the plan if the
+    /// path ends in the goal and is the best so far.
     fn add(&mut self, parent: u32, operator: OperatorId, tally: Tally) -> Option<Plan> {
         let from = (parent != NONE).then(|| (self.ways[parent as usize].state, operator));
         let (state, new) = self.registry.insert(self.next.words(), from);
@@ -118,12 +118,12 @@ impl<'a> Measured<'a> {
         Plan::of(self.job.task, operators)
     }
 
-    /// The way whose turn it is.
+    /// Returns the next path to expand.
     fn pop(&mut self) -> Option<u32> {
         loop {
             let by_measure = self.statistics.expanded.is_multiple_of(2);
             let queue = if by_measure { &mut self.by_measure } else { &mut self.by_estimate };
-            // Both hold all that is not expanded.
+            // Both queues hold every path that is not expanded.
             let Reverse((_, _, way)) = queue.pop()?;
             if !std::mem::replace(&mut self.ways[way as usize].expanded, true) {
                 return Some(way);
@@ -162,7 +162,7 @@ fn is_better(new: Option<Number>, old: Option<Number>) -> bool {
     new.is_some_and(|new| old.is_none_or(|old| new.is_below(old)))
 }
 
-/// A number that is ordered as the double is.
+/// Maps a double to an integer with the same order.
 fn sortable(value: f64) -> u64 {
     let bits = value.to_bits();
     if value.is_sign_negative() { !bits } else { bits | 1 << 63 }

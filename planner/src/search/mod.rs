@@ -1,8 +1,9 @@
 //! Forward search: one call, configured by name.
 //!
-//! [`solve`] takes a grounded task and a [`Query`] (from which state, to which goal, without which
-//! operators), a [`SearchConfiguration`] and a [`Budget`]; [`improve`] goes on to better plans. Nothing is
-//! global, nothing reads a clock; with a configuration of one thread the same call gives the same answer.
+//! [`solve`] takes a grounded task, a [`Query`] (initial state, goal, excluded operators), a
+//! [`SearchConfiguration`] and a [`Budget`]. [`improve`] continues to better plans. There is no
+//! global state, and nothing reads a clock. With a configuration of one thread, the same call gives
+//! the same answer.
 
 mod anytime;
 mod bfws;

@@ -1,11 +1,12 @@
-//! Novelty: does a state hold some fact, or some pair of facts, that no earlier state of its class has
-//! held together?
+//! Novelty: does a state hold a fact, or a pair of facts, that no earlier state of its class has
+//! held?
 //!
-//! Idea: a bit set of the facts seen for each class; for pairs, such a set for each fact, so that a
-//! test is as many word operations as the state has words, times its facts. Where the state comes by a
-//! step from one of its own class, only pairs with a fact that the step added can be new, and only
-//! those are looked at. Rows are made when a fact is first seen. Beyond the bytes allowed for pairs, no
-//! pair counts as new. Invariant: a row holds `b` for `a` if and only if it holds `a` for `b`.
+//! Idea: a bit set of the facts seen for each class. For pairs there is such a set for each fact,
+//! so a test costs one word operation for each fact and each word of the state. If the parent is in
+//! the same class, only pairs with a fact that the step added can be new, and only those are
+//! tested. A row is allocated when its fact is first seen. When the bytes allowed for pairs are
+//! used up, no pair counts as new. Invariant: the row of `a` holds `b` if and only if the row of
+//! `b` holds `a`.
 //!
 //! Source: Lipovetzky & Geffner, "Width and serialization of classical planning problems", ECAI 2012;
 //! classes: the same, "Best-first width search", AAAI 2017.
@@ -22,23 +23,23 @@ pub(crate) enum Novelty {
     Larger,
 }
 
-/// The facts and pairs that one class of states has shown.
+/// The facts and pairs that the states of one class have held.
 struct Class {
     facts: Box<[u64]>,
-    /// By fact, the facts seen with it.
+    /// By fact: the facts seen together with it.
     rows: Vec<Option<Box<[u64]>>>,
     rows_made: usize,
 }
 
 impl Class {
-    /// Answers whether some pair was new.
+    /// Adds all pairs of the state. Returns whether some pair was new.
     fn add_all_pairs(&mut self, state: &[u64]) -> bool {
         let mut new = false;
         for_each_set(state, |fact| new |= merge(self.row(fact, state.len()), state));
         new
     }
 
-    /// The same where every pair of facts of `from` is known.
+    /// The same, if every pair of facts of `from` is known.
     fn add_pairs(&mut self, state: &[u64], from: &[u64]) -> bool {
         let mut new = false;
         for (word, (&now, &then)) in state.iter().zip(from).enumerate() {
@@ -73,7 +74,7 @@ impl Class {
     }
 }
 
-/// What all classes have shown.
+/// The facts and pairs that the states of all classes have held.
 pub(crate) struct NoveltyTable {
     words: usize,
     pairs: bool,
@@ -83,18 +84,18 @@ pub(crate) struct NoveltyTable {
 }
 
 impl NoveltyTable {
-    /// Tells facts only.
+    /// A table for single facts.
     pub(crate) fn of_facts(words: usize) -> Self {
         Self { words, pairs: false, most_bytes: 0, classes: FxHashMap::default(), bytes: 0 }
     }
 
-    /// Tells facts and pairs of facts, within so many bytes.
+    /// A table for facts and pairs of facts, within this many bytes.
     pub(crate) fn of_pairs(words: usize, most_bytes: usize) -> Self {
         Self { pairs: true, most_bytes, ..Self::of_facts(words) }
     }
 
-    /// Judges a state and remembers it. `from` is the state before the last step, if that was judged in
-    /// the same class.
+    /// Returns the novelty of a state and remembers its facts. `from` is the parent state, if it
+    /// was judged in the same class.
     pub(crate) fn judge(&mut self, class: (u32, u32), state: &[u64], from: Option<&[u64]>) -> Novelty {
         let (words, pairs) = (self.words, self.tells_pairs());
         let entry = self.classes.entry(class).or_insert_with(|| {
@@ -124,12 +125,12 @@ impl NoveltyTable {
         novelty
     }
 
-    /// Whether novelty of pairs is measured, and there is room for it.
+    /// Whether pairs are tested and there is memory left for them.
     fn tells_pairs(&self) -> bool {
         self.pairs && self.bytes <= self.most_bytes
     }
 
-    /// Units of work that the next judgement takes.
+    /// The units of work that the next call of `judge` takes.
     pub(crate) fn price(&self, from: Option<&[u64]>) -> usize {
         match (self.tells_pairs(), from) {
             (false, _) => self.words * 4 + 32,
@@ -143,7 +144,7 @@ impl NoveltyTable {
     }
 }
 
-/// Adds the bits of `state`. Answers whether some were new.
+/// Adds the bits of `state`. Returns whether some were new.
 fn merge(seen: &mut [u64], state: &[u64]) -> bool {
     let mut new = 0;
     for (seen, &word) in seen.iter_mut().zip(state) {

@@ -1,11 +1,11 @@
-//! A queue by small integer keys, first in first out among equals.
+//! A priority queue with small integer keys; equal keys are first in, first out.
 
 use std::collections::{BTreeMap, VecDeque};
 
-/// Keys below this have an array slot.
+/// Keys below this have a slot in an array.
 const DENSE: usize = 4096;
 
-/// The queue.
+/// A bucket queue.
 pub(crate) struct OpenList<T> {
     dense: Vec<VecDeque<T>>,
     sparse: BTreeMap<u64, VecDeque<T>>,
@@ -36,7 +36,7 @@ impl<T> OpenList<T> {
         }
     }
 
-    /// Finds the first slot that is not empty, if one is.
+    /// Finds the first slot that is not empty.
     fn settle(&mut self) -> Option<&mut VecDeque<T>> {
         while self.dense.get(self.lowest).is_some_and(VecDeque::is_empty) {
             self.dense[self.lowest] = VecDeque::new();
@@ -45,7 +45,7 @@ impl<T> OpenList<T> {
         self.dense.get_mut(self.lowest)
     }
 
-    /// What [`pop`](Self::pop) would give.
+    /// The item that [`pop`](Self::pop) would return.
     pub(crate) fn first_mut(&mut self) -> Option<&mut T> {
         if self.settle().is_none() {
             return self.sparse.values_mut().next()?.front_mut();
@@ -68,7 +68,7 @@ impl<T> OpenList<T> {
         item
     }
 
-    /// Bytes held by the items.
+    /// The bytes held by the items.
     pub(crate) fn memory(&self) -> usize {
         self.len * size_of::<T>() * 2
     }

@@ -1,13 +1,13 @@
-//! What best-first searches sort states by.
+//! The sort keys of best-first search.
 
 use crate::heuristics::Estimate;
 
-/// What a best-first search sorts states by.
+/// The sort key of a best-first search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Order {
-    /// The estimate alone. States keep the first way that was found.
+    /// The estimate alone. States keep the first path that was found.
     Greedy,
-    /// The cost so far plus so many times the estimate.
+    /// The cost so far plus the weighted estimate.
     Weighted(u32),
 }
 

@@ -1,4 +1,4 @@
-//! What comes of a search.
+//! The result of a search.
 
 use crate::ground::Feature;
 use crate::ids::OperatorId;
@@ -24,13 +24,13 @@ impl Plan {
 /// Why there is no plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum UnsolvableReason {
-    /// Parts of the goal that can never hold, not even if nothing were ever deleted.
+    /// Parts of the goal that can never hold, even if no fact were ever deleted.
     Impossible(Impossible),
     /// Every reachable state was visited.
     SpaceExhausted,
 }
 
-/// The answer.
+/// The result of a query.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {
     /// A plan.
@@ -39,11 +39,11 @@ pub enum Outcome {
     Unsolvable(UnsolvableReason),
     /// No answer within the budget.
     LimitReached(Limit),
-    /// The configuration cannot answer this for such a task.
+    /// The configuration does not support this feature of the task.
     Unsupported(Feature),
 }
 
-/// What a search did.
+/// Counts of the work of a search.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Statistics {
     /// States whose successors were generated.
@@ -71,12 +71,12 @@ impl std::ops::AddAssign for Statistics {
     }
 }
 
-/// The answer and what it took.
+/// The outcome with its statistics.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Report {
-    /// The answer.
+    /// The outcome.
     pub outcome: Outcome,
-    /// What it took.
+    /// The work that it took.
     pub statistics: Statistics,
 }
 

@@ -1,15 +1,15 @@
-//! Several searches for one question, taking turns on one thread or two.
+//! A portfolio of searches that take turns on one thread or two.
 //!
-//! Problem: no search is best everywhere, a restart throws work away, and a small task must not pay
-//! for a thread. Idea: searches pause and resume. The search with the least work for its weight goes
-//! next, for a turn that grows with the work that it has done. A second thread joins where the task is large or
-//! the answer takes longer than some milliseconds; both take from the same pool. Searches for hard
-//! tasks join late, so that others find the easy answers as soon as without them. Searches that give up
-//! leave, and where memory runs short the largest leaves. Invariant: with one thread the order of turns
-//! depends on counted work alone, so the same call gives the same answer.
+//! Problem: no search is best everywhere, a restart loses the work done, and a small task must not
+//! pay for a thread. Idea: searches pause and resume. The search with the least work for its weight
+//! goes next, for a turn that grows with the work it has done. A second thread joins if the task is
+//! large or the answer takes longer than some milliseconds; both threads take searches from the
+//! same pool. Searches for hard tasks join late, so they do not delay easy answers. A search that
+//! gives up leaves, and when memory runs out the largest one leaves. Invariant: with one thread the
+//! order of turns depends on counted work alone, so the same call gives the same answer.
 //!
-//! Source: turns as in Luby, Sinclair & Zuckerman, "Optimal speedup of Las Vegas algorithms", 1993, in
-//! spirit; portfolios: Helmert, Röger & Karpas, "Fast Downward Stone Soup", 2011.
+//! Source: turns after Luby, Sinclair & Zuckerman, "Optimal speedup of Las Vegas algorithms", 1993;
+//! portfolios: Helmert, Röger & Karpas, "Fast Downward Stone Soup", 2011.
 
 use super::engine::Engine;
 use super::{Barred, Bound, Job, Limit, Outcome, Plan, Query, Report, SearchMeter, Searcher};
@@ -20,46 +20,49 @@ use budget::Budget;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Work of a first turn.
+/// The work of the first turn of a search.
 const FIRST_TURN: u64 = 1 << 20;
-/// Work before a second thread joins.
+/// The work before a second thread joins.
 const ALONE: u64 = 1 << 21;
-/// Nodes of a relaxation for which the second thread joins at once.
+/// A relaxation with this many nodes lets the second thread join at once.
 const LARGE: usize = 20_000;
 
 /// How many threads a portfolio uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Threads {
-    /// The caller's: the same call gives the same answer.
+    /// Only the caller's thread: the same call gives the same answer.
     One,
-    /// One more joins where it pays: which search answers first depends on the machine.
+    /// A second thread joins if it pays off; which search answers first depends on the machine.
     Two,
 }
 
-/// What becomes of plans.
+/// What happens to the plans that are found.
 pub(crate) enum Sink<'s> {
-    /// The first one is the answer.
+    /// The first plan is the answer.
     First,
-    /// Each that is cheaper than all before is handed on, and the searches continue below its cost.
+    /// Each plan that is cheaper than all before is passed on, and the searches continue below its
+    /// cost.
     Better(&'s mut (dyn FnMut(&Plan) + Send)),
-    /// Each is handed on, and the searches continue, each until it has nothing left; then that is the limit.
+    /// Each plan is passed on, and the searches continue until each is exhausted; the outcome is
+    /// then a limit.
     Every(&'s mut (dyn FnMut(&Plan) + Send)),
 }
 
-/// A search with its share.
+/// A search with its weight.
 struct Member<'a> {
     engine: Engine,
     weight: u64,
     meter: &'a SearchMeter<'a>,
-    /// The pace of the others when it joined them: it makes up for nothing that it missed.
+    /// The pace of the others when this one joined, so that it does not catch up on the work that
+    /// it missed.
     head_start: u64,
-    /// Built when its first turn comes.
+    /// Created when its first turn comes.
     searcher: Option<Box<dyn Searcher + Send + 'a>>,
     expanded: u64,
 }
 
 impl Member<'_> {
-    /// Work for its weight, its head start included.
+    /// The work divided by the weight, plus the head start.
     fn pace(&self) -> u64 {
         self.head_start + self.meter.work() / self.weight
     }
@@ -70,7 +73,7 @@ struct Pool<'a, 's> {
     expanded: u64,
     statistics: Statistics,
     answer: Option<Outcome>,
-    /// What the searches that left said last.
+    /// The limit that the last search to leave has reported.
     limit: Limit,
     sink: Sink<'s>,
 }
@@ -87,7 +90,7 @@ struct Portfolio<'a, 's> {
     pool: Mutex<Pool<'a, 's>>,
 }
 
-/// Runs the members.
+/// Runs the searches until one of them answers.
 pub(crate) fn run(
     task: &Task,
     query: &Query<'_>,
@@ -148,7 +151,7 @@ pub(crate) fn run(
     Report { outcome: pool.answer.unwrap_or(Outcome::LimitReached(pool.limit)), statistics }
 }
 
-/// Ends the other thread's work where this one panics.
+/// Stops the other thread if this one panics.
 pub(crate) struct Alarm<'a>(pub(crate) &'a AtomicBool);
 
 impl Drop for Alarm<'_> {
@@ -160,7 +163,8 @@ impl Drop for Alarm<'_> {
 }
 
 impl<'a, 's> Portfolio<'a, 's> {
-    /// Gives turns until there is an answer, nothing left to do, or so much work was done in all.
+    /// Gives turns until there is an answer, no search is left, or the members have done this much
+    /// work in all.
     fn work(&self, most: u64) {
         let _alarm = Alarm(self.over);
         while self.meters.iter().map(SearchMeter::work).sum::<u64>() < most {
@@ -178,14 +182,14 @@ impl<'a, 's> Portfolio<'a, 's> {
         }
     }
 
-    /// The member whose turn it is.
+    /// Takes the member whose turn is next out of the pool.
     fn take(&self) -> Option<(Member<'a>, Turn)> {
         let mut pool = self.lock();
         if self.over.load(Relaxed) {
             return None;
         }
         let done: u64 = self.meters.iter().map(SearchMeter::work).sum();
-        // Where only late members are idle, they join at once.
+        // If only late members are idle, they join at once.
         let waits = |member: &Member<'_>| done < member.engine.joins_after();
         let slowest = pool.idle.iter().filter(|m| m.searcher.is_some()).map(Member::pace).min();
         for member in pool.idle.iter_mut().filter(|m| m.searcher.is_none() && m.engine.joins_after() > 0) {
@@ -233,7 +237,7 @@ impl<'a, 's> Portfolio<'a, 's> {
                     }
                 }
             }
-            // It has seen all states, but not all ways to them.
+            // It has visited all states, but not all paths to them.
             Some(Outcome::Unsolvable(_)) if matches!(pool.sink, Sink::Every(_)) => pool.leave(member),
             Some(answer @ (Outcome::Unsolvable(_) | Outcome::Unsupported(_))) => {
                 pool.answer.get_or_insert(answer);
@@ -241,7 +245,7 @@ impl<'a, 's> Portfolio<'a, 's> {
                 self.over.store(true, Relaxed);
             }
             Some(Outcome::LimitReached(Limit::Memory)) if !pool.idle.is_empty() => {
-                // The largest leaves, and the others have its memory.
+                // The largest search leaves, and the others get its memory.
                 pool.keep(member);
                 let largest = (0..pool.idle.len()).max_by_key(|&i| pool.idle[i].meter.held());
                 let leaving = pool.idle.remove(largest.expect("one was just added"));
@@ -257,8 +261,7 @@ impl<'a, 's> Portfolio<'a, 's> {
         }
     }
 
-    /// A panic of the other thread is raised again when it is joined, so a poisoned lock is of no
-    /// interest.
+    /// A panic of the other thread is raised again on join, so the poisoned lock can be ignored.
     fn lock(&self) -> MutexGuard<'_, Pool<'a, 's>> {
         self.pool.lock().unwrap_or_else(PoisonError::into_inner)
     }

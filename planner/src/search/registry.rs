@@ -1,25 +1,25 @@
-//! All states that a search has met, each once.
+//! Stores every state that a search has met, once.
 //!
-//! Problem: millions of states must be stored, found again and traced back. Idea: words in segments
-//! that never move, and an open-addressing table of ids whose keys are the words themselves.
-//! Where that makes them much smaller, states are packed into finite-domain variables.
-//! The table is split before it is large, so that no insertion waits for more than a small part of it
-//! to be moved. Invariant: an id is the position of insertion and never changes. Cost: the state's bits
-//! plus about 16 bytes.
+//! Problem: millions of states must be stored, looked up and traced back. Idea: the words of the
+//! states are in segments that never move. An open-addressing hash table holds state ids and
+//! compares the words themselves. If it saves much memory, states are packed into finite-domain
+//! variables. The table is split into parts before it is large, so that an insertion never rehashes
+//! more than a small part. Invariant: the id of a state is its position of insertion and never
+//! changes. Cost: the bits of the state plus about 16 bytes.
 
 use crate::ids::{OperatorId, StateId, id32};
 use crate::query::UNLIMITED;
 use crate::task::{Packing, Task};
 
-/// Ids stay well below 2^32.
+/// Keeps ids well below 2^32.
 const MOST_STATES: usize = u32::MAX as usize / 2;
 const NONE: u32 = u32::MAX;
-/// Slots at which the one table becomes many.
+/// The number of slots at which the table is split.
 const SPLIT: usize = 1 << 16;
-/// How many, told apart by the highest bits of the hash.
+/// The number of parts; the highest bits of the hash select the part.
 const PARTS: usize = 256;
 
-/// A part of the table of ids; its length is a power of two.
+/// A part of the hash table; its length is a power of two.
 struct Part {
     slots: Vec<u32>,
     used: usize,
@@ -45,26 +45,26 @@ impl Part {
     }
 }
 
-/// The states.
+/// The registry of states.
 pub(crate) struct StateRegistry<'t> {
-    /// `None` where states are kept as they are.
+    /// `None` if states are not packed.
     packing: Option<&'t Packing>,
-    /// A packed state.
+    /// A buffer for one packed state.
     packed: Vec<u64>,
     width: usize,
     per_segment: usize,
     segments: Vec<Vec<u64>>,
     parents: Vec<u32>,
     operators: Vec<u32>,
-    /// One or [`PARTS`].
+    /// One part, or [`PARTS`] of them.
     parts: Vec<Part>,
     slots: usize,
 }
 
 impl<'t> StateRegistry<'t> {
-    /// For the states that operators reach from `first`.
+    /// A registry for the states that are reachable from `first`.
     pub(crate) fn new(task: &'t Task, first: &[u64]) -> Self {
-        // A made-up state may hold two facts of a group, and then there is no variable of them.
+        // A state made by a caller may hold two facts of a mutex group; no variable can hold both.
         let packing = task.packing.as_ref().filter(|_| task.mutexes.keep(first));
         let width = packing.map_or(first.len(), |p| p.width(first.len()));
         let per_segment = (1_usize << 14).div_ceil(width.max(1)).max(16).next_power_of_two();
@@ -81,7 +81,7 @@ impl<'t> StateRegistry<'t> {
         }
     }
 
-    /// A state's words.
+    /// Copies the words of a state.
     pub(crate) fn read(&self, id: StateId, words: &mut [u64]) {
         match self.packing {
             Some(packing) => packing.unpack(self.stored(id), words),
@@ -95,7 +95,7 @@ impl<'t> StateRegistry<'t> {
         &self.segments[i / self.per_segment][start..start + self.width]
     }
 
-    /// The state's id, and whether it is new.
+    /// Stores a state. Returns its id, and whether it is new.
     pub(crate) fn insert(&mut self, words: &[u64], from: Option<(StateId, OperatorId)>) -> (StateId, bool) {
         let Some(packing) = self.packing else { return self.store(words, from) };
         let mut packed = std::mem::take(&mut self.packed);
@@ -133,7 +133,7 @@ impl<'t> StateRegistry<'t> {
         (StateId(id), true)
     }
 
-    /// Records a better way to a state.
+    /// Records a better path to a state.
     pub(crate) fn reparent(&mut self, id: StateId, from: StateId, operator: OperatorId) {
         self.parents[id.0 as usize] = from.0;
         self.operators[id.0 as usize] = operator.0;
@@ -143,7 +143,7 @@ impl<'t> StateRegistry<'t> {
         if self.parts.len() == 1 { 0 } else { (hash >> 56) as usize }
     }
 
-    /// Moves the ids of one part to a part of twice the size, or of the only one to many.
+    /// Moves the ids of one part to a part of twice the size, or splits the only part into many.
     fn grow(&mut self, part: usize) {
         let old = std::mem::replace(&mut self.parts[part], Part::of_size(0));
         let double = old.slots.len() * 2;
@@ -160,7 +160,7 @@ impl<'t> StateRegistry<'t> {
         }
     }
 
-    /// The operators from the first state to this one.
+    /// Returns the operators from the first state to this one.
     pub(crate) fn path(&self, to: StateId) -> Vec<OperatorId> {
         let mut steps = Vec::new();
         let mut at = to.0;
@@ -172,7 +172,7 @@ impl<'t> StateRegistry<'t> {
         steps
     }
 
-    /// Bytes held; more than any budget allows where ids run out.
+    /// The bytes held; more than any budget allows once ids run out.
     pub(crate) fn memory(&self) -> usize {
         if self.parents.len() >= MOST_STATES {
             return UNLIMITED;
@@ -181,7 +181,7 @@ impl<'t> StateRegistry<'t> {
     }
 }
 
-/// A hash whose lowest and highest bits are good.
+/// A hash whose lowest and highest bits are well distributed.
 fn spread(words: &[u64]) -> u64 {
     let mut hash = 0x9e37_79b9_7f4a_7c15_u64;
     for &word in words {
@@ -214,7 +214,7 @@ mod tests {
             parts: vec![super::Part::of_size(1024)],
             slots: 1024,
         };
-        // The last of them come long after the split, and parts have grown on their own.
+        // The last states are inserted long after the split, when single parts have grown.
         let states = 5 * SPLIT;
         for state in 0..id32(states) {
             let (id, new) = registry.insert(&[u64::from(state)], None);

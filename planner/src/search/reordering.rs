@@ -1,36 +1,36 @@
-//! The same steps in another order.
+//! Reorders the steps of a plan.
 //!
-//! Problem: where a plan does several things in turns, steps that belong together lie far apart, and
-//! no short window holds them. Idea: two steps may change places unless one gives or takes a fact that
-//! the other needs, gives or takes. A chain of steps that depend on each other is followed as far as it
-//! goes before the next one begins: from the front, from the back, or with jumps. Invariant: steps that
-//! depend on each other by facts stay in order. Dependencies through axioms and numbers are not
-//! considered, so a caller that needs a plan replays it. Cost: linear in the facts that the steps name, and in the pairs of
-//! a step that writes a fact and one that reads it.
+//! Problem: if a plan interleaves several activities, steps that belong together are far apart, and
+//! no short window contains them. Idea: two steps may be swapped unless one adds or deletes a fact
+//! that the other needs, adds or deletes. A chain of dependent steps is followed as far as possible
+//! before the next chain begins: from the front, from the back, or in random order. Invariant:
+//! steps that depend on each other through facts keep their order. Dependencies through axioms and
+//! numbers are ignored, so a caller that needs a valid plan must replay it. Cost: linear in the
+//! facts that the steps mention, plus the pairs of a step that writes a fact and one that reads it.
 //!
-//! Source: partial orders as in Bäckström, "Computational aspects of reordering plans", JAIR 1998, with
-//! interference only; windows of them: Siddiqui & Haslum, "Continuing plan quality optimisation", JAIR
-//! 2015, §4.
+//! Source: partial orders: Bäckström, "Computational aspects of reordering plans", JAIR 1998 (here
+//! with interference only); windows of them: Siddiqui & Haslum, "Continuing plan quality
+//! optimisation", JAIR 2015, §4.
 
 use super::chance::Chance;
 use crate::ids::{FactId, OperatorId};
 use crate::task::Task;
 use rustc_hash::FxHashMap;
 
-/// Which of the orders.
+/// The order of the steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Arrangement {
-    /// As the plan has it.
+    /// The order of the plan.
     Found,
-    /// Chains from the front.
+    /// Chains, followed from the front.
     Forward,
-    /// Chains from the back.
+    /// Chains, followed from the back.
     Backward,
-    /// Chains from the front, left at random; the same seed gives the same order.
+    /// Chains from the front that are left at random; the same seed gives the same order.
     Jumping(u64),
 }
 
-/// The steps in that order.
+/// Returns the steps in this order.
 pub(crate) fn arranged(task: &Task, steps: &[OperatorId], arrangement: Arrangement) -> Vec<OperatorId> {
     let places = match arrangement {
         Arrangement::Found => return steps.to_vec(),
@@ -39,7 +39,7 @@ pub(crate) fn arranged(task: &Task, steps: &[OperatorId], arrangement: Arrangeme
         Arrangement::Backward => {
             let after = dependents(task, steps);
             let mirrored = |i| steps.len() - 1 - i;
-            // Seen from the back, steps depend on those that depend on them.
+            // From the back, each step depends on the steps that follow from it.
             let mut before = vec![Vec::new(); steps.len()];
             for (i, later) in after.iter().enumerate() {
                 for &j in later {
@@ -52,10 +52,10 @@ pub(crate) fn arranged(task: &Task, steps: &[OperatorId], arrangement: Arrangeme
     places.into_iter().map(|i| steps[i]).collect()
 }
 
-/// For each step those later ones that must stay behind it; perhaps more than once.
+/// For each step, the later steps that must stay behind it. A step may be listed more than once.
 fn dependents(task: &Task, steps: &[OperatorId]) -> Vec<Vec<usize>> {
     let mut after = vec![Vec::new(); steps.len()];
-    // By fact: the last step that wrote it, and those that have read it since.
+    // By fact: the last step that wrote it, and the steps that have read it since.
     let mut writer: FxHashMap<FactId, usize> = FxHashMap::default();
     let mut readers: FxHashMap<FactId, Vec<usize>> = FxHashMap::default();
     for (i, &step) in steps.iter().enumerate() {
@@ -82,8 +82,8 @@ fn dependents(task: &Task, steps: &[OperatorId]) -> Vec<Vec<usize>> {
     after
 }
 
-/// An order in which each step comes after those that it depends on, and as soon after the last of
-/// them as can be.
+/// Returns an order in which each step comes after those that it depends on, as close behind the
+/// last of them as possible.
 fn chains(after: &[Vec<usize>], seed: Option<u64>) -> Vec<usize> {
     let mut open = vec![0_usize; after.len()];
     after.iter().flatten().for_each(|&j| open[j] += 1);
@@ -115,7 +115,7 @@ mod tests {
 
     #[test]
     fn a_chain_is_followed_before_the_next_begins() {
-        // Two chains in turns: 0 2 4 and 1 3, and 5 needs both.
+        // Two interleaved chains: 0 2 4 and 1 3. Step 5 depends on both.
         let after = [vec![2], vec![3], vec![4], vec![5, 5], vec![5], vec![]];
         assert_eq!(chains(&after, None), [0, 2, 4, 1, 3, 5]);
         for seed in 0..20 {

@@ -1,14 +1,15 @@
-//! A broken plan made whole again, or a new one where that is better.
+//! Plan repair: reuses a broken plan, or replaces it if a new plan is better.
 //!
-//! Problem: after a surprise, planning from scratch changes steps that others already count on. Idea:
-//! first the longest suffix of the old plan that still reaches the goal; else a short search to a state
-//! from which some suffix does (its kernel: the goal regressed through it), nearest kernels first; else
-//! the old plan as far as its steps can be taken, and a search for the rest. What is found is set
-//! beside a plan from scratch, with what each took and how far it is from the old plan, and the caller's
-//! preference decides. Invariant: every plan is simulated before it is given out, so kernels need not be
-//! exact (what axioms, numbers and conditional effects need is not followed back). Cost: a few searches
-//! of bounded work, and where it is asked for, one from scratch. Nothing here depends on a clock: with a
-//! configuration that is deterministic, so is the choice.
+//! Problem: when the state or the goal has changed, planning from scratch changes steps that others
+//! already rely on. Idea: try three ways to reuse the old plan. First, the longest suffix that
+//! still reaches the goal. Second, a short search for a state from which some suffix reaches the
+//! goal (the suffix's kernel: the goal regressed through it), nearest kernels first. Third, the
+//! steps of the old plan that are still applicable, and a search for the rest. The reused plan is
+//! compared with a plan from scratch by the caller's preference: by work, by cost or by distance
+//! from the old plan. Invariant: every plan is simulated before it is returned, so kernels need not
+//! be exact (they ignore the needs of axioms, numbers and conditional effects). Cost: a few
+//! searches of bounded work, and one from scratch if the preference asks for it. No decision reads
+//! a clock, so a deterministic configuration makes a deterministic choice.
 //!
 //! Source: Fox, Gerevini, Long & Serina, "Plan stability: replanning versus plan repair", ICAPS 2006;
 //! kernels: Fikes, Hart & Nilsson, "Learning and executing generalized robot plans", AIJ 1972.
@@ -20,10 +21,10 @@ use crate::ids::OperatorId;
 use crate::task::{Goal, Kernel, Literals, State, Task};
 use budget::Budget;
 
-/// What decides between a repaired plan and a new one.
+/// How to choose between a repaired plan and a new one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Preference {
-    /// The first plan: from scratch only where nothing can be reused.
+    /// The first plan found: plan from scratch only if nothing can be reused.
     Fastest,
     /// The smallest distance, then the fewest moved steps, then the least cost.
     Stability,
@@ -31,12 +32,12 @@ pub enum Preference {
     Cost,
 }
 
-/// One way to a plan, and what came of it.
+/// One attempt to find a plan, and its result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Attempt {
     /// The plan, or why no plan was found, with the statistics.
     pub report: Report,
-    /// How far the plan is from the old one; `None` without a plan.
+    /// The distance of the plan from the old one; `None` without a plan.
     pub distance: Option<Distance>,
 }
 
@@ -60,19 +61,19 @@ pub enum Way {
     Scratch,
 }
 
-/// What repair came to.
+/// The result of a repair.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Repaired {
     /// Which plan was chosen; `None` without a plan.
     pub way: Option<Way>,
-    /// The attempt to reuse the old plan.
+    /// The attempt that reuses the old plan.
     pub reused: Attempt,
-    /// The plan from scratch, if one was looked for.
+    /// The attempt from scratch, if there was one.
     pub fresh: Option<Attempt>,
 }
 
 impl Repaired {
-    /// Decides between the two. A plan from scratch has to be better to win.
+    /// Chooses between the two attempts. The plan from scratch wins only if it is strictly better.
     pub fn of(preference: Preference, reused: Attempt, fresh: Option<Attempt>) -> Self {
         let key = |(plan, distance): (&Plan, Distance)| {
             let (cost, steps, moved) = (plan.cost, distance.steps() as u64, distance.moved as u64);
@@ -92,7 +93,7 @@ impl Repaired {
         Self { way, reused, fresh }
     }
 
-    /// The attempt whose plan was chosen, or the one that explains why no plan was found.
+    /// The attempt with the chosen plan, or the one that explains why no plan was found.
     pub fn chosen(&self) -> &Attempt {
         match (self.way, &self.fresh) {
             (Some(Way::Scratch) | None, Some(fresh)) => fresh,
@@ -100,7 +101,7 @@ impl Repaired {
         }
     }
 
-    /// The outcome, and what both attempts took.
+    /// The chosen outcome, with the statistics of both attempts.
     pub fn report(&self) -> Report {
         let fresh = self.fresh.as_ref().map_or_else(Statistics::default, |fresh| fresh.report.statistics);
         let statistics = self.reused.report.statistics + fresh;
@@ -108,11 +109,11 @@ impl Repaired {
     }
 }
 
-/// Expansions for each gap that is filled, where they are cheap.
+/// Expansions for each gap, if the relaxation is small.
 const GAP: u64 = 1000;
-/// Expansions times nodes of the relaxation, where they are not.
+/// Expansions times nodes of the relaxation, if it is large.
 const WORK: usize = 1 << 26;
-/// Gaps that are tried.
+/// The number of gaps that are tried.
 const GAPS: usize = 4;
 
 /// A plan for another state or goal, to be repaired for the query.
@@ -120,14 +121,14 @@ const GAPS: usize = 4;
 pub struct Repair<'a> {
     /// The task.
     pub task: &'a Task,
-    /// From where, to what, without which operators.
+    /// The state, the goal and the excluded operators.
     pub query: Query<'a>,
-    /// What is left of the old plan.
+    /// The remaining steps of the old plan.
     pub broken: &'a [OperatorId],
 }
 
-/// Repairs `broken`, a plan for another state or goal, for the query. `configuration` is for the plan
-/// from scratch.
+/// Repairs `broken`, a plan for another state or goal, to answer the query. The plan from scratch
+/// uses `configuration`.
 pub fn repair(
     task: &Task,
     query: &Query<'_>,
@@ -147,8 +148,8 @@ pub fn repair(
 }
 
 impl Repair<'_> {
-    /// A plan that has as much of the old one as is found within some searches of bounded work. That there is
-    /// none proves nothing.
+    /// Searches for a plan that reuses as much of the old one as possible, with a few searches of
+    /// bounded work. A failure proves nothing.
     pub fn reuse(&self, budget: &Budget<'_>) -> Attempt {
         let mut work = Work { repair: self, budget, statistics: Statistics::default() };
         let outcome = match work.reused() {
@@ -163,7 +164,7 @@ impl Repair<'_> {
         self.attempt(Report { outcome, statistics })
     }
 
-    /// A new plan.
+    /// Plans from scratch.
     pub fn afresh(&self, configuration: &SearchConfiguration, budget: &Budget<'_>) -> Attempt {
         self.attempt(solve(self.task, &self.query, configuration, budget))
     }
@@ -176,8 +177,9 @@ impl Repair<'_> {
         Attempt { report, distance }
     }
 
-    /// The step in a state: the operator, or another one of the same action and arguments that is
-    /// applicable (each stands for one part of a disjunction), and the state after it.
+    /// Finds an applicable operator for a step: the step's own operator, or another one of the same
+    /// action and arguments (each stands for one disjunct of the precondition). Returns it with the
+    /// state after it.
     fn taken(&self, state: &State, step: OperatorId) -> Option<(OperatorId, State)> {
         let operators = self.task.operators();
         let own = operators.get(step);
@@ -194,7 +196,7 @@ impl Repair<'_> {
             .find_map(|o| Some((o, self.task.successor(state, o)?)))
     }
 
-    /// The steps as operators, if they lead from the query's state to its goal.
+    /// Simulates the steps. Returns the operators if they lead from the query's state to its goal.
     fn simulated(&self, steps: &[OperatorId]) -> Option<Vec<OperatorId>> {
         let mut state = self.query.state.clone();
         let mut done = Vec::with_capacity(steps.len());
@@ -226,10 +228,10 @@ impl Work<'_> {
         self.gap().or_else(|| self.completed())
     }
 
-    /// A way to the kernel of a suffix, and the suffix.
+    /// Searches for the kernel of a suffix. Returns the path to it and the suffix.
     fn gap(&mut self) -> Option<Vec<OperatorId>> {
         let Repair { task, query, broken } = *self.repair;
-        // Only suffixes behind the last step that is excluded can be kept.
+        // A suffix can be kept only if it starts behind the last excluded step.
         let free = broken.iter().rposition(|o| query.excluded.contains(o)).map_or(0, |last| last + 1);
         let mut nearest: Vec<(usize, usize, Literals)> = Vec::new();
         let mut kernel = Kernel::new(task, &query.goal.literals);
@@ -238,8 +240,8 @@ impl Work<'_> {
                 kernel.before(step);
             }
             let missing = kernel.missing(query.state);
-            // Every suffix was simulated before. Where nothing is missing and it did not lead to the goal, what stands in
-            // its way is nothing that the kernel tells: there is no gap to search a way over.
+            // Every suffix was simulated before. If the kernel misses nothing and the suffix still
+            // failed, the kernel ignores the reason, so there is no gap to search.
             if missing > 0 {
                 nearest.push((missing, start, kernel.literals()));
             }
@@ -259,7 +261,7 @@ impl Work<'_> {
         None
     }
 
-    /// The old plan as far as its steps can be taken, and a way on from there.
+    /// Takes the applicable steps of the old plan, then searches for the rest.
     fn completed(&mut self) -> Option<Vec<OperatorId>> {
         let query = self.repair.query;
         let mut state: State = query.state.clone();

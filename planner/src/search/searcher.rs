@@ -6,25 +6,25 @@ use crate::query::Signal;
 
 /// A running search. It owns its states and open lists.
 pub(crate) trait Searcher {
-    /// Goes on until there is an answer, a limit or the end of the turn; `None` is the last.
+    /// Continues until there is an answer or a limit, or the turn ends; `None` if the turn ends.
     fn advance(&mut self, turn: &Turn) -> Option<Outcome>;
 
-    /// What it did so far.
+    /// The statistics so far.
     fn statistics(&self) -> Statistics;
 }
 
-/// A search that goes in small steps.
+/// A search that advances in small steps.
 pub(crate) trait Stepwise {
-    /// What it was asked to do.
+    /// The job of the search.
     fn job(&self) -> &Job<'_>;
 
-    /// Bytes that it holds.
+    /// The bytes that it holds.
     fn memory(&self) -> usize;
 
-    /// What it did so far.
+    /// The statistics so far.
     fn statistics(&self) -> Statistics;
 
-    /// Goes on a little; the first time, it begins.
+    /// Advances by one step; the first call begins the search.
     fn next(&mut self) -> Option<Outcome>;
 }
 

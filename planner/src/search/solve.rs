@@ -1,4 +1,4 @@
-//! One question, one configuration, one answer.
+//! Answers one query with one configuration.
 
 use super::configuration::SearchConfiguration;
 use super::elimination;
@@ -10,7 +10,7 @@ use crate::query::{Limit, Query, SearchMeter};
 use crate::task::{Impossible, Task};
 use budget::Budget;
 
-/// Looks for a plan.
+/// Searches for a plan.
 pub fn solve(
     task: &Task,
     query: &Query<'_>,
@@ -42,7 +42,7 @@ pub fn solve(
     report
 }
 
-/// The literals of the goal that even the delete relaxation cannot reach.
+/// The literals of the goal that are unreachable even in the delete relaxation.
 fn relaxed_unreachable(task: &Task, query: &Query<'_>, budget: &Budget<'_>) -> Option<UnsolvableReason> {
     let (barred, meter) = (query.barred(task), SearchMeter::new(*budget));
     let (bound, shared) = (Bound::none(), Shared::default());

@@ -1,9 +1,9 @@
-//! A queue that prefers nothing: entries by type, a random type each time, a random entry of it.
+//! A queue without preference: it selects a random type, then a random entry of that type.
 //!
-//! Problem: where an estimate misleads, a queue sorted by it visits one large plateau before all else.
-//! Idea: entries that look alike share a bucket, and each bucket has the same chance, so that rare
-//! kinds of states are visited as often as those of which there are millions. The generator is seeded:
-//! the same pushes and pops give the same entries.
+//! Problem: if an estimate misleads, a queue sorted by it visits one large plateau before
+//! everything else. Idea: entries of the same type share a bucket, and every bucket has the same
+//! chance, so rare types of states are visited as often as those with millions of states. The
+//! generator is seeded: the same pushes and pops give the same entries.
 //!
 //! Source: Xie, Müller, Holte & Imai, "Type-based exploration with multiple search queues for
 //! satisficing planning", AAAI 2014.
@@ -11,7 +11,7 @@
 use super::chance::Chance;
 use rustc_hash::FxHashMap;
 
-/// What entries of one bucket have in common.
+/// The features that the entries of one bucket share.
 pub(crate) type Type = [u32; 3];
 
 /// The queue.
@@ -64,7 +64,7 @@ impl<T> TypeList<T> {
         Some(item)
     }
 
-    /// Bytes held by the items.
+    /// The bytes held by the items.
     pub(crate) fn memory(&self) -> usize {
         self.len * size_of::<T>() * 2 + self.buckets.len() * 96
     }

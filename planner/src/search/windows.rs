@@ -1,12 +1,13 @@
-//! Cheaper ways between two states of a plan.
+//! Plan improvement by windows: replaces parts of a plan by cheaper ones.
 //!
-//! Idea: cut a window out of the plan; what the rest of the plan needs, followed back to the window's
-//! end, is a small goal, and a cheaper way to it from the window's start makes the whole plan cheaper.
-//! Windows start everywhere and grow, and the plan is arranged anew, so that other steps lie together
-//! (`reordering`). First, states go whose relaxed plan is too dear, and most windows end soon; when all
-//! have been tried each may take longer, and in every other round those states stay. Invariant: a plan
-//! is handed out only if it was replayed to the goal and costs less. What conditional effects and
-//! axioms need is not followed back; the replay finds out.
+//! Idea: cut a window out of the plan. The needs of the later steps, regressed to the end of the
+//! window, are a small goal. A cheaper path to that goal from the start of the window makes the
+//! whole plan cheaper. Windows start at every part of the plan and grow, and the plan is reordered
+//! so that other steps lie together (`reordering`). The first round prunes states by their relaxed
+//! plan, so most windows end soon. Each later round allows more work for a window, and every other
+//! round prunes by path cost only. Invariant: a plan is returned only if a replay reaches the goal
+//! and the plan is cheaper. The regression ignores the needs of conditional effects and axioms; the
+//! replay detects those cases.
 //!
 //! Source: Siddiqui & Haslum, "Continuing plan quality optimisation", JAIR 2015, §4.
 
@@ -21,30 +22,30 @@ use crate::task::{Goal, Kernel, Literals, State, Task};
 use rustc_hash::{FxHashSet, FxHasher};
 use std::hash::{Hash, Hasher};
 
-/// Work for a window in the first round; it doubles with each.
+/// The work for a window in the first round; it doubles with each round.
 const WORK: u64 = 1 << 22;
-/// Rounds, at most.
+/// The number of rounds.
 const ROUNDS: u32 = 12;
-/// Steps in the smallest windows; they double up to the whole plan.
+/// Steps in the smallest windows; the size doubles up to the whole plan.
 const SMALLEST: usize = 6;
 
-/// What windows are cut for.
+/// The plan's query and the limits of the work on windows.
 pub(crate) struct Windows<'a> {
     pub(crate) task: &'a Task,
     pub(crate) query: Query<'a>,
     pub(crate) barred: &'a Barred,
     pub(crate) meter: &'a SearchMeter<'a>,
-    /// Work in all, at most.
+    /// The most work in all.
     pub(crate) most: u64,
 }
 
-/// How windows are searched now, and which have been.
+/// The settings of the current round, and the windows tried in it.
 struct Tried {
     costs: Costs,
     pruning: Pruning,
-    /// Work for each.
+    /// The work for each window.
     work: u64,
-    /// Those of this round: from where, to what and below which cost, as hashes.
+    /// Hashes of the windows of this round: state, goal and cost.
     windows: FxHashSet<u64>,
     statistics: Statistics,
 }
@@ -58,8 +59,8 @@ impl Tried {
 }
 
 impl Windows<'_> {
-    /// Makes the plan cheaper. `exchange` receives each cheaper plan and returns the cheapest plan that
-    /// any search has found.
+    /// Makes the plan cheaper. `exchange` receives each cheaper plan and returns the cheapest plan
+    /// that any search has found.
     pub(crate) fn run(&self, mut plan: Plan, exchange: &mut dyn FnMut(Plan) -> Plan) -> Statistics {
         let mut tried = Tried {
             costs: counted(self.task),
@@ -70,7 +71,7 @@ impl Windows<'_> {
         };
         for round in 0..ROUNDS {
             tried.work = WORK << round;
-            // With more work, or pruned otherwise, all are worth another try.
+            // With more work or other pruning, every window is worth another try.
             tried.windows.clear();
             tried.pruning = if round % 2 == 0 { Pruning::Estimated } else { Pruning::Spent };
             for arrangement in [
@@ -108,7 +109,7 @@ impl Windows<'_> {
         self.meter.spend(1) || self.meter.work() >= self.most
     }
 
-    /// The plan in another order, where that is a plan.
+    /// Returns the reordered plan if it is valid, otherwise the plan itself.
     fn arrange(&self, plan: Plan, arrangement: Arrangement) -> Plan {
         let operators = arranged(self.task, &plan.operators, arrangement);
         match self.replay(self.query.state, &operators) {
@@ -169,7 +170,7 @@ impl Windows<'_> {
         Some(state)
     }
 
-    /// What must hold before `steps` for them to be done and to end in the goal.
+    /// The facts that must hold before `steps` so that they reach the goal.
     fn needed(&self, steps: &[OperatorId]) -> Literals {
         let mut kernel = Kernel::new(self.task, &self.query.goal.literals);
         for &step in steps.iter().rev() {

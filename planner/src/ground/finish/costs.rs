@@ -5,14 +5,14 @@ use crate::task::Operators;
 use budget::{Interrupted, Meter};
 use rustc_hash::FxHashSet;
 
-/// Makes integers of the costs; gives the scale.
+/// Converts the costs to integers and returns the scale.
 pub(super) fn set_costs(
     operators: &mut Operators,
     amounts: &[f64],
     costs: &CostModel,
     meter: &Meter<'_>,
 ) -> Result<u32, Interrupted> {
-    // Where nothing costs anything, fewer steps are better.
+    // If no operator costs anything, every operator costs 1, so that shorter plans are better.
     if costs.is_unit() || (matches!(costs.measure, Measure::Value(_)) && amounts.iter().all(|&a| a == 0.0)) {
         return Ok(1);
     }

@@ -1,4 +1,4 @@
-//! The goal over facts, and why it is impossible where it is.
+//! The goal over facts, and the reason if it is impossible.
 
 use super::view::View;
 use crate::ground::instantiate::RawTask;

@@ -1,10 +1,10 @@
-//! Groups of atoms that exclude each other, as groups of facts.
+//! Converts groups of atoms that exclude each other to groups of facts.
 
 use super::view::NONE;
 use crate::ground::exclusion::Exclusions;
 use budget::{Interrupted, Meter};
 
-/// The groups of which at least two atoms are facts.
+/// The groups with at least two atoms that are facts.
 pub(super) fn groups(
     exclusions: &Exclusions,
     numbers: &[u32],
@@ -18,7 +18,8 @@ pub(super) fn groups(
             groups[group as usize].push(numbers[atom as usize]);
         }
     }
-    // Different groups of atoms may be the same group of facts. In order, by their first facts.
+    // Different groups of atoms may become the same group of facts. The result is sorted by first
+    // fact.
     let mut by_first: Vec<Vec<Vec<u32>>> = vec![Vec::new(); numbers.len()];
     for group in groups.into_iter().filter(|g| g.len() > 1) {
         meter.spend(32)?;

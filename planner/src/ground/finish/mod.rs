@@ -1,6 +1,7 @@
-//! Numbers the facts that remain and assembles the task.
+//! Numbers the remaining facts and assembles the task.
 //!
-//! In: the model, its atoms, exclusions and instances, and what pruning knows of them. Out: the [`Task`].
+//! In: the model, its atoms, exclusions and instances, and the results of pruning. Out: the
+//! [`Task`].
 
 mod costs;
 mod goal;
@@ -27,10 +28,10 @@ use numeric::{Chosen, comparisons};
 use pddl::model::IndexVec;
 use view::{NONE, Parts, View};
 
-/// Operators from which on a second thread is worth its start.
+/// From this many operators on, a second thread is worth its start.
 const PARALLEL: usize = 5_000;
 
-/// Builds the task of what `raw` and the analysis leave.
+/// Builds the task from `raw` and the results of pruning.
 pub(crate) fn finish(
     model: &Normalised<'_>,
     Reached { table, statics, initial, .. }: Reached,

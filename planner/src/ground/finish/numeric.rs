@@ -9,7 +9,7 @@ use crate::number::{Expression, Number};
 use crate::task::{Fluent, Metric, NumericEffects, Update, changed};
 use pddl::model::{GroundApplication, Idx, ObjectId, Objective};
 
-/// Which fluents the task has: those of states first, then those that only the metric reads.
+/// The fluents of the task: those in states first, then those that only the metric reads.
 pub(crate) struct Chosen {
     pub(crate) fluents: Vec<Fluent>,
     pub(crate) stored: usize,
@@ -51,12 +51,12 @@ impl Chosen {
         self.numbers[fluent as usize]
     }
 
-    /// An expression of which relevance has kept all fluents.
+    /// Maps an expression whose fluents were all kept.
     pub(crate) fn expression(&self, expression: &Expression<u32>) -> Expression<FluentId> {
         expression.map(&mut |&f| self.fluent(f).expect("what is kept reads what is kept"))
     }
 
-    /// What an operator does to fluents that were kept.
+    /// The operator's effects on the fluents that were kept.
     pub(super) fn effects(&self, raw: &RawOperator<'_>, view: &View<'_>) -> Option<Box<NumericEffects>> {
         let (mut updates, mut metric) = (Vec::new(), Vec::new());
         for change in raw.numbers {
@@ -76,7 +76,8 @@ impl Chosen {
         })
     }
 
-    /// What an operator without conditional effects would add to the metric initially, at least 0.
+    /// The cost that guides the search: what the operator adds to the metric in the initial state,
+    /// at least 0. Conditional effects are ignored.
     pub(crate) fn guess(&self, effects: Option<&NumericEffects>) -> f64 {
         let Some(metric) = &self.metric else { return 1.0 };
         let before: Vec<Option<Number>> = self.fluents.iter().map(|f| f.initial).collect();

@@ -1,4 +1,4 @@
-//! Atoms and operators of the raw task as facts.
+//! Maps the atoms and operators of the raw task to facts.
 
 use crate::ground::instantiate::{RawOperator, RawOperators};
 use crate::ground::literal::Lit;
@@ -7,10 +7,10 @@ use crate::ids::FactId;
 use crate::task::{Literals, Operators};
 use pddl::model::ObjectId;
 
-/// The number of an atom that is no fact.
+/// The number of an atom that is not a fact.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// What is known of atoms, and the facts that they are.
+/// The results of pruning, and the fact of each atom.
 pub(super) struct View<'a> {
     pub(super) pruned: &'a Pruned,
     pub(super) numbers: &'a [u32],
@@ -39,14 +39,14 @@ impl View<'_> {
         Some(Literals { positive: facts(0, positive), negative: facts(1, negative) })
     }
 
-    /// The facts among atoms that are sorted, instead of what was in `facts`.
+    /// Replaces `facts` by the facts among sorted atoms.
     fn facts(&self, atoms: &[u32], facts: &mut Vec<FactId>) {
         facts.clear();
         facts.extend(atoms.iter().map(|&a| self.numbers[a as usize]).filter(|&n| n != NONE).map(FactId));
         debug_assert!(facts.is_sorted());
     }
 
-    /// The facts of a conjunction; `false` if it never holds.
+    /// Writes the facts of a conjunction; `false` if it never holds.
     fn condition(&self, literals: &[Lit], positive: &mut Vec<FactId>, negative: &mut Vec<FactId>) -> bool {
         positive.clear();
         negative.clear();
@@ -63,9 +63,9 @@ impl View<'_> {
         true
     }
 
-    /// Fills in the operator's parts, unless it changes no fact that is needed and its effects on numbers
-    /// do not count. Its conditional effects are added to `operators`. Answers
-    /// whether it is of use.
+    /// Fills in the operator's parts and adds its conditional effects to `operators`. Returns
+    /// `false` for a useless operator: it changes no needed fact, and `counts` says that its
+    /// effects on numbers do not count.
     pub(super) fn operator(
         &self,
         all: &RawOperators,
@@ -74,7 +74,8 @@ impl View<'_> {
         parts: &mut Parts,
         operators: &mut Operators,
     ) -> bool {
-        // What a useless operator reads was not kept.
+        // The condition of a useless operator may read atoms that were not kept, so it is mapped
+        // last.
         let Parts { arguments, positive, negative, adds, deletes, conditional } = parts;
         self.facts(raw.adds, adds);
         self.facts(raw.deletes, deletes);
@@ -98,7 +99,7 @@ impl View<'_> {
     }
 }
 
-/// The parts of the operator at hand.
+/// Buffers for the parts of one operator.
 #[derive(Default)]
 pub(super) struct Parts {
     pub(super) arguments: Vec<ObjectId>,

@@ -1,9 +1,10 @@
 //! Numeric effects and comparisons under a binding.
 //!
-//! Idea: a comparison of what changes is an atom like any other, except that numbers decide it; so
-//! operators, goals, axioms and every search take numeric conditions without knowing. What would make
-//! an action have no result (a value that is undefined, two changes of one fluent that disagree)
-//! becomes part of its precondition. Invariant: an instance is applicable exactly where its action is.
+//! Idea: a comparison of changing numbers is an atom like any other, except that numbers decide it.
+//! Operators, goals, axioms and searches therefore need no special case for numeric conditions.
+//! Conditions under which an action has no result (an undefined value, or two changes of one fluent
+//! that disagree) are negated and added to its precondition. Invariant: an instance is applicable
+//! exactly if its action is.
 
 use super::fold::Instantiator;
 use super::folded::Comparison;
@@ -14,7 +15,7 @@ use crate::ground::normalise::{Fluents, Key, NumericEffects, Schema};
 use crate::number::{Change, Expression, NoValue, Number, Relation};
 use pddl::model::{AssignOperator, Expression as Written};
 
-/// A change before its fluents are numbered.
+/// A change whose fluents are not numbered yet.
 struct Instance {
     condition: Vec<Lit>,
     fluent: Key,
@@ -22,8 +23,8 @@ struct Instance {
     value: Option<Expression<Key>>,
 }
 
-/// The numeric effects of an instance of a schema. Conjunctions under which they have no result are
-/// added to `never`; `None` if they never have one.
+/// The numeric effects of an instance of a schema. Adds the conjunctions under which they have no
+/// result to `never`; `None` if they never have a result.
 pub(super) fn changes(
     work: &mut Instantiator<'_>,
     schema: &Schema,
@@ -110,7 +111,7 @@ fn folded(
     }
 }
 
-/// Forbids what would read a fluent without a value or divide by 0.
+/// Forbids states where the change reads a fluent without a value or divides by 0.
 fn undefined(work: &mut Instantiator<'_>, instance: &Instance, never: &mut Vec<Vec<Lit>>) {
     let fluents = work.fluents;
     let mut must = Vec::new();
@@ -131,7 +132,7 @@ fn undefined(work: &mut Instantiator<'_>, instance: &Instance, never: &mut Vec<V
     }
 }
 
-/// Forbids that both changes of one fluent happen and disagree.
+/// Forbids states where two changes of one fluent happen and disagree.
 fn clash(work: &mut Instantiator<'_>, first: &Instance, second: &Instance, never: &mut Vec<Vec<Lit>>) {
     let mut both: Vec<Lit> = first.condition.iter().chain(&second.condition).copied().collect();
     match (first.change, second.change) {

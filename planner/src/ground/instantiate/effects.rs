@@ -1,4 +1,4 @@
-//! The effects of one instance: quantifiers expanded, and what must not happen together.
+//! The effects of one instance, with quantifiers expanded and conflicting effects found.
 
 use super::fold::Instantiator;
 use super::folded::Ground;
@@ -39,7 +39,8 @@ pub(super) fn expand(
                 return;
             }
             let ground = work.fold(&effect.condition, &schema.slots, binding);
-            // The union of conditional effects is a disjunction: no axiom needed at the top.
+            // A disjunctive condition becomes several conditional effects, so no axiom is needed at
+            // the top level.
             let options = match ground {
                 Ground::False => return,
                 Ground::Or(options) => options,
@@ -55,7 +56,8 @@ pub(super) fn expand(
     found
 }
 
-/// Conditions under which an object fluent would get two values at once; none where the guard stops.
+/// The conditions under which an object fluent would get two values at once; empty if the guard
+/// stops.
 pub(super) fn clashes(
     work: &Instantiator<'_>,
     values: &ValuePredicates,
@@ -85,7 +87,7 @@ pub(super) fn clashes(
     found
 }
 
-/// Whether both are values of one fluent, and different.
+/// Whether both atoms are values of the same fluent, and different.
 fn are_rivals(table: &AtomTable, values: &ValuePredicates, a: u32, b: u32) -> bool {
     let is_atom = |x: u32| (x as usize) < table.len();
     let same = is_atom(a) && is_atom(b) && a != b && table.predicate(a) == table.predicate(b);

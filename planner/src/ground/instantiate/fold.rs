@@ -1,9 +1,9 @@
 //! Conditions and effects under a binding.
 //!
-//! Idea: once reachability has numbered every reachable atom, a formula under a binding folds:
-//! static and unreachable atoms become constants, quantifiers run over their objects. Disjunctions
-//! that survive become alternatives (a copy of the operator each) while these are few, and an
-//! auxiliary derived atom otherwise; equal disjunctions share their atom.
+//! Idea: when reachability has numbered every reachable atom, a formula can be folded under a
+//! binding. Static and unreachable atoms become constants, and quantifiers are expanded over their
+//! objects. The remaining disjunctions become alternatives (a copy of the operator for each) if
+//! there are few, and otherwise an auxiliary derived atom. Equal disjunctions share their atom.
 
 use super::folded::{Comparison, Connective, Ground, fold_parts};
 use super::numbers::Numbers;
@@ -19,7 +19,7 @@ use pddl::model::VariableId;
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
 
-/// Folds formulas and keeps the auxiliary atoms that they need.
+/// Folds formulas and stores the auxiliary atoms that they need.
 pub(crate) struct Instantiator<'a> {
     pub(crate) table: &'a AtomTable,
     pub(crate) is_static: &'a [bool],
@@ -27,10 +27,10 @@ pub(crate) struct Instantiator<'a> {
     pub(crate) marks: Marks,
     pub(crate) guard: Guard<'a>,
     pub(crate) fluents: &'a Fluents,
-    /// Fluents and comparisons met.
+    /// The fluents and comparisons found so far.
     pub(crate) numbers: Numbers,
     auxiliary: FxHashMap<Vec<Vec<Lit>>, u32>,
-    /// Rules of the auxiliary atoms: head, body.
+    /// The rules of the auxiliary atoms: head, body.
     pub(crate) rules: Vec<(u32, Vec<Lit>)>,
     next: u32,
 }
@@ -48,7 +48,7 @@ impl<'a> Instantiator<'a> {
         Self { table, is_static, exclusions, marks, guard, fluents, numbers, auxiliary, rules, next }
     }
 
-    /// Atoms of the table, then auxiliary ones.
+    /// The number of atoms: those of the table, then auxiliary ones.
     pub(crate) fn atoms(&self) -> u32 {
         self.next
     }
@@ -139,8 +139,8 @@ impl<'a> Instantiator<'a> {
         }
     }
 
-    /// Conjunctions whose union is the formula, at most `limit`; larger disjunctions become
-    /// auxiliary atoms. None at all means that it cannot hold.
+    /// At most `limit` conjunctions whose disjunction is the formula; larger disjunctions become
+    /// auxiliary atoms. The list is empty if the formula cannot hold.
     pub(crate) fn alternatives(&mut self, ground: Ground, limit: usize) -> Vec<Vec<Lit>> {
         let parts = match ground {
             Ground::True => return vec![Vec::new()],
@@ -176,18 +176,18 @@ impl<'a> Instantiator<'a> {
         self.possible(literals)
     }
 
-    /// The conjunction in order, unless a literal contradicts or excludes another.
+    /// The sorted conjunction; `None` if two literals contradict or exclude each other.
     fn possible(&mut self, literals: Vec<Lit>) -> Option<Vec<Lit>> {
         consistent(literals).filter(|l| self.marks.take(self.exclusions, l))
     }
 
-    /// Takes out negative literals that the positive ones of the same conjunction imply.
+    /// Removes negative literals that the positive ones imply.
     pub(crate) fn without_implied(&mut self, literals: &mut Vec<Lit>) {
         self.marks.take(self.exclusions, literals);
         literals.retain(|&l| l & 1 == 0 || !self.marks.exclude(self.exclusions, l >> 1));
     }
 
-    /// The precondition with that none of the conjunctions in `never` holds; `None` if it cannot be.
+    /// Adds to the precondition that no conjunction in `never` holds; `None` if that is impossible.
     pub(crate) fn without(&mut self, precondition: Vec<Lit>, never: &[Vec<Lit>]) -> Option<Vec<Lit>> {
         let mut all = precondition;
         for conjunction in never {
@@ -233,7 +233,7 @@ impl<'a> Instantiator<'a> {
         }
     }
 
-    /// The atom that says whether a comparison holds.
+    /// The atom that represents a comparison.
     pub(crate) fn comparison(&mut self, comparison: &Comparison<Key>) -> u32 {
         let known = self.numbers.comparison(comparison, self.next);
         self.next = self.next.max(known + 1);

@@ -11,11 +11,11 @@ pub(crate) enum Ground {
     True,
     False,
     Literal(Lit),
-    /// Of literals, as most conditions are: no vector of formulas is made for them.
+    /// A conjunction of literals. Most conditions are one, so they need no vector of formulas.
     Conjunction(Vec<Lit>),
     And(Vec<Ground>),
     Or(Vec<Ground>),
-    /// A comparison, and whether it must hold or must not.
+    /// A comparison, or its negation.
     Compare(Box<Comparison<Key>>),
 }
 
@@ -43,14 +43,15 @@ impl Comparison<Key> {
     }
 }
 
-/// What joins the parts of a formula.
+/// The connective that joins the parts of a formula.
 #[derive(Clone, Copy)]
 pub(super) enum Connective {
     And,
     Or,
 }
 
-/// Folds the parts: what is neutral is left out, what absorbs ends it, and like nests into like.
+/// Folds the parts: drops neutral ones, stops at an absorbing one, and flattens nested formulas of
+/// the same connective.
 pub(super) fn fold_parts<T>(
     connective: Connective,
     parts: impl Iterator<Item = T>,

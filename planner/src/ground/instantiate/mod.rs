@@ -1,10 +1,11 @@
-//! Every instance of every schema, before pruning.
+//! Builds every instance of every schema, before pruning.
 //!
 //! Idea: each binding that reachability found becomes an operator (or a rule) over atoms of the
-//! table; conditional and universal effects are expanded, and literals that the precondition already
-//! decides are dropped from effects' conditions.
+//! table. Conditional and universal effects are expanded. Literals that the precondition implies
+//! are dropped from the conditions of effects.
 //!
-//! In: the normalised model, what reachability found, and the exclusions. Out: a [`RawTask`].
+//! In: the normalised model, the reached atoms and bindings, and the exclusions. Out: a
+//! [`RawTask`].
 
 mod changes;
 mod effects;
@@ -31,10 +32,11 @@ use fold::Instantiator;
 use pddl::model::Name;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// Copies of an operator, one for each way to satisfy its precondition, before an axiom is used.
+/// The most copies of an operator, one for each way to satisfy its precondition; beyond that an
+/// axiom is used.
 const COPIES: usize = 4;
 
-/// Instantiates everything.
+/// Builds all instances.
 pub(crate) fn instantiate(
     model: &Normalised<'_>,
     reached: &Reached,
@@ -93,7 +95,8 @@ pub(crate) fn instantiate(
                     let arguments = &binding[..schema.parameters];
                     for precondition in alternatives {
                         let Some(precondition) = work.without(precondition, &clashes) else { continue };
-                        // Hoisted variables may leave no trace: one operator of equals is enough.
+                        // Bindings may differ only in hoisted variables; one of several equal
+                        // operators is enough.
                         if !schema.hoisted.is_empty()
                             && !seen.insert((Box::<[u32]>::from(arguments), precondition.clone()))
                         {
@@ -153,7 +156,7 @@ fn stopped_at(why: Interrupted, schema: Name, instances: usize) -> GroundError {
     }
 }
 
-/// Two of the literals that exclude each other.
+/// Finds two literals that exclude each other.
 fn rivals(exclusions: &Exclusions, literals: &[Lit]) -> Option<(u32, u32)> {
     let mut by_group = FxHashMap::default();
     for atom in literals.iter().filter(|&&l| l & 1 == 0).map(|l| l >> 1) {

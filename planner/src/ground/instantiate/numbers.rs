@@ -1,4 +1,4 @@
-//! Numeric fluents and comparisons of instances, numbered as they are met.
+//! Numbers the numeric fluents and comparisons of instances in the order in which they are found.
 
 use super::folded::Comparison;
 use crate::ground::normalise::Key;
@@ -6,13 +6,13 @@ use crate::ids::id32;
 use crate::number::Expression;
 use rustc_hash::FxHashMap;
 
-/// Fluents and comparisons, numbered as they are met.
+/// Fluents and comparisons, numbered in the order in which they are found.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Numbers {
     fluents: FxHashMap<Key, u32>,
     pub(crate) keys: Vec<Key>,
     comparisons: FxHashMap<Comparison<u32>, u32>,
-    /// Atoms of comparisons.
+    /// The atoms of comparisons.
     pub(crate) atoms: Vec<(u32, Comparison<u32>)>,
 }
 
@@ -31,7 +31,7 @@ impl Numbers {
         expression.map(&mut |key| self.fluent(key))
     }
 
-    /// The atom of a comparison: `next` if it was not met before.
+    /// The atom of a comparison: `next` if the comparison is new.
     pub(crate) fn comparison(&mut self, comparison: &Comparison<Key>, next: u32) -> u32 {
         let own =
             Comparison { relation: comparison.relation, expression: self.expression(&comparison.expression) };

@@ -1,4 +1,4 @@
-//! One more raw operator: what its precondition decides is left out of its effects.
+//! Adds a raw operator, without the parts of its effects that its precondition decides.
 
 use super::effects::GroundEffect;
 use super::fold::Instantiator;
@@ -9,7 +9,7 @@ use pddl::model::ActionId;
 use std::collections::BTreeMap;
 
 impl RawOperators {
-    /// Adds an operator; gives its size.
+    /// Adds an operator and returns its size.
     pub(super) fn add(
         &mut self,
         work: &mut Instantiator<'_>,
@@ -21,10 +21,10 @@ impl RawOperators {
     ) -> usize {
         let mut always = RawEffects::default();
         let mut by_condition: BTreeMap<Vec<Lit>, RawEffects> = BTreeMap::new();
-        // Leaves the groups of the precondition marked.
+        // This also marks the groups of the precondition.
         work.without_implied(&mut precondition);
         let marks = &work.marks;
-        // What the precondition excludes does not hold, and need not be deleted.
+        // An atom that the precondition excludes does not hold, so it need not be deleted.
         let is_absent = |atom: u32| {
             precondition.binary_search(&(atom << 1)).is_err() && marks.exclude(work.exclusions, atom)
         };
@@ -65,7 +65,7 @@ impl RawOperators {
     }
 }
 
-/// Sorted, without duplicates; an add wins over a delete of the same atom.
+/// Sorts the effects without duplicates; an add wins over a delete of the same atom.
 fn tidy(mut effects: RawEffects) -> RawEffects {
     effects.adds.sort_unstable();
     effects.adds.dedup();

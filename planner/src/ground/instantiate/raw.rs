@@ -8,7 +8,7 @@ use crate::number::{Change, Expression};
 use crate::task::Rows;
 use pddl::model::{ActionId, Objective};
 
-/// Atoms that become true and false.
+/// Atoms that become true, and atoms that become false.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RawEffects {
     pub(crate) adds: Vec<u32>,
@@ -23,13 +23,13 @@ pub(crate) struct RawOperator<'r> {
     pub(crate) precondition: &'r [Lit],
     pub(crate) adds: &'r [u32],
     pub(crate) deletes: &'r [u32],
-    /// Which of all conditional effects are its own.
+    /// The range of its conditional effects.
     pub(crate) conditional: (u32, u32),
     pub(crate) cost: f64,
     pub(crate) numbers: &'r [RawChange],
 }
 
-/// All operators, their parts behind each other: see `Operators`, which they become.
+/// All operators, with their parts in shared vectors like `Operators`, which is built from them.
 #[derive(Default)]
 pub(crate) struct RawOperators {
     pub(super) actions: Vec<ActionId>,
@@ -46,7 +46,7 @@ pub(crate) struct RawOperators {
     pub(super) numbers: Vec<RawChange>,
 }
 
-/// An effect under a condition: that, what it adds and what it deletes.
+/// A conditional effect: its condition, adds and deletes.
 type RawConditional<'r> = (&'r [Lit], &'r [u32], &'r [u32]);
 
 impl RawOperators {
@@ -84,13 +84,13 @@ impl RawOperators {
             .map(|i| (self.conditions.row(i), self.conditional_adds.row(i), self.conditional_deletes.row(i)))
     }
 
-    /// Literals and changes of an operator, those under conditions with them.
+    /// The number of literals and changes of an operator, including conditional effects.
     pub(crate) fn size(&self, of: &RawOperator<'_>) -> usize {
         let conditional: usize = self.conditional(of).map(|(c, a, d)| 4 + c.len() + a.len() + d.len()).sum();
         of.precondition.len() + of.adds.len() + of.deletes.len() + conditional
     }
 
-    /// Units of work to look at all of an operator once.
+    /// The units of work to read an operator once.
     pub(crate) fn work(&self, of: &RawOperator<'_>) -> usize {
         128 + 8 * self.size(of) + 256 * of.numbers.len()
     }
@@ -101,15 +101,15 @@ pub(crate) struct RawTask {
     pub(crate) operators: RawOperators,
     pub(crate) rules: Vec<(u32, Vec<Lit>)>,
     pub(crate) goal: Vec<Lit>,
-    /// Whether some part of the goal folded to false.
+    /// The parts of the goal that folded to false.
     pub(crate) refuted: Vec<Formula>,
-    /// Two atoms of the goal that never hold together.
+    /// Two atoms of the goal that exclude each other.
     pub(crate) exclusive: Option<(u32, u32)>,
-    /// Atoms of the table, then auxiliary ones.
+    /// The number of atoms: those of the table, then auxiliary ones.
     pub(crate) atoms: u32,
     /// Numeric fluents, and comparisons of them among the auxiliary atoms.
     pub(crate) numbers: Numbers,
-    /// What plans are measured by, if that is no sum of costs.
+    /// The metric, if it is not a sum of costs.
     pub(crate) metric: Option<(Objective, Expression<u32>)>,
 }
 
@@ -119,6 +119,6 @@ pub(crate) struct RawChange {
     pub(crate) condition: Vec<Lit>,
     pub(crate) fluent: u32,
     pub(crate) change: Change,
-    /// `None` takes the value away.
+    /// The new value; `None` makes the fluent undefined.
     pub(crate) value: Option<Expression<u32>>,
 }

@@ -1,11 +1,12 @@
-//! The metric: what an operator adds to it.
+//! The metric and the costs of operators.
 //!
-//! Idea: a metric that minimises a weighted sum of fluents without arguments, which actions only
-//! increase by static values and without conditions, is a sum of operator costs, and every search
-//! knows those ([`Measure::Sum`]). Costs become integers by a common power of ten. Without a metric
-//! that some action changes every action costs 1. Any other metric, a maximised one for instance, is
-//! evaluated along a plan ([`Measure::Value`]); operators then cost what they add to it in the
-//! initial state, at least 0, which guides a search and proves nothing.
+//! Idea: suppose that a metric minimises a weighted sum of fluents without arguments, and that
+//! actions only increase these fluents, by static values and without conditions. Then the metric is
+//! a sum of operator costs, which every search supports ([`Measure::Sum`]). A common power of ten
+//! makes these costs integers. Without a metric, or if no action changes it, every action costs 1.
+//! Any other metric (a maximised one, for instance) is evaluated along a plan ([`Measure::Value`]).
+//! An operator then costs what it adds to the metric in the initial state, at least 0; that guides
+//! a search and proves nothing.
 
 use super::fluents::Fluents;
 use crate::number::Number;
@@ -23,24 +24,24 @@ pub(crate) struct CostTerm {
     expression: Expression,
 }
 
-/// How the quality of plans is measured.
+/// The measure of the quality of plans.
 #[derive(Clone, Debug)]
 pub(crate) enum Measure {
-    /// By their length.
+    /// The length of the plan.
     Length,
-    /// By the sum of their operators' costs: the weight of each fluent that the metric reads, and of
-    /// each step.
+    /// The sum of the operators' costs: the weight of each fluent that the metric reads, and the
+    /// weight of each step.
     Sum { weights: FxHashMap<FunctionId, Number>, step: Number },
-    /// By the metric's value in the end.
+    /// The metric's value at the end of the plan.
     Value(Metric),
 }
 
-/// What costs are in this task.
+/// The cost model of a task.
 pub(crate) struct CostModel {
     pub(crate) measure: Measure,
 }
 
-/// Why an operator has no cost of its own.
+/// The reason why an operator has no cost.
 pub(crate) enum NoCost {
     /// It has no result, so it can never be applied.
     Inapplicable,
@@ -49,7 +50,7 @@ pub(crate) enum NoCost {
 }
 
 impl CostModel {
-    /// `additive` says whether a sum of operator costs may be tried.
+    /// `additive`: whether to try a sum of operator costs.
     pub(crate) fn new(domain: &Domain, problem: &Problem, fluents: &Fluents, additive: bool) -> Self {
         let Some(metric) = &problem.metric else { return Self { measure: Measure::Length } };
         let sign = if metric.objective == Objective::Minimize { 1 } else { -1 };
@@ -68,7 +69,7 @@ impl CostModel {
         if sums { Self { measure: Measure::Sum { weights: sum.weights, step: sum.step } } } else { value }
     }
 
-    /// What a numeric effect adds to the operator's cost.
+    /// The term that a numeric effect adds to the operator's cost.
     pub(crate) fn term(
         &self,
         operator: AssignOperator,
@@ -100,7 +101,7 @@ impl CostModel {
     }
 }
 
-/// Where a metric's text is.
+/// The span of the metric's text.
 pub(crate) fn metric_span(problem: &Problem) -> Span {
     problem.metric.as_ref().map_or(problem.goal_span, |metric| metric.expression.span)
 }
@@ -117,7 +118,7 @@ impl Default for WeightedSum {
 }
 
 impl WeightedSum {
-    /// Adds a multiple of the expression; `None` if that is no weighted sum.
+    /// Adds a multiple of the expression; `None` if the result is not a weighted sum.
     fn add(&mut self, e: &Expression, weight: Number) -> Option<()> {
         match &e.kind {
             ExpressionKind::Number(_) => Some(()),
@@ -151,7 +152,7 @@ impl WeightedSum {
     }
 }
 
-/// Whether the effect changes weighted fluents by adding static values without conditions only.
+/// Whether the effect changes weighted fluents only by adding static values without conditions.
 fn only_adds(
     effect: &Effect,
     unconditional: bool,

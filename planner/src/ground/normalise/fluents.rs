@@ -1,8 +1,8 @@
-//! Numeric fluents before grounding: initial values, and which functions change and are read.
+//! Numeric fluents before grounding: initial values, and which functions are changed and read.
 //!
-//! Idea: a function that no action changes is a table of constants, and expressions fold over it. Of
-//! the others only those that something reads are worth a place in the state. Undefined initial values
-//! are no entries; `total-cost` starts at 0 even where `:init` forgets to say so.
+//! Idea: a function that no action changes is a table of constants, and expressions are folded over
+//! it. Of the other functions, only those that are read get a place in the state. A fluent without
+//! an initial value has no entry; `total-cost` starts at 0 even if `:init` does not define it.
 
 use crate::ground::binding::resolve;
 use crate::ground::error::{Feature, GroundError, Origin};
@@ -17,19 +17,19 @@ use rustc_hash::{FxHashMap, FxHashSet};
 /// A numeric fluent: its function and its arguments.
 pub(crate) type Key = (FunctionId, Box<[u32]>);
 
-/// Stands for `total-time`, which is how many steps a plan has.
+/// Stands for `total-time`, the number of steps of a plan.
 pub(crate) const STEPS: FunctionId = FunctionId(u32::MAX);
 
-/// What the model says of numeric fluents.
+/// The numeric fluents of the model.
 pub(crate) struct Fluents {
     values: FxHashMap<Key, Number>,
-    /// Some action changes it.
+    /// Functions that some action changes.
     changed: FxHashSet<FunctionId>,
-    /// Some action assigns it, so that what has no value may get one.
+    /// Functions that some action assigns, so that an undefined fluent may get a value.
     assigned: FxHashSet<FunctionId>,
-    /// Some action takes its value away.
+    /// Functions that some action makes undefined.
     undefined: FxHashSet<FunctionId>,
-    /// Some condition, effect or metric reads it.
+    /// Functions that some condition, effect or metric reads.
     read: FxHashSet<FunctionId>,
 }
 
@@ -94,7 +94,7 @@ impl Fluents {
         effect.parts().iter().try_for_each(|part| self.effect(part))
     }
 
-    /// Marks what an expression reads.
+    /// Marks the functions that an expression reads.
     pub(crate) fn reads(&mut self, expression: &Written, origin: Origin) -> Result<(), GroundError> {
         let mut large_at = None;
         expression.each(&mut |part| match &part.kind {
@@ -125,8 +125,8 @@ impl Fluents {
         self.assigned.contains(&key.0) || self.values.contains_key(key)
     }
 
-    /// Whether states may have to hold it. Of the others, who changes one needs only that it has a
-    /// value, and the initial value tells.
+    /// Whether states may have to hold the fluents of this function. If not, an action that changes
+    /// one needs only that it has a value, which the initial state decides.
     pub(crate) fn is_tracked(&self, function: FunctionId) -> bool {
         let among = |set: &FxHashSet<FunctionId>| set.contains(&function);
         among(&self.read) || among(&self.assigned) || among(&self.undefined)
@@ -145,7 +145,7 @@ impl Fluents {
         fixed
     }
 
-    /// An expression under a binding, constants folded.
+    /// Folds constants in an expression under a binding.
     pub(crate) fn fold(&self, expression: &Written, binding: &[u32]) -> Result<Expression<Key>, NoValue> {
         match &expression.kind {
             ExpressionKind::Number(value) => {
@@ -173,13 +173,13 @@ impl Fluents {
                     ArithmeticOperator::Divide => sum.over(part?),
                 })
             }
-            // In a metric alone: what counts the steps.
+            // Occurs only in a metric: the number of steps.
             ExpressionKind::TotalTime => Ok(Expression::fluent((STEPS, Box::default()))),
             ExpressionKind::Duration | ExpressionKind::IsViolated(_) => Err(NoValue::Undefined),
         }
     }
 
-    /// The difference of two expressions under a binding, constants folded.
+    /// The difference of two expressions under a binding, with constants folded.
     pub(crate) fn difference(
         &self,
         left: &Written,
@@ -189,7 +189,7 @@ impl Fluents {
         self.fold(left, binding)?.minus(self.fold(right, binding)?)
     }
 
-    /// The value of an expression that is static.
+    /// The value of a static expression.
     pub(crate) fn value(&self, expression: &Written, binding: &[u32]) -> Result<Number, NoValue> {
         self.fold(expression, binding)?.as_constant().ok_or(NoValue::Undefined)
     }

@@ -1,10 +1,12 @@
 //! Conditions in negation normal form.
 //!
-//! Idea: negations pushed to the literals, implications gone, conjunctions and disjunctions flat,
-//! quantifiers split over what has nothing to do with each other, existential variables of the top
-//! level hoisted to be joined like parameters. What stays nested (universal parts, disjunctions) is
-//! expanded once a binding is known, where static facts decide most of it; what is left becomes copies of the operator or an auxiliary axiom, so no exponential
-//! normal form is ever built. Invariant: the formula is equivalent to the condition, negated or not.
+//! Idea: push negations to the literals, remove implications, flatten conjunctions and
+//! disjunctions, split quantifiers over independent parts, and hoist existential variables from the
+//! top level, so that they are joined like parameters. Nested parts (universal quantifiers,
+//! disjunctions) are expanded when a binding is known and static facts decide most of them. The
+//! remaining disjunctions become copies of the operator or an auxiliary axiom, so no exponential
+//! normal form is ever built. Invariant: the formula is equivalent to the condition, negated or
+//! not.
 //!
 //! Source: Helmert, "Concise finite-domain representations", AIJ 2009, §4.
 
@@ -24,7 +26,7 @@ pub(crate) struct Literal {
     pub(crate) arguments: Box<[Term]>,
 }
 
-/// A condition without negations above literals.
+/// A condition in which only literals are negated.
 #[derive(Clone, Debug)]
 pub(crate) enum Formula {
     And(Vec<Formula>),
@@ -37,14 +39,14 @@ pub(crate) enum Formula {
         left: Term,
         right: Term,
     },
-    /// Whether an object is of some types: the objects that are.
+    /// Whether an object is one of these objects, which have the required types.
     OneOf {
         positive: bool,
         term: Term,
         range: Arc<Range>,
     },
-    /// How `left - right` relates to 0. Without a value it is in no relation, so negation is another
-    /// relation and not the opposite truth.
+    /// The relation of `left - right` to 0. An undefined value is in no relation, so the negation
+    /// of a comparison is another relation and not its complement.
     Compare {
         relation: Relation,
         left: Arc<Expression>,
@@ -52,7 +54,7 @@ pub(crate) enum Formula {
     },
 }
 
-/// The relation of a comparison or of its negation, and whether its sides are to be swapped.
+/// The relation of a comparison or of its negation, and whether to swap its sides.
 fn relation(comparison: Comparison, positive: bool) -> (Relation, bool) {
     match (comparison, positive) {
         (Comparison::Greater, true) => (Relation::Positive, false),
@@ -119,7 +121,7 @@ impl Formula {
                 let share = |side: &Expression| Arc::new(side.clone());
                 Self::Compare { relation, left: share(left), right: share(right) }
             }
-            // These became atoms before.
+            // Object fluents were compiled to atoms before.
             (ConditionKind::FluentIs(..), _) => return unsupported(Feature::OutsideTheModel),
         })
     }
@@ -133,7 +135,7 @@ impl Formula {
                 other => flat.push(other),
             }
         }
-        // Cheap tests first: a false literal spares the expansion of a quantifier.
+        // Cheap tests come first: a false literal saves the expansion of a quantifier.
         flat.sort_by_key(Self::rank);
         if flat.len() == 1 { flat.remove(0) } else { Self::And(flat) }
     }
@@ -162,9 +164,9 @@ impl Formula {
         }
     }
 
-    /// Takes existential quantifiers off the top: their variables, and the rest. Of variables that have
-    /// nothing to do with each other only the first are taken, with those that they are connected to:
-    /// the join of the others would be their product, and under a quantifier they are a sum.
+    /// Removes existential quantifiers from the top and returns the rest. Only the first group of
+    /// connected variables is hoisted: joining independent groups would multiply their bindings,
+    /// and under a quantifier they only add up.
     pub(crate) fn hoisted(self, variables: &mut Vec<VariableId>) -> Self {
         let mut own = Vec::new();
         let inner = self.pulled(&mut own);
@@ -179,7 +181,7 @@ impl Formula {
         Self::and(rest)
     }
 
-    /// `exists`, one for each group of variables that have to do with each other.
+    /// `exists`, one for each group of connected variables.
     fn exists(vs: Vec<VariableId>, inner: Self) -> Self {
         let parts = if let Self::And(parts) = inner { parts } else { vec![inner] };
         let (groups, mut all) = components(vs, parts);
@@ -187,7 +189,7 @@ impl Formula {
         Self::and(all)
     }
 
-    /// `forall`, one for each group of variables that have to do with each other.
+    /// `forall`, one for each group of connected variables.
     fn forall(vs: Vec<VariableId>, inner: Self) -> Self {
         let parts = if let Self::Or(parts) = inner { parts } else { vec![inner] };
         let (groups, mut all) = components(vs, parts);
@@ -206,7 +208,7 @@ impl Formula {
         }
     }
 
-    /// The variables that it mentions, more often than once if it does.
+    /// Appends the variables that it mentions, with repetitions.
     fn mention(&self, variables: &mut Vec<VariableId>) {
         let mut term = |t: &Term| {
             if let Term::Variable(v) = t {
@@ -231,8 +233,8 @@ impl Formula {
         }
     }
 
-    /// Disjuncts whose union is the formula: disjunctions at the top are multiplied out as long as
-    /// there are at most `limit`; beyond that they stay nested.
+    /// Disjuncts whose disjunction is the formula. Disjunctions at the top are multiplied out up to
+    /// `limit` disjuncts; beyond that they stay nested.
     pub(crate) fn disjuncts(self, limit: usize) -> Vec<Self> {
         match self {
             Self::Or(parts) => parts.into_iter().flat_map(|p| p.disjuncts(limit)).collect(),
@@ -272,7 +274,7 @@ impl Formula {
         matches!(self, Self::Literal(_) | Self::Same { .. } | Self::OneOf { .. })
     }
 
-    /// How many literals and tests it is made of.
+    /// The number of literals and tests in it.
     pub(crate) fn leaves(&self) -> usize {
         match self {
             Self::And(parts) | Self::Or(parts) => parts.iter().map(Self::leaves).sum(),
@@ -281,7 +283,7 @@ impl Formula {
         }
     }
 
-    /// Whether it can never hold, by its structure alone.
+    /// Whether its structure alone shows that it never holds.
     pub(crate) fn is_refuted(&self) -> bool {
         self.conjuncts().iter().any(|c| matches!(c, Self::Or(parts) if parts.is_empty()))
     }
@@ -298,8 +300,8 @@ impl Formula {
 /// Variables, and the parts that mention them.
 type Component = (Vec<VariableId>, Vec<Formula>);
 
-/// Groups of variables that have to do with each other, each with the parts that mention them; and the
-/// parts that mention none. Splitting a quantifier over these makes a sum of a product.
+/// Groups of connected variables, each with the parts that mention them; and the parts that mention
+/// none. Splitting a quantifier over these groups replaces a product by a sum.
 fn components(variables: Vec<VariableId>, parts: Vec<Formula>) -> (Vec<Component>, Vec<Formula>) {
     let mut groups: Vec<Component> = variables.into_iter().map(|v| (vec![v], Vec::new())).collect();
     let mut rest = Vec::new();
@@ -311,7 +313,7 @@ fn components(variables: Vec<VariableId>, parts: Vec<Formula>) -> (Vec<Component
             rest.push(part);
             continue;
         };
-        // The other groups that the part touches become one with the first of them.
+        // The part connects several groups: merge the others into the first.
         let (joined, apart): (Vec<_>, Vec<_>) = groups.drain(at + 1..).partition(touched);
         groups.extend(apart);
         for (vs, parts) in joined {

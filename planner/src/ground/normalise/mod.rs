@@ -1,8 +1,9 @@
-//! The model in the form that the later stages read.
+//! Normalises the model for the later stages.
 //!
-//! Object fluents become predicates (`values`), conditions negation normal form (`formula`), actions and axioms
-//! schemas (`schema`), numeric fluents a table of what is constant (`fluents`), the metric costs of operators
-//! (`cost`). In: a domain and a problem that forward search supports. Out: [`Normalised`].
+//! Object fluents become predicates (`values`), conditions get negation normal form (`formula`),
+//! actions and axioms become schemas (`schema`), constant numeric fluents become a table
+//! (`fluents`), and the metric becomes operator costs (`cost`). In: a domain and a problem that
+//! forward search supports. Out: [`Normalised`].
 
 mod cost;
 mod fluents;
@@ -27,21 +28,21 @@ use std::sync::Arc;
 pub(crate) struct Normalised<'m> {
     pub(crate) domain: &'m Domain,
     pub(crate) problem: &'m Problem,
-    /// Predicates that the outside changes.
+    /// Predicates that outside events change.
     pub(crate) exogenous: &'m [PredicateId],
-    /// Which predicates stand for object fluents.
+    /// The predicates that stand for object fluents.
     pub(crate) values: ValuePredicates,
-    /// By predicate: whether neither an action, an axiom nor the outside changes it.
+    /// By predicate: whether no action, axiom or outside event changes it.
     pub(crate) is_static: Vec<bool>,
     pub(crate) fluents: Fluents,
     pub(crate) costs: CostModel,
-    /// Actions in their order, then rules of axioms.
+    /// Actions in their order, then the rules of axioms.
     pub(crate) schemas: Vec<Schema>,
     pub(crate) goal: Formula,
     pub(crate) goal_slots: Vec<Arc<Range>>,
 }
 
-/// Normalises a model without object fluents. `additive` says whether to try costs that are summed up.
+/// Normalises a model without object fluents. `additive`: whether to try a sum of operator costs.
 pub(crate) fn normalise<'m>(
     domain: &'m Domain,
     problem: &'m Problem,

@@ -1,4 +1,4 @@
-//! Action and axiom schemas, normalised for the join.
+//! Action and axiom schemas, normalised for joins.
 
 use super::cost::{CostModel, CostTerm};
 use super::fluents::Fluents;
@@ -154,9 +154,9 @@ struct Collected {
     numbers: NumericEffects,
 }
 
-/// The quantifiers and conditions around an effect. For an atom, the variables of existential conditions are quantified
-/// like universal ones, because adding an atom once per witness changes nothing. For a number this would be wrong: it
-/// must not be increased once per witness.
+/// The quantifiers and conditions around an effect. For an atom, the variables of existential
+/// conditions are quantified like universal ones, because adding an atom once per witness changes
+/// nothing. For a number this would be wrong: it must not be increased once per witness.
 #[derive(Clone)]
 struct Around {
     quantified: Vec<VariableId>,

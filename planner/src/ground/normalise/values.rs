@@ -1,13 +1,14 @@
-//! Object fluents as predicates.
+//! Compiles object fluents to predicates.
 //!
-//! Problem: joins, invariants and states know atoms only. Idea: a function `(f ?x) - t` becomes a
-//! predicate `(f ?x ?value)` of which at most one atom per `?x` holds: `(= (f ?x) ?v)` is the atom, an
-//! assignment adds the new one and deletes the others (only the one that the precondition names,
-//! where it names one), `undefined` is no atom. Two assignments of one fluent at once conflict and
-//! the action has no result: `raw` keeps instances apart whose values differ, and here an assignment
-//! and an `undefined` of one fluent forbid each other in the precondition. Invariant: the new
-//! predicates follow all of the domain's, in the order of their functions, so that every id of the
-//! model keeps its meaning. Cost: a copy of the model, and only where there are object fluents.
+//! Problem: joins, invariants and states support only atoms. Idea: a function `(f ?x) - t` becomes
+//! a predicate `(f ?x ?value)`, of which at most one atom per `?x` holds. `(= (f ?x) ?v)` is the
+//! atom. An assignment adds the new atom and deletes the others (only one, if the precondition
+//! names the old value). `undefined` means that no atom holds. Two simultaneous assignments of one
+//! fluent conflict, and the action has no result. Two different values are
+//! detected for each instance (`instantiate::effects`). An assignment and an `undefined` of one
+//! fluent are forbidden here, in the precondition. Invariant: the new predicates follow those of
+//! the domain, in the order of their functions, so every id of the model keeps its meaning. Cost: a
+//! copy of the model, but only if there are object fluents.
 //!
 //! Source: Helmert, "Changes in PDDL 3.1", 2008; Geffner, "Functional STRIPS", 2000.
 
@@ -20,7 +21,7 @@ use pddl::model::{
 };
 use rustc_hash::FxHashMap;
 
-/// The model without object fluents; `None` if it has none.
+/// Returns the model without object fluents; `None` if it has none.
 pub(crate) fn compile(domain: &Domain, problem: &Problem) -> Option<(Domain, Problem, ValuePredicates)> {
     let functions: Vec<FunctionId> = domain
         .functions
@@ -65,13 +66,13 @@ struct Compiler {
     of: FxHashMap<FunctionId, (PredicateId, TypeSet)>,
 }
 
-/// An assignment with what is around it.
+/// An assignment with its quantifiers and conditions.
 #[derive(Clone)]
 struct Assignment {
     quantified: Vec<VariableId>,
     conditions: Vec<Condition>,
     fluent: Application,
-    /// Whether a value is given or taken away.
+    /// Whether the fluent gets a value or becomes undefined.
     gives: bool,
 }
 
@@ -198,7 +199,7 @@ impl Compiler {
     }
 }
 
-/// Any name will do: nothing looks it up.
+/// Any name will do, because it is never looked up.
 fn variables_name(variables: &Variables, fluent: &Application) -> pddl::model::Name {
     let named = variables.slots.iter().next().map(|v| v.name.clone());
     named.unwrap_or_else(|| pddl::model::Name::new(&format!("value-{}", fluent.function.index())))
@@ -208,7 +209,7 @@ fn same_fluent(a: &Application, b: &Application) -> bool {
     a.function == b.function && a.arguments == b.arguments
 }
 
-/// The values that a conjunction names.
+/// The values of fluents that a conjunction requires.
 fn known_values(condition: &Condition) -> Vec<(Application, Term)> {
     match &condition.kind {
         ConditionKind::And(parts) => parts.iter().flat_map(known_values).collect(),
@@ -217,7 +218,7 @@ fn known_values(condition: &Condition) -> Vec<(Application, Term)> {
     }
 }
 
-/// The condition that both do not happen to one fluent; `None` where they cannot.
+/// The condition that the two assignments do not both happen to one fluent; `None` if they cannot.
 fn apart(taken: &Assignment, given: &Assignment) -> Option<Condition> {
     let span = taken.fluent.span;
     let undefined: Vec<&Application> = taken.conditions.iter().flat_map(without_value).collect();
@@ -237,7 +238,7 @@ fn apart(taken: &Assignment, given: &Assignment) -> Option<Condition> {
     Some(Condition { kind: ConditionKind::Not(Box::new(both)), span })
 }
 
-/// The fluents of which a conjunction says that they have no value.
+/// The fluents that a conjunction requires to be undefined.
 fn without_value(condition: &Condition) -> Vec<&Application> {
     match &condition.kind {
         ConditionKind::And(parts) => parts.iter().flat_map(without_value).collect(),

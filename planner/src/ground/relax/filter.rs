@@ -13,7 +13,7 @@ pub(crate) enum Filter {
         left: Term,
         right: Term,
     },
-    /// An object that must be, or must not be, in a range.
+    /// The object must be, or must not be, in a range.
     OneOf {
         positive: bool,
         term: Term,
@@ -24,7 +24,7 @@ pub(crate) enum Filter {
         predicate: PredicateId,
         arguments: Box<[Term]>,
     },
-    /// How `left - right` relates to 0, where no action changes either.
+    /// The relation of `left - right` to 0, if no action changes either.
     Compare {
         relation: Relation,
         left: Arc<Expression>,

@@ -2,11 +2,11 @@
 //!
 //! Problem: the instances of a schema are a join of the atoms of its condition, and enumerating
 //! bindings by type explodes. Idea: each rule (an action, a conditional effect, an axiom) gets one
-//! join plan per changing atom of its body. A newly reached atom triggers its plans; the other atoms
-//! are looked up in hash indices on exactly the positions that are bound by then, most selective
-//! first, static ones with measured selectivity. Invariant: when atom `n` triggers, indices hold the
-//! atoms up to `n`, and body positions before the trigger skip `n` itself, so that each instance is
-//! found exactly once. Cost: proportional to the partial joins met.
+//! join plan for each changing atom of its body. A newly reached atom triggers its plans. The other
+//! atoms are looked up in hash indices on exactly the positions that are already bound, most
+//! selective first; the selectivity of static atoms is measured. Invariant: when atom `n` triggers,
+//! the indices contain the atoms up to `n`, and body positions before the trigger skip `n` itself,
+//! so each instance is found exactly once. Cost: proportional to the number of partial joins.
 //!
 //! Source: Helmert, "Concise finite-domain representations", AIJ 2009, §6 (grounding as Datalog);
 //! Ullman, "Principles of database and knowledge-base systems", 1989, ch. 3 (semi-naive evaluation).
@@ -90,9 +90,9 @@ struct Out<'a> {
     schemas: &'a [Schema],
     table: AtomTable,
     bindings: Vec<Bindings>,
-    /// Of one instance, by schema.
+    /// By schema: the bytes of one instance.
     instance_bytes: Vec<usize>,
-    /// Of everything that was found.
+    /// The bytes of all atoms and instances found so far.
     bytes: usize,
     meter: &'a Meter<'a>,
     fluents: &'a Fluents,
@@ -107,7 +107,7 @@ impl Out<'_> {
         if why == Interrupted::Memory { self.limit(own) } else { self.interrupted(own) }
     }
 
-    /// Names the schema with the most bytes, or the one that was at work.
+    /// The error for the schema with the most bytes, or for the current one.
     fn limit(&self, own: usize) -> GroundError {
         let bytes = |i: &usize| (self.bindings[*i].rows * self.instance_bytes[*i], *i == own);
         let largest = (0..self.schemas.len()).max_by_key(bytes).unwrap_or(own);

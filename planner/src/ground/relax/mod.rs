@@ -1,7 +1,7 @@
-//! Which atoms and instances the delete relaxation reaches.
+//! Reachability of atoms and instances in the delete relaxation.
 //!
-//! Conditions become rules (`rule`), rules ordered joins (`plan`), and joins run to a fixpoint (`join`). In: the
-//! normalised model. Out: [`Reached`].
+//! Conditions become rules (`rule`), rules become ordered joins (`plan`), and joins run to a
+//! fixpoint (`join`). In: the normalised model. Out: [`Reached`].
 
 mod filter;
 mod indices;
@@ -19,10 +19,10 @@ use crate::task::AtomTable;
 use budget::{Interrupted, Meter};
 use pddl::model::{Domain, Fact, Idx, PredicateId};
 
-/// What reachability found.
+/// The reachable atoms and instances.
 pub(crate) struct Reached {
     pub(crate) table: AtomTable,
-    /// So many atoms come first in the table, and never change.
+    /// The number of atoms that come first in the table and never change.
     pub(crate) statics: u32,
     /// Atoms that change and hold initially.
     pub(crate) initial: Vec<u32>,
@@ -30,7 +30,7 @@ pub(crate) struct Reached {
     pub(crate) bindings: Vec<Bindings>,
 }
 
-/// Reaches all atoms and instances.
+/// Computes all reachable atoms and instances.
 pub(crate) fn relax(model: &Normalised<'_>, meter: &Meter<'_>) -> Result<Reached, Failure> {
     let (domain, problem, is_static) = (model.domain, model.problem, &model.is_static);
     let mut table = AtomTable::new(domain.predicates.len(), problem.objects.len());

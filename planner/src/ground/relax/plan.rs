@@ -1,8 +1,9 @@
 //! The order of a join.
 //!
-//! Idea: greedily take the atom with the fewest expected matches given what is bound: for static
-//! predicates the measured mean bucket of the index, for changing ones the product of what its free
-//! variables can be. Filters run as soon as they are bound; fully bound atoms are mere probes.
+//! Idea: greedily choose the atom with the fewest expected matches, given the bound variables. For
+//! a static predicate that is the measured mean bucket size of the index; for a changing one it is
+//! the product of the possible values of its free variables. Filters run as soon as their variables
+//! are bound. An atom whose variables are all bound is a single look-up.
 
 use super::filter::{Filter, is_bound};
 use super::indices::Indices;
@@ -31,7 +32,7 @@ pub(crate) enum Step {
     },
 }
 
-/// The steps after a trigger.
+/// The steps of a join after its trigger.
 #[derive(Clone, Debug)]
 pub(crate) struct JoinPlan {
     pub(crate) trigger: Option<usize>,
@@ -60,7 +61,7 @@ impl<'a> Statistics<'a> {
     }
 
     fn distinct(&mut self, predicate: PredicateId, positions: &[usize]) -> usize {
-        // Once the meter refuses, the stage ends and the number is not used.
+        // If the meter refuses, the stage ends and the number is not used.
         let (table, meter, atoms) = (self.table, self.meter, self.of_predicate.get(&predicate));
         *self.distinct.entry((predicate, positions.to_vec())).or_insert_with(|| {
             let atoms = atoms.into_iter().flatten().take_while(|_| meter.spend(64).is_ok());
@@ -70,7 +71,7 @@ impl<'a> Statistics<'a> {
     }
 }
 
-/// How many values each slot can take, as far as types and static atoms tell.
+/// The number of values of each slot, as far as types and static atoms restrict them.
 #[expect(clippy::cast_precision_loss, reason = "an estimate")]
 fn widths(rule: &Rule, is_static: &[bool], statistics: &mut Statistics<'_>) -> Vec<f64> {
     let mut widths: Vec<f64> = rule.slots.iter().map(|r| r.objects.len() as f64).collect();
@@ -127,7 +128,7 @@ pub(crate) fn plan(
                 free.dedup();
                 free.iter().map(|&s| widths[s]).product()
             };
-            // Among equals the one with more bound positions, then the first.
+            // Among equals, take the first.
             if best.is_none_or(|(m, _)| matches < m) {
                 best = Some((matches, i));
             }

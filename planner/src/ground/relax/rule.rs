@@ -1,4 +1,4 @@
-//! Rules of reachability: what must be joined, and what follows.
+//! Rules of reachability: the body to join, and the heads that follow.
 
 use super::filter::Filter;
 use crate::ground::normalise::{Fluents, Formula, Literal, Product, Range, Schema};
@@ -12,12 +12,12 @@ pub(crate) struct BodyAtom {
     pub(crate) arguments: Box<[Term]>,
 }
 
-/// `heads` follow where `body` is reachable and the filters hold.
+/// `heads` are reachable if `body` is reachable and the filters hold.
 #[derive(Clone, Debug)]
 pub(crate) struct Rule {
     pub(crate) schema: usize,
     pub(crate) slots: Vec<Arc<Range>>,
-    /// What must be bound.
+    /// The variables that must be bound.
     pub(crate) variables: Vec<VariableId>,
     pub(crate) body: Vec<BodyAtom>,
     pub(crate) filters: Vec<Filter>,
@@ -43,7 +43,7 @@ impl Rule {
         rule
     }
 
-    /// Adds the conjuncts that a join can use; the rest is an over-approximation's to ignore.
+    /// Adds the conjuncts that a join can use. The others are ignored, which over-approximates.
     fn require(&mut self, formula: &Formula, is_static: &[bool], fluents: &Fluents) {
         for conjunct in formula.conjuncts() {
             match conjunct {

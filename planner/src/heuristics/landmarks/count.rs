@@ -1,9 +1,11 @@
-//! What the landmarks cost that are still to be achieved, with operators that achieve one next as preferred.
+//! The landmark-count heuristic: the cost of the landmarks that are still to be achieved.
 //!
-//! Idea: a landmark is accepted on a path once it holds and all that is ordered before it was
-//! accepted; it is needed again if it does not hold and is a goal, or right before something that is
-//! not accepted. Each counts what its cheapest achiever costs: 1 where all operators count 1. Path-dependent: each state keeps the accepted set of the path that found it. Neither
-//! admissible nor consistent; safe: infinite only where a goal was lost that nothing achieves.
+//! Idea: a landmark is accepted on a path once it holds and all landmarks ordered before it were
+//! accepted. An accepted landmark is needed again if it does not hold, and it is a goal or must
+//! hold right before a landmark that is not accepted. Each counts the cost of its cheapest achiever
+//! (1 if all operators count 1). Operators that achieve a landmark next are preferred.
+//! Path-dependent: each state keeps the accepted set of the path that found it. Neither admissible
+//! nor consistent; safe: infinite only if a goal was lost that no operator achieves.
 //!
 //! Source: Richter & Westphal, "The LAMA planner", JAIR 2010, §4.
 
@@ -19,7 +21,7 @@ pub(crate) struct LandmarkCount<'a> {
     graph: &'a Relaxation,
     meter: &'a SearchMeter<'a>,
     landmarks: &'a LandmarkGraph,
-    /// What each landmark counts.
+    /// The cost that each landmark counts.
     prices: Vec<u32>,
     width: usize,
     /// Accepted landmarks, `width` words a state.
@@ -49,7 +51,8 @@ impl<'a> LandmarkCount<'a> {
         self.landmarks.landmarks[landmark].before.iter().all(|&b| bit(accepted, b as usize))
     }
 
-    /// Operators that achieve a landmark whose turn it is; single facts count before disjunctions.
+    /// The operators that achieve a landmark whose predecessors are accepted; single facts come
+    /// before disjunctions.
     fn promising(&self, accepted: &[u64], applicable: &[OperatorId], preferred: &mut Vec<OperatorId>) {
         let mut disjunctive = Vec::new();
         let before = preferred.len();
@@ -78,7 +81,7 @@ impl<'a> LandmarkCount<'a> {
     }
 }
 
-/// By landmark: what its cheapest achiever counts.
+/// By landmark: the counted cost of its cheapest achiever.
 fn prices(graph: &Relaxation, landmarks: &LandmarkGraph, costs: Costs) -> Vec<u32> {
     if costs == Costs::Unit {
         return vec![1; landmarks.landmarks.len()];
@@ -92,7 +95,7 @@ fn prices(graph: &Relaxation, landmarks: &LandmarkGraph, costs: Costs) -> Vec<u3
         }
     }
     let price = |p: &u32| Some(cheapest[*p as usize]).filter(|&c| c != u32::MAX);
-    // What nothing achieves holds at the start, or never; then the estimate is no matter.
+    // A landmark without achievers holds at the start or never; then its price has no effect.
     landmarks.landmarks.iter().map(|l| l.propositions.iter().filter_map(price).min().unwrap_or(1)).collect()
 }
 

@@ -1,12 +1,13 @@
 //! The landmark graph: fact and disjunctive landmarks, and orders between them.
 //!
-//! Orders: *natural*, one is in the other's label; *greedy-necessary*, it is needed by every first
-//! achiever, so it must hold right before; *reasonable*, achieving the later one first would have to
-//! undo it. Reasonable orders are guidance and need not be sound; edges that close a cycle are left
-//! out. Interference is read off mutexes and off the effects that all achievers share.
+//! Orders between two landmarks: *natural*, the earlier is in the label of the later;
+//! *greedy-necessary*, every first achiever of the later needs the earlier, so it must hold right
+//! before; *reasonable*, if the later were achieved first, it would have to be undone for the
+//! earlier. Reasonable orders only guide the search and need not be sound; edges that close a cycle
+//! are dropped. Interference is derived from mutexes and from the effects that all achievers share.
 //!
 //! Source: Hoffmann, Porteous & Sebastia, "Ordered landmarks in planning", JAIR 2004; Richter &
-//! Westphal, "The LAMA planner", JAIR 2010, §4. We find fact landmarks by labels.
+//! Westphal, "The LAMA planner", JAIR 2010, §4. We find fact landmarks by label propagation.
 
 use super::labels::Labels;
 use crate::ids::{FactId, id32};
@@ -16,27 +17,27 @@ use pddl::model::PredicateId;
 use rustc_hash::FxHashMap;
 use std::collections::hash_map::Entry;
 
-/// Most facts of a disjunctive landmark.
+/// The most facts of a disjunctive landmark.
 const DISJUNCTS: usize = 4;
-/// Landmarks beyond this many are not ordered reasonably (quadratic work).
+/// Above this many landmarks, reasonable orders are not computed (quadratic work).
 const REASONABLE: usize = 1500;
 
-/// A landmark: one of its propositions must hold at some time.
+/// A landmark: one of its propositions must hold at some time in every plan.
 #[derive(Clone, Debug)]
 pub(crate) struct Landmark {
     pub(crate) propositions: Vec<u32>,
     pub(crate) is_goal: bool,
-    /// Whether nothing achieves it: once lost, it never holds again.
+    /// Whether no operator achieves it: once lost, it never holds again.
     pub(crate) is_final: bool,
-    /// Landmarks that must be accepted before.
+    /// Landmarks that must be accepted before it.
     pub(crate) before: Vec<u32>,
-    /// Landmarks for which this one must hold right before.
+    /// Landmarks right before which this one must hold.
     pub(crate) needed_for: Vec<u32>,
 }
 
 pub(crate) struct LandmarkGraph {
     pub(crate) landmarks: Vec<Landmark>,
-    /// By proposition: the landmarks that hold it.
+    /// By proposition: the landmarks that contain it.
     pub(crate) of: FxHashMap<u32, Vec<u32>>,
 }
 
@@ -52,7 +53,7 @@ struct Builder<'a> {
 }
 
 impl LandmarkGraph {
-    /// The graph for a question.
+    /// Builds the graph for a query.
     pub(crate) fn of(
         task: &Task,
         graph: &Relaxation,
@@ -66,8 +67,8 @@ impl LandmarkGraph {
         Self::new(task, graph, labels.as_ref(), &graph.literals(&goal.literals), meter)
     }
 
-    /// The graph for a goal; goals alone where labels are missing. Incomplete where the meter is
-    /// stopped.
+    /// Builds the graph for a goal; without labels it has only the goals. It is incomplete if the
+    /// meter is stopped.
     fn new(
         task: &Task,
         graph: &Relaxation,
@@ -116,7 +117,7 @@ impl LandmarkGraph {
         }
         builder.found.without_cycles();
         for landmark in &mut builder.found.landmarks {
-            // The negation of a derived fact comes and goes without an achiever.
+            // The negation of a derived fact can become true without an achiever.
             let lost = |&p: &u32| {
                 let (fact, positive) = graph.literal(p);
                 builder.achieved_by.row(p).is_empty() && (positive || !task.facts[fact].derived)
@@ -141,7 +142,7 @@ impl LandmarkGraph {
         id
     }
 
-    /// Drops orders that close a cycle: those met on the current path of a depth-first walk.
+    /// Drops orders that close a cycle: edges back to the current path of a depth-first search.
     fn without_cycles(&mut self) {
         let n = self.landmarks.len();
         let mut state = vec![0_u8; n];
@@ -199,7 +200,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Nodes that may achieve the landmark for the first time.
+    /// The nodes that may achieve the landmark for the first time.
     fn first_achievers(&self, propositions: &[u32]) -> Vec<u32> {
         let mut nodes = Vec::new();
         let mut union = Vec::new();
@@ -222,7 +223,7 @@ impl Builder<'_> {
         nodes
     }
 
-    /// Finds what every first achiever of a landmark needs.
+    /// Adds landmarks for the preconditions that all first achievers of a landmark share.
     fn chain_back(&mut self, id: u32) {
         let propositions = self.found.landmarks[id as usize].propositions.clone();
         if propositions.iter().any(|&p| self.labels.is_initial(p)) {
@@ -256,7 +257,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Small sets of facts of one predicate of which every achiever needs one.
+    /// Small sets of facts of one predicate, such that every achiever needs one fact of each set.
     fn disjunctions(&self, achievers: &[u32], shared: &[u32]) -> Vec<Vec<u32>> {
         let predicate = |p: u32| -> Option<PredicateId> {
             let (fact, positive) = self.graph.literal(p);
@@ -329,7 +330,7 @@ impl Builder<'_> {
         }
     }
 
-    /// `b` before `a` where `a`, achieved first, would have to be undone for `b`.
+    /// Orders `b` before `a` if `a`, achieved first, would have to be undone for `b`.
     fn reasonable_orders(&mut self) {
         let n = id32(self.found.landmarks.len());
         let shared = self.shared_effects();
@@ -353,7 +354,7 @@ impl Builder<'_> {
                     || before.clone().filter_map(|&x| self.fact_of(x)).any(excludes)
                     || effects.is_some_and(|e| e.deletes.contains(&undone))
                     || effects.is_some_and(|e| e.adds.iter().copied().any(excludes))
-                    // Without a mutex: achieving `a` takes away what `b` needs.
+                    // Even without a mutex: every achiever of `a` deletes a fact that `b` needs.
                     || shared.get(&a).is_some_and(|e| {
                         before.filter_map(|&x| self.fact_of(x)).any(|f| e.deletes.contains(&f))
                     })
@@ -367,15 +368,15 @@ impl Builder<'_> {
         }
     }
 
-    /// The fact of a landmark that is one positive literal.
+    /// The fact of a landmark that is a single positive literal.
     fn fact_of(&self, landmark: u32) -> Option<FactId> {
         let [proposition] = self.found.landmarks[landmark as usize].propositions[..] else { return None };
         let (fact, positive) = self.graph.literal(proposition);
         positive.then_some(fact)
     }
 
-    /// Landmarks that must hold together with `a` or after it: other goals if `a` is one, and what
-    /// comes before a landmark that needs `a` right before, with all that comes before that.
+    /// Landmarks that must hold together with `a` or after it: the other goals if `a` is a goal,
+    /// and the landmarks ordered, also transitively, before one that needs `a` right before it.
     fn companions(&self, a: u32) -> Vec<u32> {
         let landmarks = &self.found.landmarks;
         let mut others = Vec::new();
@@ -400,7 +401,7 @@ impl Builder<'_> {
         others
     }
 
-    /// By landmark that is a fact: what all operators that achieve it add and delete.
+    /// By landmark that is a single fact: the effects that all its achievers share.
     fn shared_effects(&self) -> FxHashMap<u32, Shared> {
         let landmark_of: FxHashMap<u32, u32> =
             (0..id32(self.found.landmarks.len())).filter_map(|l| self.fact_of(l).map(|f| (f.0, l))).collect();
@@ -433,7 +434,7 @@ impl Builder<'_> {
     }
 }
 
-/// Effects that all achievers of a landmark have.
+/// The effects that all achievers of a landmark share.
 struct Shared {
     adds: Vec<FactId>,
     deletes: Vec<FactId>,

@@ -1,10 +1,11 @@
 //! All fact landmarks of the delete relaxation, by label propagation.
 //!
-//! Idea: the label of a proposition is what every way to it must make true: itself, and what is in
-//! the labels of all nodes that achieve it; a node's label is the union over its preconditions.
-//! Labels start at "everything" and shrink to the greatest fixpoint. What holds at the start is left
-//! out. Cost: nodes times the size of labels times the few times that a label shrinks; a work limit
-//! makes huge tasks give up, which costs guidance and not correctness.
+//! Idea: the label of a proposition holds the facts that every path to it makes true: the
+//! proposition itself, and the intersection of the labels of all nodes that achieve it. The label
+//! of a node is the union over its preconditions. Labels start as "everything" and shrink to the
+//! greatest fixpoint. Facts of the initial state are omitted. Cost: nodes times the size of labels
+//! times the few times that a label shrinks. A work limit makes the propagation give up on huge
+//! tasks; that costs guidance, not correctness.
 //!
 //! Source: Zhu & Givan, "Landmark extraction via planning graph propagation", ICAPS 2003 doctoral
 //! consortium; Keyder, Richter & Helmert, "Sound and complete landmarks for and/or graphs", ECAI 2010.
@@ -13,18 +14,18 @@ use crate::query::{Barred, SearchMeter};
 use crate::task::{AXIOM, Relaxation};
 use std::collections::VecDeque;
 
-/// Most elements that may be merged.
+/// The most label elements that are merged.
 const WORK: usize = 300_000_000;
 
-/// The labels, by proposition; `None` is unreached.
+/// The labels, by proposition; `None` if unreached.
 pub(crate) struct Labels {
     of: Vec<Option<Box<[u32]>>>,
     initial: Vec<bool>,
 }
 
 impl Labels {
-    /// Propagates from the propositions in `initial`; `None` where that would take too long or was
-    /// interrupted.
+    /// Propagates labels from the propositions in `initial`; `None` if that takes too much work or
+    /// is interrupted.
     pub(crate) fn new(
         graph: &Relaxation,
         initial: Vec<bool>,
@@ -92,7 +93,7 @@ impl Labels {
         Some(labels)
     }
 
-    /// Whether it held at the start.
+    /// Whether the proposition holds in the initial state.
     pub(crate) fn is_initial(&self, proposition: u32) -> bool {
         self.initial[proposition as usize]
     }
@@ -102,12 +103,12 @@ impl Labels {
         self.of[proposition as usize].as_deref().unwrap_or(&[])
     }
 
-    /// Whether everything that the node needs was reached.
+    /// Whether all preconditions of the node are reached.
     pub(crate) fn reaches(&self, graph: &Relaxation, node: u32) -> bool {
         graph.preconditions.row(node).iter().all(|&p| self.of[p as usize].is_some())
     }
 
-    /// The landmarks of a node into `union`, sorted.
+    /// Writes the landmarks of a node to `union`, sorted.
     pub(crate) fn union(&self, graph: &Relaxation, node: u32, union: &mut Vec<u32>) {
         union.clear();
         for &p in graph.preconditions.row(node) {
@@ -117,7 +118,7 @@ impl Labels {
         union.dedup();
     }
 
-    /// Intersects the label of `p` with `union` and `p` itself. Answers whether it changed.
+    /// Intersects the label of `p` with `union` and `p` itself. Returns whether it changed.
     fn shrink(&mut self, p: u32, union: &[u32]) -> bool {
         let label = &mut self.of[p as usize];
         match label {

@@ -1,7 +1,7 @@
-//! Landmarks: what every plan must make true at some time.
+//! Landmarks: facts that every plan makes true at some time.
 //!
-//! `labels` finds all fact landmarks of the delete relaxation, `graph` adds disjunctive ones and
-//! orders, `count` estimates states by the landmarks that are still to be achieved.
+//! `labels` finds all fact landmarks of the delete relaxation. `graph` adds disjunctive landmarks
+//! and orders. `count` estimates states by the landmarks that are still to be achieved.
 
 mod count;
 mod graph;
