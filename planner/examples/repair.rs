@@ -1,8 +1,8 @@
-//! `repair DOMAIN PROBLEM [ROUNDS] [SEED] [PREDICATE,...]`: breaks a plan at random and mends it, by reuse and from
-//! scratch, and shows the time of both and how far their plans are from the old one.
+//! `repair DOMAIN PROBLEM [ROUNDS] [SEED] [PREDICATE,...]`: breaks a plan at random and repairs it, by
+//! reuse and from scratch. Shows the time of both and the distances of their plans from the old one.
 //!
-//! A disruption is one to three steps of another agent, or, of the predicates named, facts that change by
-//! themselves. What does not break the plan is not counted.
+//! A disruption is one to three steps of another agent, or spontaneous changes of facts of the named
+//! predicates. Disruptions that do not break the plan are not counted.
 #![allow(clippy::print_stdout, missing_docs)]
 
 mod files;

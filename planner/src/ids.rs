@@ -1,4 +1,4 @@
-//! The ids of a grounded task, each a type of its own.
+//! The ids of a grounded task; each kind is its own type.
 
 use pddl::model::Idx;
 
@@ -28,11 +28,12 @@ ids! {
     FluentId;
 }
 
-/// A state that a search has met; its registry knows the bits.
+/// A state of a search; the search's registry stores its bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct StateId(pub(crate) u32);
 
-/// A position as a 32-bit id. Limits on facts, operators and states keep every count far below.
+/// A position as a 32-bit id. Limits on facts, operators and states keep every count far below
+/// 2^32.
 pub(crate) fn id32(index: usize) -> u32 {
     u32::try_from(index).expect("limits keep every count below 2^32")
 }

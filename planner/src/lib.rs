@@ -1,8 +1,8 @@
 //! Grounding, heuristics and forward search.
 //!
-//! [`ground`] turns a typed domain and problem into a [`Task`] once; [`solve`] answers any number of
-//! [`Query`]s on it (from which state, to which goal, without which operators) within a [`Budget`].
-//! Nothing here parses, prints, reads files or clocks.
+//! [`ground`] turns a typed domain and problem into a [`Task`] once. [`solve`] answers any number
+//! of [`Query`]s on it (initial state, goal, excluded operators) within a [`Budget`]. The crate
+//! does not parse, print, read files or read clocks.
 //!
 //! ```
 //! use planner::{Budget, GroundOptions, Outcome, Query, SearchConfiguration, ground, solve};

@@ -1,9 +1,9 @@
-//! Random small lifted tasks: what grounding says of all states, held against all states.
+//! Random small lifted tasks: compares grounding with an enumeration of all states.
 //!
-//! Actions have two parameters, which may be the same object, and move, add and delete atoms of four
-//! predicates over three objects. An interpreter on bit masks that shares no code with ours visits
-//! every reachable state; grounding must reach the same ones (so that nothing was pruned wrongly),
-//! and each must keep every mutex group.
+//! Actions have two parameters, which may be the same object, and add and delete atoms of four
+//! predicates over three objects. An interpreter on bit masks that shares no code with grounding
+//! visits every reachable state. The grounded task must reach the same states (so nothing was
+//! pruned wrongly), and each state must satisfy every mutex group.
 
 use crate::test_support::Grounded;
 use crate::{AtomStatus, FactId, Task};
@@ -24,9 +24,9 @@ struct LiftedAction {
     needs: Vec<Literal>,
     differ: bool,
     effects: Vec<Literal>,
-    /// A condition and an effect.
+    /// A condition and an effect of it.
     when: Option<(Literal, Literal)>,
-    /// Its first effect is for all objects in place of the first parameter.
+    /// Whether its first effect holds for all objects in place of the first parameter.
     for_all: bool,
 }
 
@@ -51,7 +51,7 @@ pub(crate) fn lifted_task() -> impl Strategy<Value = LiftedTask> {
         prop::bool::weighted(0.1),
     )
         .prop_map(|(needs, differ, mut effects, moved, when, for_all)| {
-            // Most actions take away some of what they need, as real ones do.
+            // Most actions delete some of their preconditions, as real ones do.
             let taken = needs.iter().enumerate().filter(|(i, n)| n.2 && moved >> i & 1 == 1);
             let taken: Vec<Literal> = taken.map(|(_, &(p, a, _))| (p, a, false)).collect();
             effects.extend(taken);
@@ -67,7 +67,7 @@ pub(crate) fn lifted_task() -> impl Strategy<Value = LiftedTask> {
         .prop_map(|(actions, a, b, goal)| LiftedTask { actions, initial: a & b, goal })
 }
 
-/// How many atoms there are.
+/// The number of atoms.
 fn atoms() -> usize {
     PREDICATES.iter().map(|(_, arity)| OBJECTS.pow(u32::try_from(*arity).unwrap())).sum()
 }
@@ -137,7 +137,7 @@ impl LiftedTask {
         (domain, problem)
     }
 
-    /// All states that can be reached.
+    /// All reachable states.
     pub(crate) fn reachable(&self) -> BTreeSet<u32> {
         let mut found = BTreeSet::from([self.initial]);
         let mut queue = vec![self.initial];

@@ -1,8 +1,10 @@
-//! Random small tasks with numbers against an exhaustive search that shares no code with ours.
+//! Random small tasks with numbers, compared with an exhaustive search that shares no code with
+//! ours.
 //!
-//! Values are multiples of powers of one half, which doubles hold exactly, so the brute force is as
-//! exact as rationals. Fluents may be undefined, effects may disagree, and most spaces are infinite: the
-//! brute force says whether it has seen everything, and only then is its silence held against a plan.
+//! Values are multiples of powers of one half, which doubles represent exactly, so the brute force
+//! is as exact as rationals. Fluents may be undefined, effects may disagree, and most state spaces
+//! are infinite. The brute force reports whether it has seen every state; only then may its missing
+//! plan contradict a plan of ours.
 
 use crate::heuristics::{Estimate, HeuristicKind};
 use crate::search::{Outcome, Query, SearchConfiguration, solve};
@@ -14,9 +16,9 @@ use std::fmt::Write;
 
 const FACTS: usize = 3;
 const NUMBERS: usize = 3;
-/// States that the brute force visits.
+/// The states that the brute force visits.
 const STATES: usize = 500;
-/// States of which every estimate is looked at.
+/// The number of states in which every heuristic is checked.
 const FEW: usize = 60;
 
 #[derive(Clone, Debug)]
@@ -52,7 +54,7 @@ struct RandomAction {
 pub(crate) struct RandomTask {
     actions: Vec<RandomAction>,
     facts: [bool; FACTS],
-    /// In halves.
+    /// The initial numbers, in halves.
     numbers: [Option<i32>; NUMBERS],
     goal: Vec<Test>,
     metric: Option<(bool, Term)>,
@@ -115,7 +117,7 @@ pub(crate) fn random_task() -> impl Strategy<Value = RandomTask> {
         })
 }
 
-/// What the brute force does not follow: a value that a double may not hold.
+/// The brute force stops at a value that a double may not represent.
 #[derive(Debug)]
 struct Unclear;
 
@@ -164,7 +166,7 @@ impl Test {
         }
     }
 
-    /// Whether it certainly is what is wanted.
+    /// Whether the test certainly has the wanted result.
     fn is(&self, wanted: bool, state: &State) -> Result<bool, Unclear> {
         Ok(match self {
             Self::Fact(f) => state.0[*f] == wanted,
@@ -291,7 +293,7 @@ impl RandomTask {
         Ok(Some(next))
     }
 
-    /// The length of a shortest plan, if any was seen, and whether everything was seen.
+    /// The length of a shortest plan, if one was found, and whether every state was seen.
     pub(crate) fn shortest(&self) -> (Option<usize>, bool) {
         let start = (self.facts, self.numbers.map(|n| n.map(|halves| f64::from(halves) / 2.0)));
         let key = |s: &State| (s.0, s.1.map(|n| n.map(|v| (v + 0.0).to_bits())));
@@ -323,7 +325,7 @@ impl RandomTask {
     }
 }
 
-/// Holds one answer against the validator and the brute force.
+/// Checks one answer with the validator and the brute force.
 fn check(
     configuration: &SearchConfiguration,
     grounded: &Grounded,
@@ -354,7 +356,7 @@ fn check(
             }
         }
         Outcome::Unsolvable(reason) => prop_assert_eq!(shortest, None, "{}: {:?}", name, reason),
-        // Beyond the states that the brute force needed, a space may be infinite.
+        // The space may be infinite beyond the states that the brute force needed.
         Outcome::LimitReached(limit) => {
             let finite = all && shortest.is_none();
             prop_assert!(!finite || !configuration.complete, "{name}: {limit:?}");
@@ -385,13 +387,14 @@ proptest! {
             }
             let Some(next) = task.successor(&state, *choice.get(&applicable)) else { break };
             state = next;
-            // Setting every number to what it is decides all comparisons again.
+            // Setting every number to its own value evaluates all comparisons again.
             let numbers: Vec<_> = task.numbers(&state).collect();
             prop_assert_eq!(&task.with_numbers(&state, numbers), &state);
         }
     }
 
-    /// No state from which the goal is reached is called a dead end, and what never overestimates does not.
+    /// No heuristic reports a dead end in a state from which the goal is reachable, and no
+    /// admissible one overestimates.
     #[test]
     fn estimates_are_safe_everywhere(random in random_task()) {
         let grounded = Grounded::new(random.text());
@@ -413,7 +416,7 @@ proptest! {
             }
             at += 1;
         }
-        // The cheapest cost from each state to a goal, by relaxing until nothing changes.
+        // The cheapest cost from each state to a goal, by relaxation until nothing changes.
         let goals = states.iter().map(|(s, _)| if task.satisfies(s, task.goal()) { 0 } else { u64::MAX });
         let mut costs: Vec<u64> = goals.collect();
         let mut changed = true;

@@ -1,4 +1,4 @@
-//! Random small tasks against an exhaustive search that shares no code with ours.
+//! Random small tasks, compared with an exhaustive search that shares no code with ours.
 //!
 //! A task has a few facts without arguments, two derived ones (one over the other's negation),
 //! actions with negative, disjunctive and conditional parts and costs. A brute-force interpreter on
@@ -129,7 +129,7 @@ impl RandomTask {
         Some(self.close(next))
     }
 
-    /// All states that can be reached, with their derived facts.
+    /// All reachable states, with their derived facts.
     pub(crate) fn reachable(&self) -> std::collections::BTreeSet<u32> {
         let first = self.close(self.initial);
         let mut found = std::collections::BTreeSet::from([first]);
@@ -144,7 +144,7 @@ impl RandomTask {
         found
     }
 
-    /// The cheapest cost to the goal, by relaxing until nothing changes.
+    /// The cheapest cost to the goal, by relaxation until nothing changes.
     fn optimum(&self) -> Option<u64> {
         let mut cost = vec![u64::MAX; 1 << (FACTS + 2)];
         cost[self.close(self.initial) as usize] = 0;
@@ -222,7 +222,7 @@ proptest! {
         let configuration = SearchConfiguration::default();
         let solved = |query: &Query<'_>| solve(task, query, &configuration, &Budget::default()).outcome;
         let Outcome::Solved(old) = solved(&Query::of(task)) else { return Ok(()) };
-        // Others act, and the plan does not know.
+        // Other agents act, and the plan does not account for that.
         let (mut state, mut before) = (task.initial_state().clone(), Vec::new());
         for surprise in surprises {
             let applicable = task.applicable(&state);

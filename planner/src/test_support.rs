@@ -1,4 +1,5 @@
-//! What tests of random tasks share: from two texts to a grounded task, from a plan to a verdict.
+//! Shared helpers for tests of random tasks: from two texts to a grounded task, from a plan to a
+//! verdict.
 
 use crate::heuristics::{Costs, Estimate, HeuristicKind, View};
 use crate::ids::{OperatorId, StateId};
@@ -6,7 +7,7 @@ use crate::search::{Bound, Job, Query, SearchMeter, Shared};
 use crate::{GroundOptions, State, Task, ground};
 use budget::Budget;
 
-/// A task with what it was made of.
+/// A grounded task with its model.
 pub(crate) struct Grounded {
     pub(crate) task: Task,
     pub(crate) domain: pddl::model::Domain,
@@ -14,7 +15,7 @@ pub(crate) struct Grounded {
 }
 
 impl Grounded {
-    /// Reads and grounds a domain and a problem without mistakes.
+    /// Parses and grounds a domain and a problem; panics on mistakes.
     pub(crate) fn new((domain, problem): (String, String)) -> Self {
         let parsed = pddl::parse_domain(&pddl::Source::new("domain", domain.clone()), &[]);
         let model = parsed.model.unwrap_or_else(|| panic!("{domain}\n{:?}", parsed.diagnostics));
@@ -24,7 +25,7 @@ impl Grounded {
         Self { task, domain: model, problem }
     }
 
-    /// What the validator says of these steps from the initial state.
+    /// The validator's verdict on these steps from the initial state.
     pub(crate) fn verdict<'o>(
         &self,
         operators: impl IntoIterator<Item = &'o OperatorId>,
@@ -37,8 +38,8 @@ impl Grounded {
         validator::validate(&self.domain, &self.problem, &pddl::SequentialPlan::new(steps.collect()))
     }
 
-    /// What a heuristic that starts in `state` says of it by the problem's goal, and the operators that
-    /// it prefers there.
+    /// The estimate of a heuristic that starts in `state`, for the problem's goal, and the
+    /// operators that it prefers there.
     pub(crate) fn estimate(&self, kind: HeuristicKind, state: &State) -> (Estimate, Vec<OperatorId>) {
         let task = &self.task;
         let query = Query { state, ..Query::of(task) };

@@ -13,7 +13,7 @@ fn task(domain: &str, problem: &str) -> Task {
     ground(&domain, &problem, &GroundOptions::default()).unwrap()
 }
 
-/// What one question could not hold is no concern of the next one.
+/// A number that does not fit in one query does not affect the next query.
 #[test]
 fn numbers_that_outgrow_a_word_leave_only_that_answer_open() {
     let task = task(
@@ -149,7 +149,7 @@ fn static_comparisons_filter_instances_as_they_are_joined() {
     assert_eq!(ground(&domain, &problem, &options).unwrap().operators().len(), 58);
 }
 
-/// What only the metric asks for is done: taking pictures, but not what merely costs fuel.
+/// Actions that only improve the metric are kept (taking pictures), actions that only cost fuel are not.
 #[test]
 fn a_metric_makes_relevant_what_improves_it() {
     let task = task(

@@ -1,7 +1,8 @@
 //! Walks `test_data` and the registry of searches: every configuration on every task.
 //!
-//! A task is a problem file beside a `domain.pddl`; its first line says what must come out:
-//! `; expect: cost N` (the optimum), `solvable` (too large for optimal searches), `impossible ATOM...`, `exhausted` or `unsupported FEATURE`.
+//! A task is a problem file beside a `domain.pddl`; its first line has the expected result:
+//! `; expect: cost N` (the optimum), `solvable` (too large for optimal searches),
+//! `impossible ATOM...`, `exhausted` or `unsupported FEATURE`.
 
 #![allow(clippy::unwrap_used, reason = "a test")]
 
@@ -218,7 +219,7 @@ fn improvements(case: &Case, task: &Task, configuration: &SearchConfiguration) -
     (kind, plans.len())
 }
 
-/// What the validator says that the plan is worth.
+/// The cost of the plan by the validator.
 fn validated(case: &Case, task: &Task, plan: &Plan) -> validator::Number {
     match validator::validate(&case.domain, &case.problem, &steps(task, plan)) {
         validator::Verdict::Valid(valid) => valid.cost(),

@@ -1,16 +1,17 @@
-//! What a change of a fluent can do to a comparison.
+//! How a change of a fluent may affect a comparison.
 //!
-//! Idea: where a sum moves by a constant, the sign says whether a comparison can become true or
-//! false; anything else may do both. Never says "cannot" of what can, so that relaxations stay safe.
+//! Idea: if a sum changes by a constant, the sign decides whether a comparison can become true or
+//! false; any other change may do both. A possible effect is never ruled out, so relaxations stay
+//! safe.
 
 use super::{Change, Expression, Number, Relation};
 
-/// Which way a comparison can go.
+/// How a comparison may change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Influence {
     pub(crate) may_hold: bool,
     pub(crate) may_fail: bool,
-    /// By how much the compared expression moves, if that is always the same.
+    /// The change of the compared expression, if it is constant.
     pub(crate) step: Option<Number>,
 }
 

@@ -1,6 +1,6 @@
-//! How effects move expressions over numeric fluents.
+//! How effects change expressions over numeric fluents.
 //!
-//! The numbers and the expressions are those of [`analysis`].
+//! The numbers and expressions come from [`analysis`].
 
 mod influence;
 
@@ -9,18 +9,18 @@ pub(crate) use influence::Influence;
 pub use analysis::Number;
 pub(crate) use analysis::{Expression, NoValue, Operator};
 
-/// How a number relates to 0.
+/// The relation of a number to 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Relation {
-    /// Above.
+    /// Above 0.
     Positive,
-    /// Not below.
+    /// Not below 0.
     NonNegative,
-    /// Equal.
+    /// Equal to 0.
     Zero,
-    /// Above or below.
+    /// Not equal to 0.
     NonZero,
-    /// In any way: it is a number.
+    /// Any relation: the value is defined.
     Defined,
 }
 
@@ -36,12 +36,12 @@ impl Relation {
     }
 }
 
-/// How a fluent changes.
+/// How an effect changes a fluent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Change {
     Assign,
-    /// Adds.
+    /// Adds a value.
     Shift,
-    /// Multiplies.
+    /// Multiplies by a value.
     Scale,
 }

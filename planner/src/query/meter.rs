@@ -1,57 +1,57 @@
-//! What one search has used up, and when it has to stop or pause.
+//! Counts the work of one search, and tells it when to stop or pause.
 //!
-//! Problem: a search must end within milliseconds of a cancellation, also in the middle of one large
-//! estimate or while its landmarks are being found, and a portfolio must deal out turns without a
-//! clock, so that the same call gives the same answer. Idea: every loop [spends](SearchMeter::spend) units of
-//! work, about a nanosecond each; a turn is a number of units. Expanded states and bytes are compared with
-//! the turn between two steps of the search. Invariant: once stopped, a meter stays stopped, and the search
-//! discards every estimate that it computed after that.
+//! Problem: a search must end within milliseconds of a cancellation, even inside one large estimate
+//! or while its landmarks are computed. A portfolio must also assign turns without a clock, so that
+//! the same call gives the same answer. Idea: every loop [spends](SearchMeter::spend) units of
+//! work, about a nanosecond each; a turn is a number of units. Expanded states and bytes are
+//! compared with the turn's limits between two steps of the search. Invariant: once stopped, a
+//! meter stays stopped, and the search discards every estimate that it computed after that.
 
 use budget::{Budget, Meter};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
-/// Which limit ended a search.
+/// The limit that ended a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Limit {
     /// The caller cancelled it.
     Interrupted,
-    /// It expanded as many states as allowed.
+    /// It expanded the allowed number of states.
     Expansions,
-    /// States and open lists hold as many bytes as allowed.
+    /// Its states and open lists hold the allowed number of bytes.
     Memory,
     /// An incomplete search gave up without an answer.
     Incomplete,
 }
 
-/// Bytes for a search without a limit.
+/// The bytes for a search without a memory limit.
 pub(crate) const UNLIMITED: usize = usize::MAX / 8;
 
-/// Work of building a state, looking it up and storing it: some misses of the cache, then its words.
+/// The work to build, look up and store a state: some cache misses, then its words.
 pub(crate) fn price_of_state(words: usize) -> usize {
     256 + words * 16
 }
 
-/// Counts for one search. Only one thread at a time writes.
+/// The meter of one search. Only one thread writes at a time.
 #[derive(Debug)]
 pub(crate) struct SearchMeter<'a> {
     budget: Budget<'a>,
     meter: Meter<'a>,
-    /// Bytes that the search held when it last reported them.
+    /// The bytes that the search held when it last reported them.
     held: AtomicUsize,
 }
 
-/// A turn of a search.
+/// The limits of one turn of a search.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Turn {
-    /// The search pauses when its meter shows so much work.
+    /// The search pauses when its meter shows this much work.
     pub(crate) until: u64,
     /// The bytes that it may hold.
     pub(crate) bytes: usize,
-    /// The states that it may expand in all.
+    /// The states that it may expand in total.
     pub(crate) expansions: u64,
 }
 
-/// Whether to go on.
+/// Whether the search continues, pauses or stops.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Signal {
     Go,
@@ -61,18 +61,18 @@ pub(crate) enum Signal {
 
 impl<'a> SearchMeter<'a> {
     pub(crate) fn new(budget: Budget<'a>) -> Self {
-        // The budget's work is a number of expanded states, which `signal` compares.
+        // The work limit of the budget is a number of expanded states; `signal` checks it.
         let meter = Meter::new(Budget { work: None, ..budget });
         Self { budget, meter, held: AtomicUsize::new(0) }
     }
 
-    /// Adds work. Answers whether the caller of the search wants it to stop.
+    /// Adds work. Returns whether the search must stop.
     #[inline]
     pub(crate) fn spend(&self, units: usize) -> bool {
         self.meter.spend(units).is_err()
     }
 
-    /// Counts the work, for functions that grounding calls too.
+    /// The meter of work alone, for functions that grounding calls too.
     pub(crate) fn meter(&self) -> &Meter<'a> {
         &self.meter
     }
@@ -90,7 +90,7 @@ impl<'a> SearchMeter<'a> {
         self.held.load(Relaxed)
     }
 
-    /// The search ended and holds nothing.
+    /// Reports that the search has ended and holds nothing.
     pub(crate) fn release(&self) {
         self.held.store(0, Relaxed);
     }
@@ -104,7 +104,7 @@ impl<'a> SearchMeter<'a> {
         }
     }
 
-    /// Whether a search goes on that has expanded so many states and holds so many bytes.
+    /// Whether a search continues that has expanded this many states and holds this many bytes.
     pub(crate) fn signal(&self, turn: &Turn, expanded: u64, bytes: usize) -> Signal {
         self.held.store(bytes, Relaxed);
         if self.is_stopped() {

@@ -1,6 +1,6 @@
-//! A question on a task, and what its searches have used up.
+//! A query on a task, and the meter of its searches.
 //!
-//! Heuristics and searches both work on a question, so it stands below them.
+//! Heuristics and searches both use a query, so it is a layer below them.
 
 mod meter;
 mod question;

@@ -1,21 +1,21 @@
-//! What is asked: from where, to what, without which operators.
+//! A query: initial state, goal and excluded operators.
 
 use crate::ids::OperatorId;
 use crate::task::{Goal, State, Task};
 
-/// A planning question on a grounded task.
+/// A planning query on a grounded task.
 #[derive(Clone, Copy, Debug)]
 pub struct Query<'a> {
-    /// Where the plan starts.
+    /// The state in which the plan starts.
     pub state: &'a State,
-    /// What it must reach.
+    /// The goal that the plan must reach.
     pub goal: &'a Goal,
-    /// Operators that it must not use (those that have just failed, say).
+    /// Operators that the plan must not use (for example, those that have just failed).
     pub excluded: &'a [OperatorId],
 }
 
 impl<'a> Query<'a> {
-    /// The problem's own question.
+    /// The problem's own query.
     pub fn of(task: &'a Task) -> Self {
         Self { state: task.initial_state(), goal: task.goal(), excluded: &[] }
     }
@@ -46,7 +46,7 @@ impl Barred {
         !self.words.is_empty() && self.words[operator as usize / 64] >> (operator % 64) & 1 == 1
     }
 
-    /// Takes the excluded operators out of a list.
+    /// Removes the excluded operators from a list.
     pub(crate) fn filter(&self, operators: &mut Vec<OperatorId>) {
         if !self.words.is_empty() {
             operators.retain(|o| !self.contains_number(o.0));

@@ -1,8 +1,8 @@
-//! Ground atoms, numbered in order of discovery.
+//! Ground atoms, numbered in the order of discovery.
 //!
-//! Problem: a join asks "is this atom known?" millions of times. Idea: arguments packed into one
-//! 64-bit key; where they do not fit, a prefix is itself numbered and stands for its arguments.
-//! Invariant: keys of one predicate are injective.
+//! Problem: a join looks up atoms millions of times. Idea: pack the arguments of an atom into one
+//! 64-bit key. If they do not fit, a prefix gets a number, which replaces it in the key. Invariant:
+//! the keys of one predicate are injective.
 
 use crate::ids::id32;
 use pddl::model::{ObjectId, PredicateId};
@@ -20,7 +20,7 @@ impl RowKeys {
         Self { bits: (usize::BITS - objects.leading_zeros()).max(1), prefixes: FxHashMap::default() }
     }
 
-    /// The key, if every prefix that it needs is known.
+    /// The key of a row, if every prefix that it needs is known.
     pub(crate) fn find(&self, row: impl Iterator<Item = u32>) -> Option<u64> {
         let (mut key, mut used) = (0_u64, 0);
         for (i, item) in row.enumerate() {
@@ -34,7 +34,7 @@ impl RowKeys {
         Some(key)
     }
 
-    /// The key.
+    /// The key of a row; numbers its prefixes if necessary.
     pub(crate) fn key(&mut self, row: impl Iterator<Item = u32>) -> u64 {
         let (mut key, mut used) = (0_u64, 0);
         for (i, item) in row.enumerate() {
@@ -78,7 +78,7 @@ impl AtomTable {
         self.by_key[predicate.0 as usize].get(&self.keys.find(row)?).copied()
     }
 
-    /// The atom's number, a new one if it was unknown.
+    /// The number of an atom; a new one if it was unknown.
     pub(crate) fn insert(&mut self, predicate: PredicateId, row: impl Iterator<Item = u32> + Clone) -> u32 {
         let key = self.keys.key(row.clone());
         let next = id32(self.predicates.len());

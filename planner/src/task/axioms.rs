@@ -1,15 +1,17 @@
-//! Axioms, evaluated per state to a fixpoint.
+//! Axioms, evaluated in each state to a fixpoint.
 //!
-//! Problem: derived facts are functions of the basic ones and must be right in every state. Idea: facts that depend on
-//! each other form a strongly connected component. The components are decided in topological order, each in one pass; a
-//! recursive one also follows the consequences of each new fact. After a step, a component is decided again only if
-//! something that it reads has changed. Invariant: no negative dependency inside a component (stratification; grounding
-//! rejects anything else). Cost: each rule of the components that are decided, once, and once more for each of its
-//! recursive conditions.
+//! Problem: derived facts are functions of the basic facts and must be correct in every state.
+//! Idea: facts that depend on each other form a strongly connected component. The components are
+//! evaluated in topological order, each in one pass; a recursive one also follows the consequences
+//! of each new fact. After a step, a component is evaluated again only if something that it reads
+//! has changed. Invariant: there is no negative dependency inside a component (stratification;
+//! grounding rejects anything else). Cost: each rule of the evaluated components, once, and once
+//! more for each of its recursive conditions.
 //!
-//! The components come from our own Tarjan, because it must neither recurse nor run unmetered: a chain of derived facts
-//! can contain every fact of the task. petgraph's `tarjan_scc` recurses once per fact of such a chain. Its
-//! `kosaraju_scc` is iterative, but the caller's budget could not interrupt it.
+//! The components come from our own version of Tarjan's algorithm, because it must neither recurse
+//! nor run unmetered: a chain of derived facts can contain every fact of the task. petgraph's
+//! `tarjan_scc` recurses once per fact of such a chain. Its `kosaraju_scc` is iterative, but the
+//! caller's budget could not interrupt it.
 //!
 //! Source: Thiébaux, Hoffmann & Nebel, "In defense of PDDL axioms", AIJ 2005, §2.
 
@@ -24,7 +26,7 @@ use pddl::model::{Idx, IndexVec};
 pub struct AxiomRule {
     /// The derived fact.
     pub head: FactId,
-    /// When it holds.
+    /// The condition under which it holds.
     pub body: Literals,
 }
 
@@ -42,13 +44,13 @@ pub(crate) struct AxiomProgram {
     components: Vec<Component>,
     /// A set bit for each fact that a rule reads.
     read: Vec<u64>,
-    /// By fact, the components that read it (other than its own).
+    /// By fact: the components that read it (other than its own).
     readers: Rows,
-    /// By fact, the rules of its own component that need it.
+    /// By fact: the rules of its own component that need it.
     followers: Rows,
 }
 
-/// Why there is no order of evaluation.
+/// The reason why there is no order of evaluation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum NoProgram {
     /// A derived fact depends on its own negation.
@@ -132,15 +134,15 @@ impl AxiomProgram {
         &self.rules
     }
 
-    /// Decides every derived fact.
+    /// Evaluates every derived fact.
     pub(crate) fn close(&self, words: &mut [u64]) {
         for component in &self.components {
             self.decide(component, words);
         }
     }
 
-    /// Decides the derived facts after a step from the closed state `before`. `words` has the basic facts of the new
-    /// state and the derived facts of `before`.
+    /// Evaluates the derived facts after a step from the closed state `before`. `words` has the
+    /// basic facts of the new state and the derived facts of `before`.
     pub(crate) fn update(&self, before: &[u64], words: &mut [u64]) {
         if self.components.is_empty() {
             return;
@@ -176,7 +178,7 @@ impl AxiomProgram {
         }
     }
 
-    /// Decides the facts of one component. The components below it must be up to date.
+    /// Evaluates the facts of one component. The components below it must be up to date.
     fn decide(&self, component: &Component, words: &mut [u64]) {
         component.heads.iter().for_each(|&head| unset(words, head));
         let mut new = Vec::new();
@@ -281,7 +283,7 @@ mod tests {
         })
     }
 
-    /// Stratum by stratum, each rule again and again until nothing changes.
+    /// Evaluates stratum by stratum, and repeats each rule until nothing changes.
     fn by_definition(rules: &[RandomRule], basic: u64) -> u64 {
         let mut state = basic;
         for stratum in 0..3 {

@@ -1,23 +1,23 @@
-//! Conditions and effects of many operators behind each other in one array.
+//! Conditions and effects of many operators in shared arrays.
 
 use super::literals::LiteralsRef;
 use crate::ids::{FactId, id32};
 
-/// Effects under a condition on the state before.
+/// Effects with a condition on the state before.
 #[derive(Clone, Copy, Debug)]
 pub struct ConditionalEffect<'a> {
-    /// When.
+    /// The condition of the effects.
     pub condition: LiteralsRef<'a>,
     /// Facts that become true.
     pub adds: &'a [FactId],
-    /// Facts that become false unless something adds them.
+    /// Facts that become false unless another effect adds them.
     pub deletes: &'a [FactId],
 }
 
-/// Where the parts of a block end: what must hold, what must not, what is added, what is deleted.
+/// Where the parts of a block end: positive and negative condition, adds, deletes.
 pub(super) type Ends = [u32; 4];
 
-/// Blocks of four lists of facts.
+/// Blocks of four lists of facts each.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Blocks {
     pub(super) ends: Vec<Ends>,
@@ -53,7 +53,7 @@ impl Blocks {
     }
 }
 
-/// An operator's effects under conditions.
+/// The conditional effects of an operator.
 #[derive(Clone, Copy, Debug)]
 pub struct ConditionalEffects<'a> {
     pub(super) blocks: &'a Blocks,
@@ -67,12 +67,12 @@ impl<'a> ConditionalEffects<'a> {
         self.first == self.end
     }
 
-    /// How many.
+    /// The number of conditional effects.
     pub fn len(self) -> usize {
         self.end - self.first
     }
 
-    /// One after the other.
+    /// Iterates over the conditional effects.
     pub fn iter(self) -> impl ExactSizeIterator<Item = ConditionalEffect<'a>> + Clone {
         (self.first..self.end).map(move |i| {
             let Block { condition, adds, deletes } = self.blocks.get(i);

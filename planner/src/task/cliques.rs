@@ -1,11 +1,12 @@
-//! Which moves lead everywhere: propositions from any of which one step leads to all the others.
+//! Cliques of moves: sets of propositions where one step leads from any of them to all others.
 //!
-//! Problem: a satellite that can turn from each of 300 directions to each other has 90,000 nodes, and
-//! every estimate walks them all, although all directions cost the same once the first is known. Idea:
-//! a *move* is a node that needs one proposition. Where the moves from two propositions cost the same
-//! and lead to the same set (themselves included), these are of one clique, and when an exploration in
-//! order of cost has offered the moves of one of them, those of the others offer nothing better.
-//! Invariant: leaving them out changes neither costs nor supporters. Cost: linear in the moves.
+//! Problem: a satellite that can turn between any two of 300 directions has 90,000 nodes. Every
+//! estimate would visit them all, although all directions cost the same once the first is reached.
+//! Idea: a *move* is a node with a single precondition. If the moves from two propositions have the
+//! same cost and the same set of targets (the propositions included), the two belong to one clique.
+//! An exploration in order of cost needs the moves of only the first proposition of a clique; those
+//! of the others cannot offer anything better. Invariant: skipping them changes neither costs nor
+//! supporters. Cost: linear in the moves.
 //!
 //! Source: ours.
 
@@ -17,11 +18,11 @@ use rustc_hash::FxHashMap;
 /// A proposition without a clique.
 pub(crate) const ALONE: u32 = u32::MAX;
 
-/// The clique of each proposition, or [`ALONE`], and how many cliques there are.
+/// Returns the clique of each proposition (or [`ALONE`]), and the number of cliques.
 pub(super) fn cliques(graph: &Relaxation, meter: &Meter<'_>) -> Result<(Vec<u32>, usize), Interrupted> {
     let mut of = vec![ALONE; graph.propositions()];
     if !graph.ways.is_empty() {
-        // Comparisons of numbers have costs of their own.
+        // The cost of a comparison depends on repetitions, so there are no cliques.
         return Ok((of, 0));
     }
     let mut known: FxHashMap<((bool, u32), Vec<u32>), u32> = FxHashMap::default();
@@ -66,7 +67,8 @@ mod tests {
 
     const PLACES: usize = 5;
 
-    /// A truck among places that are all connected but for some ways, others dearer, and cargo.
+    /// A truck between places that are all connected, except for the closed ways; some ways are
+    /// more expensive.
     fn task(closed: &[(usize, usize)], dear: &[(usize, usize)], cargo: usize) -> Grounded {
         let mut domain = String::from(
             "(define (domain d) (:requirements :strips :action-costs)\n(:functions (total-cost) - number)\n\

@@ -1,13 +1,14 @@
-//! The relaxation without what it does not need.
+//! The delete relaxation without dominated effects.
 //!
-//! Problem: many operators differ only in things that do not matter to an effect (who else rides
-//! along), and every estimate walks them all. Idea: where one node achieves a proposition from a subset
-//! of another's needs at no more cost, the other loses that effect; a node without effects goes.
-//! What is achieved step by step keeps all its achievers: how many steps depends on the state.
-//! Invariant: hmax and hadd of every proposition stay what they were, and so does what can be reached.
-//! (A relaxed plan may cost more where one operator served two ends, so h+ and landmark cuts need
-//! the whole graph.) Cost: for each effect, a look at the kept achievers whose rarest need is one of
-//! ours; a cap per proposition leaves the rest as it is.
+//! Problem: many operators differ only in conditions that do not matter for an effect (who else
+//! rides along), and every estimate visits them all. Idea: if one node achieves a proposition with
+//! a subset of another node's preconditions and at no higher cost, the other node loses that
+//! effect; a node without effects is removed. A proposition that is achieved step by step keeps all
+//! its achievers, because the number of steps depends on the state. Invariant: hmax and hadd of
+//! every proposition do not change, and neither does reachability. (A relaxed plan may cost more if
+//! one operator served two purposes, so h+ and landmark cuts need the whole graph.) Cost: each
+//! effect is compared with the kept achievers whose rarest precondition is among its own. A limit
+//! for each proposition stops the comparisons and keeps the rest.
 //!
 //! Source: Helmert, "The Fast Downward planning system", JAIR 2006, simplification of unary operators.
 
@@ -18,22 +19,22 @@ use crate::ids::id32;
 use budget::{Interrupted, Meter};
 use rustc_hash::FxHashMap;
 
-/// Kept achievers looked at, for each achiever of a proposition on average.
+/// The kept achievers that are compared, per achiever of a proposition on average.
 const LOOKS: usize = 64;
 
 struct Work<'g> {
     graph: &'g Relaxation,
     meter: &'g Meter<'g>,
-    /// Kept achievers of the current proposition, by their rarest need.
+    /// The kept achievers of the current proposition, by their rarest precondition.
     by_need: Vec<Vec<u32>>,
     touched: Vec<u32>,
-    /// Kept achievers that need nothing.
+    /// The kept achievers without preconditions.
     free: Vec<u32>,
-    /// The node whose needs were marked last.
+    /// By proposition: the last node that marked it as a precondition.
     mark: Vec<u32>,
 }
 
-/// The undominated part of `graph`.
+/// The part of `graph` that is not dominated.
 pub(crate) fn undominated(graph: &Relaxation, meter: &Meter<'_>) -> Result<Relaxation, Interrupted> {
     let order = by_needs_and_price(graph, meter)?;
     let achievers = graph.effects.transposed_in(order.into_iter(), graph.propositions(), meter)?;
@@ -67,7 +68,7 @@ pub(crate) fn undominated(graph: &Relaxation, meter: &Meter<'_>) -> Result<Relax
     graph.with_effects(&kept.transposed(graph.nodes(), meter)?, meter)
 }
 
-/// The nodes: those with few needs first, then the cheap ones.
+/// The nodes, sorted by the number of their preconditions, then by cost.
 fn by_needs_and_price(graph: &Relaxation, meter: &Meter<'_>) -> Result<Vec<u32>, Interrupted> {
     let nodes: Vec<u32> = (0..id32(graph.nodes())).collect();
     let mut ranks: FxHashMap<(bool, u32), usize> = FxHashMap::default();
@@ -100,7 +101,7 @@ impl Work<'_> {
             return Ok(true);
         }
         let price = graph.price(node);
-        // In order of their price: the first is the cheapest.
+        // They are sorted by price, so the first is the cheapest.
         if self.free.first().is_some_and(|&other| graph.price(other) <= price) {
             return Ok(true);
         }

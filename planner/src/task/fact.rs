@@ -1,4 +1,4 @@
-//! Ground atoms, the facts of a state, and what grounding found out about each atom.
+//! Ground atoms, the facts of a state, and the status of each atom.
 
 use crate::ids::FactId;
 use pddl::model::{GroundApplication, ObjectId, PredicateId};
@@ -12,7 +12,7 @@ pub struct GroundAtom {
     pub arguments: Box<[ObjectId]>,
 }
 
-/// An object fluent has a value.
+/// An object fluent with a value.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct ObjectValue {
     /// The fluent.
@@ -24,17 +24,17 @@ pub struct ObjectValue {
 /// A bit of a state.
 #[derive(Clone, Debug)]
 pub struct Fact {
-    /// The atom; `None` for the value of a fluent and for what grounding made up for a disjunction.
+    /// The atom; `None` for the value of a fluent and for an auxiliary fact of grounding.
     pub atom: Option<GroundAtom>,
-    /// The object fluent whose value it tells, if it does.
+    /// The object fluent and the value that the fact represents, if any.
     pub value: Option<ObjectValue>,
-    /// Whether axioms or numbers decide it.
+    /// Whether axioms or numbers define it.
     pub derived: bool,
-    /// Whether it compares numbers.
+    /// Whether it is a comparison of numbers.
     pub compares: bool,
 }
 
-/// What grounding found out about a ground atom.
+/// The status of a ground atom after grounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AtomStatus {
     /// It changes, and states hold it.
@@ -43,6 +43,6 @@ pub enum AtomStatus {
     AlwaysTrue,
     /// It holds in no reachable state.
     NeverTrue,
-    /// It may change, but neither the goal nor any useful action asks for it.
+    /// It may change, but neither the goal nor any useful action reads it.
     Irrelevant,
 }

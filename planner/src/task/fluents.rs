@@ -1,4 +1,4 @@
-//! Fluents as the outside sees them: values in a state, names of comparisons.
+//! The public view of fluents: values in a state, names of comparisons.
 
 use super::{ObjectValue, State, Task};
 use crate::ids::FluentId;
@@ -6,7 +6,7 @@ use crate::number::{Expression, Number, Operator, Relation};
 use pddl::model::{GroundApplication, Idx};
 
 impl Task {
-    /// The numeric fluents that change and that something reads, with their values in a state.
+    /// The numeric fluents of states, with their values in this state.
     pub fn numbers<'t>(
         &'t self,
         state: &'t State,
@@ -23,14 +23,15 @@ impl Task {
         values.filter_map(|(_, fact)| fact.value.as_ref())
     }
 
-    /// Whether states say what the value of this object fluent is, and whether it has one.
+    /// Whether states represent the value of this object fluent.
     pub fn is_object_fluent(&self, fluent: &GroundApplication) -> bool {
         let mut values = self.facts.iter().filter_map(|fact| fact.value.as_ref());
         values.any(|value| value.fluent == *fluent)
     }
 
-    /// The state with other values of numeric fluents; those that are not in [`numbers`](Self::numbers)
-    /// are ignored, and one that does not fit is missing. Comparisons and derived facts follow.
+    /// The state with other values of numeric fluents. Ignores fluents that are not in
+    /// [`numbers`](Self::numbers). A value that does not fit is recorded as missing. Comparisons
+    /// and derived facts are evaluated again.
     pub fn with_numbers<'v>(
         &self,
         state: &State,
@@ -55,7 +56,8 @@ impl Task {
         let Expression::Linear(linear) = expression else {
             return compared(relation, &self.expression_name(expression), "0", false);
         };
-        // Terms to the left, the constant to the right, and no sum of negative terms.
+        // The terms are on the left and the constant is on the right; if all coefficients are
+        // negative, the signs are reversed.
         let turned = linear.terms.iter().all(|(_, c)| c.sign() <= 0);
         let sign = |number: Number| if turned { number.negated().unwrap_or(number) } else { number };
         let terms: Vec<String> = linear.terms.iter().map(|(f, c)| self.term_name(*f, sign(*c))).collect();

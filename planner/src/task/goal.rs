@@ -1,23 +1,23 @@
-//! Goals, and why one is impossible.
+//! Goals, and the reasons why a goal is impossible.
 
 use super::fact::GroundAtom;
 use super::literals::Literals;
 
-/// What a search looks for.
+/// The goal of a search.
 #[derive(Clone, Debug, Default)]
 pub struct Goal {
     /// The literals that must hold.
     pub literals: Literals,
-    /// Set where grounding has shown that no reachable state satisfies the goal.
+    /// Set if grounding has proven that no reachable state satisfies the goal.
     pub impossible: Option<Impossible>,
 }
 
-/// Why a goal is impossible.
+/// The reason why a goal is impossible.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Impossible {
     /// These conjuncts are true in no reachable state.
     Atoms(Vec<GroundAtom>),
-    /// These conjuncts forbid what holds in every reachable state.
+    /// These conjuncts forbid facts that hold in every reachable state.
     NegatedAtoms(Vec<GroundAtom>),
     /// These conjuncts exclude each other.
     Exclusive(Vec<GroundAtom>),

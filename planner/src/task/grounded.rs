@@ -1,6 +1,6 @@
-//! A grounded task: its parts, its states, and one step.
+//! A grounded task: its parts, its states, and single steps.
 //!
-//! Invariant: a [`State`] made by a task is closed under its axioms.
+//! Invariant: a [`State`] that a task creates is closed under its axioms.
 
 use super::atoms::AtomTable;
 use super::axioms::{AxiomProgram, AxiomRule};
@@ -34,17 +34,17 @@ pub struct Task {
     pub(crate) mutexes: Mutexes,
     pub(crate) variables: Vec<Variable>,
     pub(crate) numeric: Numeric,
-    /// `None` where costs add up to it.
+    /// `None` if the metric is a sum of operator costs.
     pub(crate) metric: Option<Metric>,
     pub(crate) packing: Option<Packing>,
     pub(crate) successors: SuccessorTree,
     pub(crate) relaxation: Relaxation,
-    /// The relaxation without what other operators do as well.
+    /// The relaxation without dominated effects.
     pub(crate) undominated: Relaxation,
 }
 
 impl Task {
-    /// All facts; derived ones included.
+    /// All facts, including derived ones.
     pub fn facts(&self) -> &IndexVec<FactId, Fact> {
         &self.facts
     }
@@ -69,7 +69,7 @@ impl Task {
         &self.mutexes
     }
 
-    /// Finite-domain variables: each fact that is not derived is a value of one of them.
+    /// Finite-domain variables: each basic fact is a value of one of them.
     pub fn variables(&self) -> &[Variable] {
         &self.variables
     }
@@ -84,12 +84,12 @@ impl Task {
         &self.goal
     }
 
-    /// Operators' costs are in units of `1 / cost_scale`.
+    /// The costs of operators are in units of `1 / cost_scale`.
     pub fn cost_scale(&self) -> u32 {
         self.cost_scale
     }
 
-    /// What became of a ground atom.
+    /// The status of a ground atom.
     pub fn status(&self, predicate: PredicateId, arguments: &[ObjectId]) -> AtomStatus {
         self.atoms
             .find(predicate, arguments.iter().map(|o| o.0))
@@ -104,8 +104,8 @@ impl Task {
         }
     }
 
-    /// The state in which of the basic facts exactly these hold; derived ones follow by the axioms
-    /// (those listed are ignored). Numbers are what they are initially.
+    /// The state in which exactly these basic facts hold. Derived facts follow from the axioms
+    /// (listed ones are ignored). Numbers have their initial values.
     pub fn state(&self, facts: impl IntoIterator<Item = FactId>) -> State {
         let mut state = State::empty(self.facts.len(), self.numeric.words());
         let fit = self.numeric.initialise(state.words_mut());
@@ -124,7 +124,8 @@ impl Task {
         self.operator(operator).precondition.hold_in(state.words())
     }
 
-    /// The state after an operator; `None` where it may not be applied, or a number grows too long.
+    /// The state after an operator; `None` if the operator is not applicable or a number does not
+    /// fit.
     pub fn successor(&self, state: &State, operator: OperatorId) -> Option<State> {
         if !self.is_applicable(state, operator) {
             return None;
@@ -133,12 +134,13 @@ impl Task {
         self.apply(operator, state.words(), next.words_mut()).then_some(next)
     }
 
-    /// The state after operators, one after the other; `None` where [`Task::successor`] of one of them is.
+    /// The state after a sequence of operators; `None` if [`Task::successor`] of one of them is
+    /// `None`.
     pub fn after(&self, state: &State, operators: &[OperatorId]) -> Option<State> {
         operators.iter().try_fold(state.clone(), |state, &operator| self.successor(&state, operator))
     }
 
-    /// All operators that are applicable, in a fixed order.
+    /// All applicable operators, in a fixed order.
     pub fn applicable(&self, state: &State) -> Vec<OperatorId> {
         let mut found = Vec::new();
         self.successors.applicable(state.words(), &mut found);
@@ -150,8 +152,8 @@ impl Task {
         goal.holds_in(state.words())
     }
 
-    /// Turns `next`, a copy of `state`, into the successor. `false`: a number grows too long, and `next`
-    /// is no state.
+    /// Turns `next`, a copy of `state`, into the successor. Returns `false` if a number does not
+    /// fit; `next` is then invalid.
     #[must_use]
     pub(crate) fn apply(&self, operator: OperatorId, state: &[u64], next: &mut [u64]) -> bool {
         let own = self.operator(operator);
@@ -165,7 +167,7 @@ impl Task {
         true
     }
 
-    /// Bytes that the task holds, about.
+    /// The approximate bytes that the task holds.
     pub fn memory_bytes(&self) -> usize {
         self.operators.memory_bytes()
             + self.successors.memory_bytes()
@@ -175,7 +177,7 @@ impl Task {
             + self.status.len() * 100
     }
 
-    /// Bytes that the task holds for each copy of a state.
+    /// The number of words of a state.
     pub(crate) fn words_per_state(&self) -> usize {
         self.initial.words().len()
     }

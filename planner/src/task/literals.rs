@@ -17,7 +17,7 @@ impl Literals {
         self.as_ref().hold_in(words)
     }
 
-    /// How many literals.
+    /// The number of literals.
     pub fn len(&self) -> usize {
         self.as_ref().len()
     }
@@ -27,13 +27,13 @@ impl Literals {
         self.len() == 0
     }
 
-    /// The same, borrowed as operators give theirs.
+    /// The same literals, borrowed.
     pub fn as_ref(&self) -> LiteralsRef<'_> {
         LiteralsRef { positive: &self.positive, negative: &self.negative }
     }
 }
 
-/// A conjunction that someone else holds.
+/// A borrowed conjunction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LiteralsRef<'a> {
     /// Facts that must hold, sorted.
@@ -48,7 +48,7 @@ impl LiteralsRef<'_> {
             && self.negative.iter().all(|&f| !contains(words, f))
     }
 
-    /// How many literals.
+    /// The number of literals.
     pub fn len(self) -> usize {
         self.positive.len() + self.negative.len()
     }

@@ -1,10 +1,10 @@
-//! The metric of tasks whose plans cost more than the sum of their operators.
+//! The metric of tasks whose plan quality is not the sum of operator costs.
 
 use crate::ids::FluentId;
 use crate::number::{Expression, Number};
 use pddl::model::Objective;
 
-/// What a plan is measured by.
+/// The metric of plans.
 #[derive(Clone, Debug)]
 pub(crate) struct Metric {
     pub(crate) objective: Objective,
@@ -13,5 +13,5 @@ pub(crate) struct Metric {
     pub(crate) steps: Option<FluentId>,
 }
 
-/// Fluents that only the metric reads, after some steps.
+/// The values of the fluents that only the metric reads, after some steps.
 pub(crate) type Tally = Box<[Option<Number>]>;

@@ -1,10 +1,9 @@
 //! The grounded task: facts, operators, axioms, an initial state and a goal.
 //!
-//! Problem: a search must not look at schemas or names. Idea: what can change became numbered facts,
-//! what an action can do became operators over sets of facts, and everything that serves any query
-//! on the task (successor tree, relaxation, axiom program) is built once here, so that a replan
-//! starts with a state and a goal and nothing else. Invariant: a [`State`] made by a task is closed
-//! under its axioms.
+//! Problem: a search must not read schemas or names. Idea: changing atoms became numbered facts,
+//! and actions became operators over sets of facts. The structures that serve every query on the
+//! task (successor tree, relaxation, axiom program) are built once, so a replan needs only a state
+//! and a goal. Invariant: a [`State`] that a task creates is closed under its axioms.
 
 mod atoms;
 mod axioms;

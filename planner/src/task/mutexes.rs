@@ -1,10 +1,10 @@
-//! Facts of which at most one holds, and finite-domain variables made of them.
+//! Groups of facts of which at most one holds, and finite-domain variables made of them.
 //!
-//! Problem: facts are not independent: what is in one room is in no other. Idea: groups come from the
-//! domain's invariants; the largest group whose facts have no variable yet becomes a variable, and so
-//! on greedily; a fact in no group is a variable of its own. Invariant: in every state that operators
-//! reach from the initial one, at most one fact of a group holds, exactly one where that is said. A
-//! state that a caller makes up may break it; [`Mutexes::hold_in`] checks that.
+//! Problem: facts are not independent: an object in one room is in no other room. Idea: the groups
+//! come from the domain's invariants. Greedily, the group with the most facts without a variable
+//! becomes a variable. A fact in no group is a variable of its own. Invariant: in every state that
+//! operators reach from the initial one, at most one fact of a group holds, and exactly one if the
+//! group is exact. A state that a caller makes up may violate this; [`Mutexes::hold_in`] checks it.
 //!
 //! Source: Helmert, "Concise finite-domain representations for PDDL planning tasks", AIJ 2009, §5–6.
 
@@ -13,19 +13,20 @@ use crate::ids::{FactId, id32};
 use budget::{Interrupted, Meter};
 use pddl::model::Idx;
 
-/// The groups.
+/// The mutex groups.
 #[derive(Clone, Debug, Default)]
 pub struct Mutexes {
     /// The facts of each group, sorted.
     groups: Rows,
     /// The groups of each fact, sorted.
     of: Rows,
-    /// Whether always one of the group holds.
+    /// By group: whether exactly one of its facts always holds.
     exact: Vec<bool>,
 }
 
 impl Mutexes {
-    /// From groups of facts; operators and the initial state decide which are exact.
+    /// Creates groups from sets of facts; operators and the initial state decide which groups are
+    /// exact.
     pub(crate) fn new(
         facts: usize,
         groups: &[Vec<u32>],
@@ -51,7 +52,7 @@ impl Mutexes {
         Ok(mutexes)
     }
 
-    /// Notes the groups of which no fact may hold after the operator.
+    /// Marks the groups of which no fact may hold after the operator as not exact.
     fn leave(&mut self, operator: &Operator<'_>) {
         let Self { of, exact, .. } = self;
         let covered = |g: u32| operator.adds.iter().any(|a| of.row(a.0).contains(&g));
@@ -65,7 +66,7 @@ impl Mutexes {
         }
     }
 
-    /// How many groups.
+    /// The number of groups.
     pub fn len(&self) -> usize {
         self.exact.len()
     }
@@ -80,12 +81,12 @@ impl Mutexes {
         self.groups.row(id32(group)).iter().map(|&f| FactId(f))
     }
 
-    /// Whether one fact of the group holds in every state that is reached, and not none.
+    /// Whether exactly one fact of the group holds in every reachable state.
     pub fn is_exact(&self, group: usize) -> bool {
         self.exact[group]
     }
 
-    /// The groups that hold a fact, in order.
+    /// The groups that contain a fact, in order.
     pub fn groups_of(&self, fact: FactId) -> impl ExactSizeIterator<Item = usize> + '_ {
         self.of(fact).iter().map(|&g| g as usize)
     }
@@ -94,8 +95,7 @@ impl Mutexes {
         if self.is_empty() { &[] } else { self.of.row(fact.0) }
     }
 
-    /// Whether two facts never hold together. A fact and itself are no such pair. Cost: the facts'
-    /// groups, mostly one or two.
+    /// Whether two different facts never hold together. Cost: the facts' groups, mostly one or two.
     pub fn are_mutex(&self, a: FactId, b: FactId) -> bool {
         if a == b {
             return false;
@@ -117,7 +117,8 @@ impl Mutexes {
         (0..self.len()).all(|g| held(g) <= 1)
     }
 
-    /// Whether a state keeps all groups.
+    /// Whether a state satisfies all groups: at most one fact holds, and exactly one if the group
+    /// is exact.
     pub fn hold_in(&self, state: &State) -> bool {
         (0..self.len()).all(|g| {
             let held = self.group(g).filter(|&f| state.contains(f)).count();
@@ -126,23 +127,23 @@ impl Mutexes {
     }
 }
 
-/// A finite-domain variable: its values are facts, and "none of them" unless it is complete.
+/// A finite-domain variable: its values are its facts, and "none of them" unless it is complete.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Variable {
     /// Its facts, in order.
     pub facts: Box<[FactId]>,
-    /// Whether one of them holds in every state that is reached.
+    /// Whether one of them holds in every reachable state.
     pub complete: bool,
 }
 
 impl Variable {
-    /// How many values it has.
+    /// The number of values.
     pub fn size(&self) -> usize {
         self.facts.len() + usize::from(!self.complete)
     }
 }
 
-/// Each of the facts in one variable: the largest groups first. Derived facts are in none.
+/// Assigns each basic fact to one variable, largest groups first. Derived facts have no variable.
 pub(crate) fn variables(mutexes: &Mutexes, derived: &[bool]) -> Vec<Variable> {
     let mut taken = derived.to_vec();
     let mut left: Vec<usize> = (0..mutexes.len()).map(|g| mutexes.group(g).len()).collect();
@@ -161,7 +162,7 @@ pub(crate) fn variables(mutexes: &Mutexes, derived: &[bool]) -> Vec<Variable> {
                 taken[f.index()] = true;
                 mutexes.of(f).iter().for_each(|&g| left[g as usize] -= 1);
             }
-            // What is left of an exact group may hold nothing.
+            // In a part of an exact group, possibly no fact holds.
             let complete = mutexes.is_exact(group) && facts.len() == mutexes.group(group).len();
             found.push(Variable { facts: facts.into(), complete });
         }

@@ -1,10 +1,10 @@
-//! The names that a grounded task keeps of its domain and problem.
+//! The names from domain and problem that a grounded task keeps.
 
 use super::values::ValuePredicates;
 use pddl::model::{Domain, FunctionId, GroundApplication, IndexVec, Name, ObjectId, PredicateId, Problem};
 use std::fmt::Write;
 
-/// The names that a grounded task needs of its domain and problem.
+/// The names from domain and problem that a grounded task needs.
 #[derive(Clone, Debug)]
 pub(crate) struct Names {
     pub(super) actions: Vec<Name>,
@@ -25,7 +25,7 @@ impl Names {
         }
     }
 
-    /// Which predicates stand for object fluents.
+    /// The predicates that stand for object fluents.
     pub(crate) fn values(&self) -> &ValuePredicates {
         &self.values
     }

@@ -1,4 +1,4 @@
-//! A task's parts as PDDL writes them, for plans and reports.
+//! Names of a task's parts in PDDL syntax, for plans and reports.
 
 use super::fact::{GroundAtom, ObjectValue};
 use super::grounded::Task;
@@ -14,12 +14,12 @@ impl Task {
         self.names.list(&self.names.actions[action.0 as usize], arguments)
     }
 
-    /// A fluent as PDDL writes it, `(fuel a)`.
+    /// A fluent in PDDL syntax, `(fuel a)`.
     pub fn fluent_name(&self, fluent: &GroundApplication) -> String {
         self.names.fluent(fluent)
     }
 
-    /// A pattern as PDDL writes it, `(road ?from b)`.
+    /// A pattern in PDDL syntax, `(road ?from b)`.
     pub fn pattern_name(&self, pattern: &Pattern) -> String {
         self.names.open(&self.names.predicates[pattern.predicate], &pattern.arguments)
     }
@@ -29,12 +29,12 @@ impl Task {
         self.names.open(&self.names.actions[action.0 as usize], arguments)
     }
 
-    /// A ground atom as PDDL writes it.
+    /// A ground atom in PDDL syntax.
     pub fn atom_name(&self, atom: &GroundAtom) -> String {
         self.names.list(&self.names.predicates[atom.predicate], &atom.arguments)
     }
 
-    /// A fact as PDDL writes it; facts that grounding made up are `(auxiliary-N)`.
+    /// A fact in PDDL syntax; an auxiliary fact of grounding is `(auxiliary-N)`.
     pub fn fact_name(&self, fact: FactId) -> String {
         match (&self.facts[fact].atom, &self.facts[fact].value) {
             (Some(atom), _) => self.atom_name(atom),

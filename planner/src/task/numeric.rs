@@ -1,13 +1,13 @@
-//! Numbers in states: what they are, how operators change them, which comparisons hold.
+//! Numbers in states: their layout, the effects of operators, and comparisons.
 //!
-//! Problem: heuristics, successor trees and goals know bits. Idea: the numbers of a state follow its
-//! bits in the same record, and every comparison that some condition reads has a bit of its own, set
-//! again whenever an operator changes a number that it reads. Everything else sees bits only.
-//! Invariant: in every state that a task makes, a comparison's bit says whether it holds, and a number
-//! is exact: where the values of all effects stay multiples of one fraction, a number is a multiple in
-//! one word, else a ratio in two. A step whose result fits into neither is reported to the caller,
-//! and a search that had to leave it out proves nothing. Cost: the changed numbers and the comparisons
-//! that read them, per operator.
+//! Problem: heuristics, successor trees and goals support only bits. Idea: the numbers of a state
+//! follow its bits in the same record. Every comparison that some condition reads has its own bit,
+//! which is computed again whenever an operator changes a number that it reads. All other code
+//! reads only bits. Invariant: in every state that a task creates, the bit of a comparison is
+//! correct, and numbers are exact. If the values of all effects stay multiples of one fraction, a
+//! number is a multiple in one word; otherwise it is a ratio in two words. If the result of a step
+//! does not fit, the caller gets an error, and a search that therefore drops a state proves
+//! nothing. Cost: per operator, the changed numbers and the comparisons that read them.
 
 use super::{Literals, set, unset};
 use crate::ids::{FactId, FluentId, id32};
@@ -22,15 +22,16 @@ pub(crate) struct Fluent {
     pub(crate) initial: Option<Number>,
 }
 
-/// A fact that numbers decide.
+/// A fact that is defined by a comparison of numbers.
 #[derive(Clone, Debug)]
 pub(crate) struct Comparison {
     pub(crate) fact: FactId,
     pub(crate) relation: Relation,
     pub(crate) expression: Expression<FluentId>,
-    /// Whether operators do nothing to its fluents but add constants.
+    /// Whether operators only add constants to its fluents.
     pub(super) steady: bool,
-    /// The sum that it bounds from below: equal for those that differ in the bound alone.
+    /// The sum that it bounds from below. Comparisons that differ only in their bound have the same
+    /// sum.
     pub(super) sum: Option<u32>,
     fast: Option<Fast>,
 }
@@ -41,7 +42,7 @@ pub(crate) struct Update {
     pub(crate) condition: Literals,
     pub(crate) fluent: FluentId,
     pub(crate) change: Change,
-    /// `None` takes the value away.
+    /// The new value; `None` makes the fluent undefined.
     pub(crate) value: Option<Expression<FluentId>>,
     fast: Option<Fast>,
 }
@@ -57,13 +58,13 @@ impl Update {
     }
 }
 
-/// What an operator does to numbers.
+/// The effects of an operator on numbers.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct NumericEffects {
     pub(crate) updates: Box<[Update]>,
-    /// Changes of what only the metric reads; no state holds it.
+    /// Changes of fluents that only the metric reads; states do not hold these.
     pub(crate) metric: Box<[Update]>,
-    /// Positions of the comparisons that read what is updated.
+    /// The positions of the comparisons that read updated fluents.
     pub(crate) rechecked: Box<[u32]>,
 }
 
@@ -75,27 +76,27 @@ struct Fast {
     divisor: i128,
 }
 
-/// How numbers are written into words.
+/// The layout of numbers in words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Layout {
-    /// One word: how many of `1 / scale`.
+    /// One word: a multiple of `1 / scale`.
     Multiple(i64),
     /// Two words: numerator and denominator.
     Ratio,
 }
 
-/// No value, as a multiple.
+/// An undefined value, as a multiple.
 const NOTHING: i64 = i64::MIN;
-/// Above this, a common denominator is worth nothing.
+/// The largest useful common denominator.
 const LARGEST_SCALE: i128 = 1_000_000_000;
 
 /// The numeric part of a task.
 #[derive(Clone, Debug)]
 pub(crate) struct Numeric {
-    /// Where numbers start in a state.
+    /// The first word of numbers in a state.
     start: usize,
     layout: Layout,
-    /// Those that states hold, then those that only the metric reads.
+    /// The fluents in states, then those that only the metric reads.
     pub(crate) fluents: Box<[Fluent]>,
     pub(crate) stored: usize,
     pub(crate) comparisons: Box<[Comparison]>,
@@ -114,7 +115,7 @@ impl Default for Numeric {
 }
 
 impl Numeric {
-    /// `start` is the number of words of facts; the first `stored` of the fluents are in states. Also
+    /// `start` is the number of words of facts; the first `stored` fluents are in states. Also
     /// prepares the operators' effects.
     pub(crate) fn new<'e>(
         start: usize,
@@ -167,7 +168,7 @@ impl Numeric {
         numeric
     }
 
-    /// How many words a state has for numbers.
+    /// The number of words of a state that hold numbers.
     pub(crate) fn words(&self) -> usize {
         match self.layout {
             Layout::Multiple(_) => self.stored,
@@ -196,7 +197,7 @@ impl Numeric {
         }
     }
 
-    /// Writes a number; answers whether it fits. One that does not is written as no value.
+    /// Writes a number. Returns whether it fits; one that does not fit is written as undefined.
     #[expect(clippy::cast_sign_loss, reason = "words hold the bits of signed numbers")]
     pub(crate) fn set(&self, words: &mut [u64], fluent: FluentId, value: Option<Number>) -> bool {
         let i = fluent.index();
@@ -222,7 +223,7 @@ impl Numeric {
         }
     }
 
-    /// Writes the initial values and the comparisons that hold then; answers whether all numbers fit.
+    /// Writes the initial values and the bits of all comparisons. Returns whether all numbers fit.
     pub(crate) fn initialise(&self, words: &mut [u64]) -> bool {
         let mut fit = true;
         for (i, fluent) in self.fluents[..self.stored].iter().enumerate() {
@@ -231,8 +232,8 @@ impl Numeric {
         self.compare_all(words) && fit
     }
 
-    /// Sets the bit of every comparison; answers whether all sides fit. One that does not counts as
-    /// false.
+    /// Sets the bit of every comparison. Returns whether all their values fit; a comparison whose
+    /// value does not fit counts as false.
     pub(crate) fn compare_all(&self, words: &mut [u64]) -> bool {
         let mut fit = true;
         for comparison in &self.comparisons {
@@ -244,7 +245,7 @@ impl Numeric {
         fit
     }
 
-    /// Makes an operator's changes to `next`, a copy of `state`; answers whether all numbers fit.
+    /// Applies an operator's changes to `next`, a copy of `state`. Returns whether all numbers fit.
     pub(crate) fn apply(&self, effects: &NumericEffects, state: &[u64], next: &mut [u64]) -> bool {
         let mut updates = effects.updates.iter().filter(|u| u.condition.hold_in(state));
         let mut rechecked = effects.rechecked.iter().map(|&position| &self.comparisons[position as usize]);
@@ -254,7 +255,7 @@ impl Numeric {
 
     #[expect(clippy::cast_sign_loss, clippy::cast_possible_wrap, reason = "words hold signed numbers' bits")]
     fn update(&self, update: &Update, state: &[u64], next: &mut [u64]) -> bool {
-        // Additions and assignments of multiples, which most are.
+        // The common case: additions and assignments of multiples.
         if let (Layout::Multiple(_), Some(fast), Change::Shift | Change::Assign) =
             (self.layout, &update.fast, update.change)
         {
@@ -285,7 +286,7 @@ impl Numeric {
         Influence::of(compared, &update.fluent, update.change, update.value.as_ref())
     }
 
-    /// Sets the comparison's bit; answers whether its sides fit.
+    /// Sets the comparison's bit. Returns whether its value fits.
     fn compare(&self, comparison: &Comparison, words: &mut [u64]) -> bool {
         match self.holds(comparison, words) {
             Some(true) => set(words, comparison.fact),
@@ -295,7 +296,7 @@ impl Numeric {
         true
     }
 
-    /// `None` where a side is too long.
+    /// `None` if the value does not fit.
     fn holds(&self, comparison: &Comparison, words: &[u64]) -> Option<bool> {
         if let Some(fast) = &comparison.fast {
             let sum = self.sum(fast, words);
@@ -309,7 +310,7 @@ impl Numeric {
         }
     }
 
-    /// What one is in the units in which [`measure`](Self::measure) gives a comparison's expression.
+    /// The number 1 in the units of [`measure`](Self::measure) for this comparison.
     pub(super) fn unit(&self, comparison: &Comparison) -> Number {
         match (self.layout, &comparison.fast) {
             (Layout::Multiple(scale), Some(fast)) => {
@@ -321,7 +322,7 @@ impl Numeric {
         }
     }
 
-    /// The value of a comparison's expression, in its units: to 15 digits.
+    /// The value of a comparison's expression in its own units, to 15 digits.
     #[expect(clippy::cast_precision_loss, reason = "estimates take the first digits")]
     pub(super) fn measure(&self, comparison: &Comparison, words: &[u64]) -> Option<f64> {
         match &comparison.fast {
@@ -330,7 +331,7 @@ impl Numeric {
         }
     }
 
-    /// `divisor` times the value; `None` if some fluent has none.
+    /// `divisor` times the value; `None` if some fluent is undefined.
     #[expect(clippy::cast_possible_wrap, reason = "words hold the bits of signed numbers")]
     fn sum(&self, fast: &Fast, words: &[u64]) -> Option<i128> {
         let mut sum = fast.constant;
@@ -339,7 +340,7 @@ impl Numeric {
             if word == NOTHING {
                 return None;
             }
-            // Below 2^63 each, and too few terms to leave 127 bits.
+            // Each factor is below 2^63, and there are too few terms to exceed 127 bits.
             sum += i128::from(coefficient) * i128::from(word);
         }
         Some(sum)
@@ -364,7 +365,7 @@ impl Numeric {
     }
 }
 
-/// The fluent after a change; `None` if it then has no value.
+/// The fluent's value after a change; `None` if it is then undefined.
 pub(crate) fn changed(change: Change, before: Option<Number>, value: Option<Number>) -> Option<Number> {
     match change {
         Change::Assign => value,
@@ -381,7 +382,7 @@ fn common_multiple(a: i128, b: i128) -> Option<i128> {
     (a / x).checked_mul(b)
 }
 
-/// The denominator of which all numbers stay fractions, if there is one.
+/// The common denominator of all numbers, if there is one.
 fn common_scale<'u>(fluents: &[Fluent], updates: impl Iterator<Item = &'u Update> + Clone) -> Option<i64> {
     let add = |scale: i128, number: Number| {
         common_multiple(scale, number.denominator()).filter(|&s| s <= LARGEST_SCALE)
@@ -405,7 +406,7 @@ fn common_scale<'u>(fluents: &[Fluent], updates: impl Iterator<Item = &'u Update
     updates.into_iter().all(keeps).then(|| i64::try_from(scale).ok())?
 }
 
-/// Whether whole numbers give a whole number.
+/// Whether the expression maps integers to integers.
 fn is_whole(expression: &Expression<FluentId>) -> bool {
     match expression {
         Expression::Linear(linear) => {

@@ -7,35 +7,35 @@ use super::state::{set, unset};
 use crate::ids::FactId;
 use pddl::model::{ActionId, ObjectId};
 
-/// A ground operator. Several may stand for one ground action: copies of a disjunctive or
-/// existential precondition.
+/// A ground operator. Several operators may represent one ground action: one for each way to
+/// satisfy a disjunctive or existential precondition.
 #[derive(Clone, Copy, Debug)]
 pub struct Operator<'a> {
-    /// The schema.
+    /// The action schema.
     pub action: ActionId,
-    /// The schema's parameters.
+    /// The arguments of the schema.
     pub arguments: &'a [ObjectId],
-    /// When it may be applied.
+    /// The condition under which it is applicable.
     pub precondition: LiteralsRef<'a>,
     /// Facts that become true.
     pub adds: &'a [FactId],
     /// Facts that become false (disjoint from `adds`).
     pub deletes: &'a [FactId],
-    /// What else happens.
+    /// The conditional effects.
     pub conditional: ConditionalEffects<'a>,
-    /// What it does to numbers.
+    /// The effects on numbers.
     pub(crate) numeric: Option<&'a NumericEffects>,
     /// Its cost in units of `1 / Task::cost_scale`.
     pub cost: u32,
 }
 
 impl Operator<'_> {
-    /// Whether it changes numbers that something reads.
+    /// Whether it changes fluents of states.
     pub fn changes_numbers(&self) -> bool {
         self.numeric.is_some_and(|effects| !effects.updates.is_empty())
     }
 
-    /// How many literals and changes, those under conditions left out.
+    /// The number of literals and changes, without conditional effects.
     pub(crate) fn size(&self) -> usize {
         self.precondition.len() + self.adds.len() + self.deletes.len()
     }

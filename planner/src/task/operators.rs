@@ -1,10 +1,11 @@
-//! All operators of a task, behind each other in a few arrays.
+//! All operators of a task, in a few shared arrays.
 //!
-//! Problem: a million operators that own their parts are five million allocations, which take as long to
-//! make and to give back as grounding itself, and scatter what a search reads. Idea: the facts of all
-//! operators lie in one array, those of conditional effects in another, and each operator is where its
-//! parts end; [`Operators::get`] gives them as slices. Invariant: operators are only added, and parts lie
-//! in the order of operators. Cost: 28 bytes an operator beside its facts and arguments.
+//! Problem: a million operators that own their parts need five million allocations. These take as
+//! long to make and to free as grounding itself, and they scatter the data that a search reads.
+//! Idea: one array holds the facts of all operators, another those of conditional effects, and each
+//! operator stores where its parts end. [`Operators::get`] returns the parts as slices. Invariant:
+//! operators are only added, and parts are stored in the order of operators. Cost: 28 bytes an
+//! operator, plus its facts and arguments.
 
 use super::blocks::{Block, Blocks, ConditionalEffects, Ends};
 use super::numeric::NumericEffects;
@@ -12,11 +13,11 @@ use super::operator::Operator;
 use crate::ids::{FactId, OperatorId, id32};
 use pddl::model::{ActionId, Idx, ObjectId};
 
-/// The parts of an operator that is added.
+/// The parts of an operator to add.
 pub(crate) struct NewOperator<'a> {
     pub(crate) action: ActionId,
     pub(crate) arguments: &'a [ObjectId],
-    /// What must hold, what must not, what is added, what is deleted: each sorted.
+    /// Positive and negative precondition, adds, deletes; each sorted.
     pub(crate) facts: [&'a [FactId]; 4],
     pub(crate) numeric: Option<Box<NumericEffects>>,
 }
@@ -29,15 +30,15 @@ pub struct Operators {
     argument_ends: Vec<u32>,
     arguments: Vec<ObjectId>,
     blocks: Blocks,
-    /// By operator, where its conditional effects end; empty where no operator has one.
+    /// By operator: where its conditional effects end; empty if no operator has one.
     conditional_ends: Vec<u32>,
     conditional: Blocks,
-    /// Empty where no operator changes numbers.
+    /// Empty if no operator changes numbers.
     numeric: Vec<Option<Box<NumericEffects>>>,
 }
 
 impl Operators {
-    /// Adds a conditional effect of the operator that is added next.
+    /// Adds a conditional effect to the operator that is added next.
     pub(crate) fn push_conditional(&mut self, facts: [&[FactId]; 4]) {
         if self.conditional_ends.is_empty() {
             self.conditional_ends.resize(self.len(), 0);
@@ -45,7 +46,7 @@ impl Operators {
         self.conditional.push(facts);
     }
 
-    /// Adds an operator that costs 1.
+    /// Adds an operator with cost 1.
     pub(crate) fn push(&mut self, new: NewOperator<'_>) {
         if new.numeric.is_some() && self.numeric.is_empty() {
             self.numeric.resize_with(self.len(), || None);
@@ -71,7 +72,7 @@ impl Operators {
         self.numeric.iter_mut().filter_map(Option::as_deref_mut)
     }
 
-    /// How many.
+    /// The number of operators.
     pub fn len(&self) -> usize {
         self.actions.len()
     }
@@ -111,22 +112,22 @@ impl Operators {
         }
     }
 
-    /// What an operator costs.
+    /// The cost of an operator.
     pub fn cost(&self, operator: OperatorId) -> u32 {
         self.costs[operator.index()]
     }
 
-    /// All of them, in order.
+    /// Iterates over all operators, in order.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = Operator<'_>> + Clone {
         self.ids().map(|id| self.get(id))
     }
 
-    /// All of them with their ids.
+    /// Iterates over all operators with their ids.
     pub fn enumerate(&self) -> impl ExactSizeIterator<Item = (OperatorId, Operator<'_>)> + Clone {
         self.ids().map(|id| (id, self.get(id)))
     }
 
-    /// Bytes that they hold.
+    /// The bytes that they hold.
     pub(crate) fn memory_bytes(&self) -> usize {
         let blocks = |b: &Blocks| b.ends.capacity() * size_of::<Ends>() + b.facts.capacity() * 4;
         let numbers = |e: &NumericEffects| 200 * (1 + e.updates.len() + e.metric.len());

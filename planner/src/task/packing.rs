@@ -1,11 +1,11 @@
-//! States as values of finite-domain variables, for storing them.
+//! Packs states into finite-domain variables, to store them.
 //!
-//! Problem: with a bit a fact, a lorry that may be in a thousand places takes a thousand bits of every
-//! state that a search keeps. Idea: of each variable only the number of its value is stored, in as many
-//! bits as it needs; facts without others beside them keep a bit each. A reader of a stored state
-//! unpacks it. Invariant: packing and unpacking give the same words back if at most one fact of each
-//! variable holds, which a search makes sure of for its first state. Cost: a step for each variable
-//! and each fact that holds; so tasks whose states would not become much smaller are left as they are.
+//! Problem: with one bit per fact, a lorry that may be in a thousand places takes a thousand bits
+//! of every stored state. Idea: for each variable, store only the number of its value, in as many
+//! bits as necessary; a variable with a single fact keeps its bit. A reader of a stored state
+//! unpacks it. Invariant: packing and unpacking returns the same words if at most one fact of each
+//! variable holds; the search checks this for its first state. Cost: a step for each variable and
+//! each fact that holds, so packing is used only if it makes states much smaller.
 //!
 //! Source: Edelkamp & Helmert, "Exhibiting knowledge in planning problems to minimize state encoding
 //! length", ECP 1999.
@@ -14,7 +14,7 @@ use super::{Variable, for_each_set, set};
 use crate::ids::{FactId, id32};
 use pddl::model::Idx;
 
-/// So many times smaller a state must become.
+/// The factor by which packing must reduce the size of a state.
 const WORTH: usize = 3;
 
 /// The bits of a variable with several facts.
@@ -23,29 +23,29 @@ struct Field {
     word: u32,
     shift: u32,
     mask: u64,
-    /// Its first value's place in `values`.
+    /// The position of its first value in `values`.
     first: u32,
 }
 
-/// Where facts are in a packed state.
+/// The positions of facts in a packed state.
 #[derive(Clone, Debug)]
 pub(crate) struct Packing {
-    /// By fact: the word, and what it adds to it.
+    /// By fact: its word, and the bits that it sets in the word.
     places: Vec<(u32, u64)>,
     fields: Vec<Field>,
     /// The facts of all fields, field after field.
     values: Vec<FactId>,
-    /// The word from which on each bit is a fact, and these facts.
+    /// The first word in which each bit is a fact, and these facts.
     singles_from: usize,
     singles: Vec<FactId>,
-    /// Words of facts, unpacked and packed.
+    /// The number of words of facts, unpacked and packed.
     unpacked: usize,
     packed: usize,
 }
 
 impl Packing {
-    /// For states of so many facts, if it makes them much smaller. Facts of no variable (derived ones)
-    /// keep their bit.
+    /// Packing for states with this many facts; `None` if it does not make states much smaller.
+    /// Facts without a variable (derived ones) keep their bit.
     pub(crate) fn new(facts: usize, variables: &[Variable]) -> Option<Self> {
         let mut packing = Self {
             places: vec![(u32::MAX, 0); facts],
@@ -84,12 +84,12 @@ impl Packing {
         (packing.packed * WORTH <= packing.unpacked).then_some(packing)
     }
 
-    /// Words of a packed state, of which an unpacked one has so many.
+    /// The number of words of a packed state whose unpacked form has `words` words.
     pub(crate) fn width(&self, words: usize) -> usize {
         self.packed + (words - self.unpacked)
     }
 
-    /// Packs; the words after the facts are taken over.
+    /// Packs a state; the words after the facts are copied.
     pub(crate) fn pack(&self, words: &[u64], packed: &mut [u64]) {
         let (facts, more) = words.split_at(self.unpacked);
         packed[..self.packed].fill(0);
@@ -100,7 +100,7 @@ impl Packing {
         packed[self.packed..].copy_from_slice(more);
     }
 
-    /// Unpacks.
+    /// Unpacks a state.
     pub(crate) fn unpack(&self, packed: &[u64], words: &mut [u64]) {
         let (facts, more) = words.split_at_mut(self.unpacked);
         facts.fill(0);

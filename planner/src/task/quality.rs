@@ -1,4 +1,4 @@
-//! The quality of plans whose metric is no sum of operators' costs.
+//! The quality of plans if the metric is not a sum of operator costs.
 
 use super::grounded::Task;
 use super::metric::Tally;
@@ -9,15 +9,15 @@ use crate::number::Number;
 use pddl::model::{Idx, Objective};
 
 impl Task {
-    /// Whether a plan's quality is the sum of its operators' costs (the length, without costs), so that
-    /// optimal searches can prove that a plan is optimal.
+    /// Whether a plan's quality is the sum of its operators' costs (the length, without costs), so
+    /// that optimal searches can prove optimality.
     pub fn has_additive_costs(&self) -> bool {
         self.metric.is_none()
     }
 
-    /// The metric's value after a plan from `state`, where it is no sum of operators' costs: smaller is
-    /// better, so a metric to maximise comes with the opposite sign. `None` without such a metric, or
-    /// where it has no value. What only the metric reads starts at its initial value.
+    /// The metric's value after a plan from `state`, if it is not a sum of operator costs. Smaller
+    /// is better: a metric to maximise has the opposite sign. `None` without such a metric, or if
+    /// its value is undefined. Fluents that only the metric reads start at their initial values.
     pub fn quality(&self, state: &State, plan: &[OperatorId]) -> Option<Number> {
         self.metric.as_ref()?;
         let mut tally = self.tally();
@@ -30,12 +30,12 @@ impl Task {
         self.measure(&here, &tally)
     }
 
-    /// What only the metric reads, before the first step.
+    /// The fluents that only the metric reads, before the first step.
     pub(crate) fn tally(&self) -> Tally {
         self.numeric.fluents[self.numeric.stored..].iter().map(|f| f.initial).collect()
     }
 
-    /// Counts a step from `state`.
+    /// Applies a step from `state` to the tally.
     pub(crate) fn count(&self, state: &State, operator: OperatorId, tally: &mut Tally) {
         if let Some(effects) = self.operator(operator).numeric {
             self.add_up(effects, state, tally);
@@ -46,7 +46,7 @@ impl Task {
         }
     }
 
-    /// The metric's value in `state`, as [`Task::quality`] has it.
+    /// The metric's value in `state`, with the sign of [`Task::quality`].
     pub(crate) fn measure(&self, state: &State, tally: &Tally) -> Option<Number> {
         let metric = self.metric.as_ref()?;
         let value = metric.expression.evaluate(&|f| self.number(state, tally, *f)).ok()?;
@@ -65,7 +65,7 @@ impl Task {
         let value = |update: &Update, unseen: &[Option<Number>]| {
             update.value.as_ref().and_then(|v| v.evaluate(&|f| self.number(state, unseen, *f)).ok())
         };
-        // All are read before any is written.
+        // All fluents are read before any is written.
         let values: Vec<(&Update, Option<Number>)> =
             effects.metric.iter().filter(applies).map(|u| (u, value(u, unseen))).collect();
         for (update, value) in values {

@@ -1,15 +1,18 @@
-//! What must hold before steps for them to be done and to end in a goal.
+//! Regression: the condition under which a sequence of steps reaches a goal.
 //!
-//! Idea: from the back, what a step gives is taken out of what is wanted, and what it needs is added. Repair, the
-//! windows of a plan and the executive's monitoring all regress through this one type.
+//! Idea: go through the steps from the last to the first. Each step removes the literals that it
+//! achieves from the condition and adds its precondition. Repair, the windows of a plan and the
+//! executive's monitoring all regress through this one type.
 //!
-//! Axioms and numbers decide anew after each step. So a wanted fact that an axiom derives is dropped before a step,
-//! for which facts it depends on is not followed back; a wanted comparison of numbers is dropped only before a step
-//! that changes numbers, since any other step leaves it as it is. Conditional effects are not followed back, and a
-//! step that takes away what is wanted after it is not noticed. A caller that needs a plan therefore replays it.
+//! Axioms and numbers are evaluated again after each step. A derived fact is therefore dropped from
+//! the condition before a step: the basic facts that it depends on are not regressed. A comparison
+//! of numbers is dropped only before a step that changes numbers; any other step keeps it as it is.
+//! Conditional effects are not regressed, and a step that deletes a wanted fact is not detected. A
+//! caller that needs a valid plan must therefore replay it.
 //!
-//! Invariant: where [`Kernel::is_exact`], and the steps are a suffix of some valid plan for that goal, the kernel of the
-//! steps holds exactly in the states from which they reach the goal. Cost: a step is linear in the kernel, times a search in the step's effects.
+//! Invariant: if [`Kernel::is_exact`] and the steps are a suffix of some valid plan for that goal,
+//! the kernel of the steps holds exactly in the states from which they reach the goal. Cost: a step
+//! is linear in the kernel, times a search in the step's effects.
 //!
 //! Source: Fikes, Hart & Nilsson, "Learning and executing generalized robot plans", AIJ 1972.
 
@@ -19,7 +22,7 @@ use super::state::State;
 use crate::ids::{FactId, OperatorId};
 use std::collections::BTreeMap;
 
-/// What must hold now for the steps so far to reach the goal.
+/// The condition that must hold now so that the steps reach the goal.
 #[derive(Clone, Debug)]
 pub struct Kernel<'a> {
     task: &'a Task,
@@ -27,14 +30,15 @@ pub struct Kernel<'a> {
 }
 
 impl<'a> Kernel<'a> {
-    /// Before no step: the goal.
+    /// The kernel before no steps: the goal.
     pub fn new(task: &'a Task, goal: &Literals) -> Self {
         let mut kernel = Self { task, wanted: BTreeMap::new() };
         kernel.require(goal.as_ref());
         kernel
     }
 
-    /// Whether regression through these steps loses nothing: no axioms, no conditional effects, no changes of numbers.
+    /// Whether regression through these steps is exact: no axioms, no conditional effects, no
+    /// changes of numbers.
     pub fn is_exact(task: &Task, steps: &[OperatorId]) -> bool {
         let regresses = |&step: &OperatorId| {
             let operator = task.operator(step);
@@ -43,7 +47,7 @@ impl<'a> Kernel<'a> {
         task.axioms().is_empty() && steps.iter().all(regresses)
     }
 
-    /// Goes to before a step that comes before those so far.
+    /// Regresses through a step that precedes those so far.
     pub fn before(&mut self, step: OperatorId) {
         let (task, operator) = (self.task, self.task.operator(step));
         self.wanted.retain(|fact, wanted| {
@@ -60,17 +64,17 @@ impl<'a> Kernel<'a> {
         self.wanted.extend(literals.negative.iter().map(|&fact| (fact, false)));
     }
 
-    /// Each fact with whether it must hold, in order of facts.
+    /// The literals of the kernel: each fact with whether it must hold, in order of facts.
     pub fn iter(&self) -> impl Iterator<Item = (FactId, bool)> {
         self.wanted.iter().map(|(&fact, &wanted)| (fact, wanted))
     }
 
-    /// How many of its literals do not hold in a state.
+    /// The number of its literals that do not hold in a state.
     pub(crate) fn missing(&self, state: &State) -> usize {
         self.iter().filter(|&(fact, wanted)| state.contains(fact) != wanted).count()
     }
 
-    /// The same as a goal's literals.
+    /// The kernel as literals of a goal.
     pub(crate) fn literals(&self) -> Literals {
         let of = |wanted| self.iter().filter(move |&(_, own)| own == wanted).map(|(fact, _)| fact);
         Literals { positive: of(true).collect(), negative: of(false).collect() }
@@ -83,7 +87,7 @@ mod tests {
     use crate::test_support::Grounded;
     use crate::{Task, ids::OperatorId};
 
-    /// A pump that needs a level, a lamp that an axiom derives.
+    /// A pump that needs a level, and a lamp that an axiom derives.
     fn task() -> Grounded {
         let domain = "(define (domain d) (:requirements :strips :numeric-fluents :derived-predicates)
             (:predicates (on) (done) (wired) (lit)) (:functions (level))

@@ -1,4 +1,4 @@
-//! Building the delete relaxation: from a task, or from another relaxation with fewer effects.
+//! Builds the delete relaxation: from a task, or from another relaxation with fewer effects.
 
 use super::axioms::AxiomProgram;
 use super::cliques::cliques;
@@ -80,7 +80,7 @@ impl Relaxation {
         Ok(graph)
     }
 
-    /// Finds who needs what.
+    /// Computes the nodes that need each proposition, and the moves.
     fn index(&mut self, meter: &Meter<'_>) -> Result<(), Interrupted> {
         self.needed_by = self.preconditions.transposed(self.propositions(), meter)?;
         let starts = (0..id32(self.propositions())).map(|p| {
@@ -101,7 +101,7 @@ impl Relaxation {
         let negated = deletes.iter().filter(achieves).map(|f| negation[f.index()]);
         self.effects.push(adds.iter().map(|f| f.0).chain(negated));
         let positive = needs.iter().flat_map(|l| l.positive.iter().map(|f| f.0));
-        // Each negated fact of a condition was given a proposition.
+        // Every negated fact of a condition has a proposition.
         let negative = needs.iter().flat_map(|l| l.negative.iter().map(|f| negation[f.index()]));
         self.preconditions.push_sorted(positive.chain(negative));
         let node = id32(self.operator.len());
@@ -112,8 +112,8 @@ impl Relaxation {
         self.cost.push(cost);
     }
 
-    /// The same graph with these effects for each node; nodes without effects go, and moves come last,
-    /// by what they need.
+    /// The same graph with these effects for each node. Nodes without effects are removed, and
+    /// moves come last, sorted by their precondition.
     pub(crate) fn with_effects(&self, effects: &Rows, meter: &Meter<'_>) -> Result<Self, Interrupted> {
         let mut graph = Self {
             facts: self.facts,

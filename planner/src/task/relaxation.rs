@@ -1,12 +1,12 @@
 //! The delete relaxation as flat arrays.
 //!
-//! Problem: heuristics walk the same bipartite graph of propositions and operators millions of
-//! times. Idea: a proposition for each fact and for the negation of each fact that some condition
-//! negates; a node for each operator, each of its conditional effects and each axiom rule; adjacency
-//! in compressed rows. Deleting a fact achieves its negation. The negation of a derived fact counts
-//! as true (optimistic, hence safe). A comparison of numbers is a fact like others; [`Ways`] holds
-//! how often an operator must be repeated for it. Invariant: a plan of the task is a plan of the
-//! relaxation.
+//! Problem: heuristics visit the same bipartite graph of propositions and operators millions of
+//! times. Idea: there is a proposition for each fact, and for the negation of each fact that some
+//! condition negates. There is a node for each operator, each of its conditional effects and each
+//! axiom rule. Adjacency is in compressed rows. Deleting a fact achieves its negation. The negation
+//! of a derived fact counts as true (optimistic, hence safe). A comparison of numbers is a fact
+//! like others; [`Ways`] holds how often an operator must be repeated for it. Invariant: a plan of
+//! the task is a plan of the relaxation.
 //!
 //! Source: Hoffmann & Nebel, "The FF planning system", JAIR 2001, §3; negations as in Helmert 2006.
 
@@ -17,7 +17,7 @@ use super::state::{contains, for_each_set};
 use crate::ids::{FactId, id32};
 use pddl::model::Idx;
 
-/// No operator: an axiom's node.
+/// The operator number of an axiom's node.
 pub(crate) const AXIOM: u32 = u32::MAX;
 
 /// The graph.
@@ -34,56 +34,56 @@ pub(crate) struct Relaxation {
     pub(crate) operator: Vec<u32>,
     /// The cost of each node.
     pub(crate) cost: Vec<u32>,
-    /// What each node needs.
+    /// The preconditions of each node.
     pub(crate) preconditions: Rows,
-    /// What each node achieves.
+    /// The propositions that each node achieves.
     pub(crate) effects: Rows,
-    /// How it achieves them.
+    /// How each node achieves its propositions.
     pub(crate) ways: Ways,
-    /// The nodes that need a proposition.
+    /// The nodes that need each proposition.
     pub(crate) needed_by: Rows,
-    /// Nodes from this one on are moves: they need one proposition and nothing else.
+    /// The first move; all nodes from this one on have exactly one precondition.
     pub(crate) first_move: u32,
-    /// By proposition, where in its row of `needed_by` the moves begin.
+    /// By proposition: where the moves begin in its row of `needed_by`.
     pub(super) moves_at: Vec<u32>,
-    /// By proposition, its clique.
+    /// By proposition: its clique.
     pub(crate) clique: Vec<u32>,
     pub(crate) cliques: usize,
-    /// The nodes that need nothing.
+    /// The nodes without preconditions.
     pub(crate) free: Vec<u32>,
 }
 
 impl Relaxation {
-    /// The nodes that need a proposition: those that may need others as well, and the moves.
+    /// The nodes that need a proposition: first those that are not moves, then the moves.
     pub(crate) fn waiting_and_moves(&self, proposition: u32) -> (&[u32], &[u32]) {
         self.needed_by.row(proposition).split_at(self.moves_at[proposition as usize] as usize)
     }
 
-    /// What a node counts: first whether it is an operator at all, then its cost.
+    /// The price of a node: whether it is an operator, then its cost.
     pub(crate) fn price(&self, node: u32) -> (bool, u32) {
         (self.operator[node as usize] != AXIOM, self.cost[node as usize])
     }
 
-    /// The propositions of a conjunction. A negated fact without a proposition (a goal that came
-    /// after grounding) is left out: optimistic.
+    /// The propositions of a conjunction. A negated fact without a proposition (of a goal that is
+    /// newer than the grounding) is left out: optimistic.
     pub(crate) fn literals(&self, literals: &Literals) -> Vec<u32> {
         let negative = literals.negative.iter().map(|f| self.negation[f.index()]).filter(|&p| p != 0);
         literals.positive.iter().map(|f| f.0).chain(negative).collect()
     }
 
-    /// How many propositions.
+    /// The number of propositions.
     pub(crate) fn propositions(&self) -> usize {
         self.facts + self.negated.len()
     }
 
-    /// Bytes that it holds, about.
+    /// The approximate bytes that it holds.
     pub(crate) fn memory_bytes(&self) -> usize {
         let rows = [&self.preconditions, &self.effects, &self.needed_by];
         let lists = self.operator.capacity() + self.cost.capacity() + self.free.capacity() + self.facts;
         rows.into_iter().map(Rows::memory_bytes).sum::<usize>() + lists * size_of::<u32>()
     }
 
-    /// How many nodes.
+    /// The number of nodes.
     pub(crate) fn nodes(&self) -> usize {
         self.operator.len()
     }

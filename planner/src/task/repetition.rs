@@ -1,12 +1,13 @@
-//! How operators move comparisons in the relaxation: at once, or step by step.
+//! How operators satisfy comparisons in the relaxation: at once, or step by step.
 //!
-//! Problem: to a relaxation that knows bits, one litre fills the tank. Idea: where an operator adds
-//! always the same to a weighted sum of fluents, what the sum lacks in a state says how often the
-//! operator must be done; where it adds what other fluents say (a rate), their values in the state say
-//! so. Whatever else an operator does to a comparison (assignments, scaling, products) may satisfy it at
-//! once. An operator's effects on one sum are taken together; those under conditions may come on top.
-//! Invariant: if a comparison ever comes to hold on the way from a state, then some operator of that way
-//! has a node that achieves it in finitely many repetitions from there: relaxations stay safe.
+//! Problem: for a relaxation that supports only bits, one litre fills the tank. Idea: if an
+//! operator always adds the same amount to a weighted sum of fluents, the amount that the sum lacks
+//! in a state gives the number of repetitions. If it adds the value of other fluents (a rate),
+//! their values in the state give the amount. Any other effect of an operator on a comparison
+//! (assignments, scaling, products) may satisfy it at once. An operator's effects on one sum are
+//! added up; conditional ones may increase the amount. Invariant: if a comparison becomes true on a
+//! path from a state, then some operator of that path has a node that achieves it from that state
+//! in finitely many repetitions, so relaxations stay safe.
 //!
 //! Source: Scala, Haslum, Thiébaux & Ramirez, "Subgoaling techniques for satisficing and optimal numeric
 //! planning", JAIR 2020, §4; Hoffmann, "The Metric-FF planning system", JAIR 2003. Rates are ours.
@@ -20,23 +21,24 @@ use rustc_hash::FxHashMap;
 /// How a node achieves a proposition.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Way {
-    /// It holds afterwards, as far as the relaxation knows.
+    /// The proposition holds afterwards, as far as the relaxation knows.
     Once,
-    /// It moves this comparison by so many of its units each time.
+    /// Each repetition moves this comparison by this many of its units.
     Steps { comparison: u32, step: f64 },
-    /// It moves this comparison by the value of an expression, which other operators may change.
+    /// Each repetition moves this comparison by the value of an expression, which other operators
+    /// may change.
     Rate { comparison: u32, step: Box<Expression<FluentId>> },
 }
 
 /// The ways of all effects of a graph, by their position among all effects.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Ways {
-    /// Positions in `known`, plus 1; 0 is [`Way::Once`]. Shorter than the effects where the rest is.
+    /// Positions in `known`, plus 1; 0 is [`Way::Once`], and so is every effect beyond the end.
     of: Vec<u32>,
     known: Vec<Way>,
-    /// By proposition: the comparison that it is, where some node achieves that step by step.
+    /// By proposition: its comparison, if some node achieves it step by step.
     comparisons: FxHashMap<u32, u32>,
-    /// By operator: how much it takes from which sums.
+    /// By operator: the sums that it takes from, and the amounts.
     takings: FxHashMap<u32, Box<[Taking]>>,
 }
 
@@ -70,7 +72,7 @@ impl Ways {
         self.comparisons.get(&proposition).copied()
     }
 
-    /// How much an operator takes from which sums.
+    /// The sums that an operator takes from, and the amounts.
     pub(crate) fn takings(&self, operator: u32) -> &[Taking] {
         self.takings.get(&operator).map_or(&[], |takings| takings)
     }
@@ -81,35 +83,35 @@ impl Ways {
         }
     }
 
-    /// What holds of operators, and so of every graph of the same ones.
+    /// The part that depends on operators alone, so it holds for every graph of the same operators.
     pub(crate) fn without_effects(&self) -> Self {
         Self { takings: self.takings.clone(), ..Self::default() }
     }
 }
 
-/// What an operator takes each time from a sum that some comparison bounds from below.
+/// The amount that an operator takes each time from a sum that some comparison bounds from below.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Taking {
     pub(crate) sum: u32,
     pub(crate) amount: f64,
-    /// Whether its own precondition bounds the sum.
+    /// Whether the operator's own precondition bounds the sum.
     pub(crate) is_needed: bool,
 }
 
-/// What effects under one condition may do to comparisons.
+/// How effects with one condition may change comparisons.
 pub(crate) struct Influenced<'e> {
     pub(crate) condition: &'e Literals,
-    /// What may come to hold, and how.
+    /// The comparisons that may become true, and how.
     pub(crate) holds: Vec<(FactId, Way)>,
-    /// What may fail.
+    /// The comparisons that may become false.
     pub(crate) fails: Vec<FactId>,
 }
 
-/// What the effects under one condition do to one comparison.
+/// How effects with one condition change one comparison.
 enum Move {
-    /// They add this to its expression.
+    /// They add this to the expression of the comparison.
     By(Expression<FluentId>),
-    /// Something else.
+    /// Any other change.
     Any { may_hold: bool, may_fail: bool },
 }
 
@@ -123,7 +125,7 @@ impl Move {
 }
 
 impl Numeric {
-    /// What an operator may make of the comparisons, by the condition under which it does.
+    /// How an operator may change comparisons, grouped by the condition of the effects.
     pub(crate) fn influences<'e>(&self, effects: &'e NumericEffects) -> Vec<Influenced<'e>> {
         let mut groups: Vec<(Influenced<'e>, Vec<&Update>)> = Vec::new();
         for update in &effects.updates {
@@ -154,7 +156,7 @@ impl Numeric {
         groups.into_iter().map(|(group, _)| group).collect()
     }
 
-    /// `None` where none of the updates touches the comparison.
+    /// `None` if none of the updates changes the comparison.
     fn moved(&self, comparison: &Comparison, updates: &[&Update]) -> Option<Move> {
         let mut all: Option<Move> = None;
         for update in updates {
@@ -184,7 +186,7 @@ impl Numeric {
         all
     }
 
-    /// How a move achieves the comparison, and whether it may make it fail.
+    /// How a change achieves the comparison, and whether it may make it false.
     fn way<'m, I: Iterator<Item = &'m Move>>(
         &self,
         position: u32,
@@ -197,7 +199,7 @@ impl Numeric {
         let way = match (own.constant(), comparison.relation) {
             _ if !may_hold => None,
             (_, Relation::NonZero | Relation::Defined) => Some(Way::Once),
-            // What comes on top may be what makes it exact.
+            // Another change may add just the amount that makes the sum equal.
             (Some(_), Relation::Zero) if others().next().is_some() => Some(Way::Once),
             (Some(step), _) => {
                 let mut more = others().filter_map(Move::constant).filter(|n| n.sign() > 0);
@@ -210,9 +212,8 @@ impl Numeric {
         (way, may_fail)
     }
 
-    /// How many repetitions of a way make its comparison hold, and leave `more` units beyond what it asks,
-    /// were nothing else done; `None` where no number of them does, whatever other operators do
-    /// meanwhile.
+    /// How many repetitions of a way satisfy its comparison with `more` units to spare, if nothing
+    /// else changes it; `None` if no number of repetitions does, whatever other operators do.
     pub(crate) fn repetitions(&self, way: &Way, more: f64, words: &[u64]) -> Option<f64> {
         let (comparison, step) = match way {
             Way::Once => return Some(1.0),
@@ -229,19 +230,20 @@ impl Numeric {
         let value = self.measure(comparison, words).map(|value| value - more);
         match times(comparison.relation, value, step) {
             None if comparison.steady => None,
-            // An assignment may turn things round, or give a value in the first place.
+            // An assignment may reverse the sign, or define the value in the first place.
             None => (comparison.relation == Relation::Zero || value.is_none()).then_some(1.0),
             times => times,
         }
     }
 
-    /// The sum that a comparison bounds from below, and how many of its units one is.
+    /// The sum that a comparison bounds from below, and the number 1 in the units of the
+    /// comparison.
     pub(crate) fn sum_of(&self, comparison: u32) -> Option<(u32, f64)> {
         let comparison = &self.comparisons[comparison as usize];
         Some((comparison.sum?, self.unit(comparison).to_f64()))
     }
 
-    /// How much an operator takes from which sums. `of` knows the comparisons of facts.
+    /// The sums that an operator takes from, and the amounts. `of` maps facts to comparisons.
     pub(crate) fn takings(&self, operator: &Operator, of: &FxHashMap<FactId, u32>) -> Vec<Taking> {
         let Some(effects) = &operator.numeric else { return Vec::new() };
         let needed: Vec<u32> =
@@ -262,8 +264,8 @@ impl Numeric {
         found
     }
 
-    /// How far from holding a comparison is, in its units and with the sign of what it lacks; `None`
-    /// where it has no value, or other effects than constant additions touch it.
+    /// The amount that a comparison lacks, in its units and with a sign; `None` if its value is
+    /// undefined, or if other effects than constant additions change it.
     pub(crate) fn lack(&self, comparison: u32, words: &[u64]) -> Option<f64> {
         let comparison = &self.comparisons[comparison as usize];
         let value = self.measure(comparison, words).filter(|_| comparison.steady)?;
@@ -276,7 +278,7 @@ impl Numeric {
 }
 
 impl Move {
-    /// Whether a comparison of this relation may come to hold by it, and whether it may fail.
+    /// Whether a comparison of this relation may become true, and whether it may become false.
     fn may(&self, relation: Relation) -> (bool, bool) {
         match self {
             Self::Any { may_hold, may_fail } => (*may_hold, *may_fail),
@@ -291,7 +293,8 @@ impl Move {
     }
 }
 
-/// What an update adds to the expression of a comparison, if that is linear in other fluents.
+/// The amount that an update adds to the expression of a comparison, if that is linear in other
+/// fluents.
 fn shift(comparison: &Comparison, update: &Update) -> Option<Expression<FluentId>> {
     let (Expression::Linear(compared), Some(value @ Expression::Linear(_))) =
         (&comparison.expression, &update.value)
@@ -305,7 +308,7 @@ fn shift(comparison: &Comparison, update: &Update) -> Option<Expression<FluentId
     value.clone().times(Expression::constant(coefficient)).ok()
 }
 
-/// How many steps take a value to where the relation holds.
+/// The number of steps until the relation holds.
 fn times(relation: Relation, value: Option<f64>, step: f64) -> Option<f64> {
     let value = value?;
     match relation {

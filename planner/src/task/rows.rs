@@ -1,13 +1,14 @@
-//! Rows of numbers behind each other, and which rows hold a number.
+//! Rows of numbers in one vector, and their transposition.
 //!
-//! Problem: a million operators with a few vectors each are millions of allocations, which take longer to
-//! make and to give back than what is in them. Idea: all rows in one vector, and where each starts.
-//! Invariant: rows do not change once they are pushed. Cost: four bytes an item and a row.
+//! Problem: a million operators with a few vectors each need millions of allocations, which take
+//! longer to make and to free than to use. Idea: one vector holds all rows, another the start of
+//! each row. Invariant: rows do not change once they are pushed. Cost: four bytes an item and a
+//! row.
 
 use crate::ids::id32;
 use budget::{Interrupted, Meter};
 
-/// Rows of `u32` behind each other.
+/// Rows of `u32` in one vector.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Rows {
     starts: Vec<u32>,
@@ -15,7 +16,7 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    /// So many rows without items.
+    /// This many rows without items.
     pub(crate) fn empty(rows: usize) -> Self {
         Self { starts: vec![0; rows + 1], items: Vec::new() }
     }
@@ -26,7 +27,7 @@ impl Rows {
         self.starts.push(id32(self.items.len()));
     }
 
-    /// Adds a row in order, each number once.
+    /// Adds a row: sorted, without duplicates.
     pub(crate) fn push_sorted(&mut self, row: impl IntoIterator<Item = u32>) {
         self.begin();
         let start = self.items.len();
@@ -53,22 +54,22 @@ impl Rows {
         &self.items[self.range(i)]
     }
 
-    /// The positions of a row's items among all.
+    /// The positions of a row's items among all items.
     pub(crate) fn range(&self, i: u32) -> std::ops::Range<usize> {
         self.starts[i as usize] as usize..self.starts[i as usize + 1] as usize
     }
 
-    /// The item at a position among all.
+    /// The item at a position among all items.
     pub(crate) fn item(&self, position: usize) -> u32 {
         self.items[position]
     }
 
-    /// Bytes that they hold.
+    /// The bytes that they hold.
     pub(crate) fn memory_bytes(&self) -> usize {
         (self.starts.capacity() + self.items.capacity()) * size_of::<u32>()
     }
 
-    /// How many items in all.
+    /// The number of items in all rows.
     pub(crate) fn items(&self) -> usize {
         self.items.len()
     }
@@ -77,12 +78,12 @@ impl Rows {
         self.starts.len().saturating_sub(1)
     }
 
-    /// For each of `n` items, the rows that hold it, in order.
+    /// For each of `n` items: the rows that contain it, in order.
     pub(crate) fn transposed(&self, n: usize, meter: &Meter<'_>) -> Result<Self, Interrupted> {
         self.transposed_in(0..id32(self.len()), n, meter)
     }
 
-    /// For each of `n` items, the rows that hold it, in the order in which the rows are given.
+    /// For each of `n` items: the rows that contain it, in the given order of rows.
     pub(crate) fn transposed_in(
         &self,
         order: impl Iterator<Item = u32>,

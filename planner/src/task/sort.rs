@@ -1,8 +1,8 @@
-//! Sorting by counting.
+//! Counting sort.
 
 use budget::{Interrupted, Meter};
 
-/// Sorts in order of small keys, stably, in one pass of counting.
+/// Sorts by small keys, stably, in one counting pass.
 pub(crate) fn sort_by_count(
     items: &[u32],
     keys: usize,

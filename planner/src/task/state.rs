@@ -1,25 +1,25 @@
 //! States as bit sets over facts.
 //!
-//! Numbers, where a task has any, follow the facts in words of their own (`numeric`).
+//! If a task has numbers, they follow the facts in separate words (`numeric`).
 //!
-//! Idea: one bit a fact, 64 to a word, so that a literal of either sign is one test and copying a
-//! state is a `memcpy`. The free functions work on borrowed words, because a search keeps its states
-//! in one arena.
+//! Idea: one bit per fact, 64 to a word, so a literal of either sign is one test, and copying a
+//! state is a `memcpy`. The free functions work on borrowed words, because a search keeps its
+//! states in one arena.
 
 use crate::ids::{FactId, id32};
 
-/// A state of its own storage.
+/// A state with its own storage.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct State {
     words: Box<[u64]>,
-    /// How many of the words are facts.
+    /// The number of words that hold facts.
     facts: usize,
-    /// Whether a number that it was given fits into no word, and is missing.
+    /// Whether a number did not fit and is missing.
     lost: bool,
 }
 
 impl State {
-    /// Of so many facts, and so many words of numbers.
+    /// A state with this many facts and this many words of numbers.
     pub(crate) fn empty(facts: usize, numbers: usize) -> Self {
         let facts = facts.div_ceil(64);
         Self { words: vec![0; facts + numbers].into_boxed_slice(), facts, lost: false }
@@ -37,13 +37,13 @@ impl State {
         facts
     }
 
-    /// Whether all numbers that it was given are in it. From a state that lacks one, nothing is proven
-    /// to be impossible.
+    /// Whether the state holds all numbers that it was given. From a state that lacks one, nothing
+    /// can be proven impossible.
     pub(crate) fn is_exact(&self) -> bool {
         !self.lost
     }
 
-    /// Notes whether the numbers that were written last fit.
+    /// Records whether the last numbers that were written fit.
     pub(crate) fn note_fit(&mut self, fit: bool) {
         self.lost |= !fit;
     }

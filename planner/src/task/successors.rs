@@ -1,12 +1,12 @@
-//! Which operators are applicable?
+//! Finds the applicable operators of a state.
 //!
-//! Problem: testing every operator in every state is far too slow. Idea: a trie over the literals of
-//! preconditions, frequent facts first, so that one failed test rules out a whole branch. Invariant:
-//! each operator sits at the node that its sorted precondition spells. Cost: one bit test per child
-//! of each node that is reached.
+//! Problem: testing every operator in every state is far too slow. Idea: a trie over the literals
+//! of preconditions, frequent facts first, so one failed test rules out a whole branch. Invariant:
+//! each operator is at the node that its sorted precondition spells. Cost: one bit test per child
+//! of each visited node.
 //!
 //! Source: Helmert, "The Fast Downward planning system", JAIR 2006, §5.3.1. We branch on literals
-//! and not on variables with many values.
+//! instead of multi-valued variables.
 
 use super::{Operators, contains};
 use crate::ids::{FactId, OperatorId, id32};
@@ -19,22 +19,22 @@ struct Node {
     literal: u32,
     /// One past the last node of this branch.
     skip_to: u32,
-    /// Operators of this node, a range of `operators`.
+    /// The operators of this node: a range of `operators`.
     first: u32,
     last: u32,
 }
 
-/// A range of sorted operators whose keys agree up to the node, and go on.
+/// A range of sorted operators whose keys agree up to the node and continue below it.
 struct Branch {
     node: Option<usize>,
     at: usize,
     end: usize,
 }
 
-/// Operators that are compared with each other; more are counted.
+/// Up to this many operators are sorted by comparison, more by counting.
 const FEW: usize = 1 << 10;
 
-/// The literals of each operator's precondition, frequent facts first, behind each other.
+/// The literals of each operator's precondition, frequent facts first, in one vector.
 struct Keys {
     starts: Vec<u32>,
     literals: Vec<u32>,
@@ -52,14 +52,14 @@ impl Keys {
         &self.literals[self.starts[i] as usize..self.starts[i + 1] as usize]
     }
 
-    /// What an operator is sorted by at a depth: nothing comes first.
+    /// The sort key of an operator at a depth; the end of its literals sorts first.
     fn symbol(&self, operator: u32, depth: usize) -> u32 {
         self.of(operator).get(depth).map_or(0, |&l| l + 1)
     }
 }
 
-/// Operators in the order of their keys: counted by one literal after the other, so that no comparison of
-/// a million takes long at a stretch.
+/// Sorts operators by their keys. Counts one literal after the other, so that the meter can
+/// interrupt the sorting of a million operators.
 struct Sorter<'k> {
     keys: &'k Keys,
     meter: &'k Meter<'k>,
@@ -106,7 +106,8 @@ impl Sorter<'_> {
     }
 }
 
-/// How many of the first items pass, if those that pass come first: small answers are found at once.
+/// The number of leading items that pass, if those that pass come first; a small result is found
+/// quickly.
 fn gallop(items: &[u32], pass: impl Fn(u32) -> bool) -> usize {
     let mut step = 1;
     while step < items.len() && pass(items[step - 1]) {
@@ -121,7 +122,7 @@ fn gallop(items: &[u32], pass: impl Fn(u32) -> bool) -> usize {
 pub(crate) struct SuccessorTree {
     nodes: Vec<Node>,
     operators: Vec<OperatorId>,
-    /// Operators without precondition are the first ones.
+    /// The number of operators without precondition, which come first.
     unconditional: usize,
 }
 
@@ -157,8 +158,8 @@ impl SuccessorTree {
         Ok(tree)
     }
 
-    /// Appends the nodes. The operators of a branch lie together in the sorted order, those of its node
-    /// first. (No recursion: a precondition may be as long as there are facts.)
+    /// Appends the nodes. The operators of a branch are adjacent in the sorted order, those of its
+    /// own node first. (Not recursive, because a precondition may contain every fact.)
     fn build(&mut self, keys: &Keys, sorted: &[u32], meter: &Meter<'_>) -> Result<(), Interrupted> {
         let mut open = vec![Branch { node: None, at: self.unconditional, end: sorted.len() }];
         while let Some(depth) = open.len().checked_sub(1) {
@@ -182,7 +183,7 @@ impl SuccessorTree {
         Ok(())
     }
 
-    /// Bytes that it holds.
+    /// The bytes that it holds.
     pub(crate) fn memory_bytes(&self) -> usize {
         self.nodes.capacity() * size_of::<Node>() + self.operators.capacity() * size_of::<OperatorId>()
     }

@@ -1,7 +1,7 @@
 //! The predicates that represent object fluents.
 //!
-//! Grounding compiles a function `(f ?x) - t` into a predicate `(f ?x ?value)`. Names, facts and explanations map such
-//! an atom back to its fluent and value.
+//! Grounding compiles a function `(f ?x) - t` into a predicate `(f ?x ?value)`. Names, facts and
+//! explanations map such an atom back to its fluent and value.
 
 use crate::ids::id32;
 use pddl::model::{Domain, FunctionId, GroundApplication, ObjectId, PredicateId};

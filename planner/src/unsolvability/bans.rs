@@ -1,9 +1,10 @@
-//! Which of the excluded operators would apply otherwise.
+//! Finds the excluded operators that would otherwise be applicable.
 //!
-//! Problem: allowing an operator that the query excludes may not help, because its precondition may never hold, either.
-//! Idea: visit the states that are reachable without the excluded operators, breadth first, until each of these was
-//! applicable in one. Invariant: an operator is ruled out only if all states were visited. Cost: at most [`STATES`]
-//! states and the caller's budget, once, and only on the first question.
+//! Problem: allowing an operator that the query excludes may not help, because its precondition may
+//! never hold, either. Idea: visit the states that are reachable without the excluded operators,
+//! breadth first, until each of these was applicable in one. Invariant: an operator is ruled out
+//! only if all states were visited. Cost: at most [`STATES`] states and the caller's budget, once,
+//! and only on the first question.
 
 use std::ops::ControlFlow;
 
@@ -12,7 +13,8 @@ use super::oracle::Oracle;
 use crate::ids::OperatorId;
 use budget::Budget;
 
-/// The most states that are visited: few, because an author waits for one line of an explanation.
+/// The most states that are visited: few, because an author waits for this one line of an
+/// explanation.
 pub(super) const STATES: u32 = 2_000;
 
 pub(super) struct Bans {
@@ -33,7 +35,7 @@ impl Bans {
         Self { idle, complete: visited.complete }
     }
 
-    /// Whether an excluded operator may apply in a reachable state; `false` is a proof.
+    /// Whether an excluded operator may be applicable in a reachable state; `false` is a proof.
     pub(super) fn may_bar(&self, operator: OperatorId) -> bool {
         !(self.complete && self.idle.contains(&operator))
     }

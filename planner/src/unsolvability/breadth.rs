@@ -1,7 +1,7 @@
 //! Visits all reachable states, breadth first, within the caller's budget.
 //!
-//! Invariant: `complete` only if every state that can be reached without the excluded operators was visited. The first
-//! state is always visited. Cost: the states and operators visited.
+//! Invariant: `complete` only if every state that is reachable without the excluded operators was
+//! visited. The first state is always visited. Cost: the states and operators visited.
 
 use std::ops::ControlFlow;
 
@@ -19,8 +19,8 @@ pub(super) struct Visited<'t> {
     pub(super) complete: bool,
 }
 
-/// Visits at most `most` states, until `look` breaks. `look` gets a state and all operators that are applicable in it,
-/// including excluded ones.
+/// Visits at most `most` states, until `look` breaks. `look` gets a state and all operators that
+/// are applicable in it, including excluded ones.
 pub(super) fn visit<'t>(
     task: &'t Task,
     query: &Query<'_>,
@@ -58,7 +58,7 @@ pub(super) fn visit<'t>(
         for &operator in &successors {
             next.copy_from_slice(&here);
             if !task.apply(operator, &here, &mut next) {
-                // A number is too long, so the states behind this operator are not visited.
+                // A number does not fit, so the states behind this operator are not visited.
                 complete = false;
             } else if registry.insert(&next, Some((id, operator))).1 {
                 known += 1;

@@ -1,4 +1,4 @@
-//! Which parts of the goal never hold.
+//! The parts of the goal that never hold.
 //!
 //! Idea: a conjunct is refuted if the oracle or an interval denies it; a disjunction if all its parts are refuted; a
 //! universal part if one instance is refuted. An existential part is refuted as a whole, with open variables, or by
@@ -68,7 +68,8 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// What the part needs, if it is proven that none of this ever holds; `None` without a proof.
+    /// The unsatisfiable needs of the part, if it is proven that none of them ever holds; `None`
+    /// without a proof.
     fn refuted(
         &self,
         part: &Condition,
@@ -98,7 +99,7 @@ impl<'a> Walk<'a> {
                 .or_else(|| self.refuted(then, false, binding, reasons)),
             (ConditionKind::Exists(variables, inner), true)
             | (ConditionKind::Forall(variables, inner), false) => {
-                // With open variables first: one reason for all instances.
+                // Try open variables first: that gives one reason for all instances.
                 if let Some(never) = self.refuted(inner, positive, binding, reasons) {
                     return Some(never);
                 }
@@ -137,8 +138,8 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Visits instances until `visit` returns `false`. Returns whether it returned `true` for all, or `None` if there
-    /// are too many instances.
+    /// Visits instances until `visit` returns `false`. Returns whether it returned `true` for all,
+    /// or `None` if there are too many instances.
     fn instances(
         &self,
         variables: &[VariableId],

@@ -1,4 +1,4 @@
-//! Why there is no plan, as far as that was proven.
+//! Explains why there is no plan, as far as that was proven.
 //!
 //! Problem: "no plan" does not help an author to mend a model. Idea: there are several proofs, and each is reported in
 //! its own terms.
@@ -6,11 +6,12 @@
 //!   action and no axiom achieves.
 //! - `analysis::intervals` bounds the numbers.
 //! - Facts of one mutex group exclude each other.
-//! - Where the search visited every state, `space` visits them once more. It reports which goals never held, which pairs
-//!   never held together, and how near a state came to the goal.
-//! - `bans` reports an excluded operator only where it would otherwise apply.
+//! - If the search visited every state, `space` visits them once more. It reports the goals that
+//! never held, the pairs that never held together, and the state with the most goals.
+//! - `bans` reports an excluded operator only if it would otherwise be applicable.
 //!
-//! Invariant: an explanation claims only what was proven, and leaves out the rest. Cost: bounded in all of them.
+//! Invariant: an explanation claims only proven facts and leaves out the rest. Cost: bounded for
+//! each proof.
 //!
 //! Source: Göbelbecker et al., "Coming up with good excuses", ICAPS 2010, for the question.
 
@@ -45,13 +46,13 @@ use pddl::model::{Action, ConditionKind, Domain, Problem};
 use reasons::Reasons;
 use record::MOST;
 
-/// Operators whose comparisons are looked at.
+/// The most operators whose comparisons are checked.
 const OPERATORS: usize = 5_000;
 
-/// Explains why `task`, the grounding of `problem`, has no plan for the query: from its state, without the operators
-/// that it excludes. The query's goal must be the problem's own. `reason` is the result of the search. `budget` bounds
-/// both visits of states: the one after the search exhausted them, and the one that finds out whether an excluded
-/// operator is missing.
+/// Explains why `task`, the grounding of `problem`, has no plan for the query: from its state,
+/// without the operators that it excludes. The query's goal must be the problem's own. `reason` is
+/// the result of the search. `budget` bounds both visits of states: the one after the search
+/// exhausted them, and the one that finds out whether an excluded operator is missing.
 pub fn explain(
     domain: &Domain,
     problem: &Problem,

@@ -1,4 +1,4 @@
-//! Which literals may ever hold: the one place that decides it.
+//! The oracle decides which literals may ever hold.
 //!
 //! Idea: grounding has reached every atom that is true in some state if deletes are ignored, and it knows the atoms
 //! that nothing deletes. One more exploration of the grounded relaxation from the query's state rules out more.
@@ -24,7 +24,7 @@ pub(super) struct Oracle<'a> {
     is_static: Vec<bool>,
     /// By fact: whether it may become false.
     may_fail: Vec<bool>,
-    /// The excluded operators whose needs may all hold.
+    /// The excluded operators whose preconditions may all hold.
     may_apply: Vec<OperatorId>,
 }
 

@@ -1,4 +1,4 @@
-//! Why a literal never holds: what would achieve it and what these achievers lack, down to literals without achievers.
+//! Why a literal never holds: its achievers and what they lack, down to literals without achievers.
 //!
 //! Idea: if the oracle denies a literal, then every effect (or axiom) that would achieve it is impossible, too. It
 //! needs a literal that never holds or a comparison that never holds, or its conditions never hold together. Each
@@ -148,7 +148,8 @@ impl<'a> Reasons<'a> {
     }
 
     fn why(&mut self, wanted: &Literal) -> Why {
-        // The predicates of object fluents are not declared in the domain, and a negated derived atom has no achiever.
+        // The predicates of object fluents are not declared in the domain, and a negated derived
+        // atom has no achiever.
         let predicates = &self.oracle.instance.domain.predicates;
         let is_known = (wanted.pattern.predicate.0 as usize) < predicates.len();
         if !is_known || (!wanted.positive && predicates[wanted.pattern.predicate].derived) {
@@ -161,7 +162,7 @@ impl<'a> Reasons<'a> {
         if achievers.is_empty() {
             return Why::NothingAchieves;
         }
-        // An achiever that lacks a single thing is the most helpful.
+        // An achiever with a single unsatisfiable need is the most helpful.
         achievers.sort_by_key(|achiever| match &achiever.obstruction {
             Obstructed::Needs(needs) => needs.len(),
             Obstructed::Excluded => 0,

@@ -5,7 +5,7 @@ use super::space::Space;
 use analysis::intervals::NeverCompares;
 use pddl::Span;
 
-/// How many parts of the goal, and how many pairs, are reported at most.
+/// The most parts of the goal, and the most pairs, that are reported.
 pub(super) const MOST: usize = 32;
 
 /// A part of the goal that no reachable state satisfies.

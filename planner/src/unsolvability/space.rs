@@ -1,4 +1,4 @@
-//! A visit of all states: which goals hold where.
+//! Visits all states and records which goals hold where.
 //!
 //! Problem: if the search exhausted the states, each part of the goal may be possible by itself. Idea: visit the states
 //! once more, breadth first. Note which goals held in a state, which held together, the extent of the numbers, and the

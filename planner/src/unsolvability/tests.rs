@@ -1,4 +1,4 @@
-//! Explanations of small tasks, and of random ones held against all their states.
+//! Explanations of small tasks, and of random tasks compared with all their states.
 
 use super::{Achiever, Explanation, Extent, Literal, Need, Never, Obstruction, Why, Wording, explain};
 use crate::ids::OperatorId;
@@ -13,7 +13,7 @@ use pddl::model::ObjectId;
 use proptest::prelude::*;
 use std::collections::{BTreeMap, HashSet};
 
-/// A model without mistakes, grounded.
+/// Grounds a model without mistakes.
 fn model(domain: &str, problem: &str) -> Grounded {
     Grounded::new((domain.to_owned(), problem.to_owned()))
 }
@@ -23,7 +23,7 @@ impl Grounded {
         solve(&self.task, &Query::of(&self.task), &SearchConfiguration::default(), &Budget::default()).outcome
     }
 
-    /// What is said of the problem, solvable or not.
+    /// The explanation of the problem, solvable or not.
     fn explained(&self) -> Explanation {
         self.explained_from(self.task.initial_state(), &[])
     }
@@ -283,7 +283,7 @@ fn bindings(all: &[Literal]) -> Vec<BTreeMap<String, u32>> {
     found
 }
 
-/// All states that are reached without some operators.
+/// All states that are reachable without some operators.
 fn reachable_without(task: &Task, first: &State, excluded: &[OperatorId]) -> Vec<State> {
     let mut known = HashSet::from([first.clone()]);
     let mut states = vec![first.clone()];
@@ -297,7 +297,8 @@ fn reachable_without(task: &Task, first: &State, excluded: &[OperatorId]) -> Vec
     states
 }
 
-/// The achievers that are said to be excluded, and are not, or would apply in none of the states.
+/// The achievers that are reported as excluded although they are not, or although they would apply
+/// in no state.
 fn not_barred(
     explanation: &Explanation,
     task: &Task,
@@ -391,12 +392,12 @@ proptest! {
                 prop_assert_eq!(space.nearest.missing.len(), states.iter().map(|&s| missing(s)).min().unwrap());
             }
         }
-        // What grounding calls exclusive has its group.
+        // Two atoms that grounding reports as exclusive share a group.
         if let Outcome::Unsolvable(UnsolvableReason::Impossible(Impossible::Exclusive(_))) = model.outcome() {
             prop_assert!(!explanation.exclusive.is_empty());
             prop_assert!(nearest > 0);
         }
-        // And what it calls unreachable is among the parts.
+        // An atom that grounding reports as unreachable is among the parts.
         if let Outcome::Unsolvable(UnsolvableReason::Impossible(Impossible::Atoms(_) | Impossible::NegatedAtoms(_))) = model.outcome() {
             prop_assert!(!explanation.parts.is_empty());
         }
@@ -466,7 +467,7 @@ proptest! {
 }
 
 proptest! {
-    // Few random tasks have a ban that is alone in the way.
+    // In few random tasks, a ban is the only obstacle.
     #![proptest_config(ProptestConfig::with_cases(2_000))]
 
     #[test]
@@ -475,7 +476,7 @@ proptest! {
     ) {
         let model = Grounded::new(lifted.text());
         let task = &model.task;
-        // Whatever gives a part of the goal, and some others.
+        // Excludes the operators that give a part of the goal, and some others.
         let goal = &task.goal().literals;
         let gives = |o: OperatorId| {
             let operator = task.operator(o);
