@@ -1,4 +1,4 @@
-//! What changes a state, so that a verdict can name the cause.
+//! The causes of changes, so that a verdict can name them.
 //!
 //! The state stores for each atom the moment of its last change, a number that counts up. This module maps a moment
 //! to its step, start, end, timed change or event.
@@ -23,7 +23,7 @@ pub enum Cause {
 }
 
 impl Cause {
-    /// The step that causes it.
+    /// The step of this cause.
     pub fn step(self) -> Option<StepIndex> {
         match self {
             Self::Step(step) | Self::Start(step) | Self::End(step) => Some(step),
@@ -37,7 +37,7 @@ impl Cause {
 pub(crate) enum Causes<'a> {
     /// Moment `n` is the `n`-th step.
     Steps,
-    /// Moment `n` is the `n`-th of these.
+    /// Moment `n` is the `n`-th cause of this list.
     Listed(&'a [Cause]),
 }
 
@@ -51,7 +51,7 @@ impl Causes<'_> {
         }
     }
 
-    /// How many moments there were, if there were so many steps.
+    /// The number of moments so far, for a plan of this many steps.
     pub(crate) fn len(self, steps: u32) -> usize {
         match self {
             Self::Steps => steps as usize,

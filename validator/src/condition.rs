@@ -1,10 +1,11 @@
-//! Whether a condition holds.
+//! Evaluates conditions.
 //!
-//! A comparison over an undefined fluent is neither true nor false, and neither is its negation: only
-//! what certainly holds is satisfied. So negation is carried inwards: [`Scene::satisfied`] asks whether
-//! a condition certainly is what is `wanted`, and the one place where "all bindings are" becomes "no
-//! binding may not be" turns [`Strictness`] around. An undefined object fluent, by contrast, has a value
-//! like any other in PDDL 3.1 (`undefined`) and differs from every object.
+//! A comparison over an undefined fluent is neither true nor false, and neither is its negation: a
+//! condition is satisfied only if it certainly holds. Negation is therefore pushed inwards:
+//! [`Scene::satisfied`] asks whether a condition is certainly true or certainly false (`wanted`). A
+//! universal condition is checked by looking for a binding that may violate it; only this step
+//! inverts [`Strictness`]. An undefined object fluent, by contrast, has the value `undefined` in
+//! PDDL 3.1, which differs from every object.
 //!
 //! Source: Fox & Long, "PDDL2.1", JAIR 2003, §6: comparisons with ⊥ are undefined, "so that enclosing
 //! propositions are also undefined and not satisfied in any state"; disjunctions and quantifiers are
@@ -17,12 +18,12 @@ use crate::value::Value;
 use pddl::model::{Comparison, Condition, ConditionKind, Expression};
 use std::cmp::Ordering;
 
-/// What to make of an undefined comparison.
+/// How to treat an undefined comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Strictness {
     /// It is not satisfied.
     Certain,
-    /// It is not refuted.
+    /// It is satisfied, because it is not refuted.
     Possible,
 }
 
@@ -49,11 +50,11 @@ fn is_of(comparison: Comparison, order: Ordering) -> bool {
     }
 }
 
-/// How near to each other, in parts of the greater, rounded values may be before their order is unknown.
+/// The relative distance below which the order of rounded values is unknown.
 const NEARNESS: f64 = 1e-9;
 
 impl Scene<'_> {
-    /// Which of two sides is greater, if both have a value.
+    /// The order of two sides, if both have a value.
     fn order(&self, left: &Expression, right: &Expression, binding: &Binding) -> Option<Ordering> {
         let (one, two) = (self.number(left, binding).ok()?, self.number(right, binding).ok()?);
         let order = match &self.state.passage {
@@ -72,7 +73,7 @@ impl Scene<'_> {
         Some(order)
     }
 
-    /// Whether the condition holds, all numbers in it being defined as far as they matter.
+    /// Whether the condition certainly holds.
     pub(crate) fn holds(&self, condition: &Condition, binding: &mut Binding) -> bool {
         self.satisfied(condition, true, Strictness::Certain, binding)
     }

@@ -14,7 +14,7 @@
 use crate::number::{NoResult, Number};
 use crate::root::{Instant, Polynomial, Undecided};
 
-/// Highest power in a curve: rates that multiply each other double it with each.
+/// The highest power of a curve; multiplying rates doubles the power each time.
 const MOST_DEGREE: usize = 40;
 
 /// A polynomial; `coefficients[n]` belongs to the n-th power. The highest is not zero.
@@ -30,7 +30,7 @@ impl Curve {
         Self::new(vec![value])
     }
 
-    /// A value, and what is added to it in a second.
+    /// A line through a value at time 0, with a slope per second.
     pub(crate) fn line(value: Number, slope: Number) -> Self {
         Self::new(vec![value, slope])
     }
@@ -78,7 +78,7 @@ impl Curve {
         Ok(Self::new(product))
     }
 
-    /// Divided by a number.
+    /// The curve divided by a number.
     pub(crate) fn over(&self, divisor: Number) -> Result<Self> {
         self.coefficients.iter().map(|c| c.over(divisor)).collect::<Result<_>>().map(Self::new)
     }
@@ -106,8 +106,8 @@ impl Curve {
         Polynomial::new(self.coefficients.iter().copied())
     }
 
-    /// Where the curve is zero inside the open interval `from..to`, in order. A curve that is zero everywhere has no
-    /// such place: its comparisons never change.
+    /// The zeros of the curve inside the open interval `from..to`, in order. A curve that is zero
+    /// everywhere has none, because its comparisons never change.
     pub(crate) fn roots(&self, from: Number, to: Number) -> std::result::Result<Vec<Instant>, Undecided> {
         match self.coefficients.as_slice() {
             [] | [_] => Ok(Vec::new()),

@@ -1,7 +1,8 @@
 //! Trajectory constraints and preferences over the trajectory of one plan.
 //!
-//! The constraints of the domain and the problem are grounded once, before the first state. Each state is recorded as
-//! it comes. At the end the hard constraints are judged and the violated soft ones counted.
+//! The constraints of the domain and the problem are grounded once, before the first state. Each
+//! state is recorded when it is reached. At the end the hard constraints are judged and the
+//! violated soft ones are counted.
 
 use crate::axiom::{Needs, Strata};
 use crate::number::Number;
@@ -14,7 +15,7 @@ use crate::universe::Universe;
 use crate::verdict::{Breach, Failure, File, Position, Unsatisfied, Violations};
 use pddl::model::{Condition, Constraint, Domain, Preference, Problem, Variables};
 
-/// A soft constraint for one binding of the `forall`s around it.
+/// A soft constraint for one binding of its enclosing `forall`s.
 #[derive(Clone, Debug)]
 struct Soft<'a> {
     file: File,
@@ -24,10 +25,10 @@ struct Soft<'a> {
     formula: Formula,
 }
 
-/// How many violating states are named.
+/// The most violating states that are reported.
 const STATES: usize = 16;
 
-/// All demands on one plan, while it runs.
+/// All demands on one plan during its execution.
 #[derive(Clone, Debug)]
 pub(crate) struct Demands<'a> {
     trajectory: Trajectory<'a>,
@@ -73,7 +74,7 @@ impl<'a> Demands<'a> {
         demands
     }
 
-    /// None at all.
+    /// No demands.
     pub(crate) fn none() -> Self {
         Self {
             trajectory: Trajectory::default(),
@@ -84,7 +85,7 @@ impl<'a> Demands<'a> {
         }
     }
 
-    /// Whether states need not be noted.
+    /// Whether there are no demands, so states need not be recorded.
     pub(crate) fn are_none(&self) -> bool {
         self.hard.is_empty() && self.soft.is_empty()
     }
@@ -94,34 +95,34 @@ impl<'a> Demands<'a> {
         self.trajectory.last()
     }
 
-    /// Whether the derived part of a state must be up to date when it is noted.
+    /// Whether the derived part of a state must be up to date when it is recorded.
     pub(crate) fn read_derived(&self) -> bool {
         !self.needs.are_none()
     }
 
-    /// What must be derived when a state is noted.
+    /// The derived predicates that must be up to date when a state is recorded.
     pub(crate) fn needs(&self) -> &Needs {
         &self.needs
     }
 
-    /// The conditions whose truth is noted.
+    /// The conditions whose truth is recorded.
     pub(crate) fn conditions(&self) -> impl Iterator<Item = (&'a Condition, &'a Variables, &Binding)> {
         self.trajectory.conditions()
     }
 
-    /// Notes a state.
+    /// Records a state.
     pub(crate) fn observe(&mut self, since: Since, universe: &Universe, state: &State) {
         if !self.are_none() {
             self.trajectory.observe(since, universe, state);
         }
     }
 
-    /// Judges the constraints when all is over: the first that is broken, if one is, with its file.
+    /// Judges the hard constraints at the end. Returns the first violated one with its file.
     pub(crate) fn broken(&self) -> Option<(File, Broken)> {
         self.hard.iter().find_map(|(file, formula)| Some((*file, self.trajectory.broken(formula)?)))
     }
 
-    /// The failure, once it is known what the state lacks that was asked for.
+    /// The failure for a violated constraint and the unsatisfied parts of its condition.
     pub(crate) fn failure(&self, file: File, broken: &Broken, parts: Vec<Unsatisfied>) -> Box<Failure> {
         let time = |position| self.trajectory.time(position);
         let mut times: Vec<Number> = broken.states.iter().filter_map(|&position| time(position)).collect();
@@ -140,12 +141,12 @@ impl<'a> Demands<'a> {
         })
     }
 
-    /// The condition that was asked for, its variables and their values.
+    /// The condition that was evaluated, its variables and their values.
     pub(crate) fn asked(&self, asked: Asked) -> (&'a Condition, &'a Variables, &Binding) {
         self.trajectory.asked_condition(asked)
     }
 
-    /// Every constraint, and where its conditions held.
+    /// Every constraint, with the intervals in which its conditions held.
     pub(crate) fn watched(&self) -> Vec<Watched> {
         let watched = |file, formula: &Formula, demand| {
             let breach = self.trajectory.breach(formula).map(|(_, breach)| breach);
@@ -163,7 +164,7 @@ impl<'a> Demands<'a> {
         hard.chain(soft).collect()
     }
 
-    /// Counts the soft constraints that are broken.
+    /// Counts the violated soft constraints.
     pub(crate) fn count_soft(&mut self) {
         for soft in &self.soft {
             if !self.trajectory.satisfies(&soft.formula) {

@@ -1,13 +1,13 @@
-//! What an action does to a state.
+//! The effects of an action on a state.
 //!
-//! All conditions and values are read in the state before; then deletes, adds and assignments happen at
-//! once, an add winning over a delete of the same atom. For one fluent, increases and decreases add up,
-//! scalings multiply, and equal assignments agree; any other pair of changes conflicts, and the action
-//! has no result. [`Changes`] is reused from step to step, so an ordinary step allocates only for atoms
-//! and fluents never seen before.
+//! All conditions and values are read in the state before. Then deletes, adds and assignments
+//! happen at once; an add wins over a delete of the same atom. For one fluent, increases and
+//! decreases add up, scalings multiply, and equal assignments agree. Any other pair of changes
+//! conflicts, and the action has no result. [`Changes`] is reused for all steps, so an ordinary
+//! step allocates only for new atoms and fluents.
 //!
-//! Source: Fox & Long, "PDDL2.1", JAIR 2003, Definitions 6 to 9 and §8. Deviation: assigning the same
-//! value twice (two instances of a `forall`) is no conflict.
+//! Source: Fox & Long, "PDDL2.1", JAIR 2003, Definitions 6 to 9 and §8. Deviation: assigning the
+//! same value twice (by two instances of a `forall`) is not a conflict.
 
 use crate::condition::Strictness;
 use crate::number::{NoResult, Number};
@@ -27,12 +27,12 @@ use pddl::model::{
 use rustc_hash::FxBuildHasher;
 use std::ops::ControlFlow;
 
-/// How a fluent is changed, as far as the order of changes matters.
+/// The kind of change of a fluent, as far as the order of changes matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Write {
-    /// By increases and decreases, in any order.
+    /// Increases and decreases, in any order.
     Additive,
-    /// In some other way.
+    /// Any other change.
     Other,
 }
 
@@ -103,7 +103,7 @@ impl Changes {
         self.deletes.push_ground(predicate, arguments);
     }
 
-    /// Gives a fluent a value, or takes it away.
+    /// Sets the value of a fluent; `None` makes it undefined.
     pub(crate) fn set(&mut self, fluent: GroundApplication, value: Option<Value>, span: Span) {
         self.updates.insert(fluent, (Update::Assign(value), span));
     }
@@ -125,7 +125,7 @@ impl Changes {
         }
     }
 
-    /// Collects what `effect` does in the state of `scene`.
+    /// Collects the changes of `effect` in the state of `scene`.
     pub(crate) fn collect(
         &mut self,
         scene: Scene<'_>,
@@ -247,7 +247,7 @@ impl Changes {
         Ok(())
     }
 
-    /// Makes the changes; nothing is changed if one of them has no result.
+    /// Applies the changes; if one of them has no result, changes nothing.
     pub(crate) fn apply(
         &self,
         state: &mut State,

@@ -10,7 +10,7 @@ use pddl::Span;
 use pddl::model::{ArithmeticOperator, Expression, ExpressionKind, GroundApplication};
 use std::cmp::Ordering;
 
-/// Which of two sides of a comparison is greater at an instant of continuous change.
+/// The order of two sides of a comparison at an instant of continuous change.
 pub(crate) fn order(
     passage: &Passage,
     scene: Scene<'_>,
@@ -26,7 +26,7 @@ pub(crate) fn order(
     }
 }
 
-/// One side less the other; nothing if one has no value, at whatever time.
+/// The difference of two sides; `None` if one of them is undefined.
 pub(crate) fn difference(
     curves: &Curves,
     left: &Expression,
@@ -56,7 +56,7 @@ pub(crate) fn difference(
     }
 }
 
-/// The curve of a fluent, if it changes.
+/// Looks up the curve of a fluent; `None` if the fluent does not change.
 type Lookup<'f> = dyn FnMut(&GroundApplication) -> Result<Option<Curve>, ChangeFault> + 'f;
 
 /// The curve of an expression.

@@ -1,7 +1,7 @@
 //! The value of a numeric expression.
 //!
-//! An expression has no value where a fluent in it has none, where it divides by zero, or where the
-//! result is not finite.
+//! An expression has no value if it reads an undefined fluent, divides by zero, or has no finite
+//! result.
 //!
 //! Source: Fox & Long, "PDDL2.1", JAIR 2003, §6 (undefined values).
 
@@ -75,7 +75,7 @@ impl Scene<'_> {
     }
 }
 
-/// Gives the slots of functions that stand as arguments their values.
+/// Evaluates functions that are used as arguments and binds their slots to the results.
 pub(crate) fn bind_functions(
     scene: Scene<'_>,
     functions: &[FunctionTerm],

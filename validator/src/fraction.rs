@@ -3,7 +3,8 @@
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
-/// The fraction with the smallest denominator inside of the open interval; both ends are positive or zero.
+/// Returns the fraction with the smallest denominator inside the open interval; both ends are
+/// positive or zero.
 pub(crate) fn simplest(low: &BigRational, high: &BigRational) -> BigRational {
     let whole = low.floor() + BigRational::one();
     if whole < *high {

@@ -1,8 +1,8 @@
-//! Plan validation by the semantics of PDDL, on an evaluator of its own.
+//! Plan validation by the semantics of PDDL, with an independent evaluator.
 //!
-//! The planner that finds a plan must not judge it, so this crate shares nothing with it but `pddl`'s typed model and `budget`'s counters: no
-//! grounding, no compiled operators. Conditions and effects are read from the model, over one state that is changed in
-//! place.
+//! The planner that finds a plan must not judge it. This crate therefore shares with it only
+//! `pddl`'s typed model and `budget`'s counters: no grounding, no compiled operators. Conditions
+//! and effects are read from the model, over one state that is changed in place.
 //!
 //! ```
 //! use pddl::{Source, parse_domain, parse_plan, parse_problem};

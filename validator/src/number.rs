@@ -14,7 +14,7 @@ use serde::{Serialize, Serializer};
 use std::cmp::Ordering;
 use std::fmt;
 
-/// A finite number, exact wherever 128 bits allow.
+/// A finite number, exact if 128 bits suffice.
 #[derive(Clone, Copy)]
 pub struct Number(Form);
 
@@ -39,26 +39,26 @@ fn greatest_common_divisor(mut a: u128, mut b: u128) -> u128 {
 }
 
 impl Number {
-    /// The number as files write it, if they can.
+    /// The number as a decimal of a file, if it has one.
     pub(crate) fn decimal(self) -> Option<Decimal> {
         self.to_string().parse().ok()
     }
 
-    /// Nothing.
+    /// Zero.
     pub const ZERO: Self = Self::integer(0);
 
-    /// A thousand-millionth.
+    /// One billionth.
     pub(crate) const NANO: Self = Self(Form::Ratio { numerator: 1, denominator: 1_000_000_000 });
 
-    /// Larger than what any file means.
+    /// Larger than any number in a file.
     pub(crate) const MAX: Self = Self(Form::Double(f64::MAX));
 
-    /// A whole number.
+    /// An integer.
     pub const fn integer(value: i64) -> Self {
         Self(Form::Ratio { numerator: value as i128, denominator: 1 })
     }
 
-    /// The value that the shortest decimal form of `value` writes; `None` if it is not finite.
+    /// The number whose shortest decimal form is that of `value`; `None` if it is not finite.
     pub fn from_f64(value: f64) -> Option<Self> {
         if !value.is_finite() {
             return None;
@@ -70,7 +70,7 @@ impl Number {
         Some(decimal(&value.to_string()).unwrap_or(Self(Form::Double(value))))
     }
 
-    /// So many thousandths.
+    /// This many thousandths.
     pub const fn thousandths(count: i64) -> Self {
         // In lowest terms: 1000 has the prime divisors 2 and 5 only.
         let (mut numerator, mut denominator) = (count as i128, 1000);
@@ -83,7 +83,7 @@ impl Number {
         Self(Form::Ratio { numerator, denominator })
     }
 
-    /// A decimal as it was written.
+    /// A decimal of a file.
     pub fn from_decimal(value: Decimal) -> Self {
         let (numerator, denominator) = value.fraction();
         Self::ratio(numerator, denominator).unwrap_or(Self(Form::Double(value.to_f64())))
@@ -97,7 +97,7 @@ impl Number {
         }
     }
 
-    /// As a fraction of unbounded integers; what a double stands for is one too.
+    /// The value as a fraction of unbounded integers; a double has one, too.
     pub(crate) fn to_rational(self) -> BigRational {
         match self.0 {
             Form::Ratio { numerator, denominator } => BigRational::new(numerator.into(), denominator.into()),
@@ -110,7 +110,7 @@ impl Number {
         Self::ratio(i128::try_from(value.numer()).ok()?, i128::try_from(value.denom()).ok()?)
     }
 
-    /// A double that stands for what is next to it: not exact.
+    /// A double that approximates the true value; it is not exact.
     pub(crate) fn rounded(value: f64) -> Self {
         Self(Form::Double(value.clamp(f64::MIN, f64::MAX)))
     }
@@ -128,7 +128,7 @@ impl Number {
         Self::of_rational(&simplest(&low, &high))
     }
 
-    /// Whether nothing was rounded.
+    /// Whether the number is exact.
     pub fn is_exact(self) -> bool {
         matches!(self.0, Form::Ratio { .. })
     }
@@ -224,7 +224,7 @@ fn decimal(text: &str) -> Option<Number> {
     Number::ratio(if negative { -numerator } else { numerator }, denominator)
 }
 
-/// The digits after the point, if they end.
+/// The digits after the decimal point, if there are finitely many.
 fn fraction_digits(numerator: i128, denominator: i128) -> Option<String> {
     const MOST: usize = 18;
     let denominator = denominator.unsigned_abs();
@@ -277,7 +277,7 @@ fn compare_ratios((mut a, mut b): (i128, i128), (mut c, mut d): (i128, i128)) ->
     if let (Some(left), Some(right)) = (a.checked_mul(d), c.checked_mul(b)) {
         return left.cmp(&right);
     }
-    // Digit by digit of the continued fractions, which never leave 128 bits.
+    // Compares the continued fractions term by term, which never needs more than 128 bits.
     let mut turned = false;
     loop {
         let order = a.div_euclid(b).cmp(&c.div_euclid(d));
@@ -295,8 +295,8 @@ fn compare_ratios((mut a, mut b): (i128, i128), (mut c, mut d): (i128, i128)) ->
     }
 }
 
-/// Compares a ratio with what a double stands for, not with a rounded ratio: else ratios that are not equal would
-/// both equal one double, and sorting could not rely on the order.
+/// Compares a ratio with the exact value of a double. Comparing rounded ratios would make different
+/// ratios equal to one double, and the order would be inconsistent.
 fn compare_with_double(ratio: (i128, i128), double: f64) -> Ordering {
     const LARGEST: f64 = 170_141_183_460_469_231_731_687_303_715_884_105_728.0; // 2^127
     const BITS: i32 = 126;
@@ -313,7 +313,7 @@ fn compare_with_double(ratio: (i128, i128), double: f64) -> Ordering {
     if order.is_ne() {
         return order;
     }
-    // What lies below the last bit can only be more than nothing.
+    // The digits below the last bit are at least zero, so they can only make it larger.
     fraction *= 2.0_f64.powi(BITS);
     #[expect(clippy::cast_possible_truncation, reason = "it is below 2^126")]
     let bits = fraction.floor() as i128;
@@ -337,7 +337,7 @@ impl fmt::Display for Number {
     }
 }
 
-/// As JSON: whole where it is whole.
+/// JSON: an integer if the value is one.
 impl Serialize for Number {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         match self.to_string().parse::<i64>() {

@@ -1,4 +1,4 @@
-//! A plan of any kind, its steps by number, and when the steps of a plan with times start and end.
+//! A plan of any kind, the numbers of its steps, and their start and end times.
 
 use crate::number::Number;
 use pddl::{HierarchicalPlan, Plan, SequentialPlan, StepHead, TemporalPlan, TemporalStep};
@@ -58,7 +58,7 @@ impl<'p> From<&'p HierarchicalPlan> for PlanRef<'p> {
 pub struct StepIndex(pub u32);
 
 impl StepIndex {
-    /// The number for people, from 1.
+    /// The number in reports, from 1.
     pub fn number(self) -> u64 {
         u64::from(self.0) + 1
     }
@@ -80,7 +80,7 @@ pub(crate) fn end(step: &TemporalStep) -> Number {
         (StepHead::DurativeAction(_), Some(duration)) => Number::from_decimal(duration),
         _ => Number::ZERO,
     };
-    // Two decimals of a file have a sum, if need be a rounded one.
+    // The sum of two decimals of a file always exists, if necessary rounded.
     start(step).plus(duration).unwrap_or(Number::MAX).max(start(step))
 }
 

@@ -1,8 +1,8 @@
-//! How often preferences are violated.
+//! Counts the violations of preferences.
 //!
-//! Every preference of a goal or of the constraints has one instance for each binding of the `forall`s
-//! around it, judged at the end; one of a precondition is judged each time its action is taken. The
-//! metric counts the violated instances by name.
+//! A preference of a goal or of the constraints has one instance for each binding of its enclosing
+//! `forall`s, judged at the end. A preference of a precondition is judged each time its action is
+//! applied. The metric counts the violated instances by name.
 //!
 //! Source: Gerevini & Long, "Plan constraints and preferences in PDDL3", 2005, §4.
 
@@ -10,7 +10,7 @@ use crate::scene::{Binding, Scene, each_instance};
 use crate::verdict::{ViolatedPreference, Violations};
 use pddl::model::{Preference, VariableId, Variables};
 
-/// A preference under a binding.
+/// A violated preference with its binding.
 pub(crate) fn violated<T>(
     preference: &Preference<T>,
     variables: &Variables,

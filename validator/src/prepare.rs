@@ -16,7 +16,7 @@ pub(crate) fn initial_state(domain: &Domain, problem: &Problem) -> State {
     for fact in &problem.init {
         state.facts[fact.predicate].add(&fact.arguments, 0);
     }
-    // Action costs are counted from 0 even where `:init` forgets to say so.
+    // Action costs start at 0 even if `:init` does not define them.
     if let Some(function) = domain.function("total-cost")
         && domain.functions[function].variables.parameters == 0
     {
@@ -29,7 +29,8 @@ pub(crate) fn initial_state(domain: &Domain, problem: &Problem) -> State {
     state
 }
 
-/// Which predicates are looked up by pattern: those inside quantifiers, axioms and universal effects.
+/// The predicates that are looked up by pattern: those inside quantifiers, axioms and universal
+/// effects.
 fn joined(domain: &Domain, problem: &Problem) -> Vec<bool> {
     let mut joined = vec![false; domain.predicates.len()];
     let mut derived = Vec::new();

@@ -1,4 +1,5 @@
-//! A task, prepared once for any number of plans: its extents, the strata of its axioms, its initial state.
+//! A task that is prepared once for any number of plans: its extents, the strata of its axioms, its
+//! initial state.
 
 use crate::axiom::{Needs, Strata};
 use crate::cause::Causes;
@@ -17,23 +18,25 @@ use crate::work::Thoroughness;
 use pddl::Span;
 use pddl::model::{Condition, Domain, Given, ObjectId, Problem, TimeSpecifier, TimedEffect, Variables};
 
-/// How exactly the times of a plan must be kept.
+/// The precision with which a plan must keep times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Precision {
-    /// How far a duration may be from what it must be, in seconds: planners round what they write.
+    /// The largest difference between a duration and its required value, in seconds: planners round
+    /// their output.
     pub tolerance: Number,
-    /// What is nearer than this, in seconds, happens at one time, and must not interfere.
+    /// Happenings with a smaller distance, in seconds, count as simultaneous and must not
+    /// interfere.
     pub separation: Number,
 }
 
 impl Default for Precision {
-    /// A hundredth and a thousandth, like VAL.
+    /// A hundredth and a thousandth of a second, like VAL.
     fn default() -> Self {
         Self { tolerance: Number::thousandths(10), separation: Number::thousandths(1) }
     }
 }
 
-/// A task, ready to judge plans.
+/// A task that is ready to judge plans.
 #[derive(Clone, Debug)]
 pub(crate) struct Prepared<'a> {
     pub(crate) domain: &'a Domain,
@@ -49,7 +52,8 @@ impl<'a> Prepared<'a> {
     /// Prepares a task.
     ///
     /// # Errors
-    /// With [`Verdict::Unsupported`] or [`Verdict::IllFormed`] for a task under which no plan can be judged.
+    /// Returns [`Verdict::Unsupported`] or [`Verdict::IllFormed`] for a task whose plans cannot be
+    /// judged.
     pub(crate) fn new(domain: &'a Domain, problem: &'a Problem) -> Result<Self, Box<Verdict>> {
         if let Some(unsupported) = unsupported(domain, problem) {
             return Err(Box::new(Verdict::Unsupported(unsupported)));
@@ -83,7 +87,7 @@ impl<'a> Prepared<'a> {
         })
     }
 
-    /// The demands on a plan that has yet to begin.
+    /// The demands on a plan before its first step.
     pub(crate) fn demands(&self, state: &State) -> Demands<'a> {
         Demands::new(self.domain, self.problem, &self.universe, &self.strata, state)
     }
@@ -112,12 +116,12 @@ impl<'a> Prepared<'a> {
         self.strata.derive_needed(needs, self.domain, &self.universe, state, now);
     }
 
-    /// Who explains what does not hold in a scene.
+    /// Explains the unsatisfied conditions of a scene.
     pub(crate) fn why<'s>(&'s self, scene: Scene<'s>, causes: Causes<'s>) -> Why<'s> {
         Why { domain: self.domain, scene, strata: &self.strata, causes, depth: DEPTH }
     }
 
-    /// What keeps a condition from holding.
+    /// The unsatisfied parts of a condition.
     pub(crate) fn lacks(
         &self,
         scene: Scene<'_>,
@@ -142,7 +146,7 @@ impl<'a> Prepared<'a> {
         Ok(())
     }
 
-    /// What a state lacks that a constraint asks of it.
+    /// The unsatisfied parts of a constraint's condition in a state.
     pub(crate) fn lacks_of_constraint(
         &self,
         state: &mut State,
@@ -190,7 +194,7 @@ impl<'a> Prepared<'a> {
     }
 }
 
-/// A plan that has been carried out.
+/// The end of a plan that was executed.
 pub(crate) struct End<'s> {
     pub(crate) state: &'s mut State,
     pub(crate) causes: Causes<'s>,
@@ -211,7 +215,7 @@ fn unsupported(domain: &Domain, problem: &Problem) -> Option<Unsupported> {
     None
 }
 
-/// Where an effect has a condition at a later time than its own.
+/// The place of a condition that refers to a later time than its effect.
 fn later_condition(effect: &TimedEffect) -> Option<Span> {
     let given = effect.given.iter().flat_map(|given| match given {
         Given::When(conditions) => conditions.as_slice(),

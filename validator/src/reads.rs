@@ -1,8 +1,8 @@
-//! What parts of the model read.
+//! The predicates and functions that parts of the model read.
 
 use pddl::model::{Condition, ConditionKind, Effect, EffectKind, ExpressionKind, FunctionId, PredicateId};
 
-/// The atoms of a condition: their predicate, and whether it is read positively.
+/// Visits the predicates of a condition, and whether each is read positively.
 pub(crate) fn each_predicate(
     condition: &Condition,
     positive: bool,
@@ -47,7 +47,7 @@ pub(crate) fn each_function(condition: &Condition, visit: &mut impl FnMut(Functi
     });
 }
 
-/// The conditions of conditional effects, and whether a universal effect is around them.
+/// Visits the conditions of conditional effects, and whether they are inside a universal effect.
 pub(crate) fn each_guard<'e>(effect: &'e Effect, visit: &mut dyn FnMut(&'e Condition, bool)) {
     fn walk<'e>(effect: &'e Effect, universal: bool, visit: &mut dyn FnMut(&'e Condition, bool)) {
         match &effect.kind {

@@ -1,7 +1,7 @@
-//! Records the changes that effects do not: derived atoms and continuous change.
+//! Records changes beyond effects: derived atoms and continuous change.
 //!
-//! A [`Recorder`] reads the logs of derived relations and lets the state remember old values of fluents. Only a trace
-//! pays for it, and only for what changed.
+//! A [`Recorder`] reads the logs of derived relations and lets the state remember old values of
+//! fluents. Only a trace has this cost, and only for changes.
 
 use crate::prepared::Prepared;
 use crate::relation::{Mark, Moment, Relation, Slot};
@@ -12,15 +12,15 @@ use pddl::model::{GroundApplication, IndexVec, PredicateId};
 use rustc_hash::FxHashSet;
 use std::cmp::Ordering;
 
-/// Sees what happens to a state besides effects.
+/// Records the changes of a state besides effects.
 #[derive(Debug)]
 pub(crate) struct Recorder {
-    /// Per predicate how far its log was read, and the slots that held then.
+    /// By predicate: the part of its log that was read, and the slots that held then.
     derived: IndexVec<PredicateId, (Option<Mark>, FxHashSet<Slot>)>,
 }
 
 impl Recorder {
-    /// Sees the initial state, and writes it down.
+    /// Records the initial state.
     pub(crate) fn new(prepared: &Prepared<'_>, state: &mut State, initial: &mut Diff) -> Self {
         let derived = state.derived.iter().map(|_| (None, FxHashSet::default())).collect();
         let mut recorder = Self { derived };
@@ -34,7 +34,7 @@ impl Recorder {
         recorder
     }
 
-    /// Sees the state just before a happening of a plan with times.
+    /// Records the state just before a happening of a plan with times.
     pub(crate) fn before(&self, state: &State, diff: &mut Diff) {
         let noted: FxHashSet<&GroundApplication> = diff.fluents.iter().map(|change| &change.fluent).collect();
         for (fluent, before) in state.remembered() {
@@ -46,7 +46,7 @@ impl Recorder {
         diff.flowed.sort_by(by_fluent);
     }
 
-    /// Sees the state right after a happening.
+    /// Records the state right after a happening.
     pub(crate) fn after(&mut self, prepared: &Prepared<'_>, state: &mut State, now: Moment, diff: &mut Diff) {
         if prepared.domain.axioms.is_empty() {
             return;

@@ -1,4 +1,4 @@
-//! The tuples of one predicate: which hold, since when, and which match a pattern.
+//! The tuples of one predicate: the time of their last change, and look-up by pattern.
 //!
 //! A map from argument tuples to records that only grows: a deleted atom keeps its record, and with it the step that
 //! deleted it. The position of a tuple in that map, its [`Slot`], never changes. Predicates that quantifiers, axioms
@@ -23,13 +23,14 @@ pub(crate) type Slot = u32;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Record {
     pub(crate) holds: bool,
-    /// When it last became what it is.
+    /// The moment of its last change.
     pub(crate) since: Moment,
-    /// When it was last added, needed or not: an add wins over a delete of the same moment.
+    /// The moment when it was last added, necessary or not: an add wins over a delete of the same
+    /// moment.
     added: Moment,
 }
 
-/// How far a reader of the log has come.
+/// A position in the log, up to which a reader has read it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Mark {
     epoch: u32,
@@ -40,11 +41,11 @@ pub(crate) struct Mark {
 struct Index {
     live: Vec<Slot>,
     positions: Vec<FxHashMap<ObjectId, Vec<Slot>>>,
-    /// For each slot that holds its place in `live`, then in the list of each of its arguments.
+    /// For each slot that holds: its position in `live`, then in the list of each of its arguments.
     places: Vec<u32>,
-    /// Slots that began or ceased to hold.
+    /// Slots that were added or deleted.
     log: Vec<Slot>,
-    /// How often the log was cut.
+    /// The number of times that the log was truncated.
     epoch: u32,
 }
 
@@ -90,7 +91,7 @@ impl Index {
     }
 
     fn note(&mut self, slot: Slot, tuples: usize) {
-        // Who has to read a log that is longer than the relation had better look at the relation.
+        // A reader of a log that is longer than the relation had better read the relation.
         if self.log.len() > 8 * tuples + 1024 {
             self.log.clear();
             self.epoch += 1;
@@ -130,12 +131,12 @@ impl Relation {
         self.records.get(arguments).is_some_and(|r| r.holds)
     }
 
-    /// Adds; answers whether it did not hold.
+    /// Adds a tuple. Returns whether it is new.
     pub(crate) fn add(&mut self, arguments: &[ObjectId], now: Moment) -> bool {
         self.add_slot(arguments, now).is_some()
     }
 
-    /// Adds; answers where, if it did not hold.
+    /// Adds a tuple. Returns its slot if it is new.
     pub(crate) fn add_slot(&mut self, arguments: &[ObjectId], now: Moment) -> Option<Slot> {
         let slot = if let Some((slot, _, record)) = self.records.get_full_mut(arguments) {
             record.added = now;
@@ -157,7 +158,7 @@ impl Relation {
         Some(slot)
     }
 
-    /// Deletes, unless it was added at the same moment; answers whether it held.
+    /// Deletes a tuple, unless it was added at the same moment. Returns whether it held.
     pub(crate) fn delete(&mut self, arguments: &[ObjectId], now: Moment) -> bool {
         match self.records.get_full_mut(arguments) {
             Some((slot, _, record)) if record.holds && record.added != now => {
@@ -196,7 +197,7 @@ impl Relation {
         self.records.get_index(slot as usize).map_or(&[], |(arguments, _)| arguments)
     }
 
-    /// Where a tuple is, if it holds.
+    /// The slot of a tuple, if it holds.
     pub(crate) fn slot(&self, arguments: &[ObjectId]) -> Option<Slot> {
         self.records.get_full(arguments).and_then(|(slot, _, record)| record.holds.then_some(small(slot)))
     }
@@ -216,7 +217,7 @@ impl Relation {
         self.index.as_ref().map_or(&[], |index| &index.live)
     }
 
-    /// How many tuples hold, if the relation is indexed.
+    /// The number of tuples that hold, if the relation is indexed.
     pub(crate) fn len(&self) -> usize {
         self.live().len()
     }
@@ -233,19 +234,19 @@ impl Relation {
             .map_or(Mark { epoch: 0, read: 0 }, |index| Mark { epoch: index.epoch, read: index.log.len() })
     }
 
-    /// The slots that hold now and did not at `since`, or the other way round, in order; `None` if too much
-    /// happened since to tell.
+    /// The slots that hold either now or at `since`, but not both, in order; `None` if the log was
+    /// truncated since.
     pub(crate) fn toggled(&self, since: Mark) -> Option<Vec<Slot>> {
         let index = self.index.as_ref()?;
         let entries = index.log.get(since.read..).filter(|_| index.epoch == since.epoch)?;
         let mut entries = entries.to_vec();
         entries.sort_unstable();
-        // What was changed twice is what it was.
+        // A slot that was changed twice has its old value.
         let odd = entries.chunk_by(|a, b| a == b).filter(|same| same.len() % 2 == 1).map(|same| same[0]);
         Some(odd.collect())
     }
 
-    /// Makes tuples hold that were deleted, for a while: the log does not hear of it.
+    /// Temporarily makes deleted tuples hold again, without an entry in the log.
     pub(crate) fn revive(&mut self, slots: &[Slot]) {
         for &slot in slots {
             let Some((arguments, record)) = self.records.get_index_mut(slot as usize) else { continue };
@@ -267,7 +268,7 @@ impl Relation {
         }
     }
 
-    /// At most how many tuples agree with `fixed` (`None` is free).
+    /// An upper bound on the number of tuples that agree with `fixed` (`None` is free).
     pub(crate) fn estimate(&self, fixed: impl Iterator<Item = Option<ObjectId>>) -> usize {
         match &self.index {
             Some(index) => index.narrowest(fixed).len(),

@@ -23,16 +23,16 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-/// Halvings that one question may cost.
+/// The most halvings of the interval for one question.
 const MOST_HALVINGS: usize = 4_000;
 
-/// The bound was reached.
+/// The limit was reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Undecided;
 
 type Result<T> = std::result::Result<T, Undecided>;
 
-/// A polynomial over the fractions; the last coefficient is not zero.
+/// A polynomial with rational coefficients; the last coefficient is not zero.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Polynomial(Vec<BigRational>);
 
@@ -87,7 +87,7 @@ impl Polynomial {
         Self::trimmed(rest.collect())
     }
 
-    /// With 1 or −1 before the highest power: smaller numbers, the same signs.
+    /// The polynomial with leading coefficient 1 or −1: smaller numbers, the same signs.
     fn scaled(mut self) -> Self {
         if let Some(last) = self.0.last().map(Signed::abs) {
             self.0.iter_mut().for_each(|c| *c /= &last);
@@ -95,7 +95,7 @@ impl Polynomial {
         self
     }
 
-    /// Quotient and remainder; the divisor is not zero.
+    /// The quotient and the remainder; the divisor is not zero.
     fn divided(&self, divisor: &Self) -> (Self, Self) {
         let mut rest = self.0.clone();
         let Some((last, others)) = divisor.0.split_last() else { return (Self(Vec::new()), Self(rest)) };
@@ -120,7 +120,7 @@ impl Polynomial {
         a
     }
 
-    /// The sequence of Sturm of the polynomial with the same roots, each of them simple.
+    /// The Sturm sequence of the polynomial with the same roots, each of them simple.
     fn sequence(&self) -> Arc<[Self]> {
         let common = self.greatest_common_divisor(&self.derivative());
         let simple = self.divided(&common).0.scaled();
@@ -138,7 +138,8 @@ impl Polynomial {
         sequence.into()
     }
 
-    /// The same for the second degree, if both roots are fractions that 128 bits hold, or no real root exists.
+    /// The roots of a polynomial of degree two; `None` unless both are fractions that 128 bits
+    /// hold, or no real root exists.
     fn fractions_of_second_degree(&self, from: Number, to: Number) -> Option<Vec<Instant>> {
         let [c, b, a] = self.0.as_slice() else { return None };
         let two = BigRational::from_integer(2.into());
@@ -163,7 +164,7 @@ impl Polynomial {
         Some(found.into_iter().map(Instant::At).collect())
     }
 
-    /// Its roots inside of the open interval, in order. One that is zero everywhere has none.
+    /// Its roots inside the open interval, in order. A polynomial that is zero everywhere has none.
     pub(crate) fn roots(&self, from: Number, to: Number) -> Result<Vec<Instant>> {
         if self.is_constant() {
             return Ok(Vec::new());
@@ -177,7 +178,7 @@ impl Polynomial {
     }
 }
 
-/// How often the signs of the sequence change at a point.
+/// The number of sign changes of the sequence at a point.
 fn changes(sequence: &[Polynomial], point: &BigRational) -> usize {
     let signs = sequence.iter().map(|p| p.sign(point)).filter(|sign| sign.is_ne());
     let (mut changes, mut last) = (0, None);
@@ -188,7 +189,7 @@ fn changes(sequence: &[Polynomial], point: &BigRational) -> usize {
     changes
 }
 
-/// How many roots there are inside of the open interval.
+/// The number of roots inside the open interval.
 fn count(sequence: &[Polynomial], from: &BigRational, to: &BigRational) -> usize {
     let half_open = changes(sequence, from).saturating_sub(changes(sequence, to));
     half_open.saturating_sub(usize::from(sequence[0].sign(to).is_eq()))
@@ -198,7 +199,7 @@ fn middle(a: &BigRational, b: &BigRational) -> BigRational {
     (a + b) / BigRational::from_integer(2.into())
 }
 
-/// Roots while they are looked for.
+/// The isolation of roots.
 struct Search {
     sequence: Arc<[Polynomial]>,
     halvings: usize,
@@ -227,16 +228,17 @@ impl Search {
         }
     }
 
-    /// Makes the interval of one root so narrow that at most one fraction in it can be the root.
+    /// Narrows the interval of one root until at most one fraction in it can be the root.
     fn narrow(&mut self, mut low: BigRational, mut high: BigRational) -> Result<()> {
         let polynomial = &Arc::clone(&self.sequence)[0];
-        // Over the integers a root's denominator divides the first coefficient: two such fractions are so far apart.
+        // With integer coefficients, the denominator of a rational root divides the leading
+        // coefficient; `apart` is the least distance of two such fractions.
         let multiple =
             polynomial.0.iter().fold(BigInt::one(), |all, c| num_integer::lcm(all, c.denom().clone()));
         let first =
             polynomial.0.last().map_or_else(BigRational::one, |c| c * BigRational::from_integer(multiple));
         let apart = (&first * &first).recip();
-        // Where the signs at the ends differ, the sign in the middle says on which side it is.
+        // The signs at the ends differ, so the sign in the middle decides the half.
         let mut below = polynomial.sign(&low);
         while &high - &low >= apart {
             self.halve()?;
@@ -271,7 +273,7 @@ impl Root {
         if count(&self.sequence, &self.low, &middle) == 1 { self.high = middle } else { self.low = middle }
     }
 
-    /// Where it is among the fractions: never equal.
+    /// Compares the root with a fraction; they are never equal.
     fn compared_with(&self, point: &BigRational) -> Ordering {
         if *point <= self.low {
             Ordering::Greater
@@ -294,7 +296,7 @@ impl Root {
                 return Ok(Ordering::Greater);
             }
             let (low, high) = ((&one.low).max(&two.low), (&one.high).min(&two.high));
-            // A common root inside of both intervals is the root of both.
+            // A common root inside both intervals is the root of both.
             if common.as_ref().is_some_and(|common| count(common, low, high) > 0) {
                 return Ok(Ordering::Equal);
             }
@@ -304,7 +306,7 @@ impl Root {
         Err(Undecided)
     }
 
-    /// The sign of another polynomial there.
+    /// The sign of another polynomial at the root.
     pub(crate) fn sign_of(&self, other: &Polynomial) -> Result<Ordering> {
         let Some(constant) = other.0.first() else { return Ok(Ordering::Equal) };
         if other.is_constant() {
@@ -326,7 +328,7 @@ impl Root {
         Err(Undecided)
     }
 
-    /// The double that is next to it, as near as makes no difference.
+    /// A double that is as close to the root as doubles can be.
     pub(crate) fn near(&self) -> Number {
         let mut root = self.clone();
         let enough = BigRational::new(1.into(), BigInt::one() << 60);
@@ -341,7 +343,7 @@ impl Root {
 }
 
 impl Instant {
-    /// A number that is it, or is next to it.
+    /// The instant as a number, or a number close to it.
     pub(crate) fn near(&self) -> Number {
         match self {
             Self::At(number) => *number,
@@ -349,7 +351,7 @@ impl Instant {
         }
     }
 
-    /// Which is earlier.
+    /// Compares two instants.
     pub(crate) fn compared(&self, other: &Self) -> Result<Ordering> {
         match (self, other) {
             (Self::At(one), Self::At(two)) => Ok(one.cmp(two)),
@@ -384,7 +386,7 @@ impl Instant {
     }
 }
 
-/// Sorts instants, each of them once.
+/// Sorts instants and removes duplicates.
 pub(crate) fn in_order(instants: Vec<Instant>) -> Result<Vec<Instant>> {
     let mut fault = None;
     let mut order = |a: &Instant, b: &Instant| match a.compared(b) {
@@ -396,7 +398,7 @@ pub(crate) fn in_order(instants: Vec<Instant>) -> Result<Vec<Instant>> {
     };
     let mut sorted: Vec<Instant> = Vec::with_capacity(instants.len());
     for instant in instants {
-        // Mostly few, and mostly in order already.
+        // Usually there are few, and they are sorted already.
         let place = sorted.binary_search_by(|other| order(other, &instant));
         if let Err(place) = place {
             sorted.insert(place, instant);
@@ -440,7 +442,8 @@ mod tests {
 
     #[test]
     fn near_roots_are_told_apart() {
-        // √2 and a fraction that agrees with it in 15 digits, and the same root out of two polynomials.
+        // √2 and a fraction that agrees with it to 15 digits, and the same root of two different
+        // polynomials.
         let root = &roots(&[-2, 0, 1], 5)[0];
         let near =
             Instant::At(Number::integer(886_731_088_897).over(Number::integer(627_013_566_048)).unwrap());

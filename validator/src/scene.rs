@@ -1,4 +1,4 @@
-//! What an evaluation reads: the variables of a schema with their values, and the state.
+//! The input of an evaluation: the variables of a schema with their values, and the state.
 //!
 //! A binding is an array with an entry for each variable of the schema, including quantified ones, so nothing is ever
 //! substituted. A quantified variable is unbound outside of its quantifier.
@@ -14,7 +14,7 @@ use pddl::model::{Idx, ObjectId, Term, VariableId, Variables};
 pub(crate) struct Binding(Vec<Option<ObjectId>>);
 
 impl Binding {
-    /// The parameters are `arguments`; everything else is unbound.
+    /// Binds the parameters to `arguments`; all other variables are unbound.
     pub(crate) fn new(variables: &Variables, arguments: &[ObjectId]) -> Self {
         let mut binding = Self::default();
         binding.reset(variables, arguments);
@@ -35,7 +35,7 @@ impl Binding {
         self.0[variable.index()] = object;
     }
 
-    /// The object, if the term is one already.
+    /// The object of a term; `None` for an unbound variable.
     pub(crate) fn term(&self, term: Term) -> Option<ObjectId> {
         match term {
             Term::Object(object) => Some(object),
@@ -43,7 +43,7 @@ impl Binding {
         }
     }
 
-    /// The object of a term that must have one.
+    /// The object of a term that is bound.
     pub(crate) fn object(&self, term: Term) -> ObjectId {
         self.term(term).expect("a condition is evaluated inside the quantifiers that bind its variables")
     }
@@ -71,19 +71,19 @@ pub(crate) struct Scene<'a> {
     pub(crate) clock: Clock<'a>,
 }
 
-/// What an expression may ask for besides the state.
+/// The values besides the state that an expression may read.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Clock<'a> {
     /// `total-time`: seconds, or steps of a sequential plan.
     pub(crate) now: Number,
-    /// `?duration`, inside of a durative action.
+    /// `?duration`, inside a durative action.
     pub(crate) duration: Option<Number>,
-    /// What `is-violated` counts, in a metric.
+    /// The violations that `is-violated` counts in a metric.
     pub(crate) violations: Option<&'a Violations>,
 }
 
 impl Clock<'_> {
-    /// After so many steps.
+    /// The clock after this many steps.
     pub(crate) fn steps(steps: u32) -> Self {
         Self::at(Number::integer(i64::from(steps)))
     }
@@ -99,10 +99,11 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// What an instance costs at least, beside a step of a search: it is noted, and kept.
+/// The least work for an instance, besides a step of a search: it is recorded and kept.
 const INSTANCE: usize = 10;
 
-/// Visits each binding of `variables`, as long as the effort allows; they are unbound again on return.
+/// Visits each binding of `variables` until the budget is exhausted. The variables are unbound on
+/// return.
 pub(crate) fn each_instance(
     scene: Scene<'_>,
     variables: &[VariableId],

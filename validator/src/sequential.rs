@@ -1,4 +1,4 @@
-//! A plan without times, step by step. Its n-th state has the time n.
+//! Judges a plan without times, step by step. Its n-th state has the time n.
 
 use crate::axiom::Needs;
 use crate::cause::{Cause, Causes};
@@ -19,7 +19,7 @@ use crate::work::Work;
 use pddl::PlanStep;
 use pddl::model::{Action, ActionId, IndexVec};
 
-/// Carries out the steps; `visit` is shown each state that they go through, with the number of steps before it.
+/// Executes the steps. Calls `visit` with each state and the number of steps before it.
 pub(crate) fn run<'p>(
     prepared: &Prepared<'_>,
     plan: impl Iterator<Item = &'p PlanStep> + Clone,
@@ -69,8 +69,8 @@ pub(crate) fn run<'p>(
     prepared.finish(end, run.demands)
 }
 
-/// Shows `visit` the states that the steps go through, as [`run`] does, whatever comes of them; `steps` bound the effort.
-/// Answers whether the effort was enough.
+/// Calls `visit` with the states of the steps as [`run`] does, even if a step fails; `steps` sets
+/// the budget. Returns whether the budget sufficed.
 pub(crate) fn replay<'p>(
     prepared: &Prepared<'_>,
     plan: impl Iterator<Item = &'p PlanStep> + Clone,
@@ -83,7 +83,7 @@ pub(crate) fn replay<'p>(
     !state.work.is_exhausted()
 }
 
-/// Per action, the derived predicates that its conditions read.
+/// By action: the derived predicates that its conditions read.
 fn needs(prepared: &Prepared<'_>) -> IndexVec<ActionId, Needs> {
     let needs = |action: &Action| {
         let mut conditions = vec![&action.precondition];
@@ -104,7 +104,7 @@ struct Run<'s, 'v, 'a> {
 }
 
 impl Run<'_, '_, '_> {
-    /// What was lacking in a state that lies behind: the plan is carried out again that far.
+    /// The unsatisfied parts in an earlier state: executes the plan again up to that state.
     fn lacked<'p>(&self, asked: Asked, plan: impl Iterator<Item = &'p PlanStep>) -> Vec<Unsatisfied> {
         let mut state = self.prepared.initial.clone();
         state.work = self.state.work.clone();

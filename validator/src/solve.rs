@@ -1,13 +1,14 @@
 //! The bindings of quantified variables that satisfy a condition.
 //!
-//! Problem: trying every tuple of objects takes |objects|^n tests. Idea: a condition is a conjunction of
-//! parts; parts whose variables are all bound are tested at once, atoms that must hold bind variables
-//! from the atoms that do hold (those with the fewest candidates first), equalities bind directly, and
-//! only what remains is tried object by object. Existential quantifiers inside the conjunction join in;
-//! their variables are not enumerated once the variables asked for are bound: one witness is enough.
-//! Invariant: on return every variable that was open is unbound again.
+//! Problem: trying every tuple of objects takes |objects|^n tests. Idea: a condition is a
+//! conjunction of parts. Parts whose variables are all bound are tested at once. Atoms that must
+//! hold bind variables from the atoms that do hold, those with the fewest candidates first.
+//! Equalities bind directly. Only the remaining variables are tried object by object. Existential
+//! quantifiers inside the conjunction are joined as well; their variables are not enumerated once
+//! the requested variables are bound, because one witness is enough. Invariant: on return, every
+//! variable that was open is unbound again.
 //!
-//! Cost: that of a nested-loop join with an index per argument position.
+//! Cost: a nested-loop join with an index per argument position.
 
 use crate::condition::Strictness;
 use crate::scene::{Binding, Scene};
@@ -18,7 +19,7 @@ use std::ops::ControlFlow;
 struct Part<'a> {
     condition: &'a Condition,
     wanted: bool,
-    /// The open variables in it.
+    /// The open variables of the part.
     open: Vec<VariableId>,
 }
 
@@ -32,7 +33,7 @@ pub(crate) struct Query<'a> {
 type Visit<'v> = dyn FnMut(&mut Binding) -> ControlFlow<()> + 'v;
 
 impl<'a> Query<'a> {
-    /// The parts keep their order; what is no conjunction stays one part.
+    /// The parts keep their order; a condition that is not a conjunction is one part.
     pub(crate) fn new(
         variables: &[VariableId],
         guards: &[(&'a Condition, bool)],
@@ -107,7 +108,7 @@ fn each_variable(condition: &Condition, visit: &mut dyn FnMut(VariableId)) {
     });
 }
 
-/// How to go on when nothing more can be tested.
+/// How to continue when no part can be tested.
 enum Choice<'a> {
     /// Bind from the atoms that hold.
     Join(usize, &'a Atom),
@@ -118,7 +119,7 @@ enum Choice<'a> {
 }
 
 impl Scene<'_> {
-    /// Whether `body` is as `wanted` for some binding of `variables`.
+    /// Whether `body` is `wanted` for some binding of `variables`.
     pub(crate) fn some_binding(
         &self,
         variables: &[VariableId],
@@ -132,7 +133,8 @@ impl Scene<'_> {
         self.search(&query, &mut done, &[], binding, &mut |_| ControlFlow::Break(())).is_break()
     }
 
-    /// Visits each binding of `variables` for which all `guards` are as wanted, until told to stop.
+    /// Visits each binding of `variables` for which all `guards` have their wanted truth, until
+    /// `visit` stops it.
     pub(crate) fn each_binding(
         &self,
         variables: &[VariableId],
@@ -146,7 +148,7 @@ impl Scene<'_> {
         self.search(&query, &mut done, variables, binding, visit)
     }
 
-    /// Visits each answer as far as `targets` go, until told to stop.
+    /// Visits each binding of `targets` that satisfies the query, until `visit` stops it.
     pub(crate) fn answer(
         &self,
         query: &Query<'_>,

@@ -1,17 +1,18 @@
-//! Whether the states that a plan goes through satisfy trajectory constraints.
+//! Judges trajectory constraints on the states of a plan.
 //!
-//! Problem: constraints speak of many states and may be nested, but the validator has one state that it
-//! changes in place. Idea: ground the constraints first (a copy for each binding of their quantifiers),
-//! so that only plain conditions are left in them; while the plan runs, note for each of these whether
-//! it holds in each state; and then read the definitions off the notes as the paper writes them.
+//! Problem: constraints refer to many states and may be nested, but the validator has one state
+//! that it changes in place. Idea: ground the constraints first (a copy for each binding of their
+//! quantifiers), so that only plain conditions remain. During the plan, record for each condition
+//! whether it holds in each state. Then evaluate the paper's definitions on these records.
 //!
-//! A state lasts from its own time until before the next one's, and the last one for ever; one between two
-//! instants of continuous change begins just after the first. A sequential plan's n-th state has the time
-//! n. Cost: one evaluation a condition a state, a bit of memory for it, and one pass over the states for
-//! each operator: the truth of a part is known for every suffix of the trajectory before it is asked for.
+//! A state lasts from its own time until just before the next state's time, and the last one for
+//! ever. A state between two instants of continuous change begins just after the first. The n-th
+//! state of a sequential plan has the time n. Cost: one evaluation and one bit per condition and
+//! state, and one pass over the states for each operator: the truth of a part is computed for every
+//! suffix of the trajectory first.
 //!
-//! Deviation: the papers do not nest operators; here a nested one speaks of the rest of the trajectory, and
-//! its times count from the state in which it is asked.
+//! Deviation: the papers do not nest operators. Here a nested operator refers to the rest of the
+//! trajectory, and its times count from the state in which it is evaluated.
 //!
 //! Source: Gerevini & Long, "Plan constraints and preferences in PDDL3", 2005, §3; Gerevini, Haslum,
 //! Long, Saetti & Dimopoulos, "Deterministic planning in the fifth international planning competition",
@@ -32,7 +33,7 @@ struct Leaf<'a> {
     condition: &'a Condition,
     variables: &'a Variables,
     binding: Binding,
-    /// Whether it holds, per state.
+    /// By state: whether it holds.
     truth: Vec<bool>,
 }
 
@@ -61,7 +62,7 @@ enum Kind {
 }
 
 impl Formula {
-    /// What it is made of, in the order in which it is written.
+    /// Its parts, in the order of the text.
     fn parts(&self) -> impl Iterator<Item = &Self> {
         let (first, others): (Option<&Self>, &[Self]) = match &self.kind {
             Kind::Leaf(_) => (None, &[]),
@@ -108,18 +109,18 @@ impl Since {
         Self { time, nearness: Nearness::At }
     }
 
-    /// At every time after this one, as near as one likes.
+    /// Just after this time.
     pub(crate) fn just_after(time: Number) -> Self {
         Self { time, nearness: Nearness::JustAfter }
     }
 
     fn later(self, by: Number) -> Self {
-        // Times of plans and limits of constraints are decimals of a file: their sums have a value.
+        // Times of plans and limits of constraints are decimals of a file, so their sum exists.
         Self { time: self.time.plus(by).unwrap_or(Number::MAX), ..self }
     }
 }
 
-/// What is noted of the states.
+/// The records of the states.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Trajectory<'a> {
     leaves: Vec<Leaf<'a>>,
@@ -127,7 +128,7 @@ pub(crate) struct Trajectory<'a> {
 }
 
 impl<'a> Trajectory<'a> {
-    /// Prepares a constraint: from now on its conditions are noted. Before the first state.
+    /// Prepares a constraint before the first state, so that its conditions are recorded.
     pub(crate) fn ground(
         &mut self,
         scene: Scene<'_>,
@@ -207,7 +208,7 @@ impl<'a> Trajectory<'a> {
         instances
     }
 
-    /// Notes a state. Two states at one time are two states.
+    /// Records a state. Two states at one time are two states.
     pub(crate) fn observe(&mut self, since: Since, universe: &Universe, state: &State) {
         self.times.push(since);
         for leaf in &mut self.leaves {
@@ -220,12 +221,12 @@ impl<'a> Trajectory<'a> {
         }
     }
 
-    /// The conditions that are noted, each with its variables and their values.
+    /// The recorded conditions, each with its variables and their values.
     pub(crate) fn conditions(&self) -> impl Iterator<Item = (&'a Condition, &'a Variables, &Binding)> {
         self.leaves.iter().map(|leaf| (leaf.condition, leaf.variables, &leaf.binding))
     }
 
-    /// For each condition in a constraint where it stands and when it holds.
+    /// Each condition in a constraint: its place and the intervals in which it holds.
     pub(crate) fn stretches(&self, formula: &Formula) -> Vec<(Span, Vec<Stretch>)> {
         let mut found = Vec::new();
         formula.each_leaf(&mut |leaf| {
@@ -244,7 +245,7 @@ impl<'a> Trajectory<'a> {
         found
     }
 
-    /// The values of the variables that are bound where its first condition is asked.
+    /// The values of the variables that are bound at its first condition.
     pub(crate) fn values(&self, formula: &Formula) -> Vec<(Name, ObjectId)> {
         let mut first = None;
         formula.each_leaf(&mut |leaf| first = first.or(Some(leaf)));
@@ -259,21 +260,21 @@ impl<'a> Trajectory<'a> {
     }
 }
 
-/// How a ground constraint is broken, and what to look at to see why.
+/// The violation of a ground constraint, with its evidence.
 #[derive(Clone, Debug)]
 pub(crate) struct Broken {
-    /// Where it stands.
+    /// The place of the constraint.
     pub(crate) span: Span,
     pub(crate) breach: Breach,
-    /// The condition that is not as wanted in a state, if one condition says it.
+    /// The condition that violates the constraint in a state, if a single one does.
     pub(crate) asked: Option<Asked>,
     /// One of its conditions, which has the values of its variables.
     leaf: Option<usize>,
-    /// The states that are at fault.
+    /// The violating states.
     pub(crate) states: Vec<Position>,
 }
 
-/// A condition that should have been otherwise in a state.
+/// A condition with the wrong truth value in a state.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Asked {
     leaf: usize,
@@ -295,7 +296,7 @@ impl Formula {
 }
 
 impl<'a> Trajectory<'a> {
-    /// How the constraint is broken, if it is, with what shows it.
+    /// The violation of the constraint with its evidence, if it is violated.
     pub(crate) fn broken(&self, formula: &Formula) -> Option<Broken> {
         if let Kind::And(parts) = &formula.kind {
             return parts.iter().find_map(|part| self.broken(part));
@@ -329,13 +330,13 @@ impl<'a> Trajectory<'a> {
         Some(Broken { span, breach, asked, leaf: formula.some_leaf(), states })
     }
 
-    /// The condition that was asked for, its variables and their values.
+    /// The condition that was evaluated, its variables and their values.
     pub(crate) fn asked_condition(&self, asked: Asked) -> (&'a Condition, &'a Variables, &Binding) {
         let leaf = &self.leaves[asked.leaf];
         (leaf.condition, leaf.variables, &leaf.binding)
     }
 
-    /// The values of the variables around what is broken.
+    /// The values of the variables around the violated part.
     pub(crate) fn binding(&self, broken: &Broken) -> Vec<(Name, ObjectId)> {
         let Some(leaf) = broken.leaf.map(|leaf| &self.leaves[leaf]) else { return Vec::new() };
         let named = |(id, variable): (VariableId, &Variable)| {
@@ -355,7 +356,7 @@ impl Trajectory<'_> {
         self.breach(formula).is_none()
     }
 
-    /// How the constraint is broken, if it is.
+    /// The violation of the constraint, if it is violated.
     pub(crate) fn breach(&self, formula: &Formula) -> Option<(Span, Breach)> {
         if let Kind::And(parts) = &formula.kind {
             return parts.iter().find_map(|part| self.breach(part));
@@ -389,7 +390,7 @@ impl Trajectory<'_> {
         self.times.len().saturating_sub(1)
     }
 
-    /// For each position, whether it holds for the part of the trajectory that starts there.
+    /// By position: whether the constraint holds for the part of the trajectory that starts there.
     fn truth(&self, formula: &Formula) -> Vec<bool> {
         let length = self.times.len();
         let join = |parts: &[Formula], all: bool| {
@@ -420,7 +421,8 @@ impl Trajectory<'_> {
             Kind::AtMostOnce(body) => {
                 let body = self.truth(body);
                 let mut truth = vec![true; length];
-                // How often it begins to hold in the part that is left, were it not to hold just before.
+                // The number of times that it begins to hold in the remaining states, if it did not
+                // hold just before.
                 let mut stretches = 0;
                 for i in (0..length).rev() {
                     if body[i] && !body.get(i + 1).copied().unwrap_or(false) {
@@ -455,14 +457,16 @@ impl Trajectory<'_> {
         self.times[to] <= self.times[from].later(limit)
     }
 
-    /// For each state, whether it lacks `if_`, or it or a later one (in time) has `then`.
+    /// By state: whether `if_` is false, or `then` holds there or in a later state within the
+    /// limit.
     fn answered(&self, if_: &Formula, then: &Formula, limit: Option<Number>) -> Vec<bool> {
         let (if_, next) = (self.truth(if_), next(&self.truth(then)));
         let in_time = |i, j| limit.is_none_or(|limit| self.is_within(i, j, limit));
         (0..if_.len()).map(|i| !if_[i] || next[i].is_some_and(|j| in_time(i, j))).collect()
     }
 
-    /// The states that begin inside `start..until` after that at `from`, and the one that lasts at `start`.
+    /// The states that begin inside `start..until` after the one at `from`, and the state at time
+    /// `start`.
     fn asked(&self, from: Position, start: Number, until: Option<Number>) -> std::ops::Range<Position> {
         let times = &self.times;
         let start = times[from].later(start);
@@ -484,7 +488,7 @@ fn first(truth: &[bool], wanted: bool) -> Option<Position> {
     truth.iter().position(|&truth| truth == wanted)
 }
 
-/// For each position, whether it and all later ones are true.
+/// By position: whether it and all later ones are true.
 fn from_here_on(mut truth: Vec<bool>) -> Vec<bool> {
     let mut all = true;
     for truth in truth.iter_mut().rev() {
@@ -494,7 +498,7 @@ fn from_here_on(mut truth: Vec<bool>) -> Vec<bool> {
     truth
 }
 
-/// For each position, the first one from there on that is true.
+/// By position: the first true position from there on.
 fn next(truth: &[bool]) -> Vec<Option<Position>> {
     let mut next = vec![None; truth.len()];
     let mut nearest = None;
@@ -507,7 +511,7 @@ fn next(truth: &[bool]) -> Vec<Option<Position>> {
     next
 }
 
-/// Where it becomes true for the second time.
+/// The position at which it becomes true for the second time.
 fn second_stretch(truth: &[bool]) -> Option<Position> {
     let start = first(truth, true)?;
     let end = start + first(&truth[start..], false)?;

@@ -1,7 +1,8 @@
-//! Which objects a variable ranges over.
+//! The objects of each type.
 //!
-//! One extent per type, and one per union of types that some schema uses, computed once per problem.
-//! Invariant: every type set of a variable that is evaluated has its extent. Membership is O(1).
+//! There is one extent per type, and one per union of types that some schema uses, computed once
+//! per problem. Invariant: the type set of every evaluated variable has an extent. Membership is
+//! O(1).
 
 use pddl::model::{Domain, Idx, IndexVec, ObjectId, Problem, TypeId, TypeSet, Variables};
 use rustc_hash::FxHashMap;
@@ -79,7 +80,7 @@ impl Universe {
         }
     }
 
-    /// Whether the object is of one of the types.
+    /// Whether the object has one of the types.
     pub(crate) fn is_of(&self, object: ObjectId, types: &TypeSet) -> bool {
         types.0.iter().any(|&t| self.types[t].contains(object))
     }

@@ -1,7 +1,7 @@
-//! The entry: one task, any number of plans of any kind.
+//! The entry point: one task, any number of plans of any kind.
 //!
-//! [`Validator`] prepares a task once and then judges plans. Cost of a plan: one copy of the initial state, then each
-//! step's own conditions and effects.
+//! [`Validator`] prepares a task once and then judges plans. Cost of a plan: one copy of the
+//! initial state, then the conditions and effects of each step.
 
 use crate::plan::PlanRef;
 use crate::prepared::{Precision, Prepared};
@@ -21,7 +21,7 @@ pub fn validate<'p>(domain: &Domain, problem: &Problem, plan: impl Into<PlanRef<
     }
 }
 
-/// A task, ready to judge plans.
+/// A task that is ready to judge plans.
 #[derive(Clone, Debug)]
 pub struct Validator<'a> {
     pub(crate) prepared: Prepared<'a>,
@@ -31,7 +31,8 @@ impl<'a> Validator<'a> {
     /// Prepares a task.
     ///
     /// # Errors
-    /// With [`Verdict::Unsupported`] or [`Verdict::IllFormed`] for a task under which no plan can be judged.
+    /// Returns [`Verdict::Unsupported`] or [`Verdict::IllFormed`] for a task whose plans cannot be
+    /// judged.
     pub fn new(domain: &'a Domain, problem: &'a Problem) -> Result<Self, Box<Verdict>> {
         Prepared::new(domain, problem).map(|prepared| Self { prepared })
     }
@@ -55,7 +56,7 @@ impl<'a> Validator<'a> {
         self.run(plan.into(), None)
     }
 
-    /// Judges a plan, and returns the changes of each step.
+    /// Judges a plan and returns the changes of each step.
     pub fn trace<'p>(&self, plan: impl Into<PlanRef<'p>>) -> (Verdict, Trace) {
         let mut trace = Trace::default();
         let verdict = self.run(plan.into(), Some(&mut trace));
@@ -70,7 +71,7 @@ impl<'a> Validator<'a> {
             |feature| Verdict::Unsupported(Unsupported { feature, span: self.prepared.problem.goal_span });
         match result {
             Err(Stop::Unsupported(unsupported)) => Verdict::Unsupported(unsupported),
-            // What was found once the effort was spent is never part of a verdict.
+            // Results that were found after the budget was exhausted are never part of a verdict.
             _ if state.work.is_exhausted() => unsupported(Feature::TooMuch),
             _ if state.work.is_undecided() => unsupported(Feature::Undecided),
             Ok(valid) => Verdict::Valid(valid),
@@ -78,7 +79,8 @@ impl<'a> Validator<'a> {
         }
     }
 
-    /// The one way of a plan: through times if it has them, and through the task network if the problem has one.
+    /// Selects the judgement: with times if the plan has them, by the task network if the problem
+    /// has one.
     fn carry_out(
         &self,
         plan: PlanRef<'_>,
@@ -93,7 +95,7 @@ impl<'a> Validator<'a> {
                 Err(Stop::Unsupported(Unsupported { feature: Feature::TimedTaskNetwork, span }))
             }
             (PlanRef::Temporal(plan), _) => Ok(temporal::run(prepared, plan, state, trace)?),
-            // A plan without steps is one of any kind.
+            // A plan without steps may be of any kind.
             (PlanRef::Sequential(plan), Some(_)) if plan.steps.is_empty() && !has_network => {
                 Ok(temporal::run(prepared, &TemporalPlan::default(), state, trace)?)
             }
@@ -108,7 +110,7 @@ impl<'a> Validator<'a> {
         }
     }
 
-    /// A part of the task that needs a plan with times.
+    /// A feature of the task that requires a plan with times.
     fn needs_times(&self) -> Option<Unsupported> {
         let features = [
             (self.prepared.problem.timed.first().map(|timed| timed.span), Feature::TimesMissingForProblem),

@@ -18,10 +18,10 @@ use pddl::model::{
 };
 use std::ops::ControlFlow;
 
-/// How many axioms after each other are followed.
+/// The most axioms that are followed in a chain.
 pub(crate) const DEPTH: u8 = 3;
 
-/// How many bindings are tried for the closest one.
+/// The most bindings that are tried to find the closest one.
 const BINDINGS_TRIED: usize = 512;
 
 /// Explains failures in one scene.
@@ -31,12 +31,12 @@ pub(crate) struct Why<'a> {
     pub(crate) scene: Scene<'a>,
     pub(crate) strata: &'a Strata,
     pub(crate) causes: Causes<'a>,
-    /// How many axioms after each other are still followed.
+    /// The number of axioms that may still be followed.
     pub(crate) depth: u8,
 }
 
 impl Why<'_> {
-    /// What keeps `condition` from being as `wanted`; empty if nothing does.
+    /// The parts that keep `condition` from being `wanted`; empty if it is.
     pub(crate) fn unsatisfied(
         &self,
         condition: &Condition,
@@ -103,7 +103,8 @@ impl Why<'_> {
         }
     }
 
-    /// What keeps the axioms from deriving the atom, or from not deriving it: of the axiom with the fewest such parts.
+    /// The parts that keep the axioms from deriving the atom (or from not deriving it), for the
+    /// axiom with the fewest such parts.
     fn derivation(&self, atom: &GroundAtom, wanted: bool) -> Vec<Unsatisfied> {
         let Some(depth) = self.depth.checked_sub(1) else { return Vec::new() };
         let axioms = self.domain.axioms.iter().filter(|axiom| axiom.predicate == atom.predicate);
@@ -209,7 +210,7 @@ impl Why<'_> {
         binding: &mut Binding,
     ) -> Unsatisfied {
         let mut closest: Option<(usize, Binding)> = None;
-        // Axioms are followed for the closest only.
+        // Axioms are followed only for the closest binding.
         let shallow = Why { depth: 0, ..*self };
         let mut tried = 0;
         let flow = self.scene.each_binding(variables, &[], Strictness::Certain, binding, &mut |binding| {

@@ -1,9 +1,10 @@
-//! The work that judging one plan may cost.
+//! The budget of work for judging one plan.
 //!
-//! Problem: a quantifier over eight variables, or a constraint for every ten objects, fits into one line of PDDL and
-//! cannot be evaluated in a lifetime. Idea: each binding that is tried spends a unit of one budget. Once the budget
-//! is exhausted, no search finds anything more, and the validator refuses the plan by name instead of judging it.
-//! Work is counted and not timed, so the same plan always gets the same verdict.
+//! Problem: a quantifier over eight variables, or a constraint for every ten objects, fits into one
+//! line of PDDL and cannot be evaluated in a lifetime. Idea: each binding that is tried spends a
+//! unit of one budget. Once the budget is exhausted, no search finds anything more, and the
+//! validator reports the limit instead of a verdict. Work is counted and not timed, so the same
+//! plan always gets the same verdict.
 //!
 //! The same holds for questions without an exact answer in bounded work, such as which of two roots comes first.
 //!
@@ -27,7 +28,7 @@ pub(crate) struct Work {
 }
 
 impl Work {
-    /// Enough for a plan of so many steps.
+    /// A budget for a plan of this many steps.
     pub(crate) fn for_steps(steps: usize) -> Self {
         let steps = u64::try_from(steps).unwrap_or(u64::MAX);
         Self::of_units(EACH_STEP.saturating_mul(steps).saturating_add(ANY_PLAN))
@@ -37,7 +38,7 @@ impl Work {
         Self { meter: Meter::of_work(units), undecided: AtomicBool::new(false) }
     }
 
-    /// Spends units; returns whether the budget had as many left.
+    /// Spends units. Returns whether the budget had that many left.
     pub(crate) fn spend(&self, units: usize) -> bool {
         self.meter.spend(units).is_ok()
     }
@@ -47,12 +48,12 @@ impl Work {
         self.meter.left() == 0
     }
 
-    /// Notes that the verdict depends on a question that has no exact answer.
+    /// Records that the verdict depends on a question that has no exact answer.
     pub(crate) fn mark_undecided(&self) {
         self.undecided.store(true, Ordering::Relaxed);
     }
 
-    /// Takes [`Work::mark_undecided`] back: the verdict does not depend on the question after all.
+    /// Reverts [`Work::mark_undecided`]: the verdict does not depend on the question after all.
     pub(crate) fn clear_undecided(&self) {
         self.undecided.store(false, Ordering::Relaxed);
     }
@@ -64,7 +65,7 @@ impl Work {
 }
 
 impl Default for Work {
-    /// Nothing may be spent.
+    /// An empty budget.
     fn default() -> Self {
         Self::of_units(0)
     }

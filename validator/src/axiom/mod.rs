@@ -34,7 +34,7 @@ use update::Component;
 pub(crate) struct Needs(Vec<usize>);
 
 impl Needs {
-    /// Whether nothing is derived for it.
+    /// Whether no component is needed.
     pub(crate) fn are_none(&self) -> bool {
         self.0.is_empty()
     }
@@ -43,9 +43,9 @@ impl Needs {
 /// The axioms by component, and which predicates they derive.
 #[derive(Clone, Debug)]
 pub(crate) struct Strata {
-    /// Each after those that it reads.
+    /// Each component comes after those that it reads.
     components: Vec<Component>,
-    /// For each predicate its component and all below, in order; empty if it is not derived.
+    /// By predicate: its component and all below, in order; empty if it is not derived.
     below: IndexVec<PredicateId, Vec<usize>>,
 }
 
@@ -68,7 +68,7 @@ impl Strata {
         }
         let mut strata =
             Self { components: Vec::new(), below: domain.predicates.iter().map(|_| Vec::new()).collect() };
-        // Edges lead to what is read, and what is reached comes first.
+        // Edges lead to the predicates that are read, so these come first.
         for circle in petgraph::algo::tarjan_scc(&graph) {
             let own: Vec<_> = circle.iter().map(|node| PredicateId::from_index(node.index())).collect();
             if own.iter().all(|&predicate| derived[predicate]) {
@@ -98,7 +98,7 @@ impl Strata {
         !self.below[predicate].is_empty()
     }
 
-    /// What conditions read.
+    /// The components that conditions read.
     pub(crate) fn needs<'c>(&self, conditions: impl IntoIterator<Item = &'c Condition>) -> Needs {
         let mut needs = Needs::default();
         for condition in conditions {
@@ -109,12 +109,12 @@ impl Strata {
         needs
     }
 
-    /// Brings the derived part of `state` up to date.
+    /// Updates the derived part of `state`.
     pub(crate) fn derive(&self, domain: &Domain, universe: &Universe, state: &mut State, now: Moment) {
         self.derive_each(0..self.components.len(), World { domain, universe }, state, now);
     }
 
-    /// Brings up to date what is needed.
+    /// Updates the needed components.
     pub(crate) fn derive_needed(
         &self,
         needs: &Needs,
@@ -151,7 +151,7 @@ impl Strata {
     }
 }
 
-/// Whether no derived predicate depends on its own negation.
+/// Checks that no derived predicate depends on its own negation.
 fn stratify(domain: &Domain, derived: &IndexVec<PredicateId, bool>) -> Result<(), IllFormed> {
     let mut level: IndexVec<PredicateId, usize> = domain.predicates.iter().map(|_| 0).collect();
     loop {
@@ -170,7 +170,8 @@ fn stratify(domain: &Domain, derived: &IndexVec<PredicateId, bool>) -> Result<()
         }
         match raised {
             None => return Ok(()),
-            // Without a negative circle no predicate stands above as many others as there are.
+            // Without a negative cycle, the level of a predicate is at most the number of
+            // predicates.
             Some((axiom, least)) if least > domain.predicates.len() => {
                 return Err(IllFormed::Unstratified { predicate: axiom.predicate, span: axiom.span });
             }

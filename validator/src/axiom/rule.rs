@@ -19,7 +19,7 @@ use pddl::model::{
 };
 use std::ops::ControlFlow;
 
-/// How many rules an axiom may become.
+/// The most rules that an axiom may become.
 const MOST_BRANCHES: usize = 64;
 
 /// A disjunct of an axiom's body.
@@ -31,11 +31,11 @@ pub(super) struct Rule {
     /// Parameters, then existential variables.
     open: Vec<VariableId>,
     parameters: usize,
-    /// The parts that are atoms that must hold.
+    /// The positions and predicates of the parts that are positive atoms.
     pub(super) pivots: Vec<(usize, PredicateId)>,
-    /// The predicates that are read in other ways.
+    /// The predicates that it reads in other ways.
     pub(super) hidden: Vec<PredicateId>,
-    /// The functions that are read.
+    /// The functions that it reads.
     pub(super) functions: Vec<FunctionId>,
 }
 
@@ -116,7 +116,7 @@ impl Rule {
         rule
     }
 
-    /// The predicates that are read.
+    /// The predicates that the rule reads.
     pub(super) fn reads(&self) -> impl Iterator<Item = PredicateId> {
         self.pivots.iter().map(|&(_, predicate)| predicate).chain(self.hidden.iter().copied())
     }
@@ -131,7 +131,7 @@ impl Rule {
         (Scene { universe: world.universe, state, variables, clock: Clock::steps(0) }, variables)
     }
 
-    /// The heads of its instances, all or those in which a pivot is one of these tuples.
+    /// The heads of its instances: all, or only those in which a pivot is one of these tuples.
     pub(super) fn heads(
         &self,
         world: World<'_>,
@@ -146,7 +146,7 @@ impl Rule {
         let mut visit = |binding: &mut Binding| {
             heads.count += 1;
             heads.arguments.extend(parameters.iter().filter_map(|&p| binding.get(p)));
-            // One proof of a head without arguments is enough.
+            // One proof is enough for a head without arguments.
             if parameters.is_empty() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let flow = match given {
@@ -183,14 +183,14 @@ impl Rule {
     }
 }
 
-/// What does not change while a task is judged.
+/// The domain and the objects, which are constant while a task is judged.
 #[derive(Clone, Copy)]
 pub(super) struct World<'a> {
     pub(super) domain: &'a Domain,
     pub(super) universe: &'a Universe,
 }
 
-/// Tuples of one predicate, one after the other.
+/// Tuples of one predicate in one vector.
 #[derive(Debug)]
 pub(super) struct Heads {
     arity: usize,

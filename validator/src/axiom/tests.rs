@@ -1,4 +1,4 @@
-//! Whatever the axioms and the changes, what is kept up to date is what the definition gives.
+//! Random axioms and changes: the incremental update equals the definition.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -22,12 +22,12 @@ const BASE: [(&str, &[&str]); 4] = [("p", &["x"]), ("q", &["y"]), ("e", &["y", "
 const DERIVED: [(&str, &[&str]); 5] =
     [("reach", &["y", "z"]), ("good", &["y"]), ("any", &[]), ("pair", &["y", "z"]), ("last", &["x"])];
 const OBJECTS: [&str; 5] = ["a", "b", "c", "d", "g"];
-/// How many of the objects are of type `t`.
+/// The number of objects of type `t`.
 const TYPED: u32 = 3;
 
 #[derive(Clone, Debug)]
 enum Formula {
-    /// Which predicate, and which variables in scope or objects.
+    /// A predicate, and its arguments: variables in scope, or objects.
     Atom(usize, [usize; 2]),
     Same(usize, usize),
     More(usize),
@@ -80,7 +80,7 @@ fn text(formula: &Formula, scope: &mut Vec<String>, out: &mut String) {
             let (name, parameters) = BASE.iter().chain(&DERIVED).nth(*predicate).unwrap();
             write!(out, "({name}").unwrap();
             for (&which, &kind) in terms.iter().zip(*parameters) {
-                // What is not known to be a `t` is an object that is one.
+                // A term that may not be a `t` is replaced by an object of type `t`.
                 let term = term(which, scope);
                 let term =
                     if kind == "x" && !term.starts_with("?x") { OBJECTS[which % 3].to_owned() } else { term };
@@ -134,12 +134,13 @@ fn task(axioms: &[(usize, Formula)]) -> Option<(Domain, Problem)> {
     Some((domain, problem))
 }
 
-/// What holds of a derived predicate.
+/// The tuples of a derived predicate that hold.
 fn extension(state: &State, predicate: PredicateId) -> BTreeSet<Vec<ObjectId>> {
     state.derived[predicate].holding().map(<[ObjectId]>::to_vec).collect()
 }
 
-/// Every axiom for every tuple of objects, until nothing is new, from the lowest component up.
+/// Evaluates every axiom for every tuple of objects until nothing is new, from the lowest component
+/// up.
 fn by_definition(
     strata: &Strata,
     domain: &Domain,
@@ -180,7 +181,7 @@ fn by_definition(
 enum Change {
     Fact(usize, [u32; 2], bool),
     Fluent(u32, Option<i64>),
-    /// Ask for a derived predicate.
+    /// Query a derived predicate.
     Ask(usize),
 }
 
@@ -192,7 +193,7 @@ fn change() -> impl Strategy<Value = Change> {
     ]
 }
 
-/// Paths, in the way that recursion is mostly written, so that long proofs come up in every run.
+/// Transitive closure in its usual form, so that every run has long proofs.
 fn paths() -> (usize, Formula) {
     let reach = BASE.len();
     let step = Formula::Atom(2, [0, 1]);

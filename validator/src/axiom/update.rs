@@ -23,7 +23,7 @@ use crate::state::{Seen, State};
 use pddl::model::{FunctionId, PredicateId};
 use rustc_hash::FxHashSet;
 
-/// Facts, or what was derived.
+/// Basic facts or derived facts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Fact,
@@ -34,7 +34,7 @@ enum Kind {
 struct Input {
     kind: Kind,
     predicate: PredicateId,
-    /// Whether something but pivots reads it.
+    /// Whether a rule reads it in another way than as a pivot.
     hidden: bool,
 }
 
@@ -58,7 +58,7 @@ pub(super) struct Component {
     rules: Vec<Rule>,
     inputs: Vec<Input>,
     functions: Vec<FunctionId>,
-    /// Whether no rule reads the component but by pivots.
+    /// Whether rules read the component only as pivots.
     plain: bool,
 }
 
@@ -83,7 +83,7 @@ impl Batch {
     }
 }
 
-/// Tuples that are new, or gone, by relation.
+/// Added or deleted tuples, by relation.
 #[derive(Debug, Default)]
 struct Front(Vec<Batch>);
 
@@ -156,7 +156,7 @@ impl Component {
         functions.all(|(&function, &changes)| state.fluent_changes(function) == changes)
     }
 
-    /// Derives what follows now, given what was seen when that was last done.
+    /// Updates the derived tuples. `seen` has the inputs of the last update.
     pub(super) fn update(&self, seen: Option<&Seen>, world: World<'_>, state: &mut State, now: Moment) {
         let done = seen
             .and_then(|seen| self.changes(seen, state))
@@ -166,7 +166,7 @@ impl Component {
         }
     }
 
-    /// The slots of inputs that changed, if the change can be followed.
+    /// The changed slots of the inputs; `None` if the change requires a derivation from scratch.
     fn changes(&self, seen: &Seen, state: &State) -> Option<Vec<(Input, Vec<Slot>)>> {
         if !self.plain || !self.same_fluents(seen, state) {
             return None;
@@ -189,7 +189,7 @@ impl Component {
         Some(changes)
     }
 
-    /// Follows changes of inputs; answers whether that was worth it. If not, nothing is left behind.
+    /// Updates incrementally. Returns `false` and changes nothing if that is not worthwhile.
     fn follow(
         &self,
         changes: &[(Input, Vec<Slot>)],
@@ -223,7 +223,8 @@ impl Component {
         true
     }
 
-    /// The derived tuples that some proof with a lost tuple led to, in the order found; `None` if they are too many.
+    /// The derived tuples with a proof that uses a lost tuple, in the order of discovery; `None` if
+    /// there are too many.
     fn doomed(&self, lost: &Front, world: World<'_>, state: &State) -> Option<Vec<(PredicateId, Slot)>> {
         let most = 16 + self.own.iter().map(|&own| state.derived[own].len()).sum::<usize>() / 2;
         let (mut doomed, mut known) = (Vec::new(), FxHashSet::default());
@@ -260,7 +261,7 @@ impl Component {
         next
     }
 
-    /// Adds what follows from tuples that are new.
+    /// Adds the tuples that follow from new tuples.
     fn grow(&self, mut new: Front, world: World<'_>, state: &mut State, now: Moment) {
         while !new.is_empty() {
             let mut next = Front::default();

@@ -15,12 +15,12 @@ use pddl::model::{IndexVec, MethodId, SubtaskHead};
 use pddl::{DecompositionId, HierarchicalPlan, PlanNode};
 use rustc_hash::FxHashMap;
 
-/// How many evaluations of preconditions one plan may cost.
+/// The most evaluations of preconditions in one plan.
 const EVALUATIONS: u64 = 20_000_000;
-/// How many combinations of readings are tried.
+/// The most combinations of readings that are tried.
 const COMBINATIONS: u32 = 4096;
 
-/// Judges a plan with its decomposition, from the initial state on.
+/// Judges a plan with its decomposition, starting in the initial state.
 pub(crate) fn run(
     prepared: &Prepared<'_>,
     plan: &HierarchicalPlan,
@@ -49,7 +49,7 @@ pub(crate) fn run(
     decomposed.execute(Readings { root, tasks }, state, trace)
 }
 
-/// Whether what the text's reader has checked holds of a plan that did not come from a text.
+/// Repeats the checks of the parser for a plan that was not parsed from text.
 fn names_fit(prepared: &Prepared<'_>, plan: &HierarchicalPlan) -> Result<(), NetworkFault> {
     for (task, decomposition) in plan.decompositions.enumerate() {
         let schema = prepared.domain.tasks.get(decomposition.task);
@@ -62,7 +62,7 @@ fn names_fit(prepared: &Prepared<'_>, plan: &HierarchicalPlan) -> Result<(), Net
     Ok(())
 }
 
-/// The assignments of one task's subtasks that order them alike.
+/// The assignments of one task's subtasks that give the same order.
 struct Alike {
     assignments: Vec<Assignment>,
     reading: Reading,
@@ -70,7 +70,7 @@ struct Alike {
 
 struct Several {
     alike: Vec<Alike>,
-    /// Whether there may be others that were not looked at.
+    /// Whether there may be further assignments.
     more: bool,
 }
 
@@ -112,7 +112,7 @@ impl Decomposed<'_, '_> {
         Stop::Unsupported(Unsupported { feature: Feature::MatchLimit, span: self.plan.root_span })
     }
 
-    /// How a task's subtasks can be those of its method.
+    /// The assignments of a task's subtasks to those of its method.
     fn readings(&self, of: Parent, state: &State, tries: &mut u64) -> Result<Several, Stop> {
         let (prepared, plan) = (self.prepared, self.plan);
         let schema = self.schema(of);
@@ -212,12 +212,12 @@ impl Decomposed<'_, '_> {
         }
     }
 
-    /// The last moment at which a task's precondition may hold: its first step follows.
+    /// The last moment at which a task's precondition may hold: just before its first step.
     fn last(&self, task: DecompositionId, steps: Slot) -> Slot {
         self.tree.range(PlanNode::Decomposition(task)).first.min(steps)
     }
 
-    /// Notes whether a task's precondition holds now.
+    /// Records whether a task's precondition holds now.
     fn note(
         &self,
         task: DecompositionId,
@@ -241,9 +241,10 @@ impl Decomposed<'_, '_> {
         }
     }
 
-    /// From when on each precondition is to be looked at, in that order.
+    /// The moments from which each precondition is checked, in order.
     fn windows(&self, readings: &Readings, steps: Slot) -> Vec<Window> {
-        // Without preconditions, and where the order of each task's subtasks is clear, the walk tells.
+        // If the order of each task's subtasks is unique, a walk that ignores preconditions gives
+        // the earliest moment of each task.
         let clear = readings.tasks.iter().chain([&readings.root]).all(|several| several.alike.len() == 1);
         let mut first: IndexVec<DecompositionId, Slot> = self.plan.decompositions.iter().map(|_| 0).collect();
         if clear {
@@ -265,7 +266,8 @@ impl Decomposed<'_, '_> {
         windows
     }
 
-    /// Whether some combination of readings places all preconditions; else whose has no place, in the first.
+    /// Whether some combination of readings places all preconditions. If not, returns the task that
+    /// has no place in the first combination.
     fn place_some(&self, readings: &Readings) -> Result<Option<(DecompositionId, Slot)>, Stop> {
         let parents =
             || std::iter::once(Parent::Root).chain(self.plan.decompositions.ids().map(Parent::Task));
@@ -291,13 +293,13 @@ impl Decomposed<'_, '_> {
         Err(self.limit())
     }
 
-    /// Says what a precondition lacks where it was needed at the latest.
+    /// The unsatisfied parts of a precondition at the last moment where it was needed.
     fn unplaced(&self, readings: &Readings, task: DecompositionId, from: Slot) -> Stop {
         let prepared = self.prepared;
         let schema = self.schema(Parent::Task(task));
         let range = self.tree.range(PlanNode::Decomposition(task));
         let after = match &readings.tasks[task].alike[0].reading.holds {
-            // Nowhere at all: what is missing when its first step comes is what was needed.
+            // It holds nowhere: report what is missing just before its first step.
             Some(slots) if slots.is_empty() && !range.is_empty() => range.first,
             _ => from,
         };
@@ -316,13 +318,13 @@ impl Decomposed<'_, '_> {
     }
 }
 
-/// From when on a task's precondition is to be looked at.
+/// The moments at which a task's precondition is checked.
 struct Window {
     first: Slot,
     task: DecompositionId,
 }
 
-/// Puts together the assignments that say the same of the order of the plan's subtasks.
+/// Groups the assignments that give the plan's subtasks the same order.
 fn alike(schema: &Schema<'_>, assignments: Vec<Assignment>) -> Vec<Alike> {
     let mut places = FxHashMap::<Vec<(u32, u32)>, usize>::default();
     let mut alike: Vec<Alike> = Vec::new();

@@ -15,9 +15,9 @@ use pddl::PlanReference;
 use pddl::model::{ObjectId, SubtaskHead, VariableId};
 use rustc_hash::FxHashMap;
 
-/// How many candidates are tried in a whole plan.
+/// The most candidates that are tried in a whole plan.
 pub(super) const TRIES: u64 = 20_000_000;
-/// How many assignments of one task are looked at.
+/// The most assignments of one task that are considered.
 const ASSIGNMENTS: usize = 256;
 
 /// A subtask of the plan.
@@ -36,26 +36,26 @@ pub(super) struct Assignment {
     pub(super) binding: Binding,
 }
 
-/// What a match comes to.
+/// The result of a match.
 #[derive(Debug)]
 pub(super) enum Match {
-    /// Assignments, at least one.
+    /// At least one assignment.
     Found {
         assignments: Vec<Assignment>,
-        /// Whether there may be others.
+        /// Whether there may be further ones.
         more: bool,
     },
-    /// None; this is to be said.
+    /// No assignment, for this reason.
     Fault(NetworkFault),
-    /// None, since the constraints fail, for instance under this binding.
+    /// No assignment, because the constraints fail, for instance under this binding.
     Constraints(Binding),
 }
 
-/// The search came to its limit.
+/// The search reached its limit.
 #[derive(Debug)]
 pub(super) struct Limit;
 
-/// What an assignment must keep besides names and arguments.
+/// The conditions of an assignment besides names and arguments.
 #[derive(Clone, Copy, PartialEq)]
 enum Strictness {
     All,
@@ -69,12 +69,12 @@ pub(super) struct Matching<'m, 'a> {
     pub(super) schema: &'m Schema<'a>,
     pub(super) of: Parent,
     pub(super) children: &'m [Child<'m>],
-    /// What the task's arguments bind.
+    /// The variables that the task's arguments bind.
     pub(super) binding: Binding,
 }
 
 impl Matching<'_, '_> {
-    /// Every assignment, or what keeps the subtasks from being those of the network.
+    /// All assignments, or the reason why the subtasks do not match the network.
     pub(super) fn all(&self, tries: &mut u64) -> Result<Match, Limit> {
         let assignments = self.search(Strictness::All, ASSIGNMENTS, tries)?;
         if !assignments.is_empty() {
@@ -111,7 +111,8 @@ impl Matching<'_, '_> {
         let mut bound: Vec<VariableId> = Vec::new();
         let mut chosen: Vec<Option<u32>> = vec![None; subtasks.len()];
         let mut used = vec![false; subtasks.len()];
-        // Per chosen subtask: how many candidates were tried, and how much was bound before.
+        // For each chosen subtask: the number of candidates tried, and the number of variables
+        // bound before.
         let mut way: Vec<(usize, usize)> = Vec::new();
         let mut next = 0;
         loop {
@@ -159,7 +160,7 @@ impl Matching<'_, '_> {
         }
     }
 
-    /// Whether a child can be that subtask, as far as others are chosen.
+    /// Whether a child can be that subtask, given the choices so far.
     fn may_be(&self, strictness: Strictness, subtask: usize, child: u32, chosen: &[Option<u32>]) -> bool {
         let chosen = |subtask: u32| chosen[subtask as usize];
         if self.schema.twin[subtask].and_then(chosen).is_some_and(|twin| twin > child) {
@@ -188,9 +189,10 @@ impl Matching<'_, '_> {
         strictness != Strictness::All || self.too_early(&children).is_none()
     }
 
-    /// Two of the plan's subtasks of which the second begins before the first ends, and must not.
+    /// Two of the plan's subtasks in the wrong order: the second begins before the first ends.
     fn too_early(&self, children: &[u32]) -> Option<(u32, u32)> {
-        // Per subtask, where the last step of it or of what comes before it ends, and whose step that is.
+        // For each subtask: the end of its last step or of a predecessor's, and the subtask of that
+        // step.
         let mut ends: Vec<Option<(u32, u32)>> = vec![None; children.len()];
         for &subtask in &self.schema.order {
             let child = children[subtask as usize];
@@ -209,7 +211,7 @@ impl Matching<'_, '_> {
         None
     }
 
-    /// What a match from the first subtask to the last leaves over on both sides.
+    /// The subtasks that a greedy match leaves over on both sides.
     fn nearest(&self) -> NetworkFault {
         let mut binding = self.binding.clone();
         let mut bound = Vec::new();

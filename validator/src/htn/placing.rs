@@ -21,12 +21,12 @@ pub(super) type Slot = u32;
 pub(super) struct Reading {
     /// Per subtask of the network, the position of the plan's.
     pub(super) children: Vec<u32>,
-    /// Where the precondition holds, ascending; `None` is everywhere.
+    /// The moments at which the precondition holds, ascending; `None` means all.
     pub(super) holds: Option<Vec<Slot>>,
 }
 
-/// The earliest moment of a subtask; `by` is the task whose precondition delays it, with the moment from which on that
-/// was searched.
+/// The earliest moment of a subtask. `by` is the task whose precondition delays it, with the first
+/// moment that was considered.
 #[derive(Clone, Copy, Debug)]
 struct Bound {
     slot: Slot,
@@ -46,12 +46,12 @@ struct Frame {
     start: Bound,
     /// Per subtask of the network.
     ends: Vec<Bound>,
-    /// Which subtask of the parent's network it is.
+    /// The index of the task in its parent's network.
     within: u32,
 }
 
-/// Places every precondition, or returns a task whose precondition has no place, with the moment from which on it was
-/// searched.
+/// Places every precondition. Otherwise returns a task whose precondition has no place, with the
+/// first moment that was considered.
 ///
 /// Calls `visit` with the earliest moment of each task.
 pub(super) fn place<'a>(

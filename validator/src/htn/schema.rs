@@ -1,4 +1,4 @@
-//! A method, or the problem's initial network, as something that subtasks are matched against.
+//! The network of a method or of the problem, in the form that subtasks are matched against.
 
 use crate::scene::Binding;
 use crate::universe::Universe;
@@ -15,17 +15,17 @@ pub(super) struct Schema<'a> {
     pub(super) network: &'a TaskNetwork,
     /// The parameters that the task's arguments and the subtasks determine.
     pub(super) determined: Vec<VariableId>,
-    /// The constraints, for some value of each parameter that no task determines.
+    /// The constraints, with an existential quantifier over each parameter that no task determines.
     pub(super) constraints: Condition,
-    /// The same with the precondition, if the method has one.
+    /// The constraints and the precondition, if the method has one.
     pub(super) precondition: Option<Condition>,
-    /// Per subtask, those that come directly before it.
+    /// For each subtask: those that come directly before it.
     pub(super) before: Vec<Vec<u32>>,
-    /// Per subtask, those that come directly after it.
+    /// For each subtask: those that come directly after it.
     pub(super) after: Vec<Vec<u32>>,
-    /// The subtasks, none before one that comes before it.
+    /// The subtasks in an order that respects `before`.
     pub(super) order: Vec<u32>,
-    /// Per subtask, the last one before it in the text that nothing tells apart from it.
+    /// For each subtask: the last earlier one in the text that is interchangeable with it.
     pub(super) twin: Vec<Option<u32>>,
 }
 
@@ -100,15 +100,15 @@ impl<'a> Schema<'a> {
         }
     }
 
-    /// The subtask that takes time, if one does: no plan without times has such steps.
+    /// A durative subtask, if there is one: plans without times have no such steps.
     pub(super) fn durative(&self) -> Option<pddl::Span> {
         let durative = |head| matches!(head, SubtaskHead::DurativeAction(_));
         self.network.subtasks.iter().find(|subtask| durative(subtask.head)).map(|subtask| subtask.span)
     }
 }
 
-/// Peels off what waits for nothing (Kahn 1962). The networks of the parser have no cycles; what is on one would be
-/// left out.
+/// Topological order (Kahn 1962). The parser's networks have no cycles; a subtask on a cycle would
+/// be left out.
 fn linearisation(before: &[Vec<u32>], after: &[Vec<u32>]) -> Vec<u32> {
     let mut waits: Vec<usize> = before.iter().map(Vec::len).collect();
     let mut order: Vec<u32> = (0u32..).zip(&waits).filter(|(_, n)| **n == 0).map(|(i, _)| i).collect();
@@ -125,10 +125,12 @@ fn linearisation(before: &[Vec<u32>], after: &[Vec<u32>]) -> Vec<u32> {
     order
 }
 
-/// Makes the terms the objects, where variables have that value or their type allows it; notes what it bound.
+/// Binds the terms to the objects, if the variables have that value or their type allows it.
+/// Records the bound variables.
 ///
 /// # Errors
-/// With the first position that does not fit; what was bound before stays so, and is noted.
+/// Returns the first position that does not fit. Variables that were bound before stay bound and
+/// are recorded.
 pub(super) fn unify(
     universe: &Universe,
     variables: &Variables,

@@ -1,13 +1,13 @@
-//! Whether the numbers of a hierarchical plan make a tree, and which steps each task becomes.
+//! Checks that the numbers of a hierarchical plan form a tree, and computes the steps of each task.
 //!
-//! Invariant of a [`Tree`]: each action and task is used exactly once, and everything is below the root.
-//! Nothing recurses: a plan may be as deep as it is long.
+//! Invariant of a [`Tree`]: each action and task is used exactly once, and everything is below the
+//! root. No function recurses, because a plan may be as deep as it is long.
 
 use crate::verdict::{NetworkFault, Parent};
 use pddl::model::{Idx, IndexVec};
 use pddl::{DecompositionId, HierarchicalPlan, PlanNode, PlanReference, Span};
 
-/// From the first step of a task to behind its last; empty if it has none.
+/// The range from a task's first step to just after its last; empty if it has no steps.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Range {
     pub(super) first: u32,
@@ -68,7 +68,7 @@ impl Tree {
     }
 }
 
-/// The tasks, each behind its subtasks.
+/// The tasks in post-order: each comes after its subtasks.
 fn children_first(plan: &HierarchicalPlan) -> Result<Vec<DecompositionId>, NetworkFault> {
     #[derive(Clone, Copy, PartialEq)]
     enum Mark {

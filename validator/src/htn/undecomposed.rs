@@ -11,7 +11,7 @@ use crate::verdict::{Feature, NetworkFault, Stop, Unsupported, Valid};
 use crate::work::Work;
 use pddl::SequentialPlan;
 
-/// Judges a plan that does not say how it comes out of the problem's task network: finds a decomposition, and judges that.
+/// Judges a plan without a decomposition: finds a decomposition and judges that.
 pub(crate) fn run(
     prepared: &Prepared<'_>,
     plan: &SequentialPlan,
@@ -47,7 +47,7 @@ pub(crate) fn run(
             }
         }
         search::Outcome::None(shortfall) => {
-            // A method was left out of the search if one of its actions takes time.
+            // The search ignores methods with durative actions.
             let mut methods = prepared.domain.methods.iter();
             match methods.find_map(|method| Schema::of_method(method).durative()) {
                 Some(span) => unsupported(Feature::DurativeSubtaskOfDomain, span),

@@ -1,4 +1,4 @@
-//! Causes in words, and where and when they are.
+//! Causes in words, and their places and times.
 
 use super::finding::Place;
 use super::words::Words;
@@ -7,7 +7,7 @@ use crate::number::Number;
 use crate::plan::PlanRef;
 use pddl::model::{Domain, Problem};
 
-/// What happened, in words: `step 3 (go a b)`, `the end of step 3 (go a b) at 4.5`.
+/// The cause in words: `step 3 (go a b)`, `the end of step 3 (go a b) at 4.5`.
 pub fn show_cause<'p>(
     domain: &Domain,
     problem: &Problem,
@@ -17,7 +17,7 @@ pub fn show_cause<'p>(
     Words { domain, problem, plan: plan.into() }.cause(cause)
 }
 
-/// Where what happened stands.
+/// The place of the cause.
 pub(super) fn cause_place<'p>(
     domain: &Domain,
     problem: &Problem,
@@ -27,7 +27,7 @@ pub(super) fn cause_place<'p>(
     Words { domain, problem, plan: plan.into() }.cause_place(cause)
 }
 
-/// When it happened, in seconds; `None` for events and in plans without times.
+/// The time of the cause, in seconds; `None` for events and in plans without times.
 pub(super) fn cause_time<'p>(
     domain: &Domain,
     problem: &Problem,

@@ -1,8 +1,8 @@
 //! A verdict in sentences, each with its place.
 //!
-//! The verdict is data. The command line and the executive's log render it by the same sentences. A [`Finding`] is
-//! one sentence with a place, and notes with places of their own, possibly in another file: a failing step in the
-//! plan, its unsatisfied parts in the domain.
+//! The verdict is data. The command line and the executive's log use the same sentences for it. A
+//! [`Finding`] is one sentence with a place and notes. Each note has its own place, possibly in
+//! another file: a failing step in the plan, its unsatisfied parts in the domain.
 
 use super::finding::{Finding, Place};
 use super::interference::{Access, Interference, interference_of};
@@ -235,7 +235,7 @@ fn times_of_breach(words: &Words<'_>, states: usize, times: &[Number]) -> String
     format!("broken {states} times: {unit} {}{more}", list.join(", "))
 }
 
-/// What one of two interfering happenings does: `deletes (a)`.
+/// The access of one of two interfering happenings: `deletes (a)`.
 fn does(words: &Words<'_>, role: Option<Interference>, over: &Shared) -> String {
     let what = match over {
         Shared::Atom(atom) | Shared::Derived { atom, .. } => words.atom(atom),

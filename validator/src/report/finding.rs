@@ -7,9 +7,9 @@ use serde::Serialize;
 /// A place in one of the three texts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Place {
-    /// Which text.
+    /// The file.
     pub file: File,
-    /// Where in it.
+    /// The place in the file.
     pub span: Span,
 }
 
@@ -18,7 +18,7 @@ pub struct Place {
 pub struct Finding {
     /// One sentence without a full stop.
     pub sentence: String,
-    /// Where.
+    /// The place of the finding.
     pub place: Place,
     /// Its details, the most important first.
     pub notes: Vec<(Place, String)>,

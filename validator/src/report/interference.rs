@@ -13,7 +13,7 @@ use pddl::model::{
 };
 use pddl::{Span, StepHead};
 
-/// What a happening does.
+/// The kind of access.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Access {
     /// It adds the atom.
@@ -26,16 +26,17 @@ pub(super) enum Access {
     Needs,
 }
 
-/// What a happening does, and where that stands in the domain.
+/// The access of a happening, and its place in the domain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Interference {
-    /// What it does.
+    /// The kind of access.
     pub(super) access: Access,
     /// The effect or condition.
     pub(super) span: Span,
 }
 
-/// What a happening does to what it shares; `None` for timed changes, events, and what is not in a condition or effect.
+/// How a happening accesses the shared atom or fluent; `None` for timed changes, events, and
+/// accesses outside conditions and effects.
 pub(super) fn interference_of<'p>(
     domain: &Domain,
     plan: impl Into<PlanRef<'p>>,
@@ -78,7 +79,7 @@ struct Search<'s> {
 }
 
 impl Search<'_> {
-    /// Whether the terms may be the objects; quantified variables may be anything.
+    /// Whether the terms may denote the objects; quantified variables may denote anything.
     fn fits(&self, terms: &[Term], objects: &[ObjectId]) -> bool {
         let fits = |(&term, &object): (&Term, &ObjectId)| match term {
             Term::Object(same) => same == object,

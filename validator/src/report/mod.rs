@@ -1,6 +1,6 @@
 //! Verdicts, traces and repairs for people and programs.
 //!
-//! Invariant: nothing outside of this module imports it but the crate's surface.
+//! Invariant: only `lib.rs` imports this module.
 
 mod causes;
 mod explain;

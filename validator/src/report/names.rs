@@ -1,4 +1,4 @@
-//! Atoms, fluents, steps and changes as PDDL writes them.
+//! Atoms, fluents, steps and changes in PDDL syntax.
 
 use crate::trace::{Diff, FluentChange};
 use crate::value::{GroundAtom, Value};
@@ -47,8 +47,9 @@ pub(super) fn show_binding(problem: &Problem, binding: &[(Name, ObjectId)]) -> S
     binding.iter().map(value).collect::<Vec<_>>().join(", ")
 }
 
-/// A step's changes, one a line: `+ (at b)`, `- (at a)`, `  (fuel) 3 -> 2`; what follows by axioms is
-/// `+ (near b), which follows`, what changed by itself before `  (level) 1 -> 2, continuously`.
+/// The changes of a step, one per line: `+ (at b)`, `- (at a)`, ` (fuel) 3 -> 2`. A derived atom is
+/// `+ (near b), which follows`; a continuous change since the last step is ` (level) 1 -> 2,
+/// continuously`.
 pub fn show_diff(domain: &Domain, problem: &Problem, diff: &Diff) -> Vec<String> {
     let value = |value: Option<Value>| match value {
         None => "undefined".to_owned(),

@@ -1,4 +1,4 @@
-//! What is wrong with a decomposition, in words.
+//! Faults of decompositions, in words.
 
 use super::finding::{Finding, Place};
 use super::names::{show_list, show_step};
@@ -8,7 +8,7 @@ use crate::verdict::{File, NetworkFault, Parent, Shortfall};
 use pddl::model::Name;
 use pddl::{DecompositionId, HierarchicalPlan, PlanNode, Span};
 
-/// What is wrong with a decomposition, or why none exists.
+/// The fault of a decomposition, or the reason why none exists.
 pub(super) fn network_fault(words: &Words<'_>, fault: &NetworkFault) -> Finding {
     match words.plan {
         PlanRef::Hierarchical(plan) => Decomposed { words, plan }.fault(fault),
@@ -33,7 +33,7 @@ fn no_decomposition(words: &Words<'_>, fault: &NetworkFault) -> Finding {
                 let what = "no way to carry this out with these steps alone".to_owned();
                 (Place { file: File::Problem, span }, what)
             };
-            // That all do so together says nothing of one.
+            // If several fail only together, no single one has a note.
             let notes = if spans.len() == 1 { spans.iter().map(note).collect() } else { Vec::new() };
             let place = spans.first().map_or(network, |&span| Place { file: File::Problem, span });
             Finding { sentence: sentence.to_owned(), place, notes }
@@ -114,7 +114,7 @@ impl Decomposed<'_, '_> {
         in_plan(node_span(self.plan, PlanNode::Decomposition(task)))
     }
 
-    /// Where the parent stands in the plan, and in which file its network does.
+    /// The place of the parent in the plan, and the file of its network.
     fn parent(&self, of: Parent) -> (Place, File) {
         match of {
             Parent::Root => (in_plan(self.plan.root_span), File::Problem),
@@ -245,7 +245,7 @@ impl Decomposed<'_, '_> {
     }
 }
 
-/// Where a task of the plan stands.
+/// The place of a task in the plan.
 fn node_span(plan: &HierarchicalPlan, node: PlanNode) -> Span {
     match node {
         PlanNode::Step(step) => plan.steps.get(step).map_or_else(Span::default, |step| step.step.span),

@@ -1,4 +1,4 @@
-//! A plan and its task, with their texts: what a report names things and places by.
+//! A plan and its task with their texts, for names and places in reports.
 
 use super::finding::Place;
 use super::names::{show_application, show_atom, show_list, show_object, show_step};
@@ -25,7 +25,7 @@ pub struct Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    /// The text that a place lies in.
+    /// The text of a file.
     pub fn text(&self, file: File) -> &'a Source {
         match file {
             File::Domain => self.domain_text,
@@ -50,7 +50,7 @@ impl<'a> Subject<'a> {
         show_object(self.problem, object)
     }
 
-    /// The plan, if it gives its decomposition.
+    /// The plan, if it has a decomposition.
     pub(super) fn hierarchical(&self) -> Option<&'a HierarchicalPlan> {
         match self.plan {
             Plan::Hierarchical(plan) => Some(plan),

@@ -34,7 +34,7 @@ impl Words<'_> {
         show_binding(self.problem, binding)
     }
 
-    /// A step as PDDL, and where it stands.
+    /// A step in PDDL syntax, and its place.
     fn step_text(&self, step: StepIndex) -> Option<(String, Span)> {
         let index = step.0 as usize;
         match self.plan {
@@ -62,7 +62,7 @@ impl Words<'_> {
         }
     }
 
-    /// When something happens, in a plan with times.
+    /// The time of a cause in a plan with times.
     pub(super) fn time(&self, cause: Cause) -> Option<Number> {
         let PlanRef::Temporal(plan) = self.plan else { return None };
         match cause {
@@ -111,7 +111,7 @@ impl Words<'_> {
         let mut notes = Vec::new();
         for part in parts {
             let text = match part {
-                // The reasons have notes of their own.
+                // The notes of the reasons explain this.
                 Unsatisfied::Missing { atom, because, .. } if !because.is_empty() => {
                     format!("{} does not follow", self.atom(atom))
                 }

@@ -20,18 +20,18 @@ pub(super) struct Active<'v> {
     pub(super) action: &'v DurativeAction,
     pub(super) binding: Binding,
     pub(super) duration: Number,
-    /// Effects at the end whose conditions at the start held, each with its bindings.
+    /// End effects whose start conditions held, each with its binding.
     pub(super) armed: Vec<(usize, Binding)>,
-    /// Preferences over the whole time that have held until now, each with its bindings.
+    /// `over all` preferences that have held so far, each with its binding.
     pub(super) kept: Vec<(usize, Binding)>,
 }
 
-/// All of them.
+/// All running actions.
 #[derive(Debug, Default)]
 pub(super) struct Actives<'v> {
     by_ticket: Vec<Option<Box<(Active<'v>, Reads)>>>,
     by_step: FxHashMap<StepIndex, Ticket>,
-    /// Those with continuous effects.
+    /// The actions with continuous effects.
     continuous: BTreeSet<Ticket>,
 }
 
@@ -48,7 +48,7 @@ impl<'v> Actives<'v> {
         self.by_ticket.get_mut(ticket.0 as usize)?.as_deref_mut().map(|(active, _)| active)
     }
 
-    /// An action runs from now on.
+    /// Adds an action that starts.
     pub(super) fn insert(&mut self, active: Active<'v>, reads: Reads) -> Ticket {
         let number = u32::try_from(self.by_ticket.len()).expect("a plan has fewer than 2^32 steps");
         let ticket = Ticket(number);
@@ -60,7 +60,7 @@ impl<'v> Actives<'v> {
         ticket
     }
 
-    /// The action of a step runs no longer.
+    /// Removes the action of a step.
     pub(super) fn remove(&mut self, step: StepIndex) -> Option<(Ticket, Active<'v>, Reads)> {
         let ticket = self.by_step.remove(&step)?;
         let (active, reads) = *self.by_ticket.get_mut(ticket.0 as usize)?.take()?;
@@ -68,13 +68,13 @@ impl<'v> Actives<'v> {
         Some((ticket, active, reads))
     }
 
-    /// Those with continuous effects, in the order in which they started.
+    /// The actions with continuous effects, in the order of their starts.
     pub(super) fn continuous(&self) -> impl Iterator<Item = &Active<'v>> {
         self.continuous.iter().filter_map(|&ticket| self.get(ticket))
     }
 }
 
-/// The conditions at a time that stand around an effect of another time.
+/// The conditions at one time around an effect at another time.
 pub(super) fn given<'v>(given: &'v [Given], when: &TimeSpecifier) -> impl Iterator<Item = &'v Condition> {
     let timed = given.iter().flat_map(|given| match given {
         Given::When(conditions) => conditions.as_slice(),
@@ -83,7 +83,7 @@ pub(super) fn given<'v>(given: &'v [Given], when: &TimeSpecifier) -> impl Iterat
     timed.filter(move |timed| timed.when == *when).map(|timed| &timed.condition)
 }
 
-/// What must hold from just after the start until just before the end.
+/// The conditions that must hold from just after the start until just before the end.
 pub(super) fn over_all(action: &DurativeAction) -> impl Iterator<Item = &Condition> {
     action
         .conditions

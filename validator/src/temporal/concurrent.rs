@@ -1,4 +1,4 @@
-//! Recent happenings, and which of them interfere with a new one.
+//! Recent happenings, and those that interfere with a new one.
 //!
 //! Problem: ten thousand actions that start at one time are fifty million pairs. Idea: recent happenings are listed
 //! by the atoms and fluents that they read and change, and a new one looks up its own. Invariant: each list holds the
@@ -20,18 +20,18 @@ struct Recent {
     footprint: Footprint,
 }
 
-/// What happened a moment ago, oldest first.
+/// The recent happenings, oldest first.
 #[derive(Debug, Default)]
 pub(super) struct Concurrent {
     recent: VecDeque<Recent>,
-    /// How many were forgotten.
+    /// The number of forgotten happenings.
     forgotten: usize,
-    /// By what they touch, the numbers of those who do.
+    /// By access: the numbers of the happenings that make it.
     by_touch: FxHashMap<Touch, VecDeque<usize>>,
 }
 
 impl Concurrent {
-    /// Forgets what happened so long before `now`.
+    /// Forgets the happenings that are at least `separation` before `now`.
     pub(super) fn forget(&mut self, now: Number, separation: Number) {
         while let Some(oldest) = self.recent.front() {
             if now.minus(oldest.time).is_ok_and(|age| age < separation) {
@@ -45,7 +45,7 @@ impl Concurrent {
         }
     }
 
-    /// The first that is in the way, and of what.
+    /// The first happening that interferes, and what both access.
     pub(super) fn in_the_way(&mut self, footprint: &Footprint) -> Option<(Cause, Shared)> {
         let (forgotten, by_touch) = (self.forgotten, &mut self.by_touch);
         let mut first: Option<usize> = None;
@@ -64,7 +64,7 @@ impl Concurrent {
         Some((recent.what, recent.footprint.interference(footprint)?))
     }
 
-    /// Remembers what happens now.
+    /// Remembers a happening.
     pub(super) fn push(&mut self, time: Number, what: Cause, footprint: Footprint) {
         let number = self.forgotten + self.recent.len();
         footprint.each_touch(&mut |touch| {

@@ -1,9 +1,10 @@
-//! Change between two happenings.
+//! Continuous change between two happenings.
 //!
-//! Every running continuous effect adds its rate to that of its fluent. A rate may read fluents that
-//! change as well, as long as none depends on itself: then all of them are polynomials of the time since
-//! the last happening ([`Curve`]), found by integrating from the ground up. A rate that depends on itself
-//! makes an exponential, which is refused by name.
+//! Every running continuous effect adds its rate to the rate of its fluent. A rate may read fluents
+//! that change as well, as long as no fluent depends on itself. Then all of them are polynomials of
+//! the time since the last happening ([`Curve`]), and each is integrated after those that it
+//! depends on. A rate that depends on itself leads to an exponential, which is rejected as
+//! unsupported.
 //!
 //! Source: Fox & Long, "PDDL2.1", JAIR 2003, §9; Howey, Long & Fox, "VAL", ICTAI 2004, §5.
 
@@ -24,7 +25,7 @@ use pddl::model::{
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
 
-/// A continuous effect that runs.
+/// A running continuous effect.
 #[derive(Clone, Debug)]
 pub(super) struct Running<'a> {
     pub(super) fluent: GroundApplication,
@@ -36,13 +37,13 @@ pub(super) struct Running<'a> {
     pub(super) span: Span,
 }
 
-/// How the fluents run from now on.
+/// The curves of the fluents from now on.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Flow {
     curves: Arc<Curves>,
 }
 
-/// What rates are read from.
+/// The state and the values from which rates are computed.
 #[derive(Clone, Copy)]
 pub(super) struct Present<'a> {
     pub(super) universe: &'a Universe,
@@ -70,12 +71,12 @@ impl Flow {
         Ok(Self { curves: Arc::new(making.curves) })
     }
 
-    /// With these curves.
+    /// A flow with these curves.
     pub(super) fn of(curves: Vec<(GroundApplication, Curve)>) -> Self {
         Self { curves: Arc::new(curves.into_iter().collect()) }
     }
 
-    /// Whether nothing changes.
+    /// Whether no fluent changes.
     pub(super) fn is_still(&self) -> bool {
         self.curves.values().all(|curve| curve.as_constant().is_some())
     }
@@ -91,7 +92,7 @@ impl Flow {
         moving.map(|(fluent, _)| fluent)
     }
 
-    /// Gives every running fluent its value so many seconds after the last happening.
+    /// Sets every running fluent to its value at this time after the last happening.
     pub(super) fn apply(&self, after: &Instant, state: &mut State) -> Result<(), NoResult> {
         let near = after.near();
         state.passage = None;
@@ -111,7 +112,7 @@ impl Flow {
         Ok(())
     }
 
-    /// Takes the values of running fluents away, so that what is said of them is only possible.
+    /// Makes running fluents undefined, so that conditions over them are only possible.
     pub(super) fn forget(&self, state: &mut State) {
         for fluent in self.curves.keys() {
             state.set_fluent(fluent.clone(), None);
@@ -134,7 +135,7 @@ impl Flow {
                 });
             }
             ConditionKind::Compare(_, left, right) => {
-                // A side without a value has none at any time: the comparison never changes.
+                // A side without a value never has one, so the comparison never changes.
                 let roots = match difference(&self.curves, left, right, scene, binding) {
                     Ok(Some(curve)) => curve.roots(Number::ZERO, length),
                     Ok(None) => Ok(Vec::new()),
@@ -150,7 +151,8 @@ impl Flow {
     }
 }
 
-/// The value of a curve at an irrational root, where it is a fraction all the same: the ball is on the ground exactly.
+/// The value of a curve at an irrational root, if that value is a fraction: the ball is exactly on
+/// the ground.
 fn fraction_at(curve: &Curve, root: &Root, near: Number) -> Option<Number> {
     let (value, error) = (near.to_f64(), 1e-12 * near.to_f64().abs().max(1.0));
     let fraction = Number::simplest_between(value - error, value + error)?;
@@ -158,12 +160,12 @@ fn fraction_at(curve: &Curve, root: &Root, near: Number) -> Option<Number> {
     root.sign_of(&rest.polynomial()).ok()?.is_eq().then_some(fraction)
 }
 
-/// A flow while it is made.
+/// A flow under construction.
 struct Making<'a, 'r> {
     by_fluent: FxHashMap<&'a GroundApplication, Vec<&'a Running<'r>>>,
     present: Present<'a>,
     curves: Curves,
-    /// Fluents whose curves are being made.
+    /// Fluents whose curves are under construction.
     open: Vec<GroundApplication>,
 }
 

@@ -1,4 +1,4 @@
-//! What a happening reads and changes, and whether two simultaneous ones interfere.
+//! The reads and changes of a happening, and whether two simultaneous happenings interfere.
 //!
 //! Two happenings may be simultaneous only if their order does not matter. Neither may change an atom that the other
 //! reads or changes to the opposite, or a fluent that the other reads. Both may change a fluent only by increasing
@@ -22,11 +22,11 @@ use pddl::model::{
 };
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// What something needs and changes.
+/// The reads and changes of a happening.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Footprint {
     needed: FxHashSet<GroundAtom>,
-    /// Predicates below a derived predicate that is needed, with that one.
+    /// Predicates that a needed derived predicate depends on, each with that derived predicate.
     below: FxHashMap<PredicateId, PredicateId>,
     read: FxHashSet<GroundApplication>,
     added: FxHashSet<GroundAtom>,
@@ -39,7 +39,7 @@ pub(super) struct Footprint {
 pub(super) struct Dependencies(FxHashMap<PredicateId, FxHashSet<PredicateId>>);
 
 impl Dependencies {
-    /// The derived predicates, each with what it depends on.
+    /// The derived predicates, each with the predicates that it depends on.
     pub(super) fn each(&self) -> impl Iterator<Item = (PredicateId, &FxHashSet<PredicateId>)> {
         self.0.iter().map(|(&derived, below)| (derived, below))
     }
@@ -117,7 +117,7 @@ impl Reader<'_> {
         });
     }
 
-    /// What an effect reads: its conditions, and the fluents in its values.
+    /// Collects the reads of an effect: its conditions, and the fluents in its values.
     pub(super) fn effect(&self, effect: &Effect, binding: &mut Binding, into: &mut Footprint) {
         match &effect.kind {
             EffectKind::And(parts) => parts.iter().for_each(|part| self.effect(part, binding, into)),
@@ -149,7 +149,7 @@ impl Footprint {
         });
     }
 
-    /// Everything that it touches, some of it perhaps more than once.
+    /// Visits everything that it accesses, possibly more than once.
     pub(super) fn each_touch(&self, visit: &mut dyn FnMut(Touch)) {
         self.needed.iter().for_each(|atom| visit(Touch::Needs(atom.clone())));
         self.added.iter().for_each(|atom| visit(Touch::Adds(atom.clone())));
@@ -165,18 +165,19 @@ impl Footprint {
         }
     }
 
-    /// Forgets changes to what is so already.
+    /// Drops changes that do not change the state.
     pub(super) fn only_changes_of(&mut self, state: &State) {
         self.added.retain(|atom| !state.holds(atom.predicate, &atom.arguments));
         self.deleted.retain(|atom| state.holds(atom.predicate, &atom.arguments));
     }
 
-    /// What keeps the two from happening at one time.
+    /// What both happenings access so that they interfere.
     pub(super) fn interference(&self, other: &Self) -> Option<Shared> {
         self.disturbs(other).or_else(|| other.disturbs(self))
     }
 
-    /// What this one changes to the harm of `other`. The least atom is named, so that the same plan gives the same words.
+    /// What this one changes and `other` accesses. Returns the least atom, so that the same plan
+    /// gives the same message.
     fn disturbs(&self, other: &Self) -> Option<Shared> {
         let changed = || self.added.iter().chain(&self.deleted);
         let atom = changed()
@@ -199,29 +200,29 @@ impl Footprint {
     }
 }
 
-/// What two happenings may have in common, and what one of them does with it.
+/// An access of one happening that may interfere with another.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Touch {
-    /// It is needed.
+    /// It needs the atom.
     Needs(GroundAtom),
-    /// It is added.
+    /// It adds the atom.
     Adds(GroundAtom),
-    /// It is deleted.
+    /// It deletes the atom.
     Deletes(GroundAtom),
-    /// A derived predicate that is needed depends on it.
+    /// It needs a derived predicate that depends on this one.
     Below(PredicateId),
-    /// An atom of it is added or deleted.
+    /// It adds or deletes an atom of the predicate.
     Changes(PredicateId),
-    /// Its value is read.
+    /// It reads the fluent.
     Reads(GroundApplication),
-    /// It is increased or decreased.
+    /// It increases or decreases the fluent.
     Shifts(GroundApplication),
-    /// It is changed in another way.
+    /// It changes the fluent in another way.
     Sets(GroundApplication),
 }
 
 impl Touch {
-    /// What must not happen at the same time.
+    /// Visits the accesses that must not happen at the same time.
     pub(super) fn each_rival(&self, visit: &mut dyn FnMut(Self)) {
         match self {
             Self::Needs(atom) => {

@@ -1,4 +1,4 @@
-//! The actions that run, and what must hold as long as they do.
+//! The running actions and their `over all` conditions.
 
 use super::active::{Active, given, over_all};
 use super::flow::Flow;
@@ -14,7 +14,7 @@ use crate::verdict::Failure;
 use pddl::model::TimeSpecifier;
 
 impl<'v> Run<'_, 'v, '_> {
-    /// An action runs from now on.
+    /// Starts an action.
     pub(super) fn join(&mut self, active: Active<'v>) {
         let reads = self.reads(&active);
         let continuous = !active.action.continuous.is_empty();
@@ -27,7 +27,7 @@ impl<'v> Run<'_, 'v, '_> {
         }
     }
 
-    /// The action of a step, which runs no longer.
+    /// Ends the action of a step and returns it.
     pub(super) fn leave(&mut self, step: StepIndex) -> Option<Active<'v>> {
         let (ticket, active, reads) = self.active.remove(step)?;
         self.watch.leave(ticket, &reads);
@@ -35,7 +35,7 @@ impl<'v> Run<'_, 'v, '_> {
         Some(active)
     }
 
-    /// What must be looked at again when it changes, as long as the action runs.
+    /// The facts and fluents whose change requires another check of the running action.
     pub(super) fn reads(&self, active: &Active<'v>) -> Reads {
         let action = active.action;
         let mut reads = Reads::default();
@@ -54,7 +54,7 @@ impl<'v> Run<'_, 'v, '_> {
         reads
     }
 
-    /// Adds the instants inside `0..length` at which a condition of an action that runs may change.
+    /// Adds the instants inside `0..length` at which a condition of a running action may change.
     pub(super) fn critical_of(
         &self,
         active: &Active<'_>,
@@ -79,12 +79,12 @@ impl<'v> Run<'_, 'v, '_> {
         }
     }
 
-    /// Asks for everything that must hold all the time and may have changed.
+    /// Checks every `over all` condition that may have changed.
     pub(super) fn invariants(&mut self, at: Number) -> Checked {
         self.watch.due().into_iter().try_for_each(|ticket| self.invariant(ticket, at))
     }
 
-    /// Asks for what must hold as long as an action runs.
+    /// Checks the `over all` conditions of one running action.
     pub(super) fn invariant(&mut self, ticket: Ticket, at: Number) -> Checked {
         let Some(&Active { step, action, duration, .. }) = self.active.get(ticket) else { return Ok(()) };
         for condition in over_all(action) {
@@ -103,7 +103,7 @@ impl<'v> Run<'_, 'v, '_> {
         Ok(())
     }
 
-    /// Drops the effects at the end whose condition `over all` does not hold.
+    /// Drops the end effects whose `over all` condition does not hold.
     fn disarm(&mut self, ticket: Ticket, at: Number) {
         let Some(active) = self.active.get_mut(ticket) else { return };
         let (action, duration) = (active.action, active.duration);
@@ -120,7 +120,7 @@ impl<'v> Run<'_, 'v, '_> {
         }
     }
 
-    /// Counts the preferences over the whole time that do not hold now; each is counted once.
+    /// Counts the `over all` preferences that do not hold now; each is counted once.
     fn judge_kept(&mut self, ticket: Ticket, at: Number) {
         let Some(active) = self.active.get_mut(ticket) else { return };
         let (action, duration) = (active.action, active.duration);

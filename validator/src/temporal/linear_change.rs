@@ -20,23 +20,23 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// What runs in straight lines.
+/// The linear changes that run.
 #[derive(Debug, Default)]
 pub(super) struct LinearChange {
-    /// Per fluent its rate and how many effects make it up.
+    /// By fluent: its rate and the number of effects that contribute.
     pub(super) rates: FxHashMap<GroundApplication, (Number, usize)>,
-    /// What each action adds to rates.
+    /// The contribution of each action to rates.
     pub(super) shares: FxHashMap<Ticket, Vec<(GroundApplication, Number)>>,
-    /// Fluents whose lines are to be drawn anew.
+    /// Fluents whose lines must be computed again.
     pub(super) bent: FxHashSet<GroundApplication>,
-    /// When conditions may change, as long as their round is the last one of their action.
+    /// The times at which conditions may change; valid only for the last round of their action.
     pub(super) calls: BinaryHeap<Reverse<(Number, Ticket, u64)>>,
     pub(super) rounds: FxHashMap<Ticket, u64>,
-    /// How many calls there were when those of earlier rounds were last thrown away.
+    /// The number of calls after outdated ones were last removed.
     pub(super) kept: usize,
 }
 
-/// The functions that something changes.
+/// The functions that some effect changes.
 fn changing(domain: &Domain, problem: &Problem) -> FxHashSet<FunctionId> {
     let mut found = FxHashSet::default();
     let mut changed_by = |effect: &Effect| {
@@ -63,7 +63,8 @@ fn changing(domain: &Domain, problem: &Problem) -> FxHashSet<FunctionId> {
 }
 
 impl LinearChange {
-    /// A linear, if all continuous effects of the domain have rates that nothing changes, and nothing looks at everything.
+    /// `None` unless all continuous effects of the domain have constant rates and no feature of the
+    /// task reads all fluents.
     pub(super) fn open(domain: &Domain, problem: &Problem) -> Option<Self> {
         let continuous = || domain.durative_actions.iter().flat_map(|action| &action.continuous);
         if !domain.processes.is_empty()
@@ -90,14 +91,14 @@ impl LinearChange {
         steady.then(Self::default)
     }
 
-    /// Something else may have set the fluent.
+    /// Another effect may have set the fluent.
     pub(super) fn wrote(&mut self, fluent: &GroundApplication) {
         if self.rates.contains_key(fluent) {
             self.bent.insert(fluent.clone());
         }
     }
 
-    /// An action no longer changes anything; `None` if the rate that is left is no fraction.
+    /// Ends the changes of an action; `None` if the remaining rate is not a fraction.
     pub(super) fn leave(&mut self, ticket: Ticket) -> Option<()> {
         self.rounds.remove(&ticket);
         for (fluent, share) in self.shares.remove(&ticket).into_iter().flatten() {

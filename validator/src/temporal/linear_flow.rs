@@ -1,4 +1,4 @@
-//! Time that passes while fluents change in straight lines only.
+//! Lets time pass if all continuous change is linear.
 
 use super::active::Active;
 use super::flow::{Flow, each_running};
@@ -17,7 +17,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
 impl Run<'_, '_, '_> {
-    /// The continuous effects of an action begin.
+    /// Begins the continuous effects of an action.
     pub(super) fn begin_linear(&mut self, ticket: Ticket) {
         let Some(mut linear) = self.linear.take() else { return };
         match self.entered(&mut linear, ticket) {
@@ -46,21 +46,21 @@ impl Run<'_, '_, '_> {
         Some(())
     }
 
-    /// They end.
+    /// Ends the continuous effects of an action.
     pub(super) fn end_linear(&mut self, ticket: Ticket) {
         if self.linear.as_mut().is_some_and(|linear| linear.leave(ticket).is_none()) {
             self.stop_linear();
         }
     }
 
-    /// From now on all fluents are looked at.
+    /// Stops linear change for good: from now on the state stores all values.
     fn stop_linear(&mut self) {
         self.linear = None;
         self.state.settle_lines();
         self.watch.all_changed();
     }
 
-    /// Lets time pass until just before `time`, if that can be done here.
+    /// Lets time pass until just before `time`, if change is linear. Returns whether it did.
     pub(super) fn flow_linearly(&mut self, time: Number) -> Checked<bool> {
         let Some(mut linear) = self.linear.take() else { return Ok(false) };
         if !self.now.is_exact() || self.draw(&mut linear).is_none() {
@@ -83,7 +83,7 @@ impl Run<'_, '_, '_> {
         Ok(true)
     }
 
-    /// Draws the lines that are no longer what they were.
+    /// Computes the lines that have changed.
     fn draw(&mut self, linear: &mut LinearChange) -> Option<()> {
         for fluent in std::mem::take(&mut linear.bent) {
             let &(slope, effects) = linear.rates.get(&fluent)?;
@@ -102,7 +102,8 @@ impl Run<'_, '_, '_> {
         Some(())
     }
 
-    /// Looks ahead when the conditions that are due may change; answers whose they are.
+    /// Computes when the conditions that are due may change. Returns the actions of these
+    /// conditions.
     fn foresee(&mut self, linear: &mut LinearChange) -> Option<BTreeSet<Ticket>> {
         let due = self.watch.due();
         for &ticket in &due {
@@ -142,7 +143,8 @@ impl Run<'_, '_, '_> {
         Some(due)
     }
 
-    /// Asks what is due just after now, and what may change until `time` where it may and just after that.
+    /// Checks the conditions that are due just after now. Checks those that may change until `time`
+    /// at that instant and just after it.
     fn ask(&mut self, linear: &mut LinearChange, mut due: BTreeSet<Ticket>, time: Number) -> Checked {
         let mut called: BTreeMap<Number, BTreeSet<Ticket>> = BTreeMap::new();
         while let Some(&Reverse((at, ticket, round))) = linear.calls.peek().filter(|call| call.0.0 < time) {

@@ -5,9 +5,9 @@
 //! times, `over all` conditions must hold and continuous effects act. A condition over continuously changing fluents
 //! is evaluated at each instant at which its truth can change, and once between any two such instants.
 //!
-//! Bottom up: `timeline`, `flow` (curves of fluents), `linear_change`, `footprint` and `concurrent` (interference),
-//! `watch` and `active` (running actions), then `run`, the plan under way, with what it does: `invariants`,
-//! `processes`, `point`, `linear_flow`, `passing`.
+//! Bottom up: `timeline`, `flow` (curves of fluents), `linear_change`, `footprint` and `concurrent`
+//! (interference), `watch` and `active` (running actions). Then `run`, the execution of a plan,
+//! with its parts: `invariants`, `processes`, `point`, `linear_flow`, `passing`.
 //!
 //! Cost: the conditions of each point, and at each happening the conditions of those running actions that read a
 //! changed fact or fluent (`watch`). Where change is linear, only fluents that a condition reads are computed
@@ -108,7 +108,7 @@ pub(crate) fn run(
     let steps = u32::try_from(plan.steps.len()).unwrap_or(u32::MAX);
     let makespan = makespan(plan);
     if let Some((file, broken)) = run.demands.broken() {
-        // Earlier states are gone; the last one is here.
+        // Earlier states are gone; only the last one is available.
         let asked = broken.asked.filter(|asked| asked.position == run.demands.last());
         let causes = Causes::Listed(&run.causes);
         let parts = asked
@@ -128,7 +128,7 @@ pub(crate) fn run(
     prepared.finish(end, run.demands)
 }
 
-/// Whether anything else happens at the time of a happening, or too near to it.
+/// Whether another point is simultaneous with a happening, or too close to it.
 fn concurrent(points: &[Point], happening: &[Point], separation: Number) -> bool {
     let time = happening[0].time;
     let near = |other: &Point| {

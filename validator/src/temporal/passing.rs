@@ -1,4 +1,4 @@
-//! Time that passes between two happenings.
+//! Lets time pass between two happenings.
 
 use super::flow::{Flow, Present};
 use super::processes::{Autonomous, Instance};
@@ -11,16 +11,17 @@ use crate::trajectory::Since;
 use crate::verdict::{ChangeFault, NumericFault};
 use pddl::model::ProcessId;
 
-/// How often what happens by itself may begin and end at one instant.
+/// The most times that processes and events may begin and end at one instant.
 const MOST_UNRESTS: usize = 100;
 
-/// How often it happens between two happenings of the plan where its times seem to have a limit.
+/// The number of such instants between two happenings above which their times seem to converge.
 const MANY: usize = 10;
 
-/// How often it may do so in the whole plan: times that come ever nearer to each other never pass.
+/// The most such instants in the whole plan: converging times would never end.
 const MOST_UNRESTS_OF_ALL: usize = 10_000;
 
-/// The instants in order, each marked, and one between any two of them; not the ends of `from..length` themselves.
+/// Marks the sorted instants and adds one between any two of them; the ends of `from..length` are
+/// not included.
 fn with_middles(
     critical: Vec<Instant>,
     from: &Instant,
@@ -51,25 +52,25 @@ fn with_middles(
     Ok(instants)
 }
 
-/// Something begins or ends by itself.
+/// Processes or events that begin or end.
 struct Unrest {
-    /// When, after the last happening.
+    /// The time, relative to the last happening.
     after: Instant,
     autonomous: Autonomous,
 }
 
-/// Continuous change that goes on as it is.
+/// Continuous change without a change of the curves.
 struct Course {
     flow: Flow,
-    /// The time from which its curves count.
+    /// The time at which its curves begin.
     origin: Number,
-    /// How far it has come.
+    /// The instant up to which it was followed.
     from: Instant,
 }
 
 impl Run<'_, '_, '_> {
-    /// Lets time pass until just before `time`: what runs, runs; what must hold all the time, must hold;
-    /// what happens by itself, happens.
+    /// Lets time pass until just before `time`: applies continuous change, checks `over all`
+    /// conditions, and lets processes and events begin and end.
     pub(super) fn flow_to(&mut self, time: Number, timed: bool, mut diff: Option<&mut Diff>) -> Checked {
         if self.now < time && self.flow_linearly(time)? {
             return Ok(());
@@ -90,7 +91,7 @@ impl Run<'_, '_, '_> {
             let length = time.minus(origin).unwrap_or(Number::ZERO);
             let unrest = self.flow_quietly(&flow, origin, &from, length, &processes)?;
             if self.state.work.is_undecided() {
-                // Times that come ever nearer to each other get too near for any numbers.
+                // Converging times become too close for any numbers.
                 if passed < Number::thousandths(1) && met >= MANY {
                     self.state.work.clear_undecided();
                     return Err(self.change(ChangeFault::Unsteady));
@@ -103,7 +104,8 @@ impl Run<'_, '_, '_> {
                 break;
             };
             passed = unrest.after.near().minus(from.near()).unwrap_or(Number::ZERO);
-            // Conditions that end each other at one instant would take no time, for ever.
+            // Conditions that end each other at one instant would do so endlessly without time
+            // passing.
             unrests = if passed < Number::NANO { unrests + 1 } else { 0 };
             self.unrests += 1;
             met += 1;
@@ -116,7 +118,7 @@ impl Run<'_, '_, '_> {
             self.wrote_fluents = false;
             self.events(unrest.autonomous.events, diff.as_deref_mut())?;
             let next = if happened { self.processes(self.now) } else { unrest.autonomous.processes };
-            // As long as nothing changes the way that fluents run, they are known exactly from where they began.
+            // While nothing changes the curves, they remain exact from their origin.
             if next == processes && !self.wrote_fluents {
                 course = Some(Course { flow, origin, from: unrest.after });
             }
@@ -133,7 +135,7 @@ impl Run<'_, '_, '_> {
         Ok(())
     }
 
-    /// How fluents run from now on.
+    /// The curves of the fluents from now on.
     fn course(&mut self, processes: &[Instance<ProcessId>]) -> Checked<Course> {
         if !self.state.rounded && !self.now.is_exact() {
             self.state.rounded = true;
@@ -145,8 +147,8 @@ impl Run<'_, '_, '_> {
         Ok(Course { flow, origin: self.now, from: Instant::At(Number::ZERO) })
     }
 
-    /// Looks at every instant inside `from..length` at which something can change; answers where something
-    /// begins or ends by itself, if it does.
+    /// Checks every instant inside `from..length` at which something can change. Returns the first
+    /// one at which a process or event begins or ends.
     fn flow_quietly(
         &mut self,
         flow: &Flow,
@@ -166,7 +168,7 @@ impl Run<'_, '_, '_> {
             if self.has_processes_or_events() {
                 let autonomous = self.autonomous(at);
                 if !autonomous.events.is_empty() || autonomous.processes != processes {
-                    // What is first seen between two instants began at the earlier one.
+                    // A change that is first seen between two instants began at the earlier one.
                     let after = if critical { instant } else { last };
                     return Ok(Some(Unrest { after, autonomous }));
                 }
@@ -188,8 +190,8 @@ impl Run<'_, '_, '_> {
         })
     }
 
-    /// The instants inside `from..length` at which conditions must be asked: where one can change (`true`), and
-    /// one between any two of them.
+    /// The instants inside `from..length` at which conditions must be checked: those where one can
+    /// change (`true`), and one between any two of them.
     fn instants_of(&mut self, flow: &Flow, from: &Instant, length: Number) -> Checked<Vec<(Instant, bool)>> {
         let mut critical = Vec::new();
         for ticket in self.watch.readers(flow.moving()) {

@@ -1,8 +1,8 @@
 //! The happenings at one time.
 //!
-//! Each point is judged in the state before, and its changes are collected there too. Then the points are compared
-//! with each other and with those a moment ago, and only then the state changes. So no point sees a part of a
-//! happening.
+//! Each point is judged in the state before, and its changes are collected there. Then the points
+//! are compared with each other and with recent ones, and only then the state changes. So no point
+//! reads a part of the changes of its own happening.
 
 use super::active::{Active, given};
 use super::footprint::{Footprint, Reader};
@@ -25,14 +25,14 @@ use pddl::model::{
 };
 use pddl::{StepHead, TemporalStep};
 
-/// What one point does.
+/// The changes of one point.
 struct Outcome {
     what: Cause,
     changes: Changes,
     footprint: Footprint,
 }
 
-/// What is asked and done of a schema at a point.
+/// The conditions and effects of a schema at a point.
 struct Part<'v> {
     variables: &'v Variables,
     clock: Clock<'static>,
@@ -41,7 +41,8 @@ struct Part<'v> {
 }
 
 impl<'v> Run<'_, 'v, '_> {
-    /// Everything that happens at `self.now`. If it is `concurrent`, order may matter.
+    /// Executes everything that happens at `self.now`. If it is `concurrent`, interference is
+    /// checked.
     pub(super) fn happening(
         &mut self,
         points: &[Point],
@@ -53,7 +54,7 @@ impl<'v> Run<'_, 'v, '_> {
         for point in points {
             outcomes.push(match point.what {
                 Cause::Step(index) => self.step(index, concurrent)?,
-                // Events are no points: they happen when they are due.
+                // Events are not points: they happen when they are due.
                 Cause::Event(_) => continue,
                 Cause::Start(index) => {
                     let (outcome, active) = self.start(index, concurrent)?;
@@ -90,7 +91,7 @@ impl<'v> Run<'_, 'v, '_> {
         Ok(())
     }
 
-    /// Two points that are at one time, or too near to each other, must not disturb each other.
+    /// Checks that points that are simultaneous, or too close to each other, do not interfere.
     fn interference(&mut self, outcomes: &mut [Outcome]) -> Checked {
         self.concurrent.forget(self.now, self.prepared.precision.separation);
         for outcome in outcomes {
@@ -168,7 +169,7 @@ impl<'v> Run<'_, 'v, '_> {
         self.half(&mut active, &TimeSpecifier::End, concurrent)
     }
 
-    /// The start or the end of a durative action.
+    /// Executes the start or the end of a durative action.
     fn half(&mut self, active: &mut Active<'v>, when: &TimeSpecifier, concurrent: bool) -> Checked<Outcome> {
         let action = active.action;
         let clock = Clock { duration: Some(active.duration), ..Clock::at(self.now) };
@@ -217,7 +218,8 @@ impl<'v> Run<'_, 'v, '_> {
         Ok(outcome)
     }
 
-    /// What a preference reads: like the condition of an effect that counts its violation.
+    /// Collects the reads of a preference, like those of an effect whose condition counts the
+    /// violation.
     fn read_soft(
         &self,
         part: &Part<'v>,
@@ -231,7 +233,7 @@ impl<'v> Run<'_, 'v, '_> {
         each_instance(scene, over, binding, &mut |binding| reader.condition(body, binding, into));
     }
 
-    /// What the bounds of the duration read.
+    /// Collects the reads of the bounds of the duration.
     fn read_bounds(&self, active: &Active<'v>, when: &TimeSpecifier, clock: Clock<'_>, into: &mut Footprint) {
         let scene = self.prepared.scene(self.state, &active.action.variables, clock);
         let reader = Reader { scene, strata: &self.prepared.strata, dependencies: &self.dependencies };
@@ -243,7 +245,7 @@ impl<'v> Run<'_, 'v, '_> {
         }
     }
 
-    /// Notes the preferences over the whole time.
+    /// Records the `over all` preferences.
     fn keep(&self, active: &mut Active<'v>, clock: Clock<'_>) {
         let action = active.action;
         let scene = self.prepared.scene(self.state, &action.variables, clock);
@@ -256,7 +258,7 @@ impl<'v> Run<'_, 'v, '_> {
         }
     }
 
-    /// Notes which effects at the end have their conditions at the start, and for which bindings.
+    /// Records the end effects whose start conditions hold, with their bindings.
     fn arm(&mut self, active: &mut Active<'v>, footprint: &mut Footprint) {
         let action = active.action;
         let clock = Clock { duration: Some(active.duration), ..Clock::at(self.now) };
@@ -286,7 +288,7 @@ impl<'v> Run<'_, 'v, '_> {
         }
     }
 
-    /// Collects the effects that were armed at the start.
+    /// Collects the end effects that were recorded at the start.
     fn discharge(&mut self, active: &mut Active<'v>, outcome: &mut Outcome) -> Checked {
         let action = active.action;
         let clock = Clock { duration: Some(active.duration), ..Clock::at(self.now) };
@@ -313,7 +315,7 @@ impl<'v> Run<'_, 'v, '_> {
         Ok(())
     }
 
-    /// Whether the step takes as long as its action must, as far as that is asked for here.
+    /// Checks the constraints on the duration at this time.
     fn duration(&mut self, active: &mut Active<'v>, when: &TimeSpecifier, clock: Clock<'_>) -> Checked {
         let action = active.action;
         for constraint in action.duration.iter().filter(|constraint| constraint.when == *when) {
@@ -400,12 +402,12 @@ impl<'v> Run<'_, 'v, '_> {
     }
 }
 
-/// The conditions at a time.
+/// The conditions of an action at a time.
 fn at<'v>(action: &'v DurativeAction, when: &TimeSpecifier) -> impl Iterator<Item = &'v Condition> {
     action.conditions.iter().filter(move |timed| timed.when == *when).map(|timed| &timed.condition)
 }
 
-/// Whether a duration compares with its bound, as nearly as planners write it.
+/// Compares a duration with its bound, within the tolerance.
 fn within(comparison: Comparison, duration: Number, bound: Number, tolerance: Number) -> bool {
     let above = duration.minus(bound).unwrap_or(Number::MAX);
     match comparison {

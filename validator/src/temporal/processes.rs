@@ -29,7 +29,7 @@ use pddl::model::{Condition, EventId, ObjectId, ProcessId, Variables};
 use rustc_hash::FxHashMap;
 use std::ops::ControlFlow;
 
-/// How often one event may happen at one time.
+/// The most times that one event may happen at one time.
 const MOST_OFTEN: usize = 100;
 
 /// A process or event with its arguments.
@@ -39,7 +39,7 @@ pub(super) struct Instance<I> {
     pub(super) arguments: Vec<ObjectId>,
 }
 
-/// What happens by itself at an instant.
+/// The processes that run and the events that are due at an instant.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Autonomous {
     pub(super) processes: Vec<Instance<ProcessId>>,
@@ -47,17 +47,17 @@ pub(super) struct Autonomous {
 }
 
 impl Run<'_, '_, '_> {
-    /// Whether anything can happen by itself.
+    /// Whether the domain has processes or events.
     pub(super) fn has_processes_or_events(&self) -> bool {
         !self.prepared.domain.processes.is_empty() || !self.prepared.domain.events.is_empty()
     }
 
-    /// What runs and what is due in the present state.
+    /// The processes that run and the events that are due in the current state.
     pub(super) fn autonomous(&mut self, at: Number) -> Autonomous {
         Autonomous { processes: self.processes(at), events: self.due(at) }
     }
 
-    /// The processes that run in the present state.
+    /// The processes that run in the current state.
     pub(super) fn processes(&mut self, at: Number) -> Vec<Instance<ProcessId>> {
         let mut found = Vec::new();
         for (id, process) in self.prepared.domain.processes.enumerate() {
@@ -68,7 +68,7 @@ impl Run<'_, '_, '_> {
         found
     }
 
-    /// The events that are due in the present state.
+    /// The events that are due in the current state.
     pub(super) fn due(&mut self, at: Number) -> Vec<Instance<EventId>> {
         let mut found = Vec::new();
         for (id, event) in self.prepared.domain.events.enumerate() {
@@ -116,7 +116,8 @@ impl Run<'_, '_, '_> {
         let domain = self.prepared.domain;
         let processes = domain.processes.iter().map(|p| (&p.variables, &p.precondition));
         let events = domain.events.iter().map(|e| (&e.variables, &e.precondition));
-        // Without the values of what flows, a comparison that reads it is possible: so all that may ever begin is found.
+        // While the changing fluents are undefined, every comparison that reads them is possible,
+        // so all processes and events that may ever begin are found.
         flow.forget(self.state);
         let mut candidates = Vec::new();
         for (variables, condition) in processes.chain(events) {
@@ -132,7 +133,7 @@ impl Run<'_, '_, '_> {
         Ok(())
     }
 
-    /// Lets the events happen that are due, and those that they cause.
+    /// Executes the due events and the events that they trigger.
     pub(super) fn events(&mut self, mut due: Vec<Instance<EventId>>, mut diff: Option<&mut Diff>) -> Checked {
         let mut happened: FxHashMap<Instance<EventId>, usize> = FxHashMap::default();
         while !due.is_empty() {
@@ -194,7 +195,7 @@ impl Run<'_, '_, '_> {
         Box::new(Failure::EndlessEvents { time: self.now, event: event.id })
     }
 
-    /// Everything that changes continuously now.
+    /// All continuous effects that run now.
     pub(super) fn running(&self, processes: &[Instance<ProcessId>]) -> Checked<Vec<Running<'_>>> {
         let mut running = Vec::new();
         for Active { action, binding, duration, .. } in self.active.continuous() {

@@ -1,4 +1,4 @@
-//! A plan with times while it is carried out.
+//! A plan with times during its execution.
 //!
 //! Invariant: `now` is the time of the last happening, and `state` is the state right after it.
 
@@ -30,19 +30,19 @@ pub(super) struct Run<'s, 'v, 'a> {
     pub(super) now: Number,
     pub(super) causes: Vec<Cause>,
     pub(super) active: Actives<'v>,
-    /// Continuous change, as long as it runs in straight lines.
+    /// Linear continuous change; `None` if some change is not linear.
     pub(super) linear: Option<LinearChange>,
-    /// Who of them must be asked again.
+    /// The actions that must be checked again.
     pub(super) watch: Watch,
-    /// What happened a moment ago.
+    /// Recent happenings.
     pub(super) concurrent: Concurrent,
-    /// How often something began or ended by itself.
+    /// The number of times that processes or events began or ended.
     pub(super) unrests: usize,
-    /// Whether events changed a fluent since that was last asked.
+    /// Whether events changed a fluent since the last check.
     pub(super) wrote_fluents: bool,
-    /// Whether the problem changes something at the time that comes next.
+    /// Whether the problem has a timed change at the next time.
     pub(super) timed_is_next: bool,
-    /// The events that happened just before it does.
+    /// The events that happened just before that timed change.
     pub(super) beside_timed: Vec<(Cause, Footprint)>,
 }
 

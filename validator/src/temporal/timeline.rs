@@ -19,7 +19,8 @@ pub(super) struct Point {
     pub(super) what: Cause,
 }
 
-/// Everything that happens, by time; what happens at one time in the order of the file, a step's start before its end.
+/// All points, sorted by time; simultaneous points in the order of the file, the start of a step
+/// before its end.
 pub(super) fn timeline(problem: &Problem, plan: &TemporalPlan) -> Vec<Point> {
     let mut points = Vec::with_capacity(2 * plan.steps.len() + problem.timed.len());
     for (index, timed) in (0..).zip(&problem.timed) {

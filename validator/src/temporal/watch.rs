@@ -32,20 +32,20 @@ use std::hash::Hash;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) struct Ticket(pub(super) u32);
 
-/// What a condition reads.
+/// The key of something that a condition reads.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 enum Key {
     Atom(GroundAtom),
-    /// Any atom with this object at this place.
+    /// Any atom with this object at this position.
     AtomWith(PredicateId, usize, ObjectId),
     Predicate(PredicateId),
     Fluent(GroundApplication),
-    /// Any fluent with this object at this place.
+    /// Any fluent with this object at this position.
     FluentWith(FunctionId, usize, ObjectId),
     Function(FunctionId),
 }
 
-/// What the conditions of one action read.
+/// The reads of one action's conditions.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Reads {
     keys: Vec<Key>,
@@ -53,7 +53,7 @@ pub(super) struct Reads {
 }
 
 impl Reads {
-    /// The fluents; `None` if it is open which they are.
+    /// The fluents; `None` if some of them are unknown.
     pub(super) fn fluents(&self) -> Option<impl Iterator<Item = &GroundApplication>> {
         let open = |key: &Key| matches!(key, Key::FluentWith(..) | Key::Function(_));
         (!self.keys.iter().any(open)).then(|| {
@@ -64,7 +64,7 @@ impl Reads {
         })
     }
 
-    /// Each once.
+    /// Removes duplicates.
     pub(super) fn settle(&mut self) {
         if self.keys.len() > 1 {
             let keys: FxHashSet<Key> = self.keys.drain(..).collect();
@@ -73,7 +73,7 @@ impl Reads {
     }
 }
 
-/// What there is below derived predicates.
+/// The basic predicates and functions below derived predicates.
 #[derive(Debug)]
 pub(super) struct Basis<'v> {
     strata: &'v Strata,
@@ -99,7 +99,7 @@ impl<'v> Basis<'v> {
         basis
     }
 
-    /// Collects what a condition reads; variables of quantifiers are unbound.
+    /// Collects the reads of a condition; variables of quantifiers are unbound.
     pub(super) fn condition(&self, condition: &Condition, binding: &Binding, into: &mut Reads) {
         match &condition.kind {
             ConditionKind::Atom(atom) if self.strata.derives(atom.predicate) => {
@@ -128,7 +128,7 @@ impl<'v> Basis<'v> {
     }
 }
 
-/// Which arguments have an object outside of all quantifiers.
+/// The arguments whose objects are known outside all quantifiers.
 enum Known {
     All(Vec<ObjectId>),
     One(usize, ObjectId),
@@ -164,21 +164,21 @@ fn expression(expression: &Expression, binding: &Binding, into: &mut Reads) {
     });
 }
 
-/// The actions that run, by what they read.
+/// The running actions, by their reads.
 #[derive(Debug, Default)]
 pub(super) struct Watch {
     by_key: FxHashMap<Key, BTreeSet<Ticket>>,
-    /// Predicates and functions of which not only atoms and fluents are keys.
+    /// Predicates and functions that have other keys than atoms and fluents.
     open_predicates: FxHashSet<PredicateId>,
     open_functions: FxHashSet<FunctionId>,
     running: BTreeSet<Ticket>,
-    /// Those that read the time.
+    /// The actions that read the time.
     always: BTreeSet<Ticket>,
     due: BTreeSet<Ticket>,
 }
 
 impl Watch {
-    /// Lists an action; it is due.
+    /// Adds an action, which is due.
     pub(super) fn join(&mut self, ticket: Ticket, reads: &Reads) {
         for key in &reads.keys {
             match *key {
@@ -213,7 +213,7 @@ impl Watch {
         self.due.remove(&ticket);
     }
 
-    /// Makes the actions due that read what changed.
+    /// Makes the actions due that read a changed atom or fluent.
     pub(super) fn changed(&mut self, changes: &Changes) {
         if self.by_key.is_empty() {
             return;
@@ -251,7 +251,7 @@ impl Watch {
         self.due.extend(&self.running);
     }
 
-    /// Takes the actions that are due, in the order in which they started.
+    /// Returns and clears the due actions, in the order of their starts.
     pub(super) fn due(&mut self) -> BTreeSet<Ticket> {
         let mut due = std::mem::take(&mut self.due);
         due.extend(&self.always);

@@ -137,7 +137,7 @@ impl Failure {
     }
 }
 
-/// What two interfering happenings both access.
+/// The atom or fluent that two interfering happenings both access.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Shared {
     /// An atom that one adds or deletes, and the other reads or changes to the opposite.

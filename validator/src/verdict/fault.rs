@@ -1,4 +1,4 @@
-//! What is wrong with a step, a number, an effect or a task, where no condition is at fault.
+//! Faults of steps, numbers, effects and tasks that are not about a condition.
 
 use crate::number::NoResult;
 use pddl::Span;
@@ -32,9 +32,9 @@ pub enum StepFault {
 pub enum NumericFault {
     /// A fluent has no value.
     Undefined {
-        /// Which one.
+        /// The fluent.
         fluent: GroundApplication,
-        /// Where it is read.
+        /// The place where it is read.
         span: Span,
     },
     /// A divisor is zero.
@@ -47,9 +47,9 @@ pub enum NumericFault {
         /// The operation.
         span: Span,
     },
-    /// `?duration`, which no instantaneous action has.
+    /// `?duration` in an instantaneous action.
     Duration {
-        /// Where it stands.
+        /// The place of `?duration`.
         span: Span,
     },
 }
@@ -62,7 +62,7 @@ impl NumericFault {
         }
     }
 
-    /// Where it is.
+    /// The place of the fault.
     pub fn span(&self) -> Span {
         match self {
             Self::Undefined { span, .. }
@@ -94,33 +94,33 @@ pub enum EffectFault {
 pub enum ChangeFault {
     /// A value cannot be computed.
     Numeric(NumericFault),
-    /// A rate depends on itself: the change is no polynomial of time.
+    /// A rate depends on itself: the change is not a polynomial of time.
     NotPolynomial {
         /// The fluent.
         fluent: GroundApplication,
         /// Its rate.
         span: Span,
     },
-    /// Processes begin and end without end, at one time.
+    /// Processes begin and end endlessly at one time.
     Unsteady,
-    /// Something is divided by what changes: the result is no polynomial of time.
+    /// The divisor changes: the result is not a polynomial of time.
     NotPolynomialExpression {
         /// The division.
         span: Span,
     },
 }
 
-/// Why a task has no meaning although each of its parts has.
+/// Why a task has no meaning although each of its parts has one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum IllFormed {
     /// A derived predicate depends on its own negation.
     Unstratified {
         /// The predicate.
         predicate: PredicateId,
-        /// An axiom on the circle.
+        /// An axiom on the cycle.
         span: Span,
     },
-    /// An action adds or deletes what axioms derive.
+    /// An action adds or deletes an atom of a derived predicate.
     DerivedInEffect {
         /// The predicate.
         predicate: PredicateId,

@@ -105,7 +105,8 @@ pub enum Feature {
     TimesMissingForDomain,
     /// Quantifiers or constraints over more combinations of objects than the budget allows.
     TooMuch,
-    /// Continuous change whose instants are too close to each other to be ordered, or are no roots of polynomials.
+    /// Continuous change with instants that are too close to be ordered, or that are not roots of
+    /// polynomials.
     Undecided,
 }
 

@@ -163,6 +163,6 @@ pub struct Operand {
     pub value: Result<Number, NumericFault>,
     /// The fluents in it with their values.
     pub fluents: Vec<(GroundApplication, Option<Number>)>,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
 }

@@ -5,12 +5,12 @@ use indexmap::IndexMap;
 use pddl::Span;
 use pddl::model::{Name, ObjectId};
 
-/// A preference that a plan does not satisfy, for one binding of the `forall`s around it.
+/// A preference that a plan does not satisfy, for one binding of its enclosing `forall`s.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ViolatedPreference {
     /// Its name, if it has one.
     pub name: Option<Name>,
-    /// The values of the variables of the `forall`s around it.
+    /// The values of the variables of these `forall`s.
     pub binding: Vec<(Name, ObjectId)>,
     /// Its place.
     pub span: Span,
@@ -30,7 +30,7 @@ impl Violations {
         Number::integer(i64::try_from(count).unwrap_or(i64::MAX))
     }
 
-    /// Every violated instance, in the order in which they were judged.
+    /// Every violated instance, in the order of judgement.
     pub fn instances(&self) -> &[ViolatedPreference] {
         &self.instances
     }

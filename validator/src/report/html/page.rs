@@ -1,8 +1,9 @@
-//! A page that shows plans: a Gantt chart, the state at each step with what changed, and why a plan fails.
+//! An HTML page of plans: a Gantt chart, the state and changes at each step, and the reason for a
+//! failure.
 //!
-//! The page is one file that asks for no other. What the text says is in it as HTML; the chart and the states are
-//! drawn from data in the page, and only as much of them as is in view, so that plans may have many thousand steps.
-//! Invariant: nothing of a file gets into the page but escaped, as HTML or as JSON without `<`.
+//! The page is one file that loads no others. It contains its text as HTML. The chart and the
+//! states are drawn from data in the page, and only their visible part, so that plans may have many
+//! thousand steps. Invariant: text from a file is always escaped, as HTML or as JSON without `<`.
 
 use super::tree::tree;
 use crate::cause::Cause;
@@ -34,7 +35,7 @@ struct Data<'a> {
     watched: Vec<Row>,
 }
 
-/// A constraint or preference: when each of its conditions holds, and where it is broken.
+/// A constraint or preference: the intervals in which its conditions hold, and its violation.
 #[derive(Serialize)]
 struct Row {
     text: String,
@@ -44,7 +45,7 @@ struct Row {
     conditions: Vec<(String, Vec<While>)>,
 }
 
-/// From when to when a condition holds; without an end, to the end of the plan.
+/// The interval in which a condition holds; without an end, it lasts to the end of the plan.
 type While = (f64, Option<f64>);
 
 #[derive(Serialize)]
@@ -63,12 +64,12 @@ struct Changes {
     fluents: Vec<(String, String)>,
 }
 
-/// The part of the page about a plan that could not be judged.
+/// The section of a plan that could not be judged.
 pub fn section_unread(record: &VerdictRecord) -> String {
     html! { section { h1 { (record.plan()) } (verdict(record)) } }.into_string() + "\n"
 }
 
-/// The part of the page about a plan.
+/// The section of a plan.
 pub fn section(
     subject: &Subject<'_>,
     record: &VerdictRecord,
@@ -207,7 +208,7 @@ fn changes(subject: &Subject<'_>, diff: &Diff, causes: &[Cause]) -> Changes {
 
 fn row(subject: &Subject<'_>, watched: &Watched) -> Row {
     let source = subject.text(watched.file);
-    // A constraint may stand on several lines.
+    // A constraint may span several lines.
     let text = |span: Span| source.slice(span).split_whitespace().collect::<Vec<_>>().join(" ");
     let binding: String = watched
         .binding

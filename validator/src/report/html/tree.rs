@@ -1,7 +1,7 @@
-//! A decomposition as nested lists that open and close, without a script.
+//! A decomposition as nested lists that can be opened and closed, without a script.
 //!
-//! A plan that was read may be no tree: each task is opened where it is met first. What is too deep or too much to be
-//! looked at is left out, and an ellipsis stands for it.
+//! A parsed plan may not be a tree: each task is expanded at its first occurrence only. Levels and
+//! lines beyond the limits are replaced by an ellipsis.
 
 use crate::report::subject::Subject;
 use crate::verdict::{Failure, NetworkFault, Parent};
@@ -9,12 +9,12 @@ use maud::{Markup, html};
 use pddl::model::Idx;
 use pddl::{HierarchicalPlan, PlanNode, PlanReference};
 
-/// How many lines are drawn.
+/// The most lines that are shown.
 const LINES: usize = 5_000;
-/// How deep lists are nested.
+/// The deepest nesting of lists.
 const DEPTH: usize = 200;
 
-/// What a decomposition looks like; the nodes that a failure is about are marked.
+/// A decomposition as HTML; the nodes of a failure are marked.
 pub(super) fn tree(subject: &Subject<'_>, plan: &HierarchicalPlan, failure: Option<&Failure>) -> Markup {
     let marked = failure.map(|failure| marked(failure, plan)).unwrap_or_default();
     let seen = vec![false; plan.decompositions.len()];
@@ -29,7 +29,7 @@ struct Tree<'t> {
     subject: &'t Subject<'t>,
     plan: &'t HierarchicalPlan,
     marked: Vec<PlanNode>,
-    /// Per task whether it was opened.
+    /// By task: whether it was expanded.
     seen: Vec<bool>,
     lines: usize,
 }
@@ -77,7 +77,7 @@ impl Tree<'_> {
     }
 }
 
-/// What a failure is about.
+/// The nodes of a failure.
 fn marked(failure: &Failure, plan: &HierarchicalPlan) -> Vec<PlanNode> {
     let of = |parent: &Parent| match parent {
         Parent::Root => Vec::new(),

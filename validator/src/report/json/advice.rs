@@ -11,21 +11,22 @@ use pddl::print_plan;
 use serde::Serialize;
 use std::collections::HashMap;
 
-/// A change that makes the plan valid. Steps are counted from 1; what a kind of change does not need is left out.
+/// A change that makes the plan valid. Steps are counted from 1. Fields that a kind of change does
+/// not need are omitted.
 #[derive(Serialize)]
 pub(super) struct AdviceRecord {
     change: &'static str,
     pub(super) text: String,
-    /// Which step, or the first of two.
+    /// The step, or the first of two.
     #[serde(skip_serializing_if = "Option::is_none")]
     step: Option<u64>,
     /// The other step of a swap.
     #[serde(skip_serializing_if = "Option::is_none")]
     with: Option<u64>,
-    /// Before which step of the plan as it is.
+    /// The step of the original plan before which to insert.
     #[serde(skip_serializing_if = "Option::is_none")]
     before: Option<u64>,
-    /// The lines of the plan that are new.
+    /// The new lines of the plan.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     lines: Vec<String>,
     /// The fact or the value of the initial state, or the part of the condition.
@@ -34,7 +35,7 @@ pub(super) struct AdviceRecord {
 }
 
 impl AdviceRecord {
-    /// What a repair says.
+    /// The record of a repair.
     pub(super) fn of(subject: &Subject<'_>, repair: &Repair) -> Self {
         let Subject { domain, problem, plan, .. } = *subject;
         let part = |span| subject.slice(Place { file: File::Domain, span }).to_owned();
@@ -74,7 +75,7 @@ impl AdviceRecord {
     }
 }
 
-/// The lines of the repaired plan that the plan does not have.
+/// The lines of the repaired plan that the original plan lacks.
 fn lines(subject: &Subject<'_>, repair: &Repair) -> Vec<String> {
     let Subject { domain, problem, plan, .. } = *subject;
     if matches!(repair, Repair::Drop(_) | Repair::Move { .. }) {
@@ -97,7 +98,7 @@ fn lines(subject: &Subject<'_>, repair: &Repair) -> Vec<String> {
     lines
 }
 
-/// What kind of change it is, in a word.
+/// The kind of change, in one word.
 const fn change(repair: &Repair) -> &'static str {
     match repair {
         Repair::Drop(_) => "drop",

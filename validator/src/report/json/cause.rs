@@ -1,4 +1,4 @@
-//! What happens, as JSON.
+//! A cause as JSON.
 
 use super::place::{PlaceRecord, place_record};
 use crate::cause::Cause;
@@ -8,7 +8,7 @@ use crate::report::causes::{cause_place, cause_time, show_cause};
 use crate::report::subject::Subject;
 use serde::Serialize;
 
-/// Something that happens: what it is (a step, its start, …), its step's number, when, and where it stands.
+/// A cause: its kind (a step, its start, …), the number of its step, its time and its place.
 #[derive(Serialize)]
 pub(super) struct CauseRecord {
     what: &'static str,

@@ -4,7 +4,8 @@ use crate::report::subject::Subject;
 use pddl::{HierarchicalPlan, PlanNode, PlanReference};
 use serde::Serialize;
 
-/// A decomposition: which numbers the root became, and each task. Actions have the numbers from 0, in their order.
+/// A decomposition: the numbers of the root's subtasks, and each task. Actions are numbered from 0,
+/// in their order.
 #[derive(Serialize)]
 pub(super) struct DecompositionRecord {
     root: Vec<u64>,

@@ -33,32 +33,32 @@ pub(super) struct FailureRecord {
     place: Option<PlaceRecord>,
     #[serde(skip_serializing_if = "Option::is_none")]
     network: Option<NetworkRecord>,
-    /// Of which kind the fault is, where there are several.
+    /// The kind of fault, if there are several.
     #[serde(skip_serializing_if = "Option::is_none")]
     fault: Option<&'static str>,
-    /// What each of two does that interfere, and the two effects that are in conflict.
+    /// The accesses of two interfering happenings, or the two conflicting effects.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     roles: Vec<RoleRecord>,
-    /// For which values of its variables a constraint is broken.
+    /// The values of the variables for which a constraint is violated.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     binding: Vec<(String, String)>,
-    /// How many states break it.
+    /// The number of violating states.
     #[serde(skip_serializing_if = "Option::is_none")]
     states: Option<usize>,
-    /// The times of the first of them.
+    /// The times of the first violating states.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     times: Vec<Number>,
     parts: Vec<PartRecord>,
 }
 
-/// What something does: `adds`, `deletes`, `changes` or `needs`, and where that stands.
+/// An access: `adds`, `deletes`, `changes` or `needs`, and its place.
 #[derive(Serialize)]
 struct RoleRecord {
     does: &'static str,
     place: PlaceRecord,
 }
 
-/// Everything about a failure.
+/// The complete record of a failure.
 pub(super) fn failure_record(subject: &Subject<'_>, failure: &Failure) -> FailureRecord {
     let mut record = FailureRecord::default();
     match failure {

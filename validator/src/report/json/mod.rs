@@ -1,4 +1,4 @@
-//! Verdicts as JSON. Keys and words are in snake case; names and conditions are as PDDL writes them.
+//! Verdicts as JSON. Keys and words are in snake case; names and conditions are in PDDL syntax.
 
 mod advice;
 mod cause;

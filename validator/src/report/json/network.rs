@@ -1,4 +1,4 @@
-//! What task networks have to say as JSON: what is wrong with a decomposition, and one that was found.
+//! Task networks as JSON: the fault of a decomposition, and a decomposition that was found.
 //!
 //! ```json
 //! {"kind": "ordering", "of": {"what": "task", "id": 10, "text": "(lit-up l)", "place": {}}, "method": "light-there",
@@ -6,7 +6,7 @@
 //!  "after": {"what": "action", "id": 1, "text": "(light l b)", "place": {}}}
 //! ```
 //!
-//! `kind` says which of the other fields there are. A node has the number that the plan gives it.
+//! `kind` determines the other fields. A node has its number in the plan.
 
 use super::cause::{CauseRecord, cause_record};
 use super::place::{PlaceRecord, place_record};
@@ -17,33 +17,33 @@ use crate::verdict::{File, NetworkFault, Parent, Shortfall};
 use pddl::{DecompositionId, PlanNode, PlanReference, Span};
 use serde::Serialize;
 
-/// What is wrong with a decomposition.
+/// The fault of a decomposition.
 #[derive(Default, Serialize)]
 pub(super) struct NetworkRecord {
     kind: &'static str,
-    /// Whose subtasks it is about.
+    /// The node with the faulty subtasks.
     #[serde(skip_serializing_if = "Option::is_none")]
     of: Option<NodeRecord>,
     #[serde(skip_serializing_if = "Option::is_none")]
     node: Option<NodeRecord>,
     #[serde(skip_serializing_if = "Option::is_none")]
     method: Option<String>,
-    /// Where the plan names the method.
+    /// The place where the plan names the method.
     #[serde(skip_serializing_if = "Option::is_none")]
     method_place: Option<PlaceRecord>,
     #[serde(skip_serializing_if = "Option::is_none")]
     object: Option<String>,
-    /// Which argument, from 1.
+    /// The position of the argument, from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     argument: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     before: Option<NodeRecord>,
     #[serde(skip_serializing_if = "Option::is_none")]
     after: Option<NodeRecord>,
-    /// How many steps were taken where a precondition was needed.
+    /// The number of steps before the state in which a precondition was needed.
     #[serde(skip_serializing_if = "Option::is_none")]
     after_steps: Option<u32>,
-    /// How many steps some decomposition begins with.
+    /// The number of leading steps that some decomposition explains.
     #[serde(skip_serializing_if = "Option::is_none")]
     explained: Option<u32>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -54,7 +54,7 @@ pub(super) struct NetworkRecord {
     /// Subtasks of the plan that the network lacks.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     surplus: Vec<NodeRecord>,
-    /// Where the plan uses the node.
+    /// The places where the plan uses the node.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     used: Vec<PlaceRecord>,
 }
@@ -70,7 +70,7 @@ struct NodeRecord {
     place: PlaceRecord,
 }
 
-/// What is wrong with a decomposition, with all that belongs to it.
+/// The complete record of a fault.
 pub(super) fn network_record(subject: &Subject<'_>, fault: &NetworkFault) -> NetworkRecord {
     let mut record = NetworkRecord::default();
     let task_node = |id: DecompositionId| Some(node_record(subject, PlanNode::Decomposition(id)));
@@ -194,7 +194,7 @@ fn node_record(subject: &Subject<'_>, node: PlanNode) -> NodeRecord {
     NodeRecord { what, id, text, place: in_plan(subject, span.unwrap_or_default()) }
 }
 
-/// A node where it is used.
+/// A node at the place where it is used.
 fn reference_record(subject: &Subject<'_>, reference: PlanReference) -> NodeRecord {
     NodeRecord { place: in_plan(subject, reference.span), ..node_record(subject, reference.node) }
 }

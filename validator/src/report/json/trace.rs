@@ -7,7 +7,7 @@ use crate::trace::{FluentChange, Happening, Trace};
 use crate::value::{GroundAtom, Value};
 use serde::Serialize;
 
-/// What happened at one time.
+/// The changes at one time.
 #[derive(Serialize)]
 pub(super) struct HappeningRecord {
     time: Number,
@@ -16,7 +16,7 @@ pub(super) struct HappeningRecord {
     deleted: Vec<String>,
     derived: Vec<String>,
     no_longer_derived: Vec<String>,
-    /// What changed by itself since the happening before.
+    /// The continuous changes since the last happening.
     flowed: Vec<ChangeRecord>,
     fluents: Vec<ChangeRecord>,
 }
@@ -28,7 +28,7 @@ struct ChangeRecord {
     after: Option<ValueRecord>,
 }
 
-/// What a fluent is.
+/// The value of a fluent.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum ValueRecord {

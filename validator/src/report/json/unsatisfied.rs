@@ -1,7 +1,7 @@
-//! What a condition lacks, as JSON.
+//! The unsatisfied parts of a condition, as JSON.
 //!
-//! A part has a `kind`, a `place`, and of the other fields those that its kind needs; the rest is left out. Parts of
-//! alternatives, counterexamples and almost-witnesses are nested.
+//! A part has a `kind`, a `place`, and the other fields that its kind needs; the rest is omitted.
+//! Parts of alternatives, counterexamples and almost-witnesses are nested.
 
 use super::cause::{CauseRecord, cause_record};
 use super::place::{PlaceRecord, at};
@@ -12,7 +12,7 @@ use crate::verdict::{File, Operand, Unsatisfied};
 use pddl::model::{Name, ObjectId, TypeId};
 use serde::Serialize;
 
-/// What was compared, and how.
+/// A comparison and its sides.
 #[derive(Serialize)]
 pub(super) struct ComparisonRecord {
     pub(super) comparison: &'static str,
@@ -20,7 +20,7 @@ pub(super) struct ComparisonRecord {
     pub(super) right: OperandRecord,
 }
 
-/// A side of a comparison. `value` is null where it is undefined.
+/// A side of a comparison. `value` is null if it is undefined.
 #[derive(Serialize)]
 pub(super) struct OperandRecord {
     pub(super) value: Option<Number>,
@@ -44,7 +44,7 @@ pub(super) struct PartRecord {
     wanted: Option<bool>,
     #[serde(skip_serializing_if = "Option::is_none")]
     derived: Option<bool>,
-    /// Who deleted what is missing, or added what should not be there.
+    /// The cause that deleted a missing atom, or added an unwanted one.
     #[serde(skip_serializing_if = "Option::is_none")]
     by: Option<CauseRecord>,
     #[serde(flatten)]
@@ -57,7 +57,7 @@ pub(super) struct PartRecord {
     binding: Vec<(String, String)>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     branches: Vec<Vec<PartRecord>>,
-    /// Why an atom does not follow by the axioms, or does.
+    /// The reason why the axioms derive an atom, or do not.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     because: Vec<PartRecord>,
 }

@@ -5,12 +5,13 @@
 //!  "cost": 4, "metric": null, "message": null, "trace": null, "failure": null}
 //! ```
 //!
-//! `verdict` is `valid`, `invalid`, `unreadable` or `unsupported`; what is not valid says why in
-//! `message` and is preceded by diagnostics with places; `failure` has the same as data. `metric` is
-//! `{"objective": "minimize", "value": 4}` where the problem has one; `makespan` is the end of a plan with
-//! times, `violated` has the preferences that do not hold. With `--trace`, `trace` has an array of changes per
-//! step (with times: per happening) that could be taken, and `happenings` the same as data. Where a plan does not say
-//! how it comes out of the problem's task network, `decomposition` has how it does.
+//! `verdict` is `valid`, `invalid`, `unreadable` or `unsupported`. If a plan is not valid,
+//! `message` has the reason, diagnostics with places come before it, and `failure` has the same as
+//! data. `metric` is `{"objective": "minimize", "value": 4}` if the problem has a metric;
+//! `makespan` is the end of a plan with times, and `violated` lists the violated preferences. With
+//! `--trace`, `trace` has an array of changes for each executed step (with times: for each
+//! happening), and `happenings` has the same as data. If the problem has a task network and the
+//! plan gives no decomposition, `decomposition` has the one that was found.
 
 use super::advice::AdviceRecord;
 use super::decomposition::DecompositionRecord;
@@ -26,11 +27,11 @@ use crate::verdict::{Failure, Valid, Verdict};
 use pddl::model::Objective;
 use serde::Serialize;
 
-/// A verdict in a word.
+/// A verdict as one word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Word {
-    /// Every step can be taken and the goal holds in the end.
+    /// Every step is applicable, and the goal holds at the end.
     Valid,
     /// It is not a plan for the problem.
     Invalid,
@@ -51,7 +52,7 @@ impl Word {
         }
     }
 
-    /// As it is written.
+    /// The word itself.
     pub fn text(self) -> &'static str {
         match self {
             Self::Valid => "valid",
@@ -68,7 +69,7 @@ struct MetricRecord {
     value: Number,
 }
 
-/// What is said of a plan.
+/// The record of a verdict.
 #[derive(Serialize)]
 pub struct VerdictRecord {
     kind: &'static str,
@@ -82,7 +83,7 @@ pub struct VerdictRecord {
     message: Option<String>,
     trace: Option<Vec<Vec<String>>>,
     failure: Option<FailureRecord>,
-    /// A decomposition that the plan did not give and that was found.
+    /// The decomposition that the validator found, if the plan gave none.
     #[serde(skip_serializing_if = "Option::is_none")]
     decomposition: Option<DecompositionRecord>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -94,7 +95,7 @@ pub struct VerdictRecord {
 }
 
 impl VerdictRecord {
-    /// Of a plan that was not judged.
+    /// The record of a plan that was not judged.
     pub fn unread(plan: &str, verdict: Word, message: Option<String>) -> Self {
         Self {
             kind: "verdict",
@@ -115,7 +116,7 @@ impl VerdictRecord {
         }
     }
 
-    /// Of a plan that was judged: the verdict, its figures and its sentence.
+    /// The record of a plan that was judged: the verdict, its figures and its sentence.
     pub fn new(subject: &Subject<'_>, verdict: &Verdict) -> Self {
         let Subject { domain, problem, plan, .. } = *subject;
         let message = explain(domain, problem, plan, verdict).map(|finding| finding.sentence);
@@ -143,45 +144,45 @@ impl VerdictRecord {
         self.decomposition = found.map(|found| DecompositionRecord::of(subject, found));
     }
 
-    /// Adds what each step changed, as lines.
+    /// Adds the changes of each step, as lines.
     pub fn add_trace(&mut self, subject: &Subject<'_>, trace: &Trace) {
         let lines = |happening: &Happening| show_diff(subject.domain, subject.problem, &happening.diff);
         self.trace = Some(trace.happenings.iter().map(lines).collect());
     }
 
-    /// Adds what each step changed, as data.
+    /// Adds the changes of each step, as data.
     pub fn add_happenings(&mut self, subject: &Subject<'_>, trace: &Trace) {
         self.happenings = Some(happening_records(subject, trace));
     }
 
-    /// Adds why the plan is not valid, as data.
+    /// Adds the reason why the plan is not valid, as data.
     pub fn add_failure(&mut self, subject: &Subject<'_>, fault: &Failure) {
         self.failure = Some(failure_record(subject, fault));
     }
 
-    /// Adds the changes that make the plan valid.
+    /// Adds advice: changes that make the plan valid.
     pub fn add_advice(&mut self, subject: &Subject<'_>, repairs: &[Repair]) {
         let mut advice = repairs.iter().map(|repair| AdviceRecord::of(subject, repair));
         self.advice = advice.next();
         self.other_advice = advice.collect();
     }
 
-    /// The advice, a sentence each.
+    /// The advice, one sentence each.
     pub fn advice(&self) -> impl Iterator<Item = &str> {
         self.advice.iter().chain(&self.other_advice).map(|advice| advice.text.as_str())
     }
 
-    /// The name of the plan's file.
+    /// The name of the plan file.
     pub fn plan(&self) -> &str {
         &self.plan
     }
 
-    /// The verdict in a word.
+    /// The verdict as one word.
     pub fn word(&self) -> Word {
         self.verdict
     }
 
-    /// The figures that are known, by name.
+    /// The known figures, by name.
     pub(crate) fn figures(&self) -> Vec<(&'static str, String)> {
         let mut figures = Vec::new();
         figures.extend(self.makespan.map(|makespan| ("makespan", format!("{makespan} s"))));
