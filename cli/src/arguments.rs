@@ -11,11 +11,11 @@ use std::ffi::OsString;
 #[command(
     name = "pelea",
     version,
-    after_help = "Exit codes: 0 yes · 1 no · 2 input that cannot be read · 3 a limit was reached · \
-                  4 a PDDL feature that the command does not support · 70 a bug of ours · 74 cannot write"
+    after_help = "Exit codes: 0 success · 1 negative result · 2 invalid input · 3 limit reached · \
+                  4 unsupported PDDL feature · 70 internal error · 74 output cannot be written"
 )]
 struct Arguments {
-    /// Write one JSON object a line on standard output.
+    /// Write the output as JSON, one object per line
     #[arg(long, global = true)]
     json: bool,
     #[command(subcommand)]
@@ -24,28 +24,28 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Carry a mission out, on simulated devices.
+    /// Run a mission on simulated devices
     Run(mission::Arguments),
-    /// Find a plan.
+    /// Find a plan
     Plan(plan::Arguments),
-    /// Check plans.
+    /// Validate plans
     Validate(validate::Arguments),
-    /// Report every error of missions, domains, problems and methods.
+    /// Check missions, domains, problems and methods for errors
     Check(check::Arguments),
-    /// Run the tests of domains: `expected.toml` beside them.
+    /// Run the tests of domains (`expected.toml`)
     Test(test::Arguments),
-    /// Lay files out, changing white space only.
+    /// Format files; changes only white space
     Fmt(fmt::Arguments),
-    /// Look at the graph of a run, at any version: states, differences, history, questions; worlds of others.
+    /// Inspect the graph of a run at any version, or import a world
     #[command(subcommand)]
     Dsr(graphs::Command),
-    /// Serve an editor: the language server for PDDL, HDDL and plans, on standard input and output.
+    /// Start the language server for PDDL, HDDL and plans on standard input and output
     Lsp(lsp::Arguments),
-    /// Say what a diagnostic's code means, with examples.
+    /// Explain a diagnostic code, with examples
     Explain(explain::Arguments),
 }
 
-/// Parses the arguments (the first is the program's name) and runs the command.
+/// Parses the arguments (the first is the name of the program) and runs the command.
 pub fn run<I>(arguments: I, console: &mut Console<'_>) -> Exit
 where
     I: IntoIterator,

@@ -1,7 +1,7 @@
-//! From a mission's folder to everything that runs it: text, graph, agents, PELEA.
+//! Loads a mission's folder and builds everything that runs it: text, graph, agents, PELEA.
 //!
-//! Layers that do not fit together are reported here with their places, before anything moves. `run` and `check`
-//! both use this, so a mission that passes the check is a mission that runs.
+//! Layers that do not fit together are reported here with their places, before anything moves.
+//! `run` and `check` both use this, so a mission that passes the check can run.
 //!
 //! Codes: E10xx. E1001 vocabulary, E1002 world and graph, E1003 rules, E1004 perception, E1005 methods,
 //! E1006 planning problem, E1007 a condition of a scenario (`scenario`).
@@ -25,7 +25,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use vocabulary::Tokens;
 
-/// A mission ready to run.
+/// A mission that is ready to run.
 pub(crate) struct Assembly {
     pub(crate) vocabulary: Tokens,
     pub(crate) graph: Graph,
@@ -45,7 +45,7 @@ pub(crate) enum LoadError {
 }
 
 impl LoadError {
-    /// Shows it.
+    /// Shows the reason.
     pub(crate) fn show(&self, console: &mut Console<'_>) -> Exit {
         match self {
             Self::Wrong(errors) => show(&errors.sources, &errors.findings, console),
@@ -68,7 +68,7 @@ pub(crate) fn load(path: &Path) -> Result<Mission, LoadError> {
     Ok(Mission::load(&Disk, &path.to_string_lossy())?)
 }
 
-/// All findings about a mission that could be read, and its assembly if no finding is an error.
+/// The findings about a parsed mission, and its assembly if no finding is an error.
 pub(crate) fn assemble(mission: &Mission) -> (Option<Assembly>, Vec<Finding>) {
     let mut findings = mission.warnings.clone();
     findings.extend(mission.check());
@@ -88,7 +88,7 @@ fn put_together(mission: &Mission, findings: &mut Vec<Finding>) -> Option<Assemb
     let vocabulary = Tokens::new(&layers.vocabulary.model).map_err(|errors| {
         findings.extend(errors.iter().map(|e| finding("E1001", layers.vocabulary.source, e.span, e)));
     });
-    // Without a vocabulary nothing else can be read.
+    // Without a vocabulary no other layer can be read.
     let vocabulary = vocabulary.ok()?;
     // The graph's problem has the world's objects, but not the world's facts about them.
     let graph = vocabulary.populate(&[&layers.world.model, &layers.graph.model], Time(0)).map_err(|errors| {

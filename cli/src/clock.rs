@@ -1,4 +1,4 @@
-//! The one place that looks at the clock.
+//! The only place that reads the clock.
 
 use std::fmt;
 use std::time::{Duration, Instant};

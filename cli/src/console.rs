@@ -1,7 +1,8 @@
 //! Output: results to standard output, everything else to standard error.
 //!
-//! A reader that closes the pipe (`pelea … | head`) is no error: further output is dropped, and the exit code is still
-//! that of the command. Colours are written only to a terminal that shows them.
+//! A reader that closes the pipe (`pelea … | head`) is not an error: further output is dropped, and
+//! the exit code is still that of the command. Colours are written only to a terminal that supports
+//! them.
 
 use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
@@ -9,9 +10,9 @@ use std::io::{self, IsTerminal, Write};
 /// How results are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// For people.
+    /// Text for people.
     Text,
-    /// One JSON object a line, all on standard output.
+    /// One JSON object per line, all on standard output.
     Json,
 }
 
@@ -94,17 +95,17 @@ impl<'a> Console<'a> {
         self.form
     }
 
-    /// Whether standard error shows colours.
+    /// Whether standard error supports colours.
     pub fn colour(&self) -> bool {
         self.colour
     }
 
-    /// Whether standard output shows colours.
+    /// Whether standard output supports colours.
     pub fn result_colour(&self) -> bool {
         self.result_colour
     }
 
-    /// How many columns the terminal on standard output has; `None` if it is no terminal.
+    /// The number of columns of the terminal on standard output; `None` if it is not a terminal.
     pub fn result_width(&self) -> Option<usize> {
         self.result_width
     }
@@ -118,14 +119,14 @@ impl<'a> Console<'a> {
         self.form = form;
     }
 
-    /// A result: a line of text. In JSON form nothing is written.
+    /// Writes a result as a line of text; writes nothing in JSON form.
     pub fn result(&mut self, line: &str) {
         if self.form == Form::Text {
             dropped(writeln!(self.out, "{line}"));
         }
     }
 
-    /// A result as an object. In text form nothing is written.
+    /// Writes a result as an object; writes nothing in text form.
     pub fn record(&mut self, record: &impl Serialize) {
         if self.form == Form::Json
             && let Ok(line) = serde_json::to_string(record)
@@ -134,26 +135,26 @@ impl<'a> Console<'a> {
         }
     }
 
-    /// A line for people, beside the result.
+    /// Writes a line for people, besides the result.
     pub fn note(&mut self, line: &str) {
         if self.form == Form::Text {
             dropped(writeln!(self.err, "{line}"));
         }
     }
 
-    /// Text for people that has its own line ends.
+    /// Writes text for people that has its own line ends.
     pub fn block(&mut self, text: &str) {
         if self.form == Form::Text {
             dropped(self.err.write_all(text.as_bytes()));
         }
     }
 
-    /// Text on standard output whatever the form, such as `--help`.
+    /// Writes text on standard output in either form, such as `--help`.
     pub(crate) fn print(&mut self, text: &str) {
         dropped(self.out.write_all(text.as_bytes()));
     }
 
-    /// Text on standard error whatever the form, such as wrong arguments.
+    /// Writes text on standard error in either form, such as wrong arguments.
     pub(crate) fn complain(&mut self, text: &str) {
         dropped(self.err.write_all(text.as_bytes()));
     }
@@ -165,5 +166,5 @@ impl Drop for Console<'_> {
     }
 }
 
-/// A reader that has closed the pipe is no error.
+/// Ignores an error: the reader may have closed the pipe.
 fn dropped(_: io::Result<()>) {}

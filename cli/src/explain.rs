@@ -1,14 +1,14 @@
-//! `pelea explain [CODE]`: the meaning of a diagnostic's code, with a wrong example and a right one.
+//! `pelea explain [CODE]`: the meaning of a diagnostic code, with a wrong example and a right one.
 //!
-//! Without a code, it lists all codes, a line each. With `--json`, a line per code:
+//! Without a code, it lists all codes, one per line. With `--json`, one line per code:
 //!
 //! ```json
 //! {"kind": "explanation", "code": "E0202", "title": "unknown predicate", "meaning": "…", "why": "…",
 //!  "wrong": ["…"], "right": ["…"]}
 //! ```
 //!
-//! `wrong` and `right` hold the texts of files; a file comes after those that it needs. The code of a lint also has the
-//! field `lint`, the lint's name.
+//! `wrong` and `right` contain the texts of files, each after the files that it needs. The code of
+//! a lint also has the field `lint`, the lint's name.
 
 use crate::console::{Console, Form};
 use crate::exit::Exit;
@@ -19,13 +19,13 @@ use pddl::Explanation;
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// Longest line of a text.
+/// The length of the longest line.
 const WIDTH: usize = 80;
 
-/// Which code to explain.
+/// The arguments of `pelea explain`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Such as `E0202`, or the name of a lint such as `unused-parameter`; without it, all codes are listed.
+    /// A code such as `E0202`, or a lint such as `unused-parameter` [default: list all codes]
     code: Option<String>,
 }
 
@@ -66,7 +66,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     }
 }
 
-/// How to silence a lint where its finding is intended.
+/// How to silence a lint if its finding is intended.
 fn silencing(lint: &Lint) -> String {
     let shown = match lint.level {
         Level::Default => "",
@@ -85,7 +85,7 @@ fn show(explanation: &Explanation, lint: Option<&Lint>, text: &str, console: &mu
     }
 }
 
-/// For a terminal.
+/// The explanation as text for a terminal.
 fn text(explanation: &Explanation) -> String {
     let Explanation { code, title, meaning, why, wrong, right } = explanation;
     let why: String = why.lines().map(wrapped).collect();
@@ -106,7 +106,7 @@ fn text(explanation: &Explanation) -> String {
     text
 }
 
-/// In lines that a terminal shows whole.
+/// Wraps text to lines that fit a terminal.
 fn wrapped(paragraph: &str) -> String {
     let (mut text, mut column) = (String::new(), 0);
     for word in paragraph.split(' ') {
@@ -128,7 +128,7 @@ struct ExplanationRecord<'a> {
     kind: &'static str,
     #[serde(flatten)]
     explanation: &'a Explanation,
-    /// The name of the lint that has the code.
+    /// The name of the lint with this code.
     #[serde(skip_serializing_if = "Option::is_none")]
     lint: Option<&'a str>,
 }

@@ -1,6 +1,7 @@
 //! Reading and writing files.
 //!
-//! A result is written beside its place and then renamed into it: a program that waits for the file never sees half of it.
+//! A result is written beside its final place and then renamed: a program that waits for the file
+//! never reads a part of it.
 
 use pddl::Source;
 use std::fs::{self, File, OpenOptions};
@@ -11,18 +12,18 @@ use thiserror::Error;
 /// A file could not be read or written.
 #[derive(Debug, Error)]
 pub(crate) enum FileError {
-    /// The system says no.
+    /// The system's error.
     #[error("cannot read `{}`: {reason}", path.display(), reason = plainly(source))]
     Read { path: PathBuf, source: io::Error },
-    /// More than spans can address.
+    /// The text is longer than spans can address.
     #[error("cannot read `{}`: it is larger than 4 GiB", path.display())]
     TooLarge { path: PathBuf },
-    /// The system says no.
+    /// The system's error.
     #[error("cannot write `{}`: {reason}", path.display(), reason = plainly(source))]
     Write { path: PathBuf, source: io::Error },
 }
 
-/// The usual reasons in words that do not depend on the system.
+/// The usual errors in words that do not depend on the system.
 fn plainly(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "there is no such file".to_owned(),
@@ -32,12 +33,12 @@ fn plainly(error: &io::Error) -> String {
     }
 }
 
-/// Reads a text; `-` is standard input.
+/// Reads a text file; `-` is standard input.
 pub(crate) fn read(path: &Path) -> Result<Source, FileError> {
     source(path, read_bytes(path)?)
 }
 
-/// Reads a file as it is; `-` is standard input.
+/// Reads the bytes of a file; `-` is standard input.
 pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
     let failed = |source| FileError::Read { path: path.to_owned(), source };
     let mut bytes = Vec::new();
@@ -52,7 +53,7 @@ pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
     Ok(bytes)
 }
 
-/// The text in a file's bytes.
+/// Decodes the bytes of a file.
 pub(crate) fn source(path: &Path, bytes: Vec<u8>) -> Result<Source, FileError> {
     let name =
         if path == Path::new("-") { "<standard input>".to_owned() } else { path.display().to_string() };
@@ -68,7 +69,7 @@ pub(crate) fn write(path: &Path, text: &str) -> Result<(), FileError> {
     write_bytes(path, text.as_bytes())
 }
 
-/// Writes all of `bytes`, or nothing. A link stays one, and a file keeps its permissions.
+/// Writes all of `bytes`, or nothing. Keeps a symbolic link and the permissions of the file.
 pub(crate) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), FileError> {
     let failed = |source| FileError::Write { path: path.to_owned(), source };
     let existing = fs::metadata(path).ok();

@@ -1,8 +1,9 @@
-//! `pelea fmt PATH...`: every file as the formatter lays it out.
+//! `pelea fmt PATH...`: formats files.
 //!
-//! Folders stand for all `.pddl` and `.hddl` files below them, `-` for standard input, which goes to standard
-//! output. Only files that change are written, each whole or not at all, in the encoding that they had; a file
-//! whose parentheses do not match is reported and left alone. With `--json`, a line per file:
+//! A folder stands for all `.pddl` and `.hddl` files below it, and `-` for standard input, which is
+//! formatted to standard output. Only files that change are written, each completely or not at all,
+//! in their original encoding. A file with unbalanced parentheses is reported and not changed. With
+//! `--json`, one line per file:
 //!
 //! ```json
 //! {"kind": "formatted", "file": "p.pddl", "changed": true, "written": true}
@@ -21,16 +22,16 @@ use pddl::Source;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// What to format.
+/// The arguments of `pelea fmt`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Files and folders; `-` is standard input.
+    /// Files and folders; `-` is standard input
     #[arg(required = true)]
     paths: Vec<PathBuf>,
-    /// Write nothing; name the files that would change, and exit with 1 if there are any.
+    /// Write no file; list the files that would change, and exit with 1 if there are any
     #[arg(long)]
     check: bool,
-    /// Write to standard output instead of into the files.
+    /// Write to standard output instead of the files
     #[arg(long, conflicts_with = "check")]
     stdout: bool,
 }
@@ -50,7 +51,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     paths.iter().fold(Exit::Yes, |exit, path| exit.and(file(path, arguments, console)))
 }
 
-/// All sources in a folder and its folders, in order.
+/// All source files in a folder and below it, in order.
 fn sources_below(folder: &Path, found: &mut Vec<PathBuf>) {
     for path in entries(folder) {
         if path.is_dir() && !path.is_symlink() {
@@ -108,7 +109,7 @@ fn failed(why: &FileError, exit: Exit, console: &mut Console<'_>) -> Exit {
     exit
 }
 
-/// The text in the encoding of the file it came from: a file that is not UTF-8 was read as Latin-1.
+/// Encodes a text like its file: a file that is not UTF-8 was read as Latin-1.
 fn encode(before: &[u8], text: &str) -> Vec<u8> {
     if std::str::from_utf8(before).is_ok() {
         return text.as_bytes().to_vec();

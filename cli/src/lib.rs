@@ -1,8 +1,8 @@
 //! The command line of pelea: arguments, files, the terminal. The only composition root.
 //!
-//! Each command is a module with its clap arguments and one function from arguments to [`Exit`]. It writes
-//! to a [`Console`]: results to standard output and everything else to standard error. The crates below never print,
-//! read files or read the clock; that happens here.
+//! Each command is a module with its clap arguments and one function from arguments to [`Exit`]. It
+//! writes to a [`Console`]: results to standard output and everything else to standard error. The
+//! other crates never print, read files or read the clock; that happens here.
 //!
 //! ```
 //! use pelea::{Console, Exit};
@@ -15,10 +15,11 @@
 //! assert!(String::from_utf8(err).unwrap().contains("no/such/file.pddl"));
 //! ```
 //!
-//! Members: `arguments` (the tree of commands), `run`, `plan`, `validate`, `check`, `test`, `fmt`, `dsr`, `lsp`, `explain` (one each),
-//! `task` (a domain with its problem, read from files), `assemble` (a mission, from its folder to what runs it),
-//! `scenario`, `pool` (work on all cores), `files`, `nearby` (the contents of folders), `disk` (mission folders), `memory`, `clock`, `render`
-//! (diagnostics as text with excerpts, or as JSON), `console` and `exit`.
+//! Members: `arguments` (the tree of commands); `run`, `plan`, `validate`, `check`, `test`, `fmt`,
+//! `dsr`, `lsp`, `explain` (one command each); `task` (a domain with its problem, read from files);
+//! `assemble` (builds a mission from its folder); `scenario`; `pool` (work on all cores); `files`;
+//! `nearby` (the contents of folders); `disk` (mission folders); `memory`; `clock`; `render`
+//! (diagnostics as text with excerpts, or as JSON); `console` and `exit`.
 
 mod arguments;
 mod assemble;

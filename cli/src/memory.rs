@@ -1,15 +1,16 @@
-//! How much memory a task and the search on it may hold.
+//! The memory limit of a task and its search.
 //!
-//! A process that asks for more than its address space aborts, which is no answer. So the search gets a
-//! budget well below the memory that the process may have: 4 GiB, or a part of a smaller limit (`ulimit -v`) or of
-//! a smaller machine. A limit that cannot be read (on systems other than Linux) is ignored.
+//! A process that exceeds its address space aborts without an answer. The search therefore gets a
+//! budget well below the memory that the process may have: 4 GiB, or a part of a smaller limit
+//! (`ulimit -v`) or of a smaller machine. A limit that cannot be read (on systems other than Linux)
+//! is ignored.
 
 use std::fs;
 
 const GIBIBYTE: u64 = 1 << 30;
 const MOST: u64 = 4 * GIBIBYTE;
 
-/// Bytes for the grounded task, states and open lists.
+/// The bytes for the grounded task, states and open lists.
 pub(crate) fn budget() -> usize {
     let limits = fs::read_to_string("/proc/self/limits").unwrap_or_default();
     let machine = fs::read_to_string("/proc/meminfo").unwrap_or_default();

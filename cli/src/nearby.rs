@@ -9,7 +9,8 @@ use std::path::{Path, PathBuf};
 /// The file that makes a folder a mission.
 pub(crate) const MANIFEST: &str = "mission.toml";
 
-/// Whether a file is checked and formatted when its folder is given. Plans are so only when they are named.
+/// Whether a file is checked and formatted when its folder is given. Plans are included only if
+/// they are named.
 pub(crate) fn is_source(path: &Path) -> bool {
     FileKind::is_definition(&path.to_string_lossy())
 }

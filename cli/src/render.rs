@@ -21,7 +21,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Findings shown of one file; more would only scroll the first ones away.
+/// The most findings that are shown of one file; more would scroll the first ones away.
 const MOST_PER_FILE: usize = 50;
 
 /// `1 error`, `2 errors`.
@@ -61,8 +61,8 @@ pub(crate) fn show(sources: &Sources, finding: &Finding, console: &mut Console<'
     }
 }
 
-/// Shows findings, of each file the first [`MOST_PER_FILE`] and how many more there are; as JSON all of them. Returns the
-/// worst severity.
+/// Shows the first [`MOST_PER_FILE`] findings of each file and the number of the others; as JSON,
+/// shows all of them. Returns the worst severity.
 pub(crate) fn show_all(
     sources: &Sources,
     findings: &[Finding],
@@ -93,7 +93,7 @@ fn at(sources: &Sources, place: Place) -> At<'_> {
     At { source: &sources[place.source], span: place.span }
 }
 
-/// With frames, unless a text is too long for them.
+/// Renders with frames, unless a text is too long for them.
 fn text(sources: &Sources, finding: &Finding, colour: bool) -> String {
     let primary = at(sources, finding.place);
     let labels: Vec<(At<'_>, &str)> =
@@ -141,7 +141,7 @@ fn text(sources: &Sources, finding: &Finding, colour: bool) -> String {
     }
 }
 
-/// Without frames: a head, the places, and the pieces of their lines around them.
+/// Renders without frames: a head, the places, and the parts of their lines around them.
 fn plain(finding: &Finding, primary: At<'_>, labels: &[(At<'_>, &str)]) -> String {
     let code = finding.code.map(|code| format!("[{code}] ")).unwrap_or_default();
     let mut text = format!("{code}{}: {}\n", word(finding.severity), finding.message);
@@ -187,11 +187,11 @@ fn word(severity: Severity) -> &'static str {
     }
 }
 
-/// How much of a long line is shown, in characters.
+/// The most characters of a long line that are shown.
 const WINDOW: usize = 100;
 
-/// Longest line that is shown whole, and longest text that is drawn with frames (which looks at all of it every
-/// time), both in bytes.
+/// In bytes: the longest line that is shown completely, and the longest text that is drawn with
+/// frames (each frame reads all of it).
 const LONGEST: (usize, usize) = (2_000, 4_000_000);
 
 fn is_long(at: At<'_>) -> bool {
@@ -199,7 +199,7 @@ fn is_long(at: At<'_>) -> bool {
     at.source.text().len() > LONGEST.1 || lines.iter().any(|&line| at.source.line(line).len() > LONGEST.0)
 }
 
-/// A text that a terminal only shows: control characters, which are a byte each, become `?`.
+/// A text for terminals only: each control character, which is one byte, becomes `?`.
 fn harmless(text: &str) -> Cow<'_, str> {
     let harmful = |c: char| c.is_ascii_control() && !matches!(c, '\n' | '\r' | '\t');
     if text.contains(harmful) { Cow::Owned(text.replace(harmful, "?")) } else { Cow::Borrowed(text) }

@@ -1,8 +1,8 @@
-//! Scenarios from a mission's folder or anywhere, with their conditions compiled.
+//! Scenarios from a mission's folder or any other file, with their conditions compiled.
 //!
-//! A scenario that was read names only tokens and nodes that exist. Here its conditions become patterns of the
-//! graph as well, so that a condition that cannot be watched (one with too many alternatives) is reported before
-//! anything moves.
+//! A parsed scenario refers only to tokens and nodes that exist. This module also compiles its
+//! conditions to patterns of the graph. A condition that cannot be watched (because it has too many
+//! alternatives) is therefore reported before anything moves.
 
 use crate::console::Console;
 use crate::disk::{Disk, show};
@@ -72,7 +72,7 @@ pub(crate) enum ScenarioError {
 }
 
 impl ScenarioError {
-    /// Shows it.
+    /// Shows the reason.
     pub(crate) fn show(&self, console: &mut Console<'_>) -> Exit {
         match self {
             Self::Wrong(errors) => show(&errors.sources, &errors.findings, console),
@@ -84,7 +84,7 @@ impl ScenarioError {
     }
 }
 
-/// Reads a scenario: a file's path, or a name in the mission's folder.
+/// Reads a scenario: the path of a file, or a name in the mission's folder.
 pub(crate) fn read(mission: &Mission, name: &str) -> Result<Scenario, ScenarioError> {
     let path = Path::new(name);
     if path.extension().is_some()

@@ -12,7 +12,7 @@ use project::{Header, Need, read_domain};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// The task that `plan` and `validate` work on.
+/// The task of `plan` and `validate`.
 pub(crate) struct TaskFiles {
     pub(crate) sources: Sources,
     pub(crate) domain_file: SourceId,
@@ -22,8 +22,8 @@ pub(crate) struct TaskFiles {
 }
 
 impl TaskFiles {
-    /// Reads both files and shows their findings. The domains that the domain imports are looked for among
-    /// `imports`, then near the file that needs them.
+    /// Reads both files and shows their findings. Searches the domains that the domain imports
+    /// among `imports`, then near the file that needs them.
     ///
     /// # Errors
     /// [`Exit::Unreadable`] if one cannot be read; that has been shown.
@@ -56,8 +56,8 @@ impl TaskFiles {
     }
 }
 
-/// The files that a domain imports, and those that these import. An import that is nowhere is missing in the result: the
-/// reader reports it at its place.
+/// The files that a domain imports, directly or indirectly. A missing import is not in the result;
+/// the parser reports it at its place.
 fn found_imports(
     domain: &Path,
     source: &Source,

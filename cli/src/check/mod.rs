@@ -30,16 +30,16 @@ use serde::Serialize;
 use std::path::PathBuf;
 use tally::Tally;
 
-/// What to check.
+/// The arguments of `pelea check`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Mission folders, other folders, and files.
+    /// Mission folders, other folders, and files
     #[arg(required = true)]
     paths: Vec<PathBuf>,
-    /// Say of each file only whether it can be read, then how many can: for collections of tasks.
+    /// Report only whether each file can be parsed, then the totals; for collections of tasks
     #[arg(long)]
     summary: bool,
-    /// Show the warnings as well that are often meant as they are.
+    /// Also show warnings that are often intended
     #[arg(long)]
     pedantic: bool,
 }

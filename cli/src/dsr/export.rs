@@ -13,9 +13,9 @@ use std::path::PathBuf;
 /// Arguments of `pelea dsr export`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// A journal: the folder of `pelea run --journal`, or a file in it.
+    /// The journal: the folder of `pelea run --journal`, or a file in it
     journal: PathBuf,
-    /// Where the MCAP file goes.
+    /// Write the MCAP file to this path
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
 }

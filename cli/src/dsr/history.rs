@@ -14,12 +14,12 @@ use std::path::PathBuf;
 /// Arguments of `pelea dsr log`.
 #[derive(Debug, Args)]
 pub(crate) struct LogArguments {
-    /// A journal: the folder of `pelea run --journal`, or a file in it.
+    /// The journal: the folder of `pelea run --journal`, or a file in it
     journal: PathBuf,
-    /// Only commits whose sentences hold this text.
+    /// Show only commits whose sentences contain this text
     #[arg(long, value_name = "TEXT")]
     about: Option<String>,
-    /// Only commits of this agent.
+    /// Show only commits of this agent
     #[arg(long, value_name = "AGENT")]
     by: Option<String>,
 }
@@ -27,25 +27,25 @@ pub(crate) struct LogArguments {
 /// Arguments of `pelea dsr diff`.
 #[derive(Debug, Args)]
 pub(crate) struct DiffArguments {
-    /// A journal: the folder of `pelea run --journal`, or a file in it.
+    /// The journal: the folder of `pelea run --journal`, or a file in it
     journal: PathBuf,
-    /// A version such as `12`, or a time such as `3.5s`.
+    /// The old state: a version such as `12`, or a time such as `3.5s`
     from: Moment,
-    /// The same.
+    /// The new state: a version or a time
     to: Moment,
 }
 
 /// Arguments of `pelea dsr query`.
 #[derive(Debug, Args)]
 pub(crate) struct QueryArguments {
-    /// A journal: the folder of `pelea run --journal`, or a file in it.
+    /// The journal: the folder of `pelea run --journal`, or a file in it
     journal: PathBuf,
-    /// Such as `(and (is_with ?who ?robot) (not (is ?robot speaking)))`.
+    /// The pattern, such as `(and (is_with ?who ?robot) (not (is ?robot speaking)))`
     pattern: String,
-    /// A version such as `12`, or a time such as `3.5s`; the last version if not given.
+    /// The state: a version such as `12`, or a time such as `3.5s` [default: the last version]
     #[arg(long, value_name = "VERSION|TIME", conflicts_with = "history")]
     at: Option<Moment>,
-    /// When matches appeared and disappeared, over the whole journal.
+    /// Show when matches appeared and disappeared, over the whole journal
     #[arg(long)]
     history: bool,
 }
@@ -115,8 +115,8 @@ pub(super) fn query(arguments: &QueryArguments, console: &mut Console<'_>) -> Re
     Ok(exit.and(if any { Exit::Yes } else { Exit::No }))
 }
 
-/// Reports for every match the version in which it appeared and the version in which it disappeared. Returns whether
-/// there was a match.
+/// Reports the versions in which each match appeared and disappeared. Returns whether there was a
+/// match.
 ///
 /// No snapshot is kept while the replay advances: the replay would have to copy the state.
 fn history(recording: &Recording, pattern: &Pattern, console: &mut Console<'_>) -> Result<bool, Failed> {
@@ -167,7 +167,7 @@ fn named<'p>(pattern: &'p Pattern, binding: &Binding, snapshot: &Snapshot) -> Na
     nodes.map(|((variable, _), id)| (variable, snapshot.name(*id).unwrap_or("?").to_owned())).collect()
 }
 
-/// Reports a match that holds at `at`, or no longer does.
+/// Reports a match that begins or ceases to hold at `at`.
 fn tell(at: &Snapshot, bindings: &Names<'_>, holds: bool, before: &str, console: &mut Console<'_>) {
     let said: Vec<_> = bindings.iter().map(|(variable, name)| format!("?{variable} = {name}")).collect();
     console.result(&format!("{before}{}", if said.is_empty() { "yes".to_owned() } else { said.join(", ") }));

@@ -1,4 +1,4 @@
-//! Journals on a disk: read, begun, and the states in them.
+//! Journals on disk: reads them, creates them, and returns their states.
 
 use super::failed::{Failed, unwritable};
 use crate::console::Console;
@@ -44,7 +44,7 @@ pub(super) fn state(recording: &Recording, at: Option<Moment>) -> Result<Snapsho
     at.unwrap_or(Moment::Version(recording.last().0)).of(recording)
 }
 
-/// Reads a journal and shows which parts of it cannot be read.
+/// Reads a journal and reports its unreadable parts.
 pub(super) fn open(path: &Path, console: &mut Console<'_>) -> Result<(Recording, Exit), Failed> {
     let recording = match Recording::open(path) {
         Err(RecordingError::Empty) => {
@@ -69,10 +69,10 @@ pub(super) fn open(path: &Path, console: &mut Console<'_>) -> Result<(Recording,
     Ok((recording, exit))
 }
 
-/// Begins a journal of `graph` in a folder that holds none.
+/// Creates a journal of `graph` in a folder without one.
 ///
 /// # Errors
-/// Always [`Exit::Unwritable`]: the folder holds a journal already, or cannot be written.
+/// Always [`Exit::Unwritable`]: the folder already has a journal, or is not writable.
 pub(crate) fn begin(folder: &Path, graph: &Graph) -> Result<Journal, Failed> {
     let store = Folder::new(folder).map_err(|error| unwritable(folder, &error))?;
     if !store.is_fresh() {

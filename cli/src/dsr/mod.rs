@@ -1,8 +1,9 @@
 //! `pelea dsr`: the graph of a past run, at any version.
 //!
-//! The commands read a journal: the folder that `pelea run --journal` wrote, or one file of it. A torn end is noted and
-//! cut off. Damage is an error that names the byte; the undamaged part is shown nevertheless. With `--json`, `show` writes
-//! one record of the kind `graph` (the export), `log` a record `commit` per commit, `diff` one record `difference`, and
+//! The commands read a journal: the folder that `pelea run --journal` wrote, or one file of it. An
+//! incomplete end is reported and cut off. Damage is an error with the position of the byte; the
+//! undamaged part is shown nevertheless. With `--json`, `show` writes one record of the kind
+//! `graph` (the export), `log` a record `commit` per commit, `diff` one record `difference`, and
 //! `query` a record `match` per match.
 
 mod export;
@@ -18,20 +19,20 @@ use crate::console::Console;
 use crate::exit::Exit;
 use clap::Subcommand;
 
-/// The commands.
+/// The subcommands of `pelea dsr`.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// A state: as sentences, for graphviz, as a picture or as data.
+    /// Show a state as sentences, a picture or data
     Show(show::Arguments),
-    /// Every commit: version, time, writer, and what changed.
+    /// Show every commit: version, time, writer and changes
     Log(history::LogArguments),
-    /// What differs between two versions.
+    /// Show the differences between two versions
     Diff(history::DiffArguments),
-    /// Where a pattern matches.
+    /// Find the matches of a pattern
     Query(history::QueryArguments),
-    /// The whole history for Foxglove and other tools that read MCAP.
+    /// Export the history as MCAP, for Foxglove and other tools
     Export(export::Arguments),
-    /// Take over a world of RoboComp's cortex.
+    /// Import a world of RoboComp's cortex
     Import(world::Arguments),
 }
 

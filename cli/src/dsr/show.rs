@@ -13,33 +13,34 @@ use std::path::PathBuf;
 /// Arguments of `pelea dsr show`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// A journal: the folder of `pelea run --journal`, or a file in it.
+    /// The journal: the folder of `pelea run --journal`, or a file in it
     journal: PathBuf,
-    /// A version such as `12`, or a time such as `3.5s`; the last version if not given.
+    /// The state: a version such as `12`, or a time such as `3.5s` [default: the last version]
     #[arg(long, value_name = "VERSION|TIME")]
     at: Option<Moment>,
-    /// Only this node and what is near it.
+    /// Show only this node and its neighbourhood
     #[arg(long, value_name = "NODE")]
     around: Option<String>,
-    /// How many edges or transforms away `--around` reaches.
+    /// The number of edges or transforms that `--around` follows
     #[arg(long, default_value_t = 1, value_name = "N", requires = "around")]
     steps: usize,
+    /// The format of the output
     #[arg(long, value_enum, default_value_t = Picture::Text)]
     format: Picture,
 }
 
-/// How a state is shown.
+/// The format of a state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Picture {
-    /// Sentences.
+    /// Sentences
     Text,
-    /// The language of graphviz.
+    /// Graphviz
     Dot,
-    /// A picture.
+    /// A picture
     Svg,
-    /// For tools that read GraphML.
+    /// GraphML
     Graphml,
-    /// The export, in a line.
+    /// The export, as one line of JSON
     Json,
 }
 

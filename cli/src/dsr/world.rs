@@ -13,21 +13,21 @@ use std::path::PathBuf;
 /// Arguments of `pelea dsr import`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// A JSON file with `DSRModel`.
+    /// A JSON file with a `DSRModel`
     world: PathBuf,
-    /// The folder for the journal, which `pelea dsr show` reads; it must hold none.
+    /// Create the journal in this folder, which must not have one
     #[arg(short, long, value_name = "FOLDER")]
     output: PathBuf,
-    /// The unit of the file's translations.
+    /// The unit of the translations in the file
     #[arg(long, value_enum, default_value_t = Unit::Mm)]
     unit: Unit,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Unit {
-    /// Millimetres.
+    /// Millimetres
     Mm,
-    /// Metres.
+    /// Metres
     M,
 }
 

@@ -1,6 +1,7 @@
 //! `pelea lsp`: a language server on standard input and output, for editors to start.
 //!
-//! Exit codes are the protocol's: 0 after `shutdown` and `exit`, 1 if the client left in any other way.
+//! The exit codes are those of the protocol: 0 after `shutdown` and `exit`, 1 if the client leaves
+//! in any other way.
 
 mod disk;
 mod tools;
@@ -10,10 +11,10 @@ use ::lsp::{Ended, Host, serve};
 use clap::Args;
 use std::sync::Arc;
 
-/// How to talk.
+/// The arguments of `pelea lsp`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Talk over standard input and output; that is what happens anyhow, but many clients say it.
+    /// Use standard input and output; the default, accepted because many clients pass it
     #[arg(long)]
     stdio: bool,
 }

@@ -1,4 +1,4 @@
-//! Planner and validator, as the language server calls them.
+//! The planner and the validator as tools of the language server.
 
 use crate::clock::{Deadline, Seconds};
 use crate::memory;

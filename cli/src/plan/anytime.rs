@@ -1,4 +1,4 @@
-//! `pelea plan --anytime`: better and better plans, until the time is over or a proof that no plan is better.
+//! `pelea plan --anytime`: improves the plan until the timeout or a proof of optimality.
 //!
 //! The search runs in its own thread and sends its plans. This thread validates each plan, writes it as `PLAN.1`,
 //! `PLAN.2` … and reports it before it receives the next. The best plan is also written as `PLAN`, or printed if no
@@ -34,8 +34,8 @@ struct Writer<'a> {
     best: Option<Valid>,
 }
 
-/// Searches for better plans until a proof that no plan is better, or the end of `budget`. Every better plan is written
-/// when it is found.
+/// Searches for better plans until one is proven optimal or `budget` is used up. Writes every
+/// better plan when it is found.
 ///
 /// # Errors
 /// The exit code if a plan is invalid or cannot be written; the reason has been shown.
@@ -74,7 +74,7 @@ pub(super) fn run(
 }
 
 impl Writer<'_> {
-    /// Validates a plan; writes and reports it if it is better than the best so far.
+    /// Validates a plan; if it is better than the best so far, writes and reports it.
     fn take(&mut self, found: &planner::Plan, console: &mut Console<'_>) -> Result<(), Exit> {
         let (text, valid) = validated(self.files, self.task, found, console)?;
         if self.best.as_ref().is_some_and(|best| !is_better(&valid, best)) {

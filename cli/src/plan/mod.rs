@@ -32,37 +32,39 @@ use record::{PlanRecord, StatisticsRecord};
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// What to plan.
+/// The arguments of `pelea plan`.
 #[derive(Debug, Args)]
-#[command(after_help = format!("Searches:{}\n\nWithout --search and --optimal: {}.",
-    searches(), SearchConfiguration::portfolio().name))]
+#[command(after_help = format!("Searches:{}\n\nThe default search is {}, or {} with --optimal.",
+    searches(), SearchConfiguration::portfolio().name, SearchConfiguration::best_optimal().name))]
 pub(crate) struct Arguments {
-    /// The domain file.
+    /// The domain file
     domain: PathBuf,
-    /// The problem file.
+    /// The problem file
     problem: PathBuf,
-    /// Write the plan into this file, once it is complete.
+    /// Write the plan to this file [default: standard output]
     #[arg(short, long, value_name = "PLAN")]
     output: Option<PathBuf>,
-    /// Give up after so many seconds.
+    /// Stop the search after this many seconds
     #[arg(long, value_name = "S")]
     timeout: Option<Seconds>,
-    /// Use at most so many mebibytes for the task and the states [default: what the machine allows, 4096 at most].
+    /// Limit the memory for the task and its states, in MiB [default: what the machine allows, 4096
+    /// at most]
     #[arg(long, value_name = "MIB")]
     memory: Option<usize>,
-    /// The search to use.
+    /// Use this search
     #[arg(long, value_name = "NAME", value_parser = search)]
     search: Option<SearchConfiguration>,
-    /// Find a plan of least cost.
+    /// Find an optimal plan
     #[arg(long, conflicts_with = "search")]
     optimal: bool,
-    /// Go on to better plans until the timeout, or until there is none; each is written as PLAN.1, PLAN.2 …
+    /// Improve the plan until the timeout or a proof of optimality; plans are written as PLAN.1,
+    /// PLAN.2 …
     #[arg(long)]
     anytime: bool,
-    /// Repair this plan: what can be reused of it is set beside a new plan.
+    /// Repair this plan, and compare the result with a new plan
     #[arg(long, value_name = "OLD_PLAN", conflicts_with = "anytime")]
     repair: Option<PathBuf>,
-    /// Which of the two plans is taken [default: stability].
+    /// Choose between the repaired and the new plan by this criterion [default: stability]
     #[arg(long, value_enum, requires = "repair")]
     prefer: Option<Prefer>,
 }
@@ -72,7 +74,7 @@ fn search(name: &str) -> Result<SearchConfiguration, String> {
         .ok_or_else(|| format!("there is no such search; there are{}", searches()))
 }
 
-/// A line per search.
+/// One line per search.
 fn searches() -> String {
     let mut text = String::new();
     for known in SearchConfiguration::ALL {

@@ -11,7 +11,7 @@ use planner::{OperatorId, Task};
 use std::collections::HashMap;
 use std::path::Path;
 
-/// So many steps that are left out are shown each at its place; the others are listed in one line.
+/// Up to this many omitted steps are reported at their places; the others are listed in one line.
 const WARNINGS: usize = 3;
 
 /// A plan that no longer fits its problem, with its file.
@@ -22,7 +22,7 @@ pub(super) struct OldPlan {
 }
 
 impl OldPlan {
-    /// Reads it, and shows its errors.
+    /// Reads the old plan and reports its errors.
     ///
     /// # Errors
     /// The exit code if the file cannot be read, or its plan is not sequential.
@@ -53,7 +53,8 @@ impl OldPlan {
         self.steps.len()
     }
 
-    /// Its steps as operators, and the texts of the steps that correspond to no operator. The latter are shown.
+    /// Its steps as operators, and the texts of the steps without an operator. The latter are
+    /// reported.
     pub(super) fn operators(&self, task: &Task, console: &mut Console<'_>) -> (Vec<OperatorId>, Vec<String>) {
         let mut known: HashMap<(ActionId, &[ObjectId]), Option<OperatorId>> =
             self.steps.iter().map(|step| ((step.action, step.arguments.as_slice()), None)).collect();

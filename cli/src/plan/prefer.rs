@@ -1,4 +1,4 @@
-//! `--prefer`: which of two plans `pelea plan --repair` takes.
+//! `--prefer`: chooses between the two plans of `pelea plan --repair`.
 
 use clap::ValueEnum;
 use planner::Preference;
@@ -8,17 +8,17 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Prefer {
-    /// The one that is nearer to the old plan.
+    /// The plan that is closer to the old plan
     #[default]
     Stability,
-    /// The cheaper one.
+    /// The cheaper plan
     Cost,
-    /// The first one: a new plan is looked for only where nothing can be reused.
+    /// The first plan found; plans anew only if nothing can be reused
     Speed,
 }
 
 impl Prefer {
-    /// As the planner names it.
+    /// The planner's preference.
     pub(super) fn preference(self) -> Preference {
         match self {
             Self::Stability => Preference::Stability,

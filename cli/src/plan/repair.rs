@@ -15,7 +15,8 @@ use crate::task::TaskFiles;
 use planner::{Attempt, Budget, Outcome, Query, Repair, Repaired, Report, SearchConfiguration, Task, Way};
 use std::time::Duration;
 
-/// The search for a new plan may take this multiple of the time of the repair, and at least this long.
+/// The time limit of the search for a new plan: this multiple of the time of the repair, at least this
+/// long.
 const PATIENCE: (f64, Duration) = (10.0, Duration::from_secs(1));
 
 /// Repairs the old plan and searches for a new one; with the preference for speed, only if the repair fails.

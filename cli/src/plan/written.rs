@@ -9,7 +9,7 @@ use pddl::{PlanStep, Source, Span};
 use planner::Task;
 use validator::{Valid, Verdict, explain, validate};
 
-/// A plan as the text of a plan file, a step a line, and as the parser reads that text.
+/// A plan as the text of a plan file, one step per line, and as the parser reads that text.
 pub(crate) fn written(task: &Task, found: &planner::Plan) -> (String, pddl::SequentialPlan) {
     let mut text = String::new();
     let mut plan = pddl::SequentialPlan::default();
@@ -29,7 +29,7 @@ pub(crate) fn written(task: &Task, found: &planner::Plan) -> (String, pddl::Sequ
     (text, plan)
 }
 
-/// A plan of the planner as the text of a plan file, and what the validator finds of it.
+/// A plan of the planner as the text of a plan file, and the validator's verdict on it.
 ///
 /// # Errors
 /// [`Exit::Bug`] if the plan is invalid; the reason has been shown.

@@ -1,4 +1,4 @@
-//! The mission's words and its report, as the agents ask for them.
+//! The mission's texts and its report, for the agents.
 
 use crate::run::story::seconds;
 use agents::{Reporter, Words};
@@ -20,7 +20,7 @@ impl Content {
         self.mission.words(&self.language).unwrap_or_else(|| self.mission.default_words())
     }
 
-    /// The report over a graph, of a test that began with the run.
+    /// The report over a graph, for a test that began with the run.
     pub(super) fn report(&self, snapshot: &Snapshot) -> Report {
         let finished = Duration::from_nanos(snapshot.time().0);
         let finished = Duration::from_secs_f64(seconds(finished));

@@ -1,7 +1,8 @@
-//! Makes the scenario's disruptions happen when they are due.
+//! Triggers the scenario's disruptions when they are due.
 //!
-//! A trigger is a time, a condition on the graph, or a step of the plan. When it comes, the director
-//! waits `after` seconds and does the disruption to the room, which knows nothing of scenarios.
+//! A trigger is a time, a condition on the graph, or a step of the plan. When it occurs, the
+//! director waits `after` seconds and applies the disruption to the room. The room does not know
+//! the scenario.
 
 use crate::scenario::{Cue, Watch};
 use dsr::Graph;
@@ -15,14 +16,14 @@ use std::sync::Arc;
 use tokio::sync::{Notify, broadcast};
 use tokio::time::{Instant, sleep, sleep_until};
 
-/// Where the director works.
+/// The input of the director.
 pub(super) struct Stage {
     pub(super) graph: Graph,
     pub(super) room: SimRoom,
     pub(super) epoch: Instant,
 }
 
-/// Directs until everything has happened. The receivers must be there before the first step starts.
+/// Runs until every disruption was applied. Its receivers must exist before the first step starts.
 pub(super) async fn direct(cues: Vec<(Cue, broadcast::Receiver<Step>)>, stage: Stage) {
     join_all(cues.into_iter().map(|(cue, steps)| follow(cue, steps, &stage))).await;
 }

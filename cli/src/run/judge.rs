@@ -1,4 +1,4 @@
-//! The scenario's expectations, compared with the run.
+//! Compares the scenario's expectations with the run.
 //!
 //! Replans and repeated questions are counted in the story; everything else is read from the final graph.
 
@@ -15,7 +15,7 @@ use planner::Way;
 use serde::Serialize;
 use std::collections::BTreeSet;
 
-/// Collects the figures that the expectations are about.
+/// Collects the figures that the expectations refer to.
 pub(super) struct Record<'a> {
     mission: &'a Mission,
     /// The label of the edge from an item's answer to the item.
@@ -28,18 +28,18 @@ pub(super) struct Record<'a> {
     repairs: Repairs,
 }
 
-/// How broken plans were replaced.
+/// The replacements of broken plans.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub(super) struct Repairs {
-    /// How often the rest of the plan was reused.
+    /// How often the remaining plan was reused.
     pub(super) reuse: u32,
-    /// How often a plan from scratch was nearer to the old one, or the only one.
+    /// How often a plan from scratch was closer to the old one, or the only plan.
     pub(super) scratch: u32,
-    /// Steps that were given up, in all.
+    /// The total number of removed steps.
     removed: usize,
-    /// Steps that were new.
+    /// The total number of new steps.
     added: usize,
-    /// Steps that moved to another place in the order.
+    /// The total number of steps that moved in the order.
     moved: usize,
 }
 
@@ -57,12 +57,12 @@ impl<'a> Record<'a> {
         }
     }
 
-    /// How often a plan was made again.
+    /// The number of replans.
     pub(super) fn replans(&self) -> u32 {
         self.plans.saturating_sub(1)
     }
 
-    /// How broken plans were replaced.
+    /// The replacements of broken plans.
     pub(super) fn repairs(&self) -> Repairs {
         self.repairs
     }
@@ -72,7 +72,7 @@ impl<'a> Record<'a> {
         &self.asked_again
     }
 
-    /// Takes note of an entry.
+    /// Records an entry.
     pub(super) fn note(&mut self, entry: &Entry) {
         match &entry.what {
             What::Pelea(Narration::Deviated(deviation)) => {

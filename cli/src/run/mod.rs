@@ -1,8 +1,8 @@
 //! `pelea run`: a mission on simulated devices, in real time or as fast as the machine.
 //!
-//! Everything lives in one task on one thread (`play`): PELEA, the agents, the scenario's director and the reader of
-//! the story take their turns in a fixed order. With `--speed max` tokio's clock is paused and jumps to the
-//! next event, so the same mission, scenario and seed give the same bytes.
+//! Everything runs in one task on one thread (`play`): PELEA, the agents, the scenario's director
+//! and the reader of the story take turns in a fixed order. With `--speed max` tokio's clock is
+//! paused and jumps to the next event, so the same mission, scenario and seed give the same bytes.
 //!
 //! From the ground up: `script`, `director` (the disruptions in the room), `story` (all events as one stream), `content`
 //! (the mission's words) → `judge`, `terminal`, `teller` (reports of the story) → `play`.
@@ -32,39 +32,39 @@ use std::sync::Arc;
 /// Arguments of `pelea run`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// The mission's folder.
+    /// The folder of the mission
     mission: PathBuf,
-    /// A scenario of the mission, by name, or a scenario file. Without one the simulated person answers
-    /// everything.
+    /// A scenario of the mission by name, or a scenario file; without one, the simulated person
+    /// answers every question
     #[arg(long, value_name = "NAME|FILE")]
     scenario: Option<String>,
-    /// `1`: real time. `max`: simulated time, as fast as the machine.
+    /// The speed of the simulation
     #[arg(long, value_enum, default_value_t = Speed::Real)]
     speed: Speed,
-    /// Varies how long the simulated person takes to answer; the same seed gives the same bytes.
+    /// Vary the delays of the simulated person's answers; the same seed gives the same output
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// The language to speak; the mission's own if not given.
+    /// The language of the robot [default: the mission's language]
     #[arg(long, value_name = "TAG")]
     lang: Option<String>,
-    /// Write the report here as well.
+    /// Also write the report to this file
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
-    /// Write every version of the graph to a journal in this folder, for `pelea dsr`.
+    /// Write every version of the graph to a journal in this folder, for `pelea dsr`
     #[arg(long, value_name = "FOLDER")]
     journal: Option<PathBuf>,
-    /// Show how each step is carried out, too.
+    /// Also show how each step is executed
     #[arg(long)]
     verbose: bool,
 }
 
-/// How fast time passes.
+/// The speed of the simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Speed {
-    /// As on the wall.
+    /// Real time
     #[value(name = "1")]
     Real,
-    /// As fast as the machine.
+    /// Simulated time, as fast as the machine
     Max,
 }
 
@@ -112,7 +112,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         verbose: arguments.verbose,
     };
     let exit = runtime.block_on(play.play(assembly, arguments.report.as_deref(), console));
-    // The planner's thread may still be at work on a plan that is no longer needed.
+    // The planner's thread may still work on a plan that is no longer needed.
     runtime.shutdown_background();
     match journal.map(Journal::close) {
         Some(Err(error)) => {

@@ -1,4 +1,4 @@
-//! A mission on simulated devices: everything that takes turns, in one task.
+//! Runs a mission on simulated devices, in one task.
 
 use super::content::Content;
 use super::story::{Story, What, seconds};
@@ -17,7 +17,7 @@ use std::time::Duration;
 use tokio::sync::{broadcast, mpsc};
 use tokio::time::Instant;
 
-/// A mission ready to be played.
+/// A mission that is ready to run.
 pub(super) struct Play {
     pub(super) content: Content,
     pub(super) staged: Option<Staged>,
@@ -26,7 +26,7 @@ pub(super) struct Play {
 }
 
 impl Play {
-    /// Plays it to its end.
+    /// Runs the mission to its end.
     pub(super) async fn play(
         mut self,
         assembly: Assembly,
@@ -42,7 +42,7 @@ impl Play {
         room.observe(move |moment| observed.tell(seconds(moment.at), What::Room(moment.event.clone())));
 
         let (steps, _) = broadcast::channel(64);
-        // Each disruption listens to the steps of the plan before the first one starts.
+        // Each disruption must receive the steps of the plan before the first one starts.
         let cues = self.staged.as_mut().map(|staged| std::mem::take(&mut staged.cues)).unwrap_or_default();
         let cues = cues.into_iter().map(|cue| (cue, steps.subscribe())).collect();
         let stage = director::Stage { graph: graph.clone(), room: room.clone(), epoch };
@@ -85,7 +85,7 @@ impl Play {
         teller.end(&ending, &graph.snapshot(), epoch.elapsed(), report_file)
     }
 
-    /// The room, as the scenario has it.
+    /// The simulated room of the scenario.
     fn room(&self) -> SimRoom {
         let mission = &self.content.mission;
         match &self.staged {
@@ -109,7 +109,7 @@ async fn pelea(
     let writer = graph.vocabulary().agent("pelea").unwrap_or(AgentId::DSR);
     let tell = move |time: dsr::Time, narration: Narration| {
         if let Narration::Started { step, .. } = &narration {
-            // Without a disruption that waits for a step there is no listener.
+            // Without a disruption that waits for a step there is no receiver.
             let _ = steps.send(step.clone());
         }
         story.tell(seconds(Duration::from_nanos(time.0)), What::Pelea(narration));

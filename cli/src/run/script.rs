@@ -1,7 +1,7 @@
 //! Translates a scenario, which names items and questions, into scripts of the simulated room.
 //!
-//! A seed other than 0 varies how long the simulated person takes to answer, by up to half, so that a
-//! campaign meets other interleavings; the same seed gives the same delays.
+//! A seed other than 0 varies the delays of the simulated person's answers by up to half, so a
+//! campaign covers other interleavings. The same seed gives the same delays.
 
 use hal::sim::{By, ClinicianScript, PatientScript, Reply, ReplyRule};
 use mission::{Mission, scenario};
@@ -40,8 +40,8 @@ pub(super) fn clinician(clinician: &scenario::Clinician) -> ClinicianScript {
     }
 }
 
-/// The questions that a person may be asked about an item, in their order: the nodes that can stand before
-/// the token of an unanswered question.
+/// The questions that a person may be asked about an item, in their order: the nodes that may be
+/// the subject of the token of an unanswered question.
 pub(super) fn questions(mission: &Mission) -> Vec<Name> {
     let layers = &mission.layers;
     let asked = &layers.vocabulary.model.predicates[layers.tokens.unanswered].variables;

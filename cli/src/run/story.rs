@@ -1,7 +1,8 @@
 //! The story of a run: one linear stream of the events in the room, in the graph and in PELEA.
 //!
-//! Reporters (terminal, JSON) only read it. Before an entry is added, the commits until then are, so that the order is
-//! that of the versions. The story reads edges, and the values of functions of two nodes; other commits do not reach it.
+//! Reporters (terminal, JSON) only read it. An entry is added after all earlier commits, so the
+//! order is that of the versions. The story includes edges, and the values of functions of two
+//! nodes; it omits other commits.
 
 use dsr::{
     Change, Graph, Holder, HolderType, Interest, Kind, LabelId, Mentions, Snapshot, Subscription, Value,
@@ -19,7 +20,7 @@ use tokio::sync::mpsc::UnboundedSender;
 pub(super) struct Entry {
     /// Seconds since the mission started, to the millisecond.
     pub(super) time: f64,
-    /// The graph's version then.
+    /// The graph's version at that time.
     pub(super) version: u64,
     #[serde(flatten)]
     pub(super) what: What,
@@ -42,25 +43,25 @@ pub(super) enum What {
 pub(super) struct Commit {
     /// The agent that wrote it.
     pub(super) writer: String,
-    /// Tokens that stand in the graph now.
+    /// Tokens that were added to the graph.
     pub(super) now: Vec<String>,
-    /// Tokens that no longer do.
+    /// Tokens that were removed from the graph.
     pub(super) no_longer: Vec<String>,
     /// Whether a reflex wrote in the same commit.
     pub(super) reflex: bool,
-    /// The tokens that stand there now, by name: from, label, to.
+    /// The added tokens by name: from, label, to.
     #[serde(skip)]
     pub(super) edges: Vec<(String, String, String)>,
 }
 
-/// The shared pen. Cloning it gives another handle on the same story.
+/// A shared writer. A clone writes to the same story.
 #[derive(Clone)]
 pub(super) struct Story(Arc<Mutex<Telling>>);
 
 struct Telling {
     graph: Graph,
     subscription: Subscription,
-    /// Where the story is read; entries after the reader has gone are lost.
+    /// Sends entries to the reader; entries are lost once the reader has gone.
     reader: UnboundedSender<Entry>,
 }
 
@@ -71,7 +72,7 @@ impl Story {
         Self(Arc::new(Mutex::new(Telling { graph: graph.clone(), subscription, reader })))
     }
 
-    /// Adds an entry, after the graph's commits until now.
+    /// Adds an entry, after the graph's earlier commits.
     pub(super) fn tell(&self, time: f64, what: What) {
         let mut telling = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         telling.catch_up();
@@ -79,7 +80,7 @@ impl Story {
         let _ = telling.reader.send(Entry { time, version, what });
     }
 
-    /// Adds the graph's commits until now.
+    /// Adds the graph's commits so far.
     pub(super) fn catch_up(&self) {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).catch_up();
     }
@@ -101,7 +102,7 @@ impl Telling {
     }
 }
 
-/// Every label but that of leases, and every function of two nodes whose value is a node.
+/// Every label except those of leases, and every function of two nodes whose value is a node.
 fn interest(graph: &Graph) -> Interest {
     let vocabulary = graph.vocabulary();
     let mut tokens = Mentions::default();
@@ -122,7 +123,8 @@ fn commit(delta: &dsr::Delta, after: &Snapshot) -> Commit {
     let vocabulary = after.vocabulary();
     let node = |id| after.name(id).unwrap_or_default().to_owned();
     let label = |id| vocabulary.label_name(id).map_or_else(String::new, ToString::to_string);
-    // The function of two nodes is an edge that carries a value: reported with its value, or not at all.
+    // A function of two nodes is an edge with a value: it is reported with its value, or not at
+    // all.
     let carries_value = |id| id == LabelId::HOLDS || vocabulary.attribute(&label(id)).is_some();
     for (change, sentence) in delta.changes.iter().zip(delta.sentences(after)) {
         match change {
@@ -154,7 +156,7 @@ fn commit(delta: &dsr::Delta, after: &Snapshot) -> Commit {
     Commit { writer, now, no_longer, reflex: !delta.reflexes.is_empty(), edges }
 }
 
-/// Seconds, to the millisecond: as fine as a person notices, and short in JSON.
+/// Seconds, rounded to milliseconds: precise enough for people, and short in JSON.
 pub(super) fn seconds(time: Duration) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "2^53 ms are longer than any mission")]
     let millis = time.as_millis() as f64;

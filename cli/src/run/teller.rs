@@ -1,4 +1,4 @@
-//! The report of a run on the console: the story as it goes, then the summary.
+//! The report of a run on the console: the story during the run, then the summary.
 
 use super::content::Content;
 use super::judge::{Record, Repairs};
@@ -30,7 +30,7 @@ struct Summary<'a> {
     report: &'a mission::report::Report,
 }
 
-/// Reports the story entry by entry, and sums it up.
+/// Reports the story entry by entry, and summarises it.
 pub(super) struct Teller<'m, 'c, 'o> {
     content: &'m Content,
     staged: Option<&'m Staged>,
@@ -88,7 +88,7 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
         self.console.result("");
         let width = self.console.result_width().unwrap_or(usize::MAX);
         for line in report.to_string().lines() {
-            // A rule that is wider than the terminal would be two.
+            // A rule that is wider than the terminal would wrap.
             let rule = line.starts_with('─');
             let line: String = line.chars().take(if rule { width } else { usize::MAX }).collect();
             self.console.result(&line);

@@ -1,29 +1,31 @@
-//! The story for people: dialogue, the state in the paper's sentences, the plan, each replan's reason.
+//! The story as text: dialogue, the state in the paper's sentences, the plan, the reason of each
+//! replan.
 //!
-//! On a terminal the lines that matter beside the robot (speech, the reasons of a new plan) are wrapped to its width, and
-//! the others are cut to one row. In a pipe every line is whole, so that it can be searched.
+//! On a terminal, the most important lines (speech, the reasons of a new plan) are wrapped to its
+//! width, and the others are truncated to one row. In a pipe every line is complete, so that it can
+//! be searched.
 
 use super::story::{Commit, Entry, What};
 use executive::{Ending, Figures, Narration, Repair};
 use hal::sim::RoomEvent;
 use planner::Way;
 
-/// Turns entries into lines.
+/// Converts entries to lines.
 pub(super) struct Terminal {
     lines: Vec<String>,
     colour: bool,
-    /// Columns, if it is a terminal.
+    /// The number of columns, if the output is a terminal.
     width: Option<usize>,
     /// The robot's last sentence and the page it showed, so that neither is printed twice.
     said: String,
     options: Vec<String>,
-    /// How many steps the current plan has.
+    /// The number of steps of the current plan.
     steps: usize,
-    /// Show HighToLow's choices too.
+    /// Whether to show HighToLow's choices, too.
     verbose: bool,
 }
 
-/// How a line looks on a terminal that shows colours.
+/// The style of a line on a terminal with colours.
 #[derive(Clone, Copy)]
 enum Tone {
     Robot,
@@ -47,7 +49,7 @@ impl Tone {
         }
     }
 
-    /// Whether all of it must be read.
+    /// Whether the whole line must be readable.
     fn matters(self) -> bool {
         matches!(self, Self::Robot | Self::Person | Self::Trouble)
     }
@@ -59,7 +61,7 @@ impl Terminal {
         Self { lines: Vec::new(), colour, width, said, options, steps: 0, verbose }
     }
 
-    /// The lines to print of an entry.
+    /// The lines of an entry.
     pub(super) fn lines(&mut self, entry: &Entry) -> Vec<String> {
         match &entry.what {
             What::Room(event) => self.room(entry.time, event),
@@ -85,17 +87,17 @@ impl Terminal {
 
     fn graph(&mut self, time: f64, commit: &Commit) {
         let subject = |sentence: &str| sentence.split(' ').next().unwrap_or_default().to_owned();
-        // A token that took another's place says enough.
+        // The token that replaced this one is sufficient.
         let told: Vec<_> = commit.now.iter().map(|s| subject(s)).collect();
         let gone: Vec<_> = commit.no_longer.iter().filter(|s| !told.contains(&subject(s))).collect();
-        // A reflex after a loss is worth seeing; one after an answer is housekeeping.
+        // A reflex after a loss is important; one after an answer is routine.
         let reflex = commit.reflex && !gone.is_empty();
         let gone = gone.iter().map(|s| format!("no longer: {s}"));
         let parts: Vec<_> = gone.chain(commit.now.iter().cloned()).collect();
         if parts.is_empty() {
             return;
         }
-        // A reflex writes in the commit that it reacts to.
+        // A reflex writes in the same commit that it reacts to.
         let (tone, head) = if reflex { (Tone::Trouble, "reflex") } else { (Tone::Graph, "") };
         self.line(time, tone, head, &parts.join(" · "));
     }
@@ -134,7 +136,7 @@ impl Terminal {
         self.line(time, tone, head, &text);
     }
 
-    /// A page without the sentence just spoken, and with its options when they are new.
+    /// A page without the sentence that was just spoken; its options are included if they are new.
     fn page(&mut self, page: &hal::Page) -> String {
         let text = if page.text == self.said { "" } else { page.text.as_str() };
         let parts = [page.title.as_str(), text];
@@ -199,7 +201,7 @@ impl Terminal {
     }
 }
 
-/// Which of two plans was taken, and the figures of both.
+/// Which of the two plans was chosen, and the figures of both.
 fn repaired(repair: &Repair) -> String {
     let figures = |way: Option<Figures>| {
         way.map_or_else(
@@ -218,12 +220,12 @@ fn repaired(repair: &Repair) -> String {
     }
 }
 
-/// Where the text of a line starts.
+/// The column at which the text of a line starts.
 const INDENT: usize = 19;
-/// Narrower terminals get rows of this width all the same.
+/// The smallest width of a row, even on narrower terminals.
 const NARROWEST: usize = 20;
 
-/// The text in rows of a width: wrapped between words, or one row that is cut.
+/// The text in rows of a width: wrapped between words, or truncated to one row.
 fn fit(text: &str, width: usize, wrap: bool) -> Vec<String> {
     if text.chars().count() <= width {
         return vec![text.to_owned()];

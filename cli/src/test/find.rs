@@ -11,7 +11,8 @@ use suite::{File, Folder};
 /// The file that makes a folder a suite.
 pub(super) const EXPECTED: &str = "expected.toml";
 
-/// The folders with an `expected.toml` at or below a folder, in order. Hidden folders and `target` are passed over.
+/// The folders with an `expected.toml` at or below a folder, in order. Skips hidden folders and
+/// `target`.
 pub(super) fn folders(folder: &Path, found: &mut Vec<PathBuf>) {
     if folder.join(EXPECTED).is_file() {
         found.push(folder.to_owned());
@@ -61,7 +62,7 @@ fn files_below(root: &Path, folder: &Path, found: &mut Vec<File>) -> Result<(), 
     Ok(())
 }
 
-/// Files elsewhere that define the names that the suite's files need and do not define.
+/// Files elsewhere that define the names that the suite's files need but do not define.
 fn elsewhere(folder: &Path, files: &[File]) -> Vec<Source> {
     let headers: Vec<Header> = files.iter().map(|file| Header::of(&file.path, file.source.text())).collect();
     let mut needed: Vec<String> =
@@ -85,7 +86,7 @@ fn elsewhere(folder: &Path, files: &[File]) -> Vec<Source> {
     found
 }
 
-/// A path as it is shown: `/` between folders, and no `./` before it.
+/// A path for display: `/` between folders, and no `./` before it.
 fn shown(path: &Path) -> String {
     with_slashes(path.strip_prefix(".").unwrap_or(path))
 }

@@ -1,4 +1,4 @@
-//! `pelea test --init FOLDER...`: a first `expected.toml` from the present results.
+//! `pelea test --init FOLDER...`: creates an `expected.toml` from the current results.
 
 use super::find;
 use crate::clock::Seconds;

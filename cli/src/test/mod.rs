@@ -30,22 +30,22 @@ use clap::Args;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
-/// What to test.
+/// The arguments of `pelea test`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Folders; every folder with an `expected.toml` at or below them is a suite.
+    /// Folders; every folder with an `expected.toml` at or below them is a suite
     #[arg(default_value = ".")]
     paths: Vec<PathBuf>,
-    /// Only the cases whose names contain this; may be given several times.
+    /// Run only the cases whose names contain this text; may be repeated
     #[arg(long, value_name = "TEXT")]
     filter: Vec<String>,
-    /// Stay, and run a suite again when one of its files changes.
+    /// Watch the files, and run a suite again when one of its files changes
     #[arg(long, conflicts_with = "init")]
     watch: bool,
-    /// Write a first expected.toml into each folder given, from what is found now.
+    /// Create an expected.toml in each folder from the current results
     #[arg(long)]
     init: bool,
-    /// With --init: for how long to look for the cheapest plan of each problem.
+    /// With --init: search this many seconds for the cheapest plan of each problem
     #[arg(long, value_name = "S", requires = "init", default_value = "10")]
     timeout: Seconds,
 }
@@ -61,7 +61,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     watch::watch(&arguments.paths, &arguments.filter, console, |_| ControlFlow::Continue(()))
 }
 
-/// Runs every suite at those paths.
+/// Runs every suite at these paths.
 fn once(paths: &[PathBuf], filter: &[String], console: &mut Console<'_>) -> Exit {
     let mut folders = Vec::new();
     for path in paths {

@@ -1,4 +1,4 @@
-//! The report of a run: a line per case, the findings of failed cases, and the counts.
+//! The report of a test run: one line per case, the findings of failed cases, and the counts.
 
 use crate::console::{Console, Form};
 use crate::disk;
@@ -12,19 +12,19 @@ pub(super) struct Report<'a> {
     suites: usize,
     /// Suites that could not be read.
     unreadable: usize,
-    /// Cases that the filter leaves out.
+    /// Cases that the filter excludes.
     pub(super) left_out: usize,
     passed: usize,
     failed: Vec<Failed<'a>>,
 }
 
 impl<'a> Report<'a> {
-    /// Before the first case.
+    /// The report before the first case.
     pub(super) fn new(suites: usize, unreadable: usize) -> Self {
         Self { suites, unreadable, left_out: 0, passed: 0, failed: Vec::new() }
     }
 
-    /// A case is done.
+    /// Reports a finished case.
     pub(super) fn case(
         &mut self,
         suite: &'a Suite,
@@ -50,7 +50,7 @@ impl<'a> Report<'a> {
         }
     }
 
-    /// All cases are done: explains those that failed, then counts.
+    /// Reports the end: explains the failed cases, then the counts.
     pub(super) fn finish(self, time_ms: f64, console: &mut Console<'_>) -> Exit {
         if console.form() == Form::Text {
             for Failed { suite, name, findings } in &self.failed {

@@ -18,7 +18,8 @@ use std::sync::mpsc::{self, Receiver};
 use std::time::Duration;
 use suite::{Extent, touched};
 
-/// A change ends when no event has come for so long: an editor writes a file in several steps.
+/// A change is complete when no event has come for this long, because an editor writes a file in
+/// several steps.
 const SETTLED: Duration = Duration::from_millis(50);
 
 /// Runs suites again until `turn` breaks. `turn` is called when the watcher is ready, without folders, and after each

@@ -1,9 +1,10 @@
-//! The plans to judge, each with its task.
+//! Collects the plans to judge, each with its task.
 //!
-//! Either a domain, a problem and plans are given, or folders that hold all three. A folder among plans stands for
-//! every plan file in it and below. In folders of their own, files belong together by the rules of the crate
-//! `project`: a problem to the nearest file that defines its domain, a plan to the problem beside it whose name its
-//! own starts with, or to the only one.
+//! The arguments are either a domain, a problem and plans, or folders that contain all three. A
+//! folder among plans stands for every plan file in it and below. In folders of tasks, files belong
+//! together by the rules of the crate `project`: a problem belongs to the nearest file that defines
+//! its domain, and a plan to the problem beside it whose name is a prefix of its own, or to the
+//! only problem.
 //!
 //! Invariant: every argument that leads to no plan is a [`Fault`]; none is ignored silently.
 
@@ -51,7 +52,7 @@ pub(super) enum Fault {
 }
 
 impl Fault {
-    /// The plan that is not judged because of it.
+    /// The plan that this fault keeps from being judged.
     pub(super) fn plan(&self) -> Option<&Path> {
         match self {
             Self::NoProblem(plan) | Self::NoDomain { plan, .. } => Some(plan),
@@ -90,7 +91,7 @@ pub(super) fn gather(paths: &[PathBuf]) -> Gathered {
 }
 
 impl Gathered {
-    /// Plan files as they were given, folders opened.
+    /// The plan files of the arguments, with folders expanded.
     fn plans(&mut self, given: &[PathBuf]) -> Vec<PathBuf> {
         let mut plans = Vec::new();
         for path in given {
@@ -111,7 +112,7 @@ impl Gathered {
         plans
     }
 
-    /// Folders that hold domains, problems and plans.
+    /// Folders that contain domains, problems and plans.
     fn tasks(&mut self, folders: &[PathBuf]) {
         let mut paths = BTreeSet::new();
         for folder in folders {
@@ -170,7 +171,7 @@ impl Gathered {
     }
 }
 
-/// All files in a folder and below, in order. Hidden folders and links to folders are passed over.
+/// All files in a folder and below it, in order. Skips hidden folders and links to folders.
 fn below(folder: &Path, visit: &mut dyn FnMut(PathBuf)) {
     for path in crate::nearby::entries(folder) {
         if path.is_file() {

@@ -1,4 +1,4 @@
-//! One plan: read, judged and reported.
+//! Reads, judges and reports one plan.
 
 use crate::console::{Console, Form};
 use crate::render::{show, show_all};
@@ -15,7 +15,7 @@ use validator::{
 #[derive(Debug)]
 pub(super) struct Outcome {
     pub(super) word: Word,
-    /// Its part of the page.
+    /// Its section of the page.
     pub(super) section: Option<String>,
     /// The plan after a change that makes it valid.
     pub(super) fixed: Option<String>,
@@ -119,7 +119,7 @@ impl Judge<'_> {
         }
     }
 
-    /// A decomposition that was found, as a plan file has it.
+    /// The decomposition that was found, in the format of a plan file.
     fn show_decomposition(&self, verdict: &Verdict, console: &mut Console<'_>) {
         if let Verdict::Valid(valid) = verdict
             && let Some(found) = &valid.decomposition
@@ -158,7 +158,7 @@ fn help(record: &VerdictRecord) -> Option<String> {
     (!texts.is_empty()).then(|| texts.join("\nor "))
 }
 
-/// Whether the parser has reported the same already.
+/// Whether the parser has already reported the same finding.
 fn reported_by_the_parser(verdict: &Verdict) -> bool {
     matches!(
         verdict,

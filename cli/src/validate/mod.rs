@@ -1,9 +1,10 @@
-//! `pelea validate DOMAIN PROBLEM PLAN...` or `pelea validate FOLDER...`: one verdict a line.
+//! `pelea validate DOMAIN PROBLEM PLAN...` or `pelea validate FOLDER...`: one verdict per line.
 //!
-//! The plans are gathered first (`gather`); then all cores judge (`judge`), and the verdicts come out in the order of
-//! the plans. With several tasks a core takes a task with all its plans, so memory holds at most one task per core;
-//! with one task a core takes a plan. If there are several verdicts, a last line counts them. Invariant: the exit code
-//! is 0 only if at least one plan was given and every plan was read to its end and is valid.
+//! The plans are collected first (`gather`). Then all cores judge them (`judge`), and the verdicts
+//! are written in the order of the plans. If there are several tasks, a core takes a task with all
+//! its plans, so memory holds at most one task per core; otherwise a core takes a plan. If there
+//! are several verdicts, a last line counts them. Invariant: the exit code is 0 only if at least
+//! one plan was given and every plan was read completely and is valid.
 //!
 //! The crate `validator` renders a verdict as text, JSON and HTML.
 
@@ -26,37 +27,37 @@ use std::path::{Path, PathBuf};
 use tally::Tally;
 use validator::{Number, Precision, Validator, VerdictRecord, Word, html};
 
-/// What to validate.
+/// The arguments of `pelea validate`.
 #[derive(Debug, Args)]
 #[command(
     override_usage = "pelea validate [OPTIONS] DOMAIN PROBLEM PLAN...\n       pelea validate [OPTIONS] FOLDER..."
 )]
 pub(crate) struct Arguments {
-    /// A domain, a problem and plans (`-` is standard input, a folder stands for the plan files in it); or folders
-    /// that hold domains, problems and plans.
+    /// A domain, a problem and plans (`-` is standard input, a folder stands for the plan files in
+    /// it); or folders that contain domains, problems and plans
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
-    /// Show what each step changes.
+    /// Show the changes of each step
     #[arg(short = 'v', long, visible_alias = "verbose")]
     trace: bool,
-    /// Say of invalid plans which single changes make them valid, if some are found: they have been tried.
+    /// Suggest single changes that make an invalid plan valid; each was validated
     #[arg(long)]
     advice: bool,
-    /// Write the one plan that is given, after the first change of it that makes it valid.
+    /// Write the given plan to this file, repaired by the first suggested change
     #[arg(long, value_name = "FILE")]
     fix: Option<PathBuf>,
-    /// Write a page with charts, states and explanations.
+    /// Write an HTML page with charts, states and explanations
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// What is nearer than this, in seconds, must not interfere; 0 asks only of what happens at exactly one time.
+    /// Minimum distance of interfering happenings, in seconds; 0 checks only simultaneous ones
     #[arg(long, value_name = "SECONDS", default_value = "0.001", value_parser = seconds)]
     epsilon: Number,
-    /// How far a duration may be from what it must be, in seconds: planners round what they write.
+    /// Tolerance for durations, in seconds, because planners round their output
     #[arg(long, value_name = "SECONDS", default_value = "0.01", value_parser = seconds)]
     tolerance: Number,
 }
 
-/// A length of time, exactly as it is written.
+/// A duration in seconds, parsed exactly.
 fn seconds(text: &str) -> Result<Number, &'static str> {
     let decimal: pddl::Decimal = text.parse().map_err(|_| "a number of seconds such as 0.001 is wanted")?;
     if decimal.is_negative() { Err("it must not be negative") } else { Ok(Number::from_decimal(decimal)) }
@@ -137,14 +138,14 @@ fn unreadable(plan: &Path, why: String, console: &mut Console<'_>) {
     show_verdict(&record, console);
 }
 
-/// Who works on the plans of a task.
+/// The threads that judge the plans of a task.
 #[derive(Clone, Copy, Debug)]
 enum Cores {
     One,
     All,
 }
 
-/// Reads a task and judges its plans; `done` is called for each of them in order.
+/// Reads a task and judges its plans; calls `done` for each of them in order.
 fn one_task(
     group: &Group,
     arguments: &Arguments,

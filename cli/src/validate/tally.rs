@@ -46,7 +46,7 @@ impl Tally {
         format!("{} plans: {}", self.plans(), parts.join(", "))
     }
 
-    /// The worst outcome; without any plan it is not success.
+    /// The worst outcome; without any plan it is an error.
     pub(super) fn exit(&self) -> Exit {
         let outcomes = [
             (self.invalid > 0, Exit::No),

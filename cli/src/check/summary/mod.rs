@@ -1,4 +1,4 @@
-//! `pelea check --summary PATH...`: which files of a collection can be read.
+//! `pelea check --summary PATH...`: reports the files of a collection that can be parsed.
 //!
 //! A line per file, `parsed` or `failed` with the first reason, then totals by folder (the folders in the given
 //! paths) and kind. Domains are found by their place and the names of files (`project`), since a collection has many
@@ -40,9 +40,9 @@ struct Entry {
 /// The outcome of a file.
 #[derive(Clone, Debug, Default)]
 struct Outcome {
-    /// Why it could not be read.
+    /// The reason why it could not be read.
     failed: Option<String>,
-    /// Parts of the language that were read and have no model.
+    /// Parsed features of the language that have no model.
     unsupported: Vec<String>,
 }
 
@@ -146,12 +146,12 @@ fn entry(path: PathBuf, folder: String) -> (Entry, Outcome) {
     (Entry { path, kind: header.kind, name: header.name, needs, folder }, outcome)
 }
 
-/// Which file belongs to which.
+/// The files that belong together.
 struct Collection<'a> {
     entries: &'a [Entry],
-    /// Of each domain its problems, of each problem its plans.
+    /// The problems of each domain, and the plans of each problem.
     members: Vec<Vec<usize>>,
-    /// Files that belong to no other.
+    /// Files that belong to no other file.
     stray: Vec<usize>,
     domains: Vec<usize>,
 }
@@ -198,7 +198,7 @@ impl<'a> Collection<'a> {
         }
     }
 
-    /// A file with everything that needs it fails.
+    /// Marks a file and all files that need it as failed.
     fn fail(&self, index: usize, reason: &str) -> Vec<(usize, Outcome)> {
         let mut outcomes = vec![(index, Outcome::failed(reason))];
         let because = format!("{} has failed", self.entries[index].path.display());
