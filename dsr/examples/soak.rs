@@ -137,10 +137,10 @@ impl Times {
     }
 }
 
-/// Who else is there.
+/// Disturbances beside the writers and readers.
 #[derive(Clone, Copy)]
 enum Beside {
-    Nobody,
+    Nothing,
     Stalled,
     Panicking,
 }
@@ -193,7 +193,7 @@ fn run(seconds: u64, beside: Beside) -> Result<(), Failure> {
     println!(
         "{}: {} updates/s, none lost; {} snapshots/s, p50 < {:?}, p99.9 < {:?}, {} of {} beyond 1 ms, longest {:?}",
         match beside {
-            Beside::Nobody => "nobody else",
+            Beside::Nothing => "no disturbance",
             Beside::Stalled => "a reader and two subscribers that stall",
             Beside::Panicking => "a subscriber that panics",
         },
@@ -212,7 +212,7 @@ fn run(seconds: u64, beside: Beside) -> Result<(), Failure> {
 fn main() -> ExitCode {
     let seconds = std::env::args().nth(1).and_then(|word| word.parse().ok()).unwrap_or(10);
     println!("{THREADS} writers, {THREADS} readers, {NODES} nodes, {seconds} s each");
-    let all = [Beside::Nobody, Beside::Stalled, Beside::Panicking];
+    let all = [Beside::Nothing, Beside::Stalled, Beside::Panicking];
     match all.into_iter().try_for_each(|beside| run(seconds, beside)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {

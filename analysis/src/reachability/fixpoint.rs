@@ -1,8 +1,8 @@
-//! The fixpoint: rules are applied until nothing new follows.
+//! Computes the fixpoint: applies rules until nothing new follows.
 //!
-//! Idea: semi-naive evaluation. Each new row triggers the rules that have an atom of its relation, and is joined with the
-//! rows before it. A binding for which only a whole condition fails waits until there is more. Cost: one unit of work for
-//! each step of a join.
+//! Idea: semi-naive evaluation. Each new row triggers the rules that have an atom of its relation,
+//! and is joined with the earlier rows. If a binding fails only because of a residual check, it is
+//! tried again when there are more rows. Cost: one unit of work for each step of a join.
 
 use std::rc::Rc;
 
@@ -16,21 +16,22 @@ use super::rule::{Check, Origin, Rule};
 use super::world::{UNBOUND, World, with_row};
 use crate::intervals::Hulls;
 
-/// Join steps before the analysis gives up: some 50 ms when optimised.
+/// The most join steps of the analysis: about 50 ms in release mode.
 const STEPS: u64 = 4_000_000;
-/// What a new row costs, in steps: it goes into the relation and all its indices, each somewhere else in memory.
+/// The cost of a new row in steps: it is added to the relation and all its indices, which are in
+/// different places in memory.
 const ROW: usize = 1;
 
 /// The fixpoint.
 pub(super) struct Reachability<'a> {
     pub(super) compiled: Compiled<'a>,
     pub(super) indices: Indices,
-    /// By rule.
+    /// By rule: whether it has fired.
     fired: Vec<bool>,
 }
 
 impl<'a> Reachability<'a> {
-    /// Computes it; `None` if the budget does not suffice.
+    /// Computes the fixpoint; `None` if the budget does not suffice.
     pub(super) fn new(world: World<'a>, hulls: &Rc<Hulls>) -> Option<Self> {
         let compiled = compile::compile(&Rc::new(world), hulls);
         let mut all = Self { compiled, indices: Indices::default(), fired: Vec::new() };
@@ -47,7 +48,7 @@ impl<'a> Reachability<'a> {
         &self.compiled.evaluator.hulls
     }
 
-    /// All origins of rules that never fire.
+    /// The origins of all rules that never fire.
     pub(super) fn silent(&self) -> Vec<&Origin> {
         let fired: FxHashSet<&Origin> = self
             .compiled
@@ -60,7 +61,7 @@ impl<'a> Reachability<'a> {
         self.compiled.origins.iter().filter(|o| !fired.contains(o)).collect()
     }
 
-    /// Applies the rules from `first` on until nothing new follows. What the rules before derive is complete by then.
+    /// Applies the rules from `first` on until nothing new follows. Earlier rules must be complete.
     fn saturate(&mut self, first: usize, meter: &Meter<'_>) -> Result<(), Interrupted> {
         let Self { compiled: Compiled { evaluator, rows, rules, .. }, indices, fired } = self;
         fired.resize(rules.len(), false);
@@ -146,7 +147,7 @@ impl<'a> Reachability<'a> {
                     )?;
                 }
             }
-            // A residual check that failed may hold now that there are more rows.
+            // A residual check that failed may succeed now that there are more rows.
             let mut moved = false;
             let waiting: Vec<_> = pending.drain().collect();
             for (r, binding) in waiting {
@@ -175,7 +176,8 @@ fn visible(rows: &Rows, changing: &[bool], published: &[u32], relation: Relation
     if changing[relation.0 as usize] { published[relation.0 as usize] } else { rows.count(relation) }
 }
 
-/// An atom of a rule that a new row may match, and the plan from there, made when it is first needed.
+/// An atom of a rule that a new row may match, and the join plan from there, created when first
+/// needed.
 struct Trigger {
     rule: usize,
     atom: usize,

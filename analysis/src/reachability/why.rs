@@ -1,10 +1,11 @@
-//! Why something never fires: from what it needs, along the rules that could make that true, to the root.
+//! Explains why a rule never fires: follows the rules that could satisfy it back to the root cause.
 //!
-//! Problem: "can never apply" is of no use without the reason, and a single mistake silences everything behind it. Idea:
-//! among the atoms and checks of a rule, find a smallest part that no binding satisfies. If it is one atom, ask the rules
-//! that could make it true, with the values that it gives them; if there are none, that atom is the root. Cost: a join
-//! for each atom and each step of the chain, each with a budget, and one budget for all. Where a budget ends, the chain
-//! ends with what is known.
+//! Problem: "can never apply" does not help without the reason, and a single mistake makes every
+//! later action unreachable. Idea: among the atoms and checks of a rule, find a smallest part that
+//! no binding satisfies. If it is a single atom, continue with the rules that could make it true,
+//! with the values that it gives them. If there are none, that atom is the root. Cost: a join for
+//! each atom and each step of the chain; each join has a budget, and there is one budget for all.
+//! If a budget is used up, the chain ends with the causes found so far.
 //!
 //! Source: minimal unsatisfiable parts by deletion: Chinneck & Dravnieks, "Locating minimal
 //! infeasible constraint sets in linear programs", ORSA Journal on Computing 1991.
@@ -24,16 +25,16 @@ use super::world::{UNBOUND, resolve};
 use crate::happening::{Phase, Schema};
 use crate::intervals::Hulls;
 
-/// Join steps for one question.
+/// The most join steps for one question.
 const STEPS: u64 = 300_000;
-/// Join steps for all questions together.
+/// The most join steps for all questions.
 const REASONS: u64 = 3_000_000;
-/// Links of a chain.
+/// The most links of a chain.
 const DEPTH: usize = 8;
-/// Makers that are followed at each link.
+/// The most makers that are followed at each link.
 const WIDTH: usize = 6;
 
-/// Part of a condition, with the values that are known.
+/// A part of a condition, with the known values of its variables.
 #[derive(Clone, Debug)]
 pub(super) enum Piece {
     /// An atom.
@@ -42,31 +43,32 @@ pub(super) enum Piece {
     Check(Check, Rc<[u32]>),
 }
 
-/// Why a rule does not fire.
+/// The cause why a rule does not fire.
 #[derive(Clone, Debug)]
 pub(super) enum Cause {
     /// There is no object for a parameter.
     NoObject(TypeSet),
-    /// No initial fact is like it, and no effect could make one.
+    /// No initial fact matches it, and no effect makes it true.
     NothingMakes(Piece),
-    /// Only these could make it true, and they do not; the next link says why of the first.
+    /// Only these rules could make it true, and they never fire; the next link explains the first
+    /// of them.
     OnlyMadeBy(Piece, Vec<Origin>),
-    /// Only these could make it true, and they need it themselves.
+    /// Only these rules could make it true, and they need it themselves.
     Circle(Piece, Vec<Origin>),
-    /// Each alone can hold, not all at once.
+    /// Each part can hold alone, but not all together.
     NeverTogether(Vec<Piece>),
-    /// It is false whatever happens.
+    /// It is false in every state.
     False,
-    /// The search for the reason was too long.
+    /// The search for the cause exceeded its budget.
     Unknown,
 }
 
 /// One step of the explanation.
 #[derive(Clone, Debug)]
 pub(super) struct Link {
-    /// What does not fire.
+    /// The rule part that does not fire.
     pub(super) origin: Origin,
-    /// Why.
+    /// The cause.
     pub(super) cause: Cause,
 }
 
@@ -84,25 +86,25 @@ impl Sink for Exists {
 
 type Trail = Vec<(RelationId, Vec<u32>)>;
 
-/// A conjunct of the goal that can never hold.
+/// A conjunct of the goal that never holds.
 pub(super) struct DeadGoal<'a> {
     /// The conjunct.
     pub(super) condition: &'a Condition,
-    /// The objects that a `forall` around it gives to its slots.
+    /// The values of the variables of its enclosing `forall`s.
     pub(super) values: Vec<(VariableId, ObjectId)>,
-    /// Why.
+    /// The explanation.
     pub(super) chain: Vec<Link>,
 }
 
-/// Answers why something never fires, within one budget for all questions.
+/// Explains why rules never fire, within one budget for all questions.
 pub(super) struct Explainer<'a> {
     reachability: Reachability<'a>,
-    /// Steps that questions may still take.
+    /// The remaining steps for all questions.
     left: u64,
 }
 
 impl<'a> Explainer<'a> {
-    /// Of a fixpoint.
+    /// An explainer for a fixpoint.
     pub(super) fn new(reachability: Reachability<'a>) -> Self {
         Self { reachability, left: REASONS }
     }
@@ -116,7 +118,7 @@ impl<'a> Explainer<'a> {
         &self.reachability.compiled
     }
 
-    /// Why a part of a schema never fires.
+    /// The explanation why a part of a schema never fires.
     pub(super) fn why(&mut self, origin: &Origin) -> Vec<Link> {
         let rule = self.compiled().rules.iter().find(|r| r.origin == *origin).cloned();
         let Some(rule) = rule else {
@@ -126,7 +128,7 @@ impl<'a> Explainer<'a> {
         self.explain(&rule, &given, &mut Vec::new())
     }
 
-    /// The conjuncts of the goal that can never hold, at most `limit` of them.
+    /// The conjuncts of the goal that never hold, at most `limit` of them.
     pub(super) fn dead_goals(&mut self, limit: usize) -> Vec<DeadGoal<'a>> {
         let Some(problem) = self.compiled().evaluator.world.problem else { return Vec::new() };
         let mut dead = Vec::new();
@@ -155,7 +157,7 @@ impl<'a> Explainer<'a> {
         dead
     }
 
-    /// Whether some binding satisfies the rule; `None` if that takes too long.
+    /// Whether some binding satisfies the rule; `None` if the budget does not suffice.
     fn satisfiable(&mut self, rule: &Rule, given: &[u32]) -> Option<bool> {
         let Reachability { compiled: Compiled { evaluator, rows, .. }, indices, .. } = &mut self.reachability;
         let mut bound: Vec<bool> = given.iter().map(|&g| g != UNBOUND).collect();
@@ -193,7 +195,7 @@ impl<'a> Explainer<'a> {
                 blocked.push((atom, makers));
             }
         }
-        // What nothing makes is the root; else what comes first.
+        // An atom without makers is the root; otherwise take the first atom.
         blocked.sort_by_key(|(_, makers)| !makers.is_empty());
         if let Some((atom, makers)) = blocked.into_iter().next() {
             let pattern = &rule.body[atom];
@@ -208,7 +210,7 @@ impl<'a> Explainer<'a> {
         if self.satisfiable(rule, given) != Some(false) {
             return link(Cause::Unknown);
         }
-        // What nothing changes is kept longest: it says most.
+        // Drop checks before atoms, because atoms explain more.
         for drop in 0..rule.checks.len() {
             let fewer: Vec<usize> = checks.iter().copied().filter(|&c| c != drop).collect();
             if self.satisfiable(&part(rule, &atoms, &fewer), given) == Some(false) {
@@ -302,7 +304,7 @@ impl<'a> Explainer<'a> {
         makers
     }
 
-    /// What a chain of causes ends in.
+    /// The root cause of a chain.
     pub(super) fn root_cause(&self, chain: &[Link]) -> RootCause {
         let makes = |p: &Pattern| {
             self.compiled().rules.iter().any(|r| r.heads.iter().any(|h| h.relation == p.relation))
@@ -319,7 +321,8 @@ impl<'a> Explainer<'a> {
             {
                 return if makes(pattern) { RootCause::Facts } else { RootCause::Data };
             }
-            // A task that only its own methods carry out: an endless recursion, which another lint says.
+            // A task that is reachable only through its own methods: an endless recursion, which
+            // another lint reports.
             Some(Cause::Circle(Piece::Atom(pattern, _), _))
                 if matches!(self.name(pattern.relation), Some(Named::Task(_))) =>
             {
@@ -355,7 +358,7 @@ impl<'a> Explainer<'a> {
         Some(pddl::model::PredicateId(u32::try_from(at).ok()?))
     }
 
-    /// What a relation is called.
+    /// The name of a relation.
     pub(super) fn name(&self, relation: RelationId) -> Option<Named> {
         use pddl::model::{FunctionId, TaskId};
         let find = |all: &[RelationId]| u32::try_from(all.iter().position(|&r| r == relation)?).ok();
@@ -369,20 +372,22 @@ impl<'a> Explainer<'a> {
     }
 }
 
-/// What something unreachable comes from.
+/// The origin of something unreachable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RootCause {
-    /// The problem's objects and facts that nothing changes: another problem may have others.
+    /// The problem's objects and facts that nothing changes; another problem may have others.
     Data,
-    /// A predicate that nothing makes true and that no fact has, a task without an end: other lints say it.
+    /// A predicate without facts or effects that make it true, or a task with endless recursion;
+    /// other lints report these.
     Declared,
-    /// An atom that no fact is like and that no effect makes true, of a predicate that effects make true elsewhere.
+    /// An atom that matches no fact and that no effect makes true; effects make other atoms of its
+    /// predicate true.
     Facts,
-    /// What actions do.
+    /// The actions of the domain.
     Domain,
 }
 
-/// What a relation stands for.
+/// The declaration behind a relation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Named {
     /// A predicate.
@@ -393,7 +398,7 @@ pub(super) enum Named {
     Task(pddl::model::TaskId),
 }
 
-/// The rule with some of its atoms and checks only, without heads.
+/// The rule with only some of its atoms and checks, without heads.
 fn part(rule: &Rule, atoms: &[usize], checks: &[usize]) -> Rule {
     Rule {
         origin: rule.origin.clone(),

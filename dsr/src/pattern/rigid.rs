@@ -6,8 +6,8 @@
 //! without the part that these share, so it contains a changed edge if and only if their labels differ. Frames with the
 //! same label are a rigid group: the metrics inside of it have not changed, and only pairs across two groups are
 //! computed again. Each such pair has an end outside of any given group, so joins begin at the frames of all groups but
-//! the largest one. A person who moves is one beginning. A floor that moves with everything on it is none, for patterns
-//! that measure between things on it.
+//! the largest one. If a person moves, the join begins at one frame. If a floor moves with everything on it, patterns
+//! that measure only between things on it have no frame to begin at.
 //!
 //! Invariant: labels in the state after the changes are enough. A frame without a label has the same edges above it as
 //! before; two frames with the same label have the same edges up to the labelled one. This holds for several deltas

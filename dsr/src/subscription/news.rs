@@ -60,7 +60,7 @@ impl Subscription {
         self.trackers[pattern.index()].held()
     }
 
-    /// The next news, if there is any. Commits that change nothing of what was asked for are passed over.
+    /// The next news, if there is any. Skips commits that do not concern the subscription.
     pub fn try_recv(&mut self) -> Option<News> {
         loop {
             let told = match self.begin() {
@@ -86,7 +86,7 @@ impl Subscription {
         }
     }
 
-    /// The state of the beginning, once; the first commit that is told may be the beginning instead.
+    /// Returns the first state, once; `None` if the queue has none.
     fn begin(&mut self) -> Option<Told> {
         if std::mem::replace(&mut self.begun, true) {
             return None;
@@ -102,7 +102,7 @@ impl Subscription {
         self.queue.on_wake(&(Arc::new(wake) as Waker));
     }
 
-    /// Whether nothing will ever come again.
+    /// Whether no further news will come.
     pub fn is_closed(&self) -> bool {
         self.begun && self.queue.is_closed()
     }

@@ -1,4 +1,4 @@
-//! Edits: what a transaction is a list of.
+//! Edits: the elements of a transaction.
 
 use std::sync::Arc;
 
@@ -60,14 +60,14 @@ pub enum Edit {
     AddEdge { from: NodeRef, label: LabelId, to: NodeRef },
     /// Removes an edge with its attributes; no change if it does not exist.
     RemoveEdge { from: NodeRef, label: LabelId, to: NodeRef },
-    /// Sets an attribute; no change if it has this value.
+    /// Sets an attribute; no change if it already has this value.
     SetAttribute { holder: HolderRef, attribute: AttributeId, value: NewValue },
-    /// Removes an attribute; no change if it, or the edge that would carry it, does not exist.
+    /// Removes an attribute; no change if the attribute or its edge does not exist.
     ClearAttribute { holder: HolderRef, attribute: AttributeId },
     /// Sets the static pose of `child` in the frame of `parent`. It holds at all times until it is changed.
     SetTransform { parent: NodeRef, child: NodeRef, pose: Pose },
     /// Adds the pose of a moving `child` in the frame of `parent` at a time. The transform keeps the poses of the ten
-    /// seconds before its newest. No change if the time lies further back.
+    /// seconds before its newest. No change if the time is older than that.
     SampleTransform { parent: NodeRef, child: NodeRef, time: Time, pose: Pose },
     /// Removes the transform between `parent` and `child`; no change if there is none.
     RemoveTransform { parent: NodeRef, child: NodeRef },

@@ -5,13 +5,13 @@
 pub enum TokenKind {
     /// Blanks, line ends, a byte order mark.
     Whitespace,
-    /// `; …` up to the line's end.
+    /// `; …` up to the end of the line.
     Comment,
     /// `(`
     Open,
     /// `)`
     Close,
-    /// A name or an operator: any word that is none of the other kinds.
+    /// A name or an operator: any word of no other kind.
     Name,
     /// `?name`
     Variable,

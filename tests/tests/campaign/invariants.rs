@@ -1,17 +1,17 @@
-//! What every run owes the patient, read off its records.
+//! The invariants of every run, checked on its records.
 
 use crate::scenario::MadeUp;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What is spoken to somebody who is not in view, or who asks for help whatever the test does.
+/// The utterances that may be spoken to a person who is not in view, or who asks for help.
 const SUMMONS: [&str; 3] = ["sit-down", "stay-calm", "help-is-coming"];
 
 /// Longer than all disruptions, deadlines and fallbacks of one mission together.
 const LONGEST: f64 = 9_000.0;
 const MOST_RECORDS: usize = 6_000;
 
-/// The graph as the records tell it, and what has been found.
+/// The graph as the records report it, and the findings.
 #[derive(Default)]
 struct Run {
     tokens: BTreeSet<String>,
@@ -20,11 +20,11 @@ struct Run {
     speaking: Option<String>,
     chosen: BTreeMap<String, String>,
     delivered: Option<Value>,
-    /// Somebody asked for help and was not seen to.
+    /// The person asked for help and has not been attended to.
     unheard: bool,
-    /// The ear works, as far as the room is concerned.
+    /// The room reports that the microphone works.
     microphone: bool,
-    /// Answers that were given when, and have not been recorded yet.
+    /// The times of answers that were given and are not recorded yet.
     given: Vec<f64>,
     broken: Vec<String>,
 }
@@ -81,7 +81,7 @@ impl Run {
                 self.finding(record, &format!("{item} was answered with {option} after {before}"));
             }
             if token.contains(" was chosen in ") && self.given.pop().is_none() {
-                self.finding(record, &format!("nobody said {token}"));
+                self.finding(record, &format!("no answer in the room explains {token}"));
             }
             if made_up.sound && (token.ends_with(" is doubted") || token.ends_with(" is broken")) {
                 self.finding(record, &format!("{token}, and no device failed"));
@@ -167,7 +167,7 @@ impl Run {
             self.finding(result, "accomplished, and the person still asks for help");
         }
         if self.unheard {
-            self.finding(result, "help was asked for, and nobody was called");
+            self.finding(result, "help was asked for, and the clinician was not called");
         }
         if !accomplished {
             if !records.iter().any(|r| r["event"] == "fell_back") {
@@ -180,7 +180,7 @@ impl Run {
         let silent =
             result["report"]["items"].as_array().unwrap().iter().any(|i| i["status"] == "unanswered");
         if made_up.willing && made_up.sound && silent {
-            self.finding(result, "somebody who always answers counts as silent");
+            self.finding(result, "an item is unanswered although the person always answers");
         }
         for token in ["robot is speaking", "robot is showing", "person waiting answer", "person can answer"] {
             if accomplished && self.holds(token) {

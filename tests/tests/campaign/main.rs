@@ -1,11 +1,10 @@
-//! A campaign: scenarios made up from seeds, each played to its end and held against what must never fail.
+//! A campaign: random scenarios from seeds, each run to its end and checked for invariants.
 //!
-//! Problem: the scenarios in a mission's folder hold what somebody thought of. Idea: make up patients,
-//! clinicians and one to four disruptions at any time, step or condition, from a seed; play each as a file
-//! through the command line; and ask not for an outcome but for what every run owes the patient
-//! (`invariants`). A finding is the seed: `CAMPAIGN_SEEDS=1234..1235` plays it again and leaves its file
-//! behind. Cost: about 50 ms a run; 60 runs are always played, `CAMPAIGN_SEEDS=0..5000` plays as many as
-//! one likes.
+//! Problem: the scenarios in a mission's folder cover only the cases that their authors thought of. Idea:
+//! generate patients, clinicians and one to four disruptions at any time, step or condition from a seed;
+//! run each as a file through the command line; and check the invariants of every run (`invariants`)
+//! instead of one outcome. A finding names its seed: `CAMPAIGN_SEEDS=1234..1235` repeats the run and keeps
+//! its file. Cost: about 50 ms a run. 60 runs are always executed; `CAMPAIGN_SEEDS=0..5000` executes more.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

@@ -1,15 +1,15 @@
-//! Dependencies that no source of a crate names: each costs everyone's build and draws an arrow that is none.
+//! Finds unused dependencies: each one slows every build and adds a false arrow to the architecture.
 //!
-//! A dependency is used when its name stands before `::`, or behind `use`, in the sources of the crate. Names in
-//! comments count too: this finds what is forgotten, it proves nothing. Dependencies of tests are not looked at,
-//! since tests share files across crates.
+//! A dependency is used if its name is followed by `::`, or follows `use`, in the sources of the crate. Names in
+//! comments count too, so the check finds forgotten dependencies but proves nothing. Dependencies of tests are not
+//! checked, because tests share files across crates.
 
 use crate::failure::Failure;
 use crate::sources;
 use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::path::Path;
 
-/// What is idle, a sentence each.
+/// Returns one sentence for each unused dependency.
 pub(crate) fn check(root: &Path) -> Result<Vec<String>, Failure> {
     let metadata = MetadataCommand::new().manifest_path(root.join("Cargo.toml")).no_deps().exec()?;
     let mut findings = Vec::new();
@@ -30,7 +30,7 @@ fn text_of(folder: &Path) -> Result<String, Failure> {
     sources::rust_files(folder)?.iter().map(|path| sources::read(path)).collect()
 }
 
-/// Whether `name::` or `use name` stands in the text, as a whole word.
+/// Whether the text contains `name::` or `use name`, as a whole word.
 fn names(text: &str, name: &str) -> bool {
     text.match_indices(name).any(|(at, _)| {
         let (before, after) = (&text[..at], &text[at + name.len()..]);

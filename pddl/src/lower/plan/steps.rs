@@ -206,7 +206,7 @@ impl<'a> Reader<'a> {
     fn sequential_step(&mut self, node: Node<'_>) -> Option<PlanStep> {
         match self.head(node)? {
             StepHead::Action(action) => self.instantaneous(node, action),
-            // A step with a duration makes the plan temporal, so there is none here.
+            // A durative action makes the plan temporal, so a sequential plan never has one.
             StepHead::DurativeAction(_) => None,
         }
     }
