@@ -100,6 +100,21 @@ fn a_run_can_be_looked_at_afterwards() {
         exit == Exit::Yes && shown.starts_with("version ") && err.contains("torn record at byte"),
         "{err}"
     );
+    // A run at full speed is synced only at its end.
+    let mut damaged = bytes.clone();
+    let middle = bytes.len() / 2;
+    damaged[middle..middle + 4].fill(0xff);
+    std::fs::write(at("damaged.dsr"), damaged).unwrap();
+    let output = at("damaged.mcap");
+    for command in
+        [&["show"][..], &["log"], &["diff", "1", "2"], &["query", "(robot ?r)"], &["export", "-o", &output]]
+    {
+        let path = at("damaged.dsr");
+        let arguments: Vec<_> = [&["dsr", command[0], &path], &command[1..]].concat();
+        let (exit, _, err) = pelea(&arguments);
+        assert_eq!(exit, Exit::Unreadable, "{command:?}: {err}");
+        assert!(err.contains("damaged.dsr` is corrupt at byte") && !err.contains("torn"), "{err}");
+    }
     std::fs::write(at("other.dsr"), b"something else").unwrap();
     let (exit, _, err) = pelea(&["dsr", "show", &at("other.dsr")]);
     assert!(exit == Exit::Unreadable && err.contains("holds no state of a journal"), "{err}");

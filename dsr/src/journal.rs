@@ -2,13 +2,13 @@
 //!
 //! Problem: what a robot knew and did must outlive the process, for later inspection, and no disk may slow the robot.
 //! Idea: a commit leaves a reference to its delta in a [`feed`]. One thread takes all waiting deltas as a group,
-//! appends them as one checksummed frame, and syncs when the [`Durability`] requires it. A journal is a sequence of
+//! appends them, each as a checksummed frame, and syncs when the [`Durability`] requires it. A journal is a sequence of
 //! segments. Each begins with the vocabulary and a whole state, so old ones can be deleted and any one can be read
 //! alone.
 //!
 //! Invariants: a journal that is read back gives each version to the byte, or reports which ones are missing. A writer
-//! waits for no disk, and at most [`Settings::waiting_bytes`] wait for one. A torn end is distinguished from later
-//! damage. No bytes make the reader panic.
+//! waits for no disk, and at most [`Settings::waiting_bytes`] wait for one. Only what an interrupted append leaves is a
+//! torn end; anything else is damage, and nothing is ever cut from a file. No bytes make the reader panic.
 //!
 //! This module is the only one of the crate that uses threads, clocks and files. It opens only the files of a
 //! [`Folder`] and those that [`Recording::open`] is given.

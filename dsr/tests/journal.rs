@@ -164,7 +164,7 @@ fn a_torn_tail_is_cut_at_every_byte() {
 fn damage_is_named_with_its_offset_and_what_is_before_it_can_be_read() {
     let (versions, memory) = recorded(&eventful(), settings());
     let whole = memory.segments().remove(0);
-    let (mut corrupt, mut torn) = (0, 0);
+    let mut corrupt = 0;
     for at in 0..whole.len() {
         let mut bytes_ = whole.clone();
         bytes_[at] ^= 0x10;
@@ -176,15 +176,10 @@ fn damage_is_named_with_its_offset_and_what_is_before_it_can_be_read() {
                 assert!(*offset <= at);
                 corrupt += 1;
             }
-            // The last record: nothing behind it says that it was whole.
-            [Damage::Torn { offset, .. }] => {
-                assert!(*offset <= at);
-                torn += 1;
-            }
             other => panic!("byte {at}: {other:?}"),
         }
     }
-    assert!(corrupt > 10 * torn && torn > 0, "{corrupt} {torn}");
+    assert!(corrupt > 1_000, "{corrupt}");
 }
 
 #[test]

@@ -110,7 +110,7 @@ fn a_file_that_ends_between_the_frames_of_its_state_is_named() {
     }
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("00000000.dsr"), older).unwrap();
-    std::fs::write(folder.path().join("00000001.dsr"), "").unwrap();
+    std::fs::write(folder.path().join("00000001.dsr.part"), "").unwrap();
     let recording = Recording::open(folder.path()).unwrap();
     assert!(matches!(recording.damage(), [Damage::Unfinished { .. }]), "{:?}", recording.damage());
 }

@@ -60,7 +60,12 @@ pub(super) fn open(path: &Path, console: &mut Console<'_>) -> Result<(Recording,
             | Damage::Unfinished { .. }
             | Damage::OtherVocabulary { .. }
             | Damage::OtherHistory { .. } => console.note(&format!("note: {damage}")),
-            Damage::Corrupt { .. } | Damage::Format { .. } | Damage::Unreadable { .. } => {
+            Damage::Corrupt { .. }
+            | Damage::Short { .. }
+            | Damage::Missing { .. }
+            | Damage::Foreign { .. }
+            | Damage::Format { .. }
+            | Damage::Unreadable { .. } => {
                 render::error(damage.to_string(), console);
                 exit = Exit::Unreadable;
             }

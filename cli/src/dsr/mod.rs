@@ -1,7 +1,7 @@
 //! `pelea dsr`: the graph of a past run, at any version.
 //!
 //! The commands read a journal: the folder that `pelea run --journal` wrote, or one file of it. An
-//! incomplete end is reported and cut off. Damage is an error with the position of the byte; the
+//! incomplete end is reported and left out. Damage is an error with the position of the byte; the
 //! undamaged part is shown nevertheless. With `--json`, `show` writes one record of the kind
 //! `graph` (the export), `log` a record `commit` per commit, `diff` one record `difference`, and
 //! `query` a record `match` per match.

@@ -41,12 +41,23 @@ pub enum RecordingError {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[expect(missing_docs, reason = "the fields are what the variant is about")]
 pub enum Damage {
-    /// A record that was being written when the process or the machine stopped. It was never durable.
-    #[error("`{segment}` ends in a torn record at byte {offset}: {bytes} bytes cut")]
+    /// An append that was interrupted when the process or the machine stopped. It was never durable, and nothing intact
+    /// follows it. The bytes stay in the file.
+    #[error("`{segment}` ends in a torn record at byte {offset}: {bytes} bytes are left out")]
     Torn { segment: Arc<str>, offset: usize, bytes: usize },
-    /// The bytes on the disk have changed.
-    #[error("`{segment}` is corrupt at byte {offset}; what follows in it cannot be read")]
-    Corrupt { segment: Arc<str>, offset: usize },
+    /// Bytes that were written have changed, or were synced and are missing.
+    #[error("`{segment}` is corrupt at byte {offset}; the {bytes} bytes from there on cannot be read")]
+    Corrupt { segment: Arc<str>, offset: usize, bytes: usize },
+    /// What was synced behind the last byte is missing.
+    #[error("`{segment}` ends too early, at byte {offset}")]
+    Short { segment: Arc<str>, offset: usize },
+    /// Versions are missing that the journal had written: the end of the segment, or a segment behind it.
+    #[error("`{segment}` ends at byte {offset} with version {}, the segments behind it begin at {}: what was \
+        recorded in between is missing", last.0, next.0)]
+    Missing { segment: Arc<str>, offset: usize, last: Version, next: Version },
+    /// It has the name of a segment, and no byte of one.
+    #[error("`{segment}` is no segment of a journal")]
+    Foreign { segment: Arc<str> },
     /// The process or the machine stopped while the segment was begun, or it is being begun at this moment.
     #[error("`{segment}` ends before its state does: there is nothing to read in it")]
     Unfinished { segment: Arc<str> },

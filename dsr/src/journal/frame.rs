@@ -1,11 +1,21 @@
-//! Frames: groups of records with a length and two checksums, by which damage from a crash or a disk is found.
+//! Frames: records with a length and two checksums, by which damage is found and distinguished from a crash.
 //!
-//! A header is 28 bytes: marker, kind, length and checksum of the payload, the number of bytes of the file that were
-//! known to be synced when the frame was written, and a checksum of all these. After a bad frame, the file is searched
-//! for good headers. If one reports that the bad frame had been synced, the frame is corrupt; otherwise it is the torn
-//! tail of a crash, even if the file system kept blocks after a lost one.
+//! A header is 28 bytes: marker, kind, length and checksum of the payload, the number of bytes of the file that
+//! were known to be synced when the frame was written, and a checksum of all these. Reading does not need the
+//! number of synced bytes; it helps a person who looks at a damaged disk.
 //!
-//! Cost: one pass over the bytes.
+//! Problem: the last append before a crash may be there in part, and that is no damage; a disk, or a program,
+//! may change any byte, the length of a frame included, and what is behind it must not be taken for that last
+//! append. Idea: a bad frame is damage unless the bytes from it to the end of the file are what an interrupted
+//! append leaves, and only that: no intact header, and either the first bytes of a frame, which ends behind the
+//! end of the file, or zeros at the end of the file: blocks that a loss of power left unwritten. Headers are
+//! looked for at each byte, because the length of the bad frame may be what is damaged.
+//!
+//! Deviation: a loss of power may also lose a block and keep a later one, neither of which was synced. That is damage
+//! here: what is intact behind it must not go without an error.
+//!
+//! Cost: one pass over the bytes, and from a bad frame on another one, which computes the checksums of headers only:
+//! lengths that lie cost nothing.
 
 /// The marker at the start of each header.
 const MARKER: [u8; 4] = [0xd5, b'D', b'S', b'R'];
@@ -13,6 +23,8 @@ const MARKER: [u8; 4] = [0xd5, b'D', b'S', b'R'];
 pub(super) const HEADER: usize = 28;
 /// The most bytes of a payload. None longer is written, so a header with a larger number is invalid.
 pub(super) const LONGEST: u32 = 1 << 30;
+/// The zeros at the end of a file from which on they are unwritten blocks. Deltas that end in as many are rare.
+const UNWRITTEN: [u8; 16] = [0; 16];
 
 /// The kind of a frame's content.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,7 +33,7 @@ pub(super) enum Kind {
     Start,
     /// A part of the state with which the segment begins.
     State,
-    /// Deltas that follow each other.
+    /// A delta. Older journals have several in one frame, which follow each other.
     Deltas,
 }
 
@@ -43,14 +55,13 @@ pub(super) struct Frame {
     pub(super) kind: Kind,
     /// Where the header begins.
     pub(super) offset: usize,
-    /// Bytes of the payload.
-    pub(super) length: usize,
+    /// Bytes of the payload. There is a frame for each commit, so a smaller number counts.
+    length: u32,
 }
 
 impl Frame {
     pub(super) fn payload<'b>(&self, bytes: &'b [u8]) -> &'b [u8] {
-        let start = self.offset + HEADER;
-        bytes.get(start..start + self.length).unwrap_or(&[])
+        bytes.get(self.content()).unwrap_or(&[])
     }
 
     /// Where the payload is.
@@ -59,22 +70,31 @@ impl Frame {
     }
 
     pub(super) fn end(&self) -> usize {
-        self.offset + HEADER + self.length
+        self.offset + HEADER + self.length as usize
     }
 }
 
 /// Why the bytes after the last good frame cannot be read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Flaw {
-    /// A frame that was being written when the process or the machine stopped.
+    /// What an append leaves that a crash has interrupted.
     Torn(usize),
-    /// A frame that had been synced and has changed.
+    /// Bytes that were written and have changed.
     Corrupt(usize),
+    /// No byte of the file is recognised.
+    Foreign,
 }
 
-/// The header for a payload, in a segment with `synced` bytes synced.
-pub(super) fn header(kind: Kind, payload: &[u8], synced: u64) -> [u8; HEADER] {
-    let mut header = [0; HEADER];
+/// Begins a frame at the end of the bytes; returns where. The payload is to be written behind it.
+pub(super) fn open(bytes: &mut Vec<u8>) -> usize {
+    let start = bytes.len();
+    bytes.resize(start + HEADER, 0);
+    start
+}
+
+/// Ends the frame that begins at `start`, in a segment with `synced` bytes synced.
+pub(super) fn close(bytes: &mut [u8], start: usize, kind: Kind, synced: u64) {
+    let (header, payload) = bytes[start..].split_at_mut(HEADER);
     let length = u32::try_from(payload.len()).expect("the writer refuses what is longer than LONGEST");
     header[..4].copy_from_slice(&MARKER);
     header[4..8].copy_from_slice(&kind.number().to_le_bytes());
@@ -83,13 +103,11 @@ pub(super) fn header(kind: Kind, payload: &[u8], synced: u64) -> [u8; HEADER] {
     header[16..24].copy_from_slice(&synced.to_le_bytes());
     let sum = crc32fast::hash(&header[..24]);
     header[24..].copy_from_slice(&sum.to_le_bytes());
-    header
 }
 
 struct Header {
     frame: Frame,
     sum: u32,
-    synced: u64,
 }
 
 fn read_header(bytes: &[u8], offset: usize) -> Option<Header> {
@@ -99,8 +117,7 @@ fn read_header(bytes: &[u8], offset: usize) -> Option<Header> {
         return None;
     }
     let kind = Kind::ALL.into_iter().find(|kind| Some(kind.number()) == number(4))?;
-    let frame = Frame { kind, offset, length: usize::try_from(number(8)?).ok()? };
-    Some(Header { frame, sum: number(12)?, synced: u64::from_le_bytes(header[16..24].try_into().ok()?) })
+    Some(Header { frame: Frame { kind, offset, length: number(8)? }, sum: number(12)? })
 }
 
 /// The good frames from the beginning, and the flaw after them, if any.
@@ -117,11 +134,23 @@ pub(super) fn scan(bytes: &[u8]) -> (Vec<Frame>, Option<Flaw>) {
     (frames, None)
 }
 
-/// Whether a later header reports that the bytes at `offset` had been synced.
+/// What is wrong with the frame at `offset`.
 fn flaw(bytes: &[u8], offset: usize) -> Flaw {
+    let header = read_header(bytes, offset);
     let later = (offset + 1..bytes.len()).filter(|&at| bytes[at] == MARKER[0]);
-    let known = later.filter_map(|at| read_header(bytes, at)).any(|header| {
-        usize::try_from(header.synced).is_ok_and(|synced| synced > offset && synced <= header.frame.offset)
-    });
-    if known { Flaw::Corrupt(offset) } else { Flaw::Torn(offset) }
+    if later.filter_map(|at| read_header(bytes, at)).next().is_some() {
+        return Flaw::Corrupt(offset);
+    }
+    let rest = &bytes[offset..];
+    let is_begun = match &header {
+        Some(header) => header.frame.end() > bytes.len(),
+        None => rest.len() < HEADER && rest.iter().zip(MARKER).all(|(&byte, marker)| byte == marker),
+    };
+    if is_begun || rest.ends_with(&UNWRITTEN) || rest.iter().all(|&byte| byte == 0) {
+        Flaw::Torn(offset)
+    } else if offset == 0 && header.is_none() {
+        Flaw::Foreign
+    } else {
+        Flaw::Corrupt(offset)
+    }
 }

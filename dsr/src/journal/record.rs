@@ -16,8 +16,21 @@ use crate::pose::Covariance;
 use crate::snapshot::Snapshot;
 use crate::vocabulary::Vocabulary;
 
-/// The number of the format. A segment with another number is rejected.
-const FORMAT: u32 = 2;
+/// The number of the format. A segment with another number is rejected, except for [`OLDER`].
+const FORMAT: u32 = 3;
+/// A format that does not record gaps: [`Follows::Directly`] may be [`Follows::AfterGap`].
+const OLDER: u32 = 2;
+
+/// What precedes a segment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum Follows {
+    /// Nothing, or what another journal wrote.
+    Nothing,
+    /// The same journal wrote the segment before it, which ends in the state with which this one begins.
+    Directly,
+    /// The same, but commits in between may have been left out.
+    AfterGap,
+}
 
 /// A part of a state. The types of the export omit empty lists, which only self-describing formats support.
 #[derive(Serialize, Deserialize)]
@@ -44,22 +57,24 @@ fn put(record: &impl Serialize, bytes: &mut Vec<u8>) {
     let _ = postcard::to_io(record, bytes);
 }
 
-/// The first record of a segment. `goes_on`: the same journal wrote the previous segment.
-pub(super) fn put_start(goes_on: bool, vocabulary: &Vocabulary, bytes: &mut Vec<u8>) {
-    put(&(FORMAT, goes_on, vocabulary), bytes);
+/// The first record of a segment.
+pub(super) fn put_start(follows: Follows, vocabulary: &Vocabulary, bytes: &mut Vec<u8>) {
+    put(&(FORMAT, follows, vocabulary), bytes);
 }
 
 pub(super) fn put_delta(delta: &Delta, bytes: &mut Vec<u8>) {
     put(delta, bytes);
 }
 
-/// Whether the segment continues one of the same journal, and the bytes of the vocabulary.
-pub(super) fn start(payload: &[u8]) -> Result<(bool, &[u8]), Malformed> {
+/// What precedes the segment, and the bytes of the vocabulary.
+pub(super) fn start(payload: &[u8]) -> Result<(Follows, &[u8]), Malformed> {
     let (format, rest) = postcard::take_from_bytes::<u32>(payload).map_err(|_| Malformed::Bytes)?;
-    if format != FORMAT {
+    if ![OLDER, FORMAT].contains(&format) {
         return Err(Malformed::Format(format));
     }
-    postcard::take_from_bytes(rest).map_err(|_| Malformed::Bytes)
+    let (follows, vocabulary) = postcard::take_from_bytes(rest).map_err(|_| Malformed::Bytes)?;
+    let knows = format == FORMAT || follows == Follows::Nothing;
+    Ok((if knows { follows } else { Follows::AfterGap }, vocabulary))
 }
 
 pub(super) fn vocabulary(bytes: &[u8]) -> Result<Vocabulary, Malformed> {

@@ -3,12 +3,13 @@
 //! Opening a recording checks all bytes and keeps none of those from files: a segment is read again for a version in
 //! it. A fault is a [`Damage`] with its place; everything before it stays readable, and so do the following segments.
 //!
-//! Invariant: versions rise. If a segment ends with the version with which the next one begins, it ends with the same
-//! state. The history is the one that ends in the newest segment. A program that begins anew in the same folder, or
-//! continues from an older version, begins another history; the segments that do not lead to the newest one are
-//! reported and left out, and can be read alone. One case is not detected: a segment that ends before the next one
-//! begins may belong to another history with the same vocabulary. Nothing was recorded in between that could tell; a
-//! replay reports a [`Played::Jump`](super::Played::Jump) there.
+//! Invariant: versions rise. If a segment ends with the version with which the next one begins, it ends with the
+//! same state. The history is the one that ends in the newest segment. A program that begins anew in the same
+//! folder, or continues from an older version, begins another history; the segments that do not lead to the
+//! newest one are reported and left out, and can be read alone. One case is not detected: a segment that ends
+//! before the next one begins, because it is damaged or because commits were left out, may belong to another
+//! history with the same vocabulary. Nothing can be read in between that could tell; a replay reports a
+//! [`Played::Jump`](super::Played::Jump) there.
 //!
 //! Cost: opening is one pass over the bytes, and a replay of each segment that another program has continued. A version
 //! costs its segment's state and the deltas up to it.
@@ -21,7 +22,7 @@ use super::error::{Damage, RecordingError};
 use super::playback::Replay;
 use super::reader::Reader;
 use super::segment::{Segment, Source};
-use super::store;
+use super::store::{self, Stage};
 use crate::graph::Graph;
 use crate::id::{Time, Version};
 use crate::snapshot::Snapshot;
@@ -46,15 +47,21 @@ impl Recording {
         let mut tries = 0;
         loop {
             let is_folder = path.is_dir();
-            let files =
-                if is_folder { store::segments(path).map_err(unreadable)? } else { vec![path.to_owned()] };
+            let files = if is_folder {
+                store::segments(path).map_err(unreadable)?
+            } else {
+                vec![(Stage::Part, path.to_owned())]
+            };
             let (mut reader, mut gone) = (Reader::default(), false);
-            for path in files {
+            for (stage, path) in files {
                 let name = path.to_string_lossy();
                 match std::fs::read(&path) {
-                    Ok(bytes) => reader.segment(&name, &bytes, || Source::File(path.clone())),
+                    Ok(bytes) => reader.segment(&name, stage, &bytes, || Source::File(path.clone())),
                     Err(error) if !is_folder => return Err(unreadable(error)),
-                    Err(error) if error.kind() == io::ErrorKind::NotFound => gone = true,
+                    Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                        reader.gone();
+                        gone = true;
+                    }
                     Err(error) => reader.unreadable(&name, &error),
                 }
             }
@@ -73,7 +80,8 @@ impl Recording {
         for (number, bytes) in segments.into_iter().enumerate() {
             // A deleted segment of a `Memory` is empty.
             if !bytes.is_empty() {
-                reader.segment(&format!("segment {number}"), &bytes, || Source::Bytes(bytes.clone()));
+                let name = format!("segment {number}");
+                reader.segment(&name, Stage::Part, &bytes, || Source::Bytes(bytes.clone()));
             }
         }
         Self::of(reader)
@@ -84,12 +92,14 @@ impl Recording {
         let Some(newest) = segments.last() else {
             // Damage of the disk explains more than the leftovers of a crash.
             let told = |damage: &Damage| match damage {
-                Damage::Corrupt { .. } | Damage::Unreadable { .. } => 0,
+                Damage::Corrupt { .. } | Damage::Short { .. } | Damage::Unreadable { .. } => 0,
                 Damage::Format { .. } => 1,
                 _ => 2,
             };
             // A file with only a torn end may be any file.
-            let known = damage.into_iter().filter(|damage| !matches!(damage, Damage::Torn { .. }));
+            let known = damage
+                .into_iter()
+                .filter(|damage| !matches!(damage, Damage::Torn { .. } | Damage::Foreign { .. }));
             let first = known.min_by_key(told);
             return Err(first.map_or(RecordingError::Empty, |damage| RecordingError::Damaged { damage }));
         };

@@ -4,8 +4,9 @@ use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::error::RecordingError;
+use super::error::{Damage, RecordingError};
 use super::frame::Frame;
+use super::record::Follows;
 use crate::id::{Time, Version};
 use crate::vocabulary::Vocabulary;
 
@@ -22,8 +23,7 @@ pub(super) struct Segment {
     pub(super) name: Arc<str>,
     pub(super) source: Source,
     pub(super) vocabulary: Arc<Vocabulary>,
-    /// The journal that wrote it also wrote the segment before it.
-    pub(super) goes_on: bool,
+    pub(super) follows: Follows,
     pub(super) frames: Vec<Frame>,
     /// For each frame, the earliest time of a version in it; `None` for the first frame.
     pub(super) earliest: Vec<Option<Time>>,
@@ -31,9 +31,16 @@ pub(super) struct Segment {
     pub(super) first: (Version, Time),
     /// Version and time of its last delta.
     pub(super) last: (Version, Time),
+    /// What is wrong behind that.
+    pub(super) fault: Option<Damage>,
 }
 
 impl Segment {
+    /// The journal that wrote it also wrote the segment before it.
+    pub(super) fn goes_on(&self) -> bool {
+        self.follows != Follows::Nothing
+    }
+
     pub(super) fn bytes(&self) -> Result<Cow<'_, [u8]>, RecordingError> {
         match &self.source {
             Source::Bytes(bytes) => Ok(bytes.into()),

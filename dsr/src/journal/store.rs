@@ -34,8 +34,8 @@ const PART: &str = ".part";
 
 /// The stage of a segment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Stage {
-    /// Its state may be torn, or is being written at this moment.
+pub(super) enum Stage {
+    /// Its state may be torn, or is being written at this moment. Also that of bytes without such a name.
     Part,
     /// Its state is synced.
     Whole,
@@ -59,8 +59,8 @@ fn staged(folder: &Path) -> io::Result<Vec<(u64, Stage, PathBuf)>> {
 
 /// The segments in a folder, by number, including those that were only begun: after a crash, one may have a whole state
 /// but not yet its final name.
-pub(super) fn segments(folder: &Path) -> io::Result<Vec<PathBuf>> {
-    Ok(staged(folder)?.into_iter().map(|(.., path)| path).collect())
+pub(super) fn segments(folder: &Path) -> io::Result<Vec<(Stage, PathBuf)>> {
+    Ok(staged(folder)?.into_iter().map(|(_, stage, path)| (stage, path)).collect())
 }
 
 /// Removes a file, if it still exists.

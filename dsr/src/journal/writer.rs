@@ -6,14 +6,14 @@ use std::time::Instant;
 
 use super::feed::{Feed, Last, Progress, Work};
 use super::frame::{self, Kind};
-use super::record;
+use super::record::{self, Follows};
 use super::settings::{Durability, Settings};
 use super::store::Store;
 use crate::delta::Delta;
 use crate::graph::Observed;
 use crate::snapshot::Snapshot;
 
-/// Bytes after which a frame is closed.
+/// Bytes after which a frame of a state is closed, and after which frames are appended.
 const FRAME: usize = 1 << 20;
 
 pub(super) struct Writer<S> {
@@ -26,7 +26,7 @@ pub(super) struct Writer<S> {
     due: Option<Instant>,
     progress: Progress,
     buffer: Vec<u8>,
-    /// The most bytes of a record, so that it fits into a frame with those before it.
+    /// The most bytes of a record; one of a state has to fit into a frame with those before it.
     longest: usize,
     /// A commit could not be written, so the next record must be a whole state.
     broken: bool,
@@ -86,7 +86,7 @@ impl<S: Store> Writer<S> {
     }
 
     fn work(&mut self, first: Snapshot) -> io::Result<()> {
-        self.begin(&first)?;
+        self.begin(&first, Follows::Nothing)?;
         drop(first);
         self.feed.report(&self.progress);
         let mut spare = Vec::new();
@@ -113,10 +113,9 @@ impl<S: Store> Writer<S> {
     fn rotate(&mut self) -> io::Result<()> {
         let Some((rest, state)) = self.graph.restart(&self.feed) else { return Ok(()) };
         self.deltas(&rest.deltas)?;
-        if rest.overflowed || self.broken {
-            self.progress.gaps += 1;
-        }
-        self.begin(&state)
+        let follows = if rest.overflowed || self.broken { Follows::AfterGap } else { Follows::Directly };
+        self.progress.gaps += u64::from(follows == Follows::AfterGap);
+        self.begin(&state, follows)
     }
 
     fn finish(&mut self, overflowed: bool, last: Last) -> io::Result<()> {
@@ -124,23 +123,21 @@ impl<S: Store> Writer<S> {
             let state = last.state.or_else(|| self.graph.restart(&self.feed).map(|(_, state)| state));
             self.progress.gaps += 1;
             if let Some(state) = state {
-                self.begin(&state)?;
+                self.begin(&state, Follows::AfterGap)?;
             }
         }
         self.sync()
     }
 
-    fn begin(&mut self, state: &Snapshot) -> io::Result<()> {
-        let goes_on = self.segment.begun > 0;
-        if goes_on {
-            self.sync()?;
-        }
+    fn begin(&mut self, state: &Snapshot, follows: Follows) -> io::Result<()> {
+        self.sync()?;
         self.store.begin(self.segment.begun)?;
         self.broken = false;
         self.segment = Segment { begun: self.segment.begun + 1, ..Segment::default() };
         let mut buffer = std::mem::take(&mut self.buffer);
         buffer.clear();
-        record::put_start(goes_on, state.vocabulary(), &mut buffer);
+        frame::open(&mut buffer);
+        record::put_start(follows, state.vocabulary(), &mut buffer);
         self.frame(Kind::Start, &mut buffer)?;
         record::put_state(state, &mut buffer, |buffer| {
             if buffer.len() >= FRAME { self.frame(Kind::State, buffer) } else { Ok(()) }
@@ -163,23 +160,21 @@ impl<S: Store> Writer<S> {
             if delta.version <= self.progress.written {
                 continue;
             }
-            let before = buffer.len();
+            let start = frame::open(&mut buffer);
             record::put_delta(delta, &mut buffer);
-            self.broken |= buffer.len() - before > self.longest;
+            self.broken |= buffer.len() - start - frame::HEADER > self.longest;
             if self.broken {
-                buffer.truncate(before);
+                buffer.truncate(start);
                 break;
             }
+            // A frame of its own: damage takes no other commit with it.
+            frame::close(&mut buffer, start, Kind::Deltas, self.segment.synced);
             self.progress.written = delta.version;
             if buffer.len() >= FRAME {
-                self.segment.deltas += buffer.len() as u64;
-                self.frame(Kind::Deltas, &mut buffer)?;
+                self.append_deltas(&mut buffer)?;
             }
         }
-        if !buffer.is_empty() {
-            self.segment.deltas += buffer.len() as u64;
-            self.frame(Kind::Deltas, &mut buffer)?;
-        }
+        self.append_deltas(&mut buffer)?;
         self.buffer = buffer;
         if self.due.is_none() && self.progress.durable < self.progress.written {
             self.due = match self.settings.durability {
@@ -191,18 +186,33 @@ impl<S: Store> Writer<S> {
         Ok(())
     }
 
-    fn frame(&mut self, kind: Kind, payload: &mut Vec<u8>) -> io::Result<()> {
-        if payload.len() > self.longest + FRAME {
+    fn append_deltas(&mut self, frames: &mut Vec<u8>) -> io::Result<()> {
+        self.segment.deltas += frames.len() as u64;
+        self.append(frames)?;
+        frames.clear();
+        Ok(())
+    }
+
+    /// Ends and appends the frame that the bytes begin with, and begins another one.
+    fn frame(&mut self, kind: Kind, bytes: &mut Vec<u8>) -> io::Result<()> {
+        if bytes.len() - frame::HEADER > self.longest + FRAME {
             return Err(io::Error::new(
                 io::ErrorKind::FileTooLarge,
                 "a node with more than a frame can hold",
             ));
         }
-        let header = frame::header(kind, payload, self.segment.synced);
-        self.store.append(&header)?;
-        self.store.append(payload)?;
-        self.segment.bytes += (header.len() + payload.len()) as u64;
-        payload.clear();
+        frame::close(bytes, 0, kind, self.segment.synced);
+        self.append(bytes)?;
+        bytes.clear();
+        frame::open(bytes);
+        Ok(())
+    }
+
+    fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
+        if !bytes.is_empty() {
+            self.store.append(bytes)?;
+            self.segment.bytes += bytes.len() as u64;
+        }
         Ok(())
     }
 
