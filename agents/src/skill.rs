@@ -16,7 +16,7 @@ use std::pin::Pin;
 use std::sync::Arc;
 
 use dsr::{Isometry3, Snapshot};
-use hal::{DeviceError, Devices};
+use hal::{DeviceError, Devices, Evidence};
 
 use crate::words::{Reporter, Words};
 
@@ -33,6 +33,15 @@ impl Outcome {
     pub const TIMEOUT: &'static str = "timeout";
     /// The device failed.
     pub const FAILURE: &'static str = "failure";
+    /// The device rejected this request; it may accept another one.
+    pub const REFUSED: &'static str = "refused";
+    /// The device claims success, and a sensor noticed nothing.
+    pub const UNSENSED: &'static str = "unsensed";
+    /// The device claims success, and no sensor can tell.
+    pub const CLAIMED: &'static str = "claimed";
+    /// The outcomes besides `end` of a skill that says or shows something.
+    pub(crate) const OF_OUTPUT: &'static [&'static str] =
+        &[Self::CLAIMED, Self::UNSENSED, Self::REFUSED, Self::FAILURE];
     /// The outcomes besides `end` of a skill that can only fail with its device.
     pub(crate) const ONLY_FAILURE: &'static [&'static str] = &[Self::FAILURE];
     /// Nothing is written; never in a rule.
@@ -108,6 +117,22 @@ impl Ended {
         Self { outcome: Outcome::new(outcome), results: Vec::new() }
     }
 
+    /// The ending of an output, by what is known of it.
+    pub(crate) fn of_output(result: Result<Evidence, DeviceError>) -> Self {
+        let outcome = match result {
+            Ok(Evidence::Sensed) => Outcome::END,
+            Ok(Evidence::Claimed) => Outcome::CLAIMED,
+            Err(error) => {
+                tracing::debug!(%error, "an output device failed");
+                match error {
+                    DeviceError::NotSensed { .. } => Outcome::UNSENSED,
+                    DeviceError::Refused { .. } => Outcome::REFUSED,
+                    DeviceError::Disconnected { .. } | DeviceError::Timeout { .. } => Outcome::FAILURE,
+                }
+            }
+        };
+        Self { outcome: Outcome::new(outcome), results: Vec::new() }
+    }
     /// Succeeded, or failed with the device.
     pub(crate) fn of<T>(result: Result<T, DeviceError>, results: impl FnOnce(T) -> Vec<Datum>) -> Self {
         match result {

@@ -12,6 +12,7 @@
     (present ?p - person)             ; in view, in front of the robot
     (away ?p - person)                ; allow(never-true-predicate): out of view for so long that calling does not help
     (wants-help ?p - person)          ; allow(never-true-predicate)
+    (impaired ?p - person)            ; allow(never-true-predicate): the robot cannot see, or cannot talk with, the person
     (clinician-needed ?p - person)    ; allow(never-true-predicate): two items are without an answer
     (paused ?p - person)              ; allow(never-true-predicate)
     (aborted ?p - person)
@@ -31,34 +32,34 @@
   ; ---- the protocol ------------------------------------------------------------------------
   (:action greet
     :parameters (?p - person)
-    :precondition (and (present ?p) (not (wants-help ?p)) (not (clinician-needed ?p))
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p)) (not (clinician-needed ?p))
                        (not (paused ?p)) (not (aborted ?p)))
     :effect (greeted ?p))
 
   (:action explain
     :parameters (?p - person ?i ?j - part)
-    :precondition (and (present ?p) (not (wants-help ?p)) (not (clinician-needed ?p))
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p)) (not (clinician-needed ?p))
                        (not (paused ?p)) (not (aborted ?p))
                        (greeted ?p) (next ?i ?j) (opens-with ?i))
     :effect (done ?i))
 
   (:action introduce
     :parameters (?p - person ?i - part ?j - item)
-    :precondition (and (present ?p) (not (wants-help ?p)) (not (clinician-needed ?p))
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p)) (not (clinician-needed ?p))
                        (not (paused ?p)) (not (aborted ?p))
                        (next ?i ?j) (done ?i))
     :effect (introduced ?j))
 
   (:action describe
     :parameters (?p - person ?i - item)
-    :precondition (and (present ?p) (not (wants-help ?p)) (not (clinician-needed ?p))
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p)) (not (clinician-needed ?p))
                        (not (paused ?p)) (not (aborted ?p))
                        (introduced ?i))
     :effect (described ?i))
 
   (:action ask
     :parameters (?p - person ?i - item)
-    :precondition (and (present ?p) (not (wants-help ?p)) (not (clinician-needed ?p))
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p)) (not (clinician-needed ?p))
                        (not (paused ?p)) (not (aborted ?p))
                        (described ?i) (not (unanswered-once ?i)))
     :effect (done ?i))
@@ -66,7 +67,7 @@
   ; No answer in time: describe by voice again, show all options, ask again.
   (:action ask-again
     :parameters (?p - person ?i - item)
-    :precondition (and (present ?p) (not (wants-help ?p)) (not (clinician-needed ?p))
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p)) (not (clinician-needed ?p))
                        (not (paused ?p)) (not (aborted ?p))
                        (unanswered-once ?i) (not (unanswered-twice ?i)))
     :effect (done ?i))
@@ -74,14 +75,14 @@
   ; No answer again: the next item.
   (:action pass-over
     :parameters (?p - person ?i - item)
-    :precondition (and (present ?p) (not (wants-help ?p)) (not (clinician-needed ?p))
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p)) (not (clinician-needed ?p))
                        (not (paused ?p)) (not (aborted ?p))
                        (unanswered-twice ?i))
     :effect (done ?i))
 
   (:action thank
     :parameters (?p - person ?i ?j - part)
-    :precondition (and (present ?p) (not (wants-help ?p)) (not (clinician-needed ?p))
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p)) (not (clinician-needed ?p))
                        (not (paused ?p)) (not (aborted ?p))
                        (next ?i ?j) (done ?i) (closes-with ?j))
     :effect (thanked ?p))
@@ -99,22 +100,28 @@
     :precondition (and (wants-help ?p) (not (aborted ?p)))
     :effect (not (wants-help ?p)))
 
+  ; A robot that cannot see or talk waits until it can, or until the clinician has come.
+  (:action have-repaired
+    :parameters (?p - person)
+    :precondition (and (impaired ?p) (not (wants-help ?p)) (not (aborted ?p)))
+    :effect (not (impaired ?p)))
+
   (:action call-back
     :parameters (?p - person)
-    :precondition (and (not (present ?p)) (not (away ?p)) (not (wants-help ?p)) (not (paused ?p))
-                       (not (aborted ?p)))
+    :precondition (and (not (present ?p)) (not (away ?p)) (not (wants-help ?p)) (not (impaired ?p))
+                       (not (paused ?p)) (not (aborted ?p)))
     :effect (present ?p))
 
   (:action have-fetched
     :parameters (?p - person)
-    :precondition (and (not (present ?p)) (away ?p) (not (wants-help ?p)) (not (paused ?p))
-                       (not (aborted ?p)))
+    :precondition (and (not (present ?p)) (away ?p) (not (wants-help ?p)) (not (impaired ?p))
+                       (not (paused ?p)) (not (aborted ?p)))
     :effect (and (present ?p) (not (away ?p))))
 
   (:action call-clinician
     :parameters (?p - person)
-    :precondition (and (clinician-needed ?p) (not (wants-help ?p)) (not (paused ?p))
-                       (not (aborted ?p)))
+    :precondition (and (clinician-needed ?p) (not (wants-help ?p)) (not (impaired ?p))
+                       (not (paused ?p)) (not (aborted ?p)))
     :effect (not (clinician-needed ?p)))
 
   (:action await-resumption

@@ -1,7 +1,7 @@
 ; LowToHigh: the plan's predicates, derived from the tokens of the graph.
 ;
-; `told` requires both voice and screen, or one of them if the other does not work: a sentence that
-; has been shown is not told until it has also been said.
+; A sentence is told once it was said, shown, or both, as the methods chose, and nothing of it is still
+; to come. A device that works again later does not make it untold.
 (define (domain barthel-perception)
   (:requirements :typing :equality :negative-preconditions :disjunctive-preconditions
                  :quantified-preconditions :derived-predicates)
@@ -12,16 +12,10 @@
     first-question second-question - question)
   (:predicates
     (unusable ?d - device)
-    (told ?u - utterance ?i - part)
     (answered ?i - item))
 
   (:derived (unusable ?d - device)
     (or (is ?d broken) (is ?d doubted)))
-
-  (:derived (told ?u - utterance ?i - part)
-    (and (or (was_said_in ?u ?i) (was_shown_in ?u ?i))
-         (or (was_said_in ?u ?i) (unusable speaker))
-         (or (was_shown_in ?u ?i) (unusable screen))))
 
   (:derived (answered ?i - item)
     (exists (?o - option) (was_chosen_in ?o ?i)))
@@ -31,6 +25,14 @@
     (exists (?r - robot) (is_with ?p ?r)))
   (:derived (away ?p - person)
     (exists (?m - room) (has_left ?p ?m)))
+  ; Blind at once; mute or deaf and blank only once the clinician has been called about it.
+  (:derived (impaired ?p - person)
+    (or (and (is tracker broken)
+             (not (exists (?c - clinician) (attended ?c repair))))
+        (exists (?c - clinician)
+          (and (or (is_needed_for ?c repair) (is_called_for ?c repair))
+               (or (and (unusable microphone) (or (unusable touch) (unusable screen)))
+                   (and (unusable speaker) (unusable screen)))))))
   (:derived (wants-help ?p - person)
     (asks ?p help))
   (:derived (clinician-needed ?p - person)
@@ -44,22 +46,22 @@
 
   ; the progress of the test
   (:derived (greeted ?p - person)
-    (told greeting opening))
+    (was_told_in greeting opening))
   (:derived (introduced ?i - item)
-    (told introduction ?i))
+    (was_told_in introduction ?i))
   (:derived (described ?i - item)
     (and (introduced ?i)
-         (forall (?o - option) (imply (offers ?i ?o) (told ?o ?i)))))
+         (forall (?o - option) (imply (offers ?i ?o) (was_told_in ?o ?i)))))
   (:derived (unanswered-once ?i - item)
     (and (was_unanswered_in first-question ?i) (not (answered ?i))))
   (:derived (unanswered-twice ?i - item)
     (and (was_unanswered_in second-question ?i) (not (answered ?i))))
   (:derived (done ?i - phase)
-    (told explanation ?i))
+    (was_told_in explanation ?i))
   (:derived (done ?i - item)
     (or (answered ?i)
-        (and (unanswered-twice ?i) (told moving-on ?i))))
+        (and (unanswered-twice ?i) (was_told_in moving-on ?i))))
   (:derived (thanked ?p - person)
-    (exists (?i - phase) (told farewell ?i)))
+    (exists (?i - phase) (was_told_in farewell ?i)))
   (:derived (reported ?p - person)
     (exists (?c - clinician) (was_delivered_to report ?c))))

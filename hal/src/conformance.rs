@@ -19,7 +19,7 @@ use std::future::Future;
 use std::pin::Pin;
 use std::time::Duration;
 
-use crate::{Device, DeviceError, Devices, Heard, Operation, Page, PageId, Phrase, Question};
+use crate::{Device, DeviceError, Devices, Heard, Operation, Page, PageId, Phrase, Question, Urgency};
 
 /// A back end under test.
 pub trait Rig: Send + Sync {
@@ -41,6 +41,7 @@ pub enum Stimulus<'a> {
     PersonWillMumble { topic: &'a str },
     PersonWillTouch { topic: &'a str, option: usize },
     PersonAsks(&'a str),
+    PersonTouchesRequest(&'a str),
     PersonLeaves,
     PersonReturns,
     ClinicianCommands(&'a str),
@@ -119,11 +120,13 @@ macro_rules! cases {
 cases! {
     a_sentence_ends
     a_dropped_sentence_makes_room_for_the_next
-    a_page_is_reported_by_the_screen
+    a_page_stands_before_it_counts_as_shown
     a_spoken_answer_is_recognised
     an_unknown_answer_is_not_understood
     a_touch_is_reported
     a_request_is_spotted
+    a_request_from_out_of_view_is_spotted
+    a_request_is_touched
     a_person_in_view_is_seen
     a_loss_is_reported_after_it
     a_command_is_taken_once
@@ -131,6 +134,8 @@ cases! {
     a_report_is_acknowledged
     an_unplugged_device_fails_and_recovers
     unplugging_fails_operations_under_way
+    a_fault_is_noticed_and_a_recovery
+    a_working_device_passes_its_test
 }
 
 async fn ends<T>(rig: &dyn Rig, operation: &'static str, work: Operation<'_, T>) -> Result<T, Violation> {
@@ -187,11 +192,12 @@ fn page() -> Page {
         title: "Fruit".into(),
         text: "Which do you like?".into(),
         options: question().options,
+        dwell: Duration::from_millis(10),
     }
 }
 
 async fn a_sentence_ends(rig: &dyn Rig) -> Result<(), Violation> {
-    ends(rig, "say", rig.devices().speech_out.say("Which do you like?", "en")).await
+    ends(rig, "say", rig.devices().speech_out.say("Which do you like?", "en")).await.map(drop)
 }
 
 async fn a_dropped_sentence_makes_room_for_the_next(rig: &dyn Rig) -> Result<(), Violation> {
@@ -200,15 +206,16 @@ async fn a_dropped_sentence_makes_room_for_the_next(rig: &dyn Rig) -> Result<(),
     let mut first = out.say(&endless, "en");
     waits(rig, "say", &mut first).await?;
     drop(first);
-    ends(rig, "say after a dropped one", out.say("Stop.", "en")).await
+    ends(rig, "say after a dropped one", out.say("Stop.", "en")).await.map(drop)
 }
 
-async fn a_page_is_reported_by_the_screen(rig: &dyn Rig) -> Result<(), Violation> {
+async fn a_page_stands_before_it_counts_as_shown(rig: &dyn Rig) -> Result<(), Violation> {
     let screen = rig.devices().screen;
-    ends(rig, "show", screen.show(&page())).await?;
-    let shown = ends(rig, "next_shown", screen.next_shown()).await?;
-    equal("next_shown", &shown, &page().id)?;
-    waits(rig, "next_shown without a new page", &mut screen.next_shown()).await?;
+    let (short, long) = (page(), Page { dwell: rig.patience() / 4, ..page() });
+    let mut show = screen.show(&long);
+    waits(rig, "show of a page that takes long to read", &mut show).await?;
+    ends(rig, "show", show).await?;
+    ends(rig, "show", screen.show(&short)).await?;
     ends(rig, "clear", screen.clear()).await
 }
 
@@ -242,23 +249,41 @@ async fn a_touch_is_reported(rig: &dyn Rig) -> Result<(), Violation> {
 async fn a_request_is_spotted(rig: &dyn Rig) -> Result<(), Violation> {
     let ear = rig.devices().speech_in;
     let request = Question { topic: "help".into(), name: String::new(), ..question() };
-    let mut spot = ear.spot(&request);
+    let mut spot = ear.spot(&request, "");
     waits(rig, "spot", &mut spot).await?;
     rig.stimulate(Stimulus::PersonAsks("help"));
     ends(rig, "spot", spot).await
 }
 
+async fn a_request_from_out_of_view_is_spotted(rig: &dyn Rig) -> Result<(), Violation> {
+    let ear = rig.devices().speech_in;
+    let request = Question { topic: "help".into(), name: String::new(), ..question() };
+    rig.stimulate(Stimulus::PersonLeaves);
+    rig.stimulate(Stimulus::PersonAsks("help"));
+    ends(rig, "spot", ear.spot(&request, "")).await?;
+    rig.stimulate(Stimulus::PersonReturns);
+    Ok(())
+}
+
+async fn a_request_is_touched(rig: &dyn Rig) -> Result<(), Violation> {
+    let buttons = rig.devices().buttons;
+    let mut touch = buttons.next_request("help", "");
+    waits(rig, "next_request", &mut touch).await?;
+    rig.stimulate(Stimulus::PersonTouchesRequest("help"));
+    ends(rig, "next_request", touch).await
+}
+
 async fn a_person_in_view_is_seen(rig: &dyn Rig) -> Result<(), Violation> {
-    ends(rig, "await_person", rig.devices().skeleton.await_person()).await.map(drop)
+    ends(rig, "await_person", rig.devices().skeleton.await_person("")).await.map(drop)
 }
 
 async fn a_loss_is_reported_after_it(rig: &dyn Rig) -> Result<(), Violation> {
     let skeleton = rig.devices().skeleton;
-    let mut loss = skeleton.await_loss();
+    let mut loss = skeleton.await_loss("");
     waits(rig, "await_loss", &mut loss).await?;
     rig.stimulate(Stimulus::PersonLeaves);
     ends(rig, "await_loss", loss).await?;
-    let mut back = skeleton.await_person();
+    let mut back = skeleton.await_person("");
     waits(rig, "await_person", &mut back).await?;
     rig.stimulate(Stimulus::PersonReturns);
     ends(rig, "await_person", back).await.map(drop)
@@ -275,7 +300,7 @@ async fn a_command_is_taken_once(rig: &dyn Rig) -> Result<(), Violation> {
 async fn a_call_is_attended(rig: &dyn Rig) -> Result<(), Violation> {
     let clinic = rig.devices().clinic;
     rig.stimulate(Stimulus::ClinicianComes);
-    ends(rig, "call", clinic.call("company")).await
+    ends(rig, "call", clinic.call("company", Urgency::Normal)).await
 }
 
 async fn a_report_is_acknowledged(rig: &dyn Rig) -> Result<(), Violation> {
@@ -288,18 +313,19 @@ async fn an_unplugged_device_fails_and_recovers(rig: &dyn Rig) -> Result<(), Vio
     rig.stimulate(Stimulus::Unplug(Device::SpeechOut));
     fails(rig, "say", out.say("This is not heard.", "en")).await?;
     rig.stimulate(Stimulus::PlugIn(Device::SpeechOut));
-    ends(rig, "say", out.say("This is heard.", "en")).await
+    ends(rig, "say", out.say("This is heard.", "en")).await.map(drop)
 }
 
 async fn unplugging_fails_operations_under_way(rig: &dyn Rig) -> Result<(), Violation> {
     let devices = rig.devices();
     let (asked, report) = (question(), serde_json::Value::Null);
+    let endless = Page { dwell: rig.patience(), ..page() };
     // An operation of each device that would not end by itself.
     let mut operations: Vec<(Device, &'static str, Operation<'_, ()>)> = vec![
-        (Device::SpeechIn, "spot", devices.speech_in.spot(&asked)),
-        (Device::Screen, "next_shown", drop_result(devices.screen.next_shown())),
+        (Device::SpeechIn, "spot", devices.speech_in.spot(&asked, "")),
+        (Device::Screen, "show", drop_result(devices.screen.show(&endless))),
         (Device::Buttons, "next_touch", drop_result(devices.buttons.next_touch(&asked))),
-        (Device::Skeleton, "await_loss", devices.skeleton.await_loss()),
+        (Device::Skeleton, "await_loss", devices.skeleton.await_loss("")),
         (Device::Clinic, "next_command", devices.clinic.next_command("none")),
     ];
     for (device, operation, work) in &mut operations {
@@ -312,6 +338,32 @@ async fn unplugging_fails_operations_under_way(rig: &dyn Rig) -> Result<(), Viol
         }
     }
     ends(rig, "deliver", devices.clinic.deliver(&report)).await
+}
+
+async fn a_fault_is_noticed_and_a_recovery(rig: &dyn Rig) -> Result<(), Violation> {
+    let health = rig.devices().health;
+    for device in Device::ALL {
+        let mut fault = health.await_fault(device);
+        waits(rig, "await_fault", &mut fault).await?;
+        rig.stimulate(Stimulus::Unplug(device));
+        ends(rig, "await_fault", fault).await?;
+        let mut recovery = health.await_recovery(device);
+        waits(rig, "await_recovery", &mut recovery).await?;
+        rig.stimulate(Stimulus::PlugIn(device));
+        ends(rig, "await_recovery", recovery).await?;
+    }
+    Ok(())
+}
+
+async fn a_working_device_passes_its_test(rig: &dyn Rig) -> Result<(), Violation> {
+    let health = rig.devices().health;
+    for device in [Device::SpeechOut, Device::SpeechIn, Device::Screen] {
+        ends(rig, "test", health.test(device)).await?;
+    }
+    rig.stimulate(Stimulus::Unplug(Device::Screen));
+    fails(rig, "test", health.test(Device::Screen)).await?;
+    rig.stimulate(Stimulus::PlugIn(Device::Screen));
+    ends(rig, "test", health.test(Device::Screen)).await
 }
 
 fn drop_result<'a, T: 'a>(work: Operation<'a, T>) -> Operation<'a, ()> {

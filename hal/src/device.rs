@@ -23,22 +23,35 @@ pub enum Device {
     Clinic,
 }
 
+/// Each device with its name in vocabularies, scenarios and messages.
+const NAMES: [(Device, &str); 6] = [
+    (Device::SpeechOut, "speaker"),
+    (Device::SpeechIn, "microphone"),
+    (Device::Screen, "screen"),
+    (Device::Buttons, "touch"),
+    (Device::Skeleton, "tracker"),
+    (Device::Clinic, "console"),
+];
+
 impl Device {
     /// Every device, in the order of their declaration.
     pub const ALL: [Self; 6] =
         [Self::SpeechOut, Self::SpeechIn, Self::Screen, Self::Buttons, Self::Skeleton, Self::Clinic];
+
+    /// Its name: the node of a vocabulary that stands for it.
+    pub fn name(self) -> &'static str {
+        NAMES.into_iter().find(|(device, _)| *device == self).map_or("", |(_, name)| name)
+    }
+
+    /// The device of that name.
+    pub fn named(name: &str) -> Option<Self> {
+        NAMES.into_iter().find(|(_, known)| *known == name).map(|(device, _)| device)
+    }
 }
 
 impl fmt::Display for Device {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::SpeechOut => "speech-out",
-            Self::SpeechIn => "speech-in",
-            Self::Screen => "screen",
-            Self::Buttons => "buttons",
-            Self::Skeleton => "skeleton",
-            Self::Clinic => "clinic",
-        })
+        f.write_str(self.name())
     }
 }
 
@@ -59,7 +72,13 @@ pub enum DeviceError {
         /// How long the caller waited.
         after: Duration,
     },
-    /// The device rejected the request.
+    /// The device claims success, and the sensor that watches it noticed nothing.
+    #[error("{device} claims success, but nothing of it was sensed")]
+    NotSensed {
+        /// Which one.
+        device: Device,
+    },
+    /// The device rejected this request. It may accept another one.
     #[error("{device} refused: {reason}")]
     Refused {
         /// Which one.
@@ -73,7 +92,7 @@ impl DeviceError {
     /// The device that failed.
     pub fn device(&self) -> Device {
         match self {
-            Self::Disconnected { device } | Self::Timeout { device, .. } | Self::Refused { device, .. } => {
+            Self::Disconnected { device } | Self::NotSensed { device } | Self::Timeout { device, .. } | Self::Refused { device, .. } => {
                 *device
             }
         }

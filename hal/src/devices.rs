@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use crate::{Buttons, Clinic, Screen, Skeleton, SpeechIn, SpeechOut};
+use crate::{Buttons, Clinic, Health, Screen, Skeleton, SpeechIn, SpeechOut};
 
 /// The devices of a robot: one back end of each capability.
 #[derive(Clone)]
@@ -15,6 +15,7 @@ pub struct Devices {
     pub buttons: Arc<dyn Buttons>,
     pub skeleton: Arc<dyn Skeleton>,
     pub clinic: Arc<dyn Clinic>,
+    pub health: Arc<dyn Health>,
 }
 
 impl fmt::Debug for Devices {

@@ -23,7 +23,8 @@
 //! | module | holds |
 //! |---|---|
 //! | `device`, `operation` | which devices there are, their errors, the stop protocol |
-//! | `speech`, `screen`, `skeleton`, `clinic` | the capabilities |
+//! | `speech`, `screen`, `skeleton`, `clinic`, `health` | the capabilities |
+//! | `evidence` | what is known about the robot's own output |
 //! | `devices` | one back end of each |
 //! | [`sim`] | the simulated room |
 //! | [`conformance`] | the suite for back ends |
@@ -34,15 +35,19 @@ pub mod sim;
 mod clinic;
 mod device;
 mod devices;
+mod evidence;
+mod health;
 mod operation;
 mod question;
 mod screen;
 mod skeleton;
 mod speech;
 
-pub use clinic::Clinic;
+pub use clinic::{Clinic, Urgency};
 pub use device::{Device, DeviceError};
 pub use devices::Devices;
+pub use evidence::Evidence;
+pub use health::Health;
 pub use operation::Operation;
 pub use question::{Phrase, Question};
 pub use screen::{Buttons, Page, PageId, Screen};

@@ -2,12 +2,15 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Operation, Question};
+use crate::{Evidence, Operation, Question};
 
 /// Text to speech.
 pub trait SpeechOut: Send + Sync {
     /// Says `text`; done when the last word has been said. Dropping the operation silences the loudspeaker at once.
-    fn say<'a>(&'a self, text: &'a str, language: &'a str) -> Operation<'a, ()>;
+    ///
+    /// A robot with a loopback hears itself: [`Evidence::Sensed`], or [`DeviceError::NotSensed`](crate::DeviceError) if
+    /// the loopback works and heard nothing.
+    fn say<'a>(&'a self, text: &'a str, language: &'a str) -> Operation<'a, Evidence>;
 }
 
 /// The result of speech recognition.
@@ -25,7 +28,7 @@ pub trait SpeechIn: Send + Sync {
     /// Waits until the person speaks, and compares their words with the question's phrases.
     fn listen<'a>(&'a self, question: &'a Question) -> Operation<'a, Heard>;
 
-    /// Waits until the person says one of the phrases, and ignores all other words. The question's topic names the
-    /// request.
-    fn spot<'a>(&'a self, request: &'a Question) -> Operation<'a, ()>;
+    /// Waits until this person, or a voice that the device cannot tell from theirs, says one of the phrases; ignores all
+    /// other words. The question's topic names the request. The person need not be in view.
+    fn spot<'a>(&'a self, request: &'a Question, person: &'a str) -> Operation<'a, ()>;
 }

@@ -4,8 +4,8 @@
 use std::time::Duration;
 
 use expect_test::{Expect, expect};
-use hal::sim::{ClinicianScript, PatientScript, SimRoom};
-use hal::{Device, Page, PageId, Phrase, Question};
+use hal::sim::{Behaviour, ClinicianScript, PatientScript, RoomEvent, SimRoom};
+use hal::{Device, DeviceError, Evidence, Page, PageId, Phrase, Question, Urgency};
 use tokio::time::{sleep, timeout};
 
 fn room(patient: &str) -> SimRoom {
@@ -37,6 +37,7 @@ fn page() -> Page {
         title: String::new(),
         text: "?".into(),
         options: question("").options,
+        dwell: Duration::from_secs(2),
     }
 }
 
@@ -102,11 +103,11 @@ async fn a_touch_needs_the_option_on_the_screen() {
     check(
         &room,
         &expect![[r#"
-          0.0 {"event":"robot_says","text":"Well?"}
-          2.4 {"event":"person_says","words":"option a"}
-          2.6 {"event":"screen_shows","page":{"id":{"name":"q","topic":"eating"},"options":[{"id":"a","words":"option a"},{"id":"b","words":"option b"}],"text":"?","title":""}}
-          4.6 {"event":"person_touches","option":"b","words":"option b"}
-    "#]],
+            0.0 {"event":"robot_says","text":"Well?"}
+            2.4 {"event":"person_says","words":"option a"}
+            2.6 {"event":"screen_shows","page":{"id":{"name":"q","topic":"eating"},"options":[{"id":"a","words":"option a"},{"id":"b","words":"option b"}],"text":"?","title":""}}
+            6.6 {"event":"person_touches","option":"b","words":"option b"}
+        "#]],
     );
 }
 
@@ -140,7 +141,8 @@ async fn a_lying_loudspeaker_takes_its_time_and_is_not_heard() {
     let room = room("");
     let devices = room.devices();
     room.lie(Device::SpeechOut);
-    devices.speech_out.say("Can you hear me?", "en").await.unwrap();
+    let not_sensed = DeviceError::NotSensed { device: Device::SpeechOut };
+    assert_eq!(devices.speech_out.say("Can you hear me?", "en").await, Err(not_sensed));
     assert!(timeout(Duration::from_secs(60), devices.speech_in.listen(&question("first"))).await.is_err());
     room.recover(Device::SpeechOut);
     devices.speech_out.say("And now?", "en").await.unwrap();
@@ -155,12 +157,60 @@ async fn a_lying_loudspeaker_takes_its_time_and_is_not_heard() {
 }
 
 #[tokio::test(start_paused = true)]
-async fn a_lying_screen_reports_nothing() {
+async fn without_a_microphone_the_loudspeaker_is_believed_and_not_sensed() {
+    let room = room("");
+    let out = room.devices().speech_out;
+    assert_eq!(out.say("Hello", "en").await, Ok(Evidence::Sensed));
+    room.fail(Device::SpeechIn);
+    assert_eq!(out.say("Hello", "en").await, Ok(Evidence::Claimed));
+    room.lie(Device::SpeechIn);
+    assert_eq!(out.say("Hello", "en").await, Err(DeviceError::NotSensed { device: Device::SpeechOut }));
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_lying_screen_is_not_sensed() {
     let room = room("");
     let screen = room.devices().screen;
     room.lie(Device::Screen);
-    screen.show(&page()).await.unwrap();
-    assert!(timeout(Duration::from_secs(60), screen.next_shown()).await.is_err());
+    assert_eq!(screen.show(&page()).await, Err(DeviceError::NotSensed { device: Device::Screen }));
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_page_that_is_taken_away_before_it_could_be_read_is_gone() {
+    let room = room("");
+    let screen = room.devices().screen;
+    assert!(timeout(Duration::from_secs(1), screen.show(&page())).await.is_err());
+    let events: Vec<_> = room.moments().into_iter().map(|moment| moment.event).collect();
+    assert_eq!(events.last(), Some(&RoomEvent::ScreenClears));
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_stalled_device_answers_nothing_until_it_recovers_and_a_slow_one_is_late() {
+    let room = room("");
+    let devices = room.devices();
+    room.behave(Device::SpeechOut, Behaviour::Stalls);
+    let mut say = devices.speech_out.say("Hello", "en");
+    assert!(timeout(Duration::from_secs(60), &mut say).await.is_err());
+    devices.health.await_fault(Device::SpeechOut).await.unwrap();
+    room.behave(Device::SpeechOut, Behaviour::Slow);
+    let before = tokio::time::Instant::now();
+    say.await.unwrap();
+    assert_eq!(before.elapsed(), Duration::from_millis(3400));
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_visitor_is_not_the_patient() {
+    let room = room("");
+    let devices = room.devices();
+    let mut visitor = devices.skeleton.await_person("visitor");
+    assert!(timeout(Duration::from_secs(10), &mut visitor).await.is_err());
+    room.visitor_comes("visitor");
+    visitor.await.unwrap();
+    let help = Question { topic: "help".into(), ..question("") };
+    room.ask_by("help", "visitor", None);
+    let patient = devices.speech_in.spot(&help, "person");
+    assert!(timeout(Duration::from_secs(10), patient).await.is_err());
+    devices.speech_in.spot(&help, "visitor").await.unwrap();
 }
 
 #[tokio::test(start_paused = true)]
@@ -169,7 +219,7 @@ async fn the_clinician_fetches_the_person() {
     let observed = std::sync::Arc::new(std::sync::Mutex::new(0));
     let count = observed.clone();
     room.observe(move |_| *count.lock().unwrap() += 1);
-    room.devices().clinic.call("absence").await.unwrap();
+    room.devices().clinic.call("absence", Urgency::Normal).await.unwrap();
     assert!(room.person_in_view());
     assert_eq!(*observed.lock().unwrap(), room.moments().len());
     check(

@@ -11,22 +11,24 @@
     text pose - value
     world body device - frame
     robot person - body
-    clinician room test part utterance answer state command request need document - symbol
+    clinician room test part utterance answer state command request need urgency document - symbol
     item phase - part
     remark summons - utterance    ; a summons is also spoken to a person who is not in view
     option question - remark)
   (:constants
-    pelea speech panel person-agent cgamed - agent
+    pelea speech panel person-agent cgamed health - agent
     loudspeaker display - resource
-    speaker screen microphone - device
+    speaker screen microphone touch tracker console - device
     speaking showing paused aborted broken doubted - state
     pause resume abort - command
     help - request
     answer - answer
     report - document
-    unanswered assistance absence trouble - need)
+    urgent - urgency
+    unanswered assistance absence repair trouble - need)
   (:predicates
-    ; the states of the robot, its devices and the test
+    ; the states of the robot, its devices and the test. A device is broken if it fails or does not
+    ; answer, and doubted if it claims success where nothing was sensed; both end when it is well again.
     (is ?x - (either robot device test) ?s - state)
     (is_not ?r - robot ?s - state)
     (finish ?r - robot ?s - state)
@@ -36,7 +38,11 @@
     (offers ?i - item ?o - option)
     (was_said_in ?u - utterance ?p - part)
     (was_shown_in ?u - utterance ?p - part)
-    ; the person
+    (was_told_in ?u - utterance ?p - part)         ; said or shown, and nothing of it was still to come
+    (was_claimed_in ?u - utterance ?p - part)      ; said or shown without a sensor to confirm it
+    (refuses ?d - device ?p - part)                ; rejected what it was to say or show, and works
+    ; the people: who takes the test, and who else is there
+    (takes ?p - person ?t - test)
     (is_with ?p - person ?r - robot)
     (has_left ?p - person ?m - room)
     (asks ?p - person ?q - request)
@@ -49,6 +55,7 @@
     ; the clinician
     (is_needed_for ?c - clinician ?n - need)
     (is_called_for ?c - clinician ?n - need)
+    (is_overdue_for ?c - clinician ?n - need)      ; was called for it, and did not come in time
     (attended ?c - clinician ?n - need)
     (is_due_to ?d - document ?c - clinician)
     (was_delivered_to ?d - document ?c - clinician))
@@ -66,19 +73,22 @@
 
   (:writes pelea
     is_in label view question (can _ answer) (got _ answer)
-    (is _ doubted) (is_needed_for _ _) (attended _ _) (is_due_to _ _))
+    (is _ doubted) refuses (is_needed_for _ _) (attended _ _) (is_due_to _ _))
   (:writes speech
-    (is _ speaking) (is_not _ speaking) (finish _ speaking) (is speaker broken)
-    (is microphone broken)
-    label was_said_in
+    (is _ speaking) (is_not _ speaking) (finish _ speaking)
+    (is speaker broken) (is speaker doubted) (is microphone broken) (is microphone doubted)
+    label was_said_in was_told_in was_claimed_in refuses
     can waiting got was_chosen_in was_unanswered_in was_misheard_in
     (asks _ help))
   (:writes panel
-    (is _ showing) (is_not _ showing) (finish _ showing) (is screen broken)
-    view was_shown_in
-    can waiting got was_chosen_in was_unanswered_in)
-  (:writes person-agent is_with has_left rt)
+    (is _ showing) (is_not _ showing) (finish _ showing)
+    (is screen broken) (is screen doubted) (is touch broken)
+    view was_shown_in was_told_in was_claimed_in refuses
+    can waiting got was_chosen_in was_unanswered_in
+    (asks _ help))
+  (:writes person-agent is_with has_left rt (is tracker broken))
+  (:writes health (is _ broken) (is _ doubted))
   (:writes cgamed
-    (is _ paused) (is _ aborted)
-    is_needed_for is_called_for attended (asks _ help)
+    (is _ paused) (is _ aborted) (is console broken)
+    is_needed_for is_called_for is_overdue_for attended (asks _ help)
     is_due_to was_delivered_to))

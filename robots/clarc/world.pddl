@@ -5,7 +5,7 @@
   (:objects
     world - world
     robot - robot
-    person - person
+    person visitor - person
     room - room
     clinician - clinician)
   (:init
@@ -14,5 +14,8 @@
     (= (rt_x world robot) 0)
     (= (rt_x robot speaker) 0.1) (= (rt_z robot speaker) 1.1)
     (= (rt_x robot microphone) 0.2) (= (rt_z robot microphone) 1.4)
-    (= (rt_x robot screen) 0.2) (= (rt_z robot screen) 1.2))
+    (= (rt_x robot screen) 0.2) (= (rt_z robot screen) 1.2)
+    (= (rt_x robot touch) 0.2) (= (rt_z robot touch) 1.2)
+    (= (rt_x robot tracker) 0.1) (= (rt_z robot tracker) 1.5)
+    (= (rt_x robot console) 0))
   (:goal (and)))

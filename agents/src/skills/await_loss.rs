@@ -10,8 +10,7 @@ impl Skill for AwaitLoss {
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {
-        let _ = call;
         let device = equipment.devices.skeleton.clone();
-        Box::pin(async move { Ended::of(device.await_loss().await, |()| Vec::new()) })
+        Box::pin(async move { Ended::of(device.await_loss(call.argument(0)).await, |()| Vec::new()) })
     }
 }

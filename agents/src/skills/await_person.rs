@@ -15,8 +15,7 @@ impl Skill for AwaitPerson {
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {
-        let _ = call;
         let device = equipment.devices.skeleton.clone();
-        Box::pin(async move { Ended::of(device.await_person().await, |pose| vec![Datum::Pose(pose)]) })
+        Box::pin(async move { Ended::of(device.await_person(call.argument(0)).await, |pose| vec![Datum::Pose(pose)]) })
     }
 }

@@ -1,4 +1,7 @@
-//! `call-clinician`: calls the clinician, and ends when the clinician has come and seen to the need.
+//! `call-clinician`: calls the clinician, and ends when the clinician has come and seen to the need. With a second
+//! argument the call is urgent.
+
+use hal::Urgency;
 
 use crate::skill::{Call, Ended, Equipment, Outcome, Signature, Skill, Work};
 
@@ -6,11 +9,12 @@ pub(super) struct CallClinician;
 
 impl Skill for CallClinician {
     fn signature(&self) -> Signature {
-        Signature { name: "call-clinician", arity: 1..=1, results: &[], outcomes: Outcome::ONLY_FAILURE }
+        Signature { name: "call-clinician", arity: 1..=2, results: &[], outcomes: Outcome::ONLY_FAILURE }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {
         let device = equipment.devices.clinic.clone();
-        Box::pin(async move { Ended::of(device.call(call.argument(0)).await, |()| Vec::new()) })
+        let urgency = if call.arguments.len() > 1 { Urgency::Urgent } else { Urgency::Normal };
+        Box::pin(async move { Ended::of(device.call(call.argument(0), urgency).await, |()| Vec::new()) })
     }
 }

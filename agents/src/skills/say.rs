@@ -6,7 +6,7 @@ pub(super) struct Say;
 
 impl Skill for Say {
     fn signature(&self) -> Signature {
-        Signature { name: "say", arity: 2..=2, results: &[], outcomes: Outcome::ONLY_FAILURE }
+        Signature { name: "say", arity: 2..=2, results: &[], outcomes: Outcome::OF_OUTPUT }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {
@@ -16,9 +16,9 @@ impl Skill for Say {
         Box::pin(async move {
             let Some(text) = text else {
                 tracing::warn!(?call.arguments, "no words for what is to be said");
-                return Ended::otherwise(Outcome::FAILURE);
+                return Ended::otherwise(Outcome::REFUSED);
             };
-            Ended::of(device.say(&text, &language).await, |()| Vec::new())
+            Ended::of_output(device.say(&text, &language).await)
         })
     }
 }

@@ -1,4 +1,4 @@
-//! `show`: the screen shows the page of an utterance of a part, with the options of the part.
+//! `show`: the screen shows the page of an utterance of a part, with the options of the part, until it can have been read.
 
 use hal::{Page, PageId};
 
@@ -9,7 +9,7 @@ pub(super) struct Show;
 
 impl Skill for Show {
     fn signature(&self) -> Signature {
-        Signature { name: "show", arity: 2..=2, results: &[], outcomes: Outcome::ONLY_FAILURE }
+        Signature { name: "show", arity: 2..=2, results: &[], outcomes: Outcome::OF_OUTPUT }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {
@@ -18,16 +18,17 @@ impl Skill for Show {
         let page = words.sentence(part, utterance).map(|text| Page {
             id: PageId { topic: part.to_owned(), name: utterance.to_owned() },
             title: words.title(part),
-            text,
             options: options(&**words, part),
+            dwell: Page::reading_time(&text),
+            text,
         });
         let device = equipment.devices.screen.clone();
         Box::pin(async move {
             let Some(page) = page else {
                 tracing::warn!(?call.arguments, "no words for what is to be shown");
-                return Ended::otherwise(Outcome::FAILURE);
+                return Ended::otherwise(Outcome::REFUSED);
             };
-            Ended::of(device.show(&page).await, |()| Vec::new())
+            Ended::of_output(device.show(&page).await)
         })
     }
 }

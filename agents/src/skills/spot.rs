@@ -1,4 +1,4 @@
-//! `spot`: the ear waits for a request and ignores all other words.
+//! `spot`: the ear waits for a request of a person, wherever they are, and ignores all other words.
 
 use hal::{Phrase, Question};
 
@@ -8,7 +8,7 @@ pub(super) struct Spot;
 
 impl Skill for Spot {
     fn signature(&self) -> Signature {
-        Signature { name: "spot", arity: 1..=1, results: &[], outcomes: Outcome::ONLY_FAILURE }
+        Signature { name: "spot", arity: 1..=2, results: &[], outcomes: Outcome::ONLY_FAILURE }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {
@@ -22,6 +22,6 @@ impl Skill for Spot {
             options: options.into_iter().map(|words| Phrase { id: request.to_owned(), words }).collect(),
         };
         let device = equipment.devices.speech_in.clone();
-        Box::pin(async move { Ended::of(device.spot(&wanted).await, |()| Vec::new()) })
+        Box::pin(async move { Ended::of(device.spot(&wanted, call.argument(1)).await, |()| Vec::new()) })
     }
 }

@@ -9,7 +9,7 @@ use dsr::Graph;
 use executive::Step;
 use futures::future::join_all;
 use hal::Device;
-use hal::sim::SimRoom;
+use hal::sim::{Behaviour, By, SimRoom};
 use mission::scenario::{self, Act, Trigger};
 use std::future::pending;
 use std::sync::Arc;
@@ -38,7 +38,12 @@ async fn follow(cue: Cue, steps: broadcast::Receiver<Step>, stage: &Stage) {
         Trigger::Step { step, occurrence } => starts(step, *occurrence, steps).await,
     }
     sleep(cue.disruption.after).await;
-    act(&cue.disruption.act, &stage.room);
+    let act = &cue.disruption.act;
+    carry_out(act, &stage.room);
+    if let Act::Disturb { device, lasts: Some(lasts), .. } = act {
+        sleep(*lasts).await;
+        stage.room.recover(hardware(*device));
+    }
 }
 
 /// Waits until the condition has become true for the nth time.
@@ -77,16 +82,23 @@ async fn starts(wanted: &scenario::Step, occurrence: u32, mut steps: broadcast::
     }
 }
 
-fn act(act: &Act, room: &SimRoom) {
+fn carry_out(act: &Act, room: &SimRoom) {
     match act {
         Act::LosePerson => room.lose_person(),
         Act::ReturnPerson => room.return_person(),
-        Act::Ask { request } => room.ask(request),
+        Act::VisitorComes { person } => room.visitor_comes(person),
+        Act::VisitorGoes { person } => room.visitor_goes(person),
+        Act::Ask { request, person, by } => {
+            let by = by.map(|by| match by {
+                scenario::By::Voice => By::Voice,
+                scenario::By::Touch => By::Touch,
+            });
+            room.ask_by(request, person.as_deref().unwrap_or_default(), by);
+        }
         Act::Pause => room.command("pause"),
         Act::Resume => room.command("resume"),
         Act::Abort => room.command("abort"),
-        Act::Fail(device) => room.fail(hardware(*device)),
-        Act::Lie(device) => room.lie(hardware(*device)),
+        Act::Disturb { device, fault, .. } => room.behave(hardware(*device), behaviour(*fault)),
         Act::Recover(device) => room.recover(hardware(*device)),
     }
 }
@@ -96,5 +108,19 @@ fn hardware(device: scenario::Device) -> Device {
         scenario::Device::Speaker => Device::SpeechOut,
         scenario::Device::Screen => Device::Screen,
         scenario::Device::Microphone => Device::SpeechIn,
+        scenario::Device::Touch => Device::Buttons,
+        scenario::Device::Tracker => Device::Skeleton,
+        scenario::Device::Console => Device::Clinic,
+    }
+}
+
+fn behaviour(fault: scenario::Fault) -> Behaviour {
+    match fault {
+        scenario::Fault::Fail => Behaviour::Fails,
+        scenario::Fault::Lie => Behaviour::Lies,
+        scenario::Fault::Stall => Behaviour::Stalls,
+        scenario::Fault::Slow => Behaviour::Slow,
+        scenario::Fault::Refuse => Behaviour::Refuses,
+        scenario::Fault::Panic => Behaviour::Panics,
     }
 }

@@ -34,6 +34,7 @@ pub(super) fn patient(mission: &Mission, patient: &scenario::Patient, seed: u64)
 pub(super) fn clinician(clinician: &scenario::Clinician) -> ClinicianScript {
     ClinicianScript {
         comes: clinician.comes_after.is_some(),
+        only_urgent: clinician.only_urgent,
         after: clinician.comes_after.unwrap_or_default().as_secs_f64(),
         stays: clinician.stays.as_secs_f64(),
         fetches: clinician.fetches,

@@ -115,11 +115,19 @@ impl Terminal {
             E::ScreenClears => return,
             E::PersonSays { words } => (Tone::Person, "person:", format!("“{words}”")),
             E::PersonTouches { words, .. } => (Tone::Person, "person:", format!("touches “{words}”")),
-            E::PersonAsks { request } => (Tone::Person, "person:", format!("asks for {request}")),
+            E::PersonAsks { request, person } => {
+                let head = person.as_ref().map_or_else(|| "person:".to_owned(), |name| format!("{name}:"));
+                return self.line(time, Tone::Person, &head, &format!("asks for {request}"));
+            }
+            E::VisitorComes { name } => (Tone::Person, "room", format!("{name} comes into view")),
+            E::VisitorGoes { name } => (Tone::Person, "room", format!("{name} leaves view")),
             E::PersonLeaves => (Tone::Trouble, "room", "the person leaves view".to_owned()),
             E::PersonLeavesRoom => (Tone::Trouble, "room", "the person leaves the room".to_owned()),
             E::PersonReturns => (Tone::Person, "room", "the person is in view again".to_owned()),
-            E::ClinicianCalled { need } => (Tone::Plan, "room", format!("the clinician is called: {need}")),
+            E::ClinicianCalled { need, urgent } => {
+                let urgently = if *urgent { " urgently" } else { "" };
+                (Tone::Plan, "room", format!("the clinician is called{urgently}: {need}"))
+            }
             E::CallWithdrawn { need } => (Tone::Plan, "room", format!("the call is withdrawn: {need}")),
             E::ClinicianArrives { .. } => (Tone::Plan, "room", "the clinician comes in".to_owned()),
             E::ClinicianGoes { .. } => (Tone::Plan, "room", "the clinician has seen to it".to_owned()),
@@ -131,6 +139,12 @@ impl Terminal {
             E::DeviceLies { device } => {
                 (Tone::Trouble, "room", format!("{device} claims success from now on, and does nothing"))
             }
+            E::DeviceStalls { device } => (Tone::Trouble, "room", format!("{device} does not answer any more")),
+            E::DeviceSlows { device } => (Tone::Trouble, "room", format!("{device} answers late from now on")),
+            E::DeviceRefuses { device } => {
+                (Tone::Trouble, "room", format!("{device} rejects every request from now on"))
+            }
+            E::DevicePanics { device } => (Tone::Trouble, "room", format!("the driver of the {device} panics")),
             E::DeviceRecovers { device } => (Tone::Plain, "room", format!("{device} works again")),
         };
         self.line(time, tone, head, &text);

@@ -8,21 +8,18 @@ use super::event::RoomEvent;
 use super::room::SimRoom;
 use super::state::{State, seconds};
 use super::waiting::{Activity, Step};
-use crate::{Clinic, Device, DeviceError, Operation};
+use crate::{Clinic, Device, DeviceError, Operation, Urgency};
 
 /// How long the server takes to acknowledge a report.
 const TO_DELIVER: Duration = Duration::from_millis(100);
 
 impl Clinic for SimRoom {
-    fn call<'a>(&'a self, need: &'a str) -> Operation<'a, ()> {
-        self.operate(Calling { need, called: None, arrived: None })
+    fn call<'a>(&'a self, need: &'a str, urgency: Urgency) -> Operation<'a, ()> {
+        self.operate(Device::Clinic, Calling { need, urgency, called: None, arrived: None })
     }
 
     fn next_command<'a>(&'a self, name: &'a str) -> Operation<'a, ()> {
-        self.operate(move |state: &mut State, _: Instant| {
-            if let Err(error) = state.check(Device::Clinic) {
-                return Step::Done(Err(error));
-            }
+        self.operate(Device::Clinic, move |state: &mut State, _: Instant| {
             if state.works(Device::Clinic) && state.pressed.as_deref() == Some(name) {
                 state.pressed = None;
                 return Step::Done(Ok(()));
@@ -33,10 +30,7 @@ impl Clinic for SimRoom {
 
     fn deliver<'a>(&'a self, report: &'a serde_json::Value) -> Operation<'a, ()> {
         let mut since = None;
-        self.operate(move |state: &mut State, now: Instant| {
-            if let Err(error) = state.check(Device::Clinic) {
-                return Step::Done(Err(error));
-            }
+        self.operate(Device::Clinic, move |state: &mut State, now: Instant| {
             let ready = *since.get_or_insert(now) + TO_DELIVER;
             if now < ready {
                 return Step::Until(ready);
@@ -51,21 +45,21 @@ impl Clinic for SimRoom {
 
 struct Calling<'a> {
     need: &'a str,
+    urgency: Urgency,
     called: Option<Instant>,
     arrived: Option<Instant>,
 }
 
 impl Activity<()> for Calling<'_> {
     fn step(&mut self, state: &mut State, now: Instant) -> Step<Result<(), DeviceError>> {
-        if let Err(error) = state.check(Device::Clinic) {
-            return Step::Done(Err(error));
-        }
+        // A link that lies takes the call, and nobody hears of it.
         if !state.works(Device::Clinic) {
-            return Step::Done(Ok(()));
+            return Step::Idle;
         }
+        let urgent = self.urgency == Urgency::Urgent;
         let need = || self.need.to_owned();
         let called = *self.called.get_or_insert_with(|| {
-            state.happens(now, RoomEvent::ClinicianCalled { need: need() });
+            state.happens(now, RoomEvent::ClinicianCalled { need: need(), urgent });
             now
         });
         let since = match self.arrived {
@@ -73,7 +67,7 @@ impl Activity<()> for Calling<'_> {
             None => {
                 let due = called + seconds(state.clinician.after);
                 if !std::mem::take(&mut state.clinician_comes_now) {
-                    if !state.clinician.comes {
+                    if !state.clinician.comes || (state.clinician.only_urgent && !urgent) {
                         return Step::Idle;
                     }
                     if now < due {
@@ -81,8 +75,8 @@ impl Activity<()> for Calling<'_> {
                     }
                 }
                 state.happens(now, RoomEvent::ClinicianArrives { need: need() });
-                if state.clinician.fetches && !state.in_view {
-                    state.set_view(true, now, RoomEvent::PersonReturns);
+                if state.clinician.fetches && !state.view.inside {
+                    state.set_view("", true, now, RoomEvent::PersonReturns);
                 }
                 *self.arrived.insert(now)
             }
@@ -96,6 +90,8 @@ impl Activity<()> for Calling<'_> {
     }
 
     fn stop(&mut self, state: &mut State, now: Instant) {
-        state.happens(now, RoomEvent::CallWithdrawn { need: self.need.to_owned() });
+        if self.called.is_some() {
+            state.happens(now, RoomEvent::CallWithdrawn { need: self.need.to_owned() });
+        }
     }
 }

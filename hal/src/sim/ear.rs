@@ -1,34 +1,39 @@
-//! Speech in: the person speaks while they are in view and a device listens.
+//! Speech in: the person answers while they are in view and a device listens; a request is heard from anywhere.
 
 use tokio::time::Instant;
 
 use super::event::RoomEvent;
 use super::room::SimRoom;
 use super::script::{By, Reply};
-use super::state::State;
+use super::state::{Asked, State};
 use super::waiting::{Activity, Step};
 use crate::{Device, DeviceError, Heard, Operation, Phrase, Question, SpeechIn};
 
 impl SpeechIn for SimRoom {
     fn listen<'a>(&'a self, question: &'a Question) -> Operation<'a, Heard> {
-        self.operate(Listening { question, open: false })
+        self.operate(Device::SpeechIn, Listening { question, open: false })
     }
 
-    fn spot<'a>(&'a self, request: &'a Question) -> Operation<'a, ()> {
-        self.operate(move |state: &mut State, now: Instant| {
-            if let Err(error) = state.check(Device::SpeechIn) {
-                return Step::Done(Err(error));
-            }
-            if !state.in_view || !state.works(Device::SpeechIn) {
+    fn spot<'a>(&'a self, request: &'a Question, person: &'a str) -> Operation<'a, ()> {
+        self.operate(Device::SpeechIn, move |state: &mut State, now: Instant| {
+            if !state.works(Device::SpeechIn) {
                 return Step::Idle;
             }
-            let Some(at) = state.requests.iter().position(|asked| *asked == request.topic) else {
-                return Step::Idle;
-            };
-            state.requests.remove(at);
-            state.happens(now, RoomEvent::PersonAsks { request: request.topic.clone() });
-            Step::Done(Ok(()))
+            match state.take_request(&request.topic, person, By::Voice) {
+                Some(asked) => {
+                    state.happens(now, asked.event());
+                    Step::Done(Ok(()))
+                }
+                None => Step::Idle,
+            }
         })
+    }
+}
+
+impl Asked {
+    pub(super) fn event(self) -> RoomEvent {
+        let person = Some(self.person).filter(|name| !name.is_empty());
+        RoomEvent::PersonAsks { request: self.request, person }
     }
 }
 
@@ -41,10 +46,6 @@ impl Activity<Heard> for Listening<'_> {
     fn step(&mut self, state: &mut State, now: Instant) -> Step<Result<Heard, DeviceError>> {
         if !std::mem::replace(&mut self.open, true) {
             state.open(self.question, By::Voice, now);
-        }
-        if let Err(error) = state.check(Device::SpeechIn) {
-            state.close(self.question, By::Voice);
-            return Step::Done(Err(error));
         }
         let Some((at, reply)) = state.reply(self.question) else { return Step::Idle };
         let Some((said, heard)) = spoken(state, &reply, &self.question.options) else { return Step::Idle };

@@ -23,16 +23,28 @@ pub enum RoomEvent {
     PersonSays { words: String },
     /// The person touches an option.
     PersonTouches { option: String, words: String },
-    /// The person asks for something.
-    PersonAsks { request: String },
+    /// A person asks for something. The patient has no name here.
+    PersonAsks {
+        request: String,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        person: Option<String>,
+    },
     /// The person is out of view.
     PersonLeaves,
     /// The person is out of the room, and out of view.
     PersonLeavesRoom,
     /// The person is in view again.
     PersonReturns,
+    /// Another person comes into view.
+    VisitorComes { name: String },
+    /// Another person is out of view again.
+    VisitorGoes { name: String },
     /// The robot calls the clinician.
-    ClinicianCalled { need: String },
+    ClinicianCalled {
+        need: String,
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        urgent: bool,
+    },
     /// The robot withdraws its call.
     CallWithdrawn { need: String },
     /// The clinician enters.
@@ -47,6 +59,14 @@ pub enum RoomEvent {
     DeviceFails { device: Device },
     /// A device reports success from now on, and does nothing.
     DeviceLies { device: Device },
+    /// A device neither works nor fails from now on.
+    DeviceStalls { device: Device },
+    /// A device reports everything late from now on.
+    DeviceSlows { device: Device },
+    /// A device rejects every request from now on.
+    DeviceRefuses { device: Device },
+    /// The driver of a device panics from now on.
+    DevicePanics { device: Device },
     /// A device works again.
     DeviceRecovers { device: Device },
 }

@@ -4,18 +4,19 @@ use std::time::Duration;
 
 use tokio::time::Instant;
 
+use super::behaviour::Behaviour;
 use super::event::RoomEvent;
 use super::room::SimRoom;
 use super::state::{State, seconds};
 use super::waiting::{Activity, Step};
-use crate::{Device, DeviceError, Operation, SpeechOut};
+use crate::{Device, DeviceError, Evidence, Operation, SpeechOut};
 
 /// Two and a half words a second: slow, for old ears.
 const SECONDS_PER_WORD: f64 = 0.4;
 
 impl SpeechOut for SimRoom {
-    fn say<'a>(&'a self, text: &'a str, _language: &'a str) -> Operation<'a, ()> {
-        self.operate(Saying { text, since: None, aloud: false })
+    fn say<'a>(&'a self, text: &'a str, _language: &'a str) -> Operation<'a, Evidence> {
+        self.operate(Device::SpeechOut, Saying { text, since: None, aloud: false })
     }
 }
 
@@ -27,12 +28,8 @@ struct Saying<'a> {
     aloud: bool,
 }
 
-impl Activity<()> for Saying<'_> {
-    fn step(&mut self, state: &mut State, now: Instant) -> Step<Result<(), DeviceError>> {
-        if let Err(error) = state.check(Device::SpeechOut) {
-            self.stop(state, now);
-            return Step::Done(Err(error));
-        }
+impl Activity<Evidence> for Saying<'_> {
+    fn step(&mut self, state: &mut State, now: Instant) -> Step<Result<Evidence, DeviceError>> {
         let since = match self.since {
             Some(since) => since,
             None if state.speaking => return Step::Idle,
@@ -55,7 +52,7 @@ impl Activity<()> for Saying<'_> {
         if self.aloud {
             state.perceive();
         }
-        Step::Done(Ok(()))
+        Step::Done(self.loopback(state))
     }
 
     fn stop(&mut self, state: &mut State, now: Instant) {
@@ -71,6 +68,21 @@ impl Activity<()> for Saying<'_> {
             )]
             let said = self.text.split_whitespace().take(words as usize).collect::<Vec<_>>().join(" ");
             state.happens(now, RoomEvent::RobotStops { said });
+        }
+    }
+}
+
+impl Saying<'_> {
+    /// What the microphone hears of the loudspeaker.
+    fn loopback(&self, state: &State) -> Result<Evidence, DeviceError> {
+        match state.behaviour(Device::SpeechIn) {
+            Behaviour::Works | Behaviour::Slow if self.aloud => Ok(Evidence::Sensed),
+            Behaviour::Works | Behaviour::Slow | Behaviour::Lies => {
+                Err(DeviceError::NotSensed { device: Device::SpeechOut })
+            }
+            Behaviour::Fails | Behaviour::Stalls | Behaviour::Refuses | Behaviour::Panics => {
+                Ok(Evidence::Claimed)
+            }
         }
     }
 }

@@ -12,9 +12,11 @@
 //! Invariant: the same scripts and the same calls at the same times give the same [`Moment`]s. Wakers are kept in the
 //! order of registration, and nothing is random.
 
+mod behaviour;
 mod clinic;
 mod ear;
 mod event;
+mod health;
 mod loudspeaker;
 mod presence;
 mod rig;
@@ -24,6 +26,7 @@ mod state;
 mod touchscreen;
 mod waiting;
 
+pub use behaviour::Behaviour;
 pub use event::{Moment, RoomEvent};
 pub use room::SimRoom;
 pub use script::{By, ClinicianScript, PatientScript, Reply, ReplyRule};

@@ -13,32 +13,33 @@ const SECONDS_TO_SEE: f64 = 0.3;
 const SECONDS_TO_LOSE: f64 = 0.3;
 
 impl Skeleton for SimRoom {
-    fn await_person(&self) -> Operation<'_, Pose> {
-        self.operate(|state: &mut State, now: Instant| {
+    fn await_person<'a>(&'a self, person: &'a str) -> Operation<'a, Pose> {
+        self.operate(Device::Skeleton, move |state: &mut State, now: Instant| {
             let [x, y, z] = state.patient.position;
-            sure(state, now, true, SECONDS_TO_SEE, Pose::translation(x, y, z))
+            sure(state, person, now, true, SECONDS_TO_SEE, Pose::translation(x, y, z))
         })
     }
 
-    fn await_loss(&self) -> Operation<'_, ()> {
-        self.operate(|state: &mut State, now: Instant| sure(state, now, false, SECONDS_TO_LOSE, ()))
+    fn await_loss<'a>(&'a self, person: &'a str) -> Operation<'a, ()> {
+        self.operate(Device::Skeleton, move |state: &mut State, now: Instant| {
+            sure(state, person, now, false, SECONDS_TO_LOSE, ())
+        })
     }
 }
 
 /// Done once the person has been in view, or out of view, for long enough.
 fn sure<T>(
     state: &State,
+    person: &str,
     now: Instant,
-    in_view: bool,
+    inside: bool,
     after: f64,
     result: T,
 ) -> Step<Result<T, DeviceError>> {
-    if let Err(error) = state.check(Device::Skeleton) {
-        return Step::Done(Err(error));
-    }
-    if state.in_view != in_view || !state.works(Device::Skeleton) {
+    let view = state.view_of(person);
+    if view.inside != inside || !state.works(Device::Skeleton) {
         return Step::Idle;
     }
-    let at = state.view_changed + seconds(after);
+    let at = view.since + seconds(after);
     if now < at { Step::Until(at) } else { Step::Done(Ok(result)) }
 }

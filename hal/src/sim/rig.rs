@@ -27,7 +27,8 @@ impl Rig for SimRoom {
             Stimulus::PersonWillTouch { topic, option } => {
                 self.will_reply(topic, answer(option, By::Touch));
             }
-            Stimulus::PersonAsks(request) => self.ask(request),
+            Stimulus::PersonAsks(request) => self.ask_by(request, "", Some(By::Voice)),
+            Stimulus::PersonTouchesRequest(request) => self.ask_by(request, "", Some(By::Touch)),
             Stimulus::PersonLeaves => self.lose_person(),
             Stimulus::PersonReturns => self.return_person(),
             Stimulus::ClinicianCommands(command) => self.command(command),

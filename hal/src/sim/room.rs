@@ -5,9 +5,10 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use tokio::time::Instant;
 
+use super::behaviour::Behaviour;
 use super::event::{Moment, RoomEvent};
-use super::script::{ClinicianScript, PatientScript, Reply, ReplyRule};
-use super::state::{Behaviour, State};
+use super::script::{By, ClinicianScript, PatientScript, Reply, ReplyRule};
+use super::state::{Asked, State};
 use crate::{Device, Devices};
 
 type Observer = Box<dyn FnMut(&Moment) + Send>;
@@ -47,6 +48,7 @@ impl SimRoom {
             buttons: room(),
             skeleton: room(),
             clinic: room(),
+            health: room(),
         }
     }
 
@@ -60,31 +62,49 @@ impl SimRoom {
         lock(&self.inner.state).moments.clone()
     }
 
-    /// Whether the person is in view.
+    /// Whether the patient is in view.
     pub fn person_in_view(&self) -> bool {
-        lock(&self.inner.state).in_view
+        lock(&self.inner.state).view.inside
     }
 
-    /// The person goes out of view.
+    /// The patient goes out of view.
     pub fn lose_person(&self) {
-        self.change(|state, now| state.set_view(false, now, RoomEvent::PersonLeaves));
+        self.change(|state, now| state.set_view("", false, now, RoomEvent::PersonLeaves));
     }
 
-    /// The person leaves the room. The devices see no difference to [`SimRoom::lose_person`].
+    /// The patient leaves the room. The devices see no difference to [`SimRoom::lose_person`].
     pub fn leave_room(&self) {
-        self.change(|state, now| state.set_view(false, now, RoomEvent::PersonLeavesRoom));
+        self.change(|state, now| state.set_view("", false, now, RoomEvent::PersonLeavesRoom));
     }
 
-    /// The person comes back into view.
+    /// The patient comes back into view.
     pub fn return_person(&self) {
-        self.change(|state, now| state.set_view(true, now, RoomEvent::PersonReturns));
+        self.change(|state, now| state.set_view("", true, now, RoomEvent::PersonReturns));
     }
 
-    /// The person asks for something, again and again, until a device that listens for it hears it while they are in
-    /// view.
+    /// Another person, by the name of their node, comes into view.
+    pub fn visitor_comes(&self, name: &str) {
+        let event = RoomEvent::VisitorComes { name: name.to_owned() };
+        self.change(|state, now| state.set_view(name, true, now, event));
+    }
+
+    /// Another person goes out of view.
+    pub fn visitor_goes(&self, name: &str) {
+        let event = RoomEvent::VisitorGoes { name: name.to_owned() };
+        self.change(|state, now| state.set_view(name, false, now, event));
+    }
+
+    /// The patient asks for something, by voice or touch, whatever works; see [`SimRoom::ask_by`].
     pub fn ask(&self, request: &str) {
+        self.ask_by(request, "", None);
+    }
+
+    /// A person, the patient if the name is empty, asks for something, again and again, until a device that waits for it
+    /// takes it. A voice is heard wherever they are; a touch needs them in view.
+    pub fn ask_by(&self, request: &str, person: &str, by: Option<By>) {
+        let asked = Asked { request: request.to_owned(), person: person.to_owned(), by };
         self.change(|state, _| {
-            state.requests.push_back(request.to_owned());
+            state.requests.push_back(asked);
             state.changed = true;
         });
     }
@@ -113,22 +133,32 @@ impl SimRoom {
 
     /// From now on the device fails. Its present operations fail at once.
     pub fn fail(&self, device: Device) {
-        self.behave(device, Behaviour::Fails, RoomEvent::DeviceFails { device });
+        self.behave(device, Behaviour::Fails);
     }
 
     /// From now on the device reports success and does nothing. A sensor senses nothing.
     pub fn lie(&self, device: Device) {
-        self.behave(device, Behaviour::Lies, RoomEvent::DeviceLies { device });
+        self.behave(device, Behaviour::Lies);
     }
 
     /// The device works again.
     pub fn recover(&self, device: Device) {
-        self.behave(device, Behaviour::Works, RoomEvent::DeviceRecovers { device });
+        self.behave(device, Behaviour::Works);
     }
 
-    fn behave(&self, device: Device, behaviour: Behaviour, event: RoomEvent) {
+    /// From now on the device behaves so.
+    pub fn behave(&self, device: Device, behaviour: Behaviour) {
+        let event = match behaviour {
+            Behaviour::Works => RoomEvent::DeviceRecovers { device },
+            Behaviour::Fails => RoomEvent::DeviceFails { device },
+            Behaviour::Lies => RoomEvent::DeviceLies { device },
+            Behaviour::Stalls => RoomEvent::DeviceStalls { device },
+            Behaviour::Slow => RoomEvent::DeviceSlows { device },
+            Behaviour::Refuses => RoomEvent::DeviceRefuses { device },
+            Behaviour::Panics => RoomEvent::DevicePanics { device },
+        };
         self.change(|state, now| {
-            state.behaviour.insert(device, behaviour);
+            state.behaviour.insert(device, (behaviour, now));
             state.happens(now, event);
         });
     }

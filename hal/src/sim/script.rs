@@ -76,6 +76,8 @@ pub struct ReplyRule {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PatientScript {
+    /// The node that stands for them.
+    pub name: String,
     /// Whether they are in view when the simulation starts.
     pub in_view: bool,
     /// Their position whenever they are in view: metres in the frame of the world.
@@ -99,7 +101,7 @@ impl PatientScript {
 
 impl Default for PatientScript {
     fn default() -> Self {
-        Self { in_view: true, position: [1.2, 0.0, 0.0], replies: Vec::new(), otherwise: Reply::option(0) }
+        Self { name: "person".into(), in_view: true, position: [1.2, 0.0, 0.0], replies: Vec::new(), otherwise: Reply::option(0) }
     }
 }
 
@@ -109,6 +111,8 @@ impl Default for PatientScript {
 pub struct ClinicianScript {
     /// Whether they come when called.
     pub comes: bool,
+    /// Whether they come only to an urgent call.
+    pub only_urgent: bool,
     /// How many seconds after the call they come.
     pub after: f64,
     /// How many seconds they stay; then the call is finished.
@@ -119,6 +123,6 @@ pub struct ClinicianScript {
 
 impl Default for ClinicianScript {
     fn default() -> Self {
-        Self { comes: true, after: 20.0, stays: 5.0, fetches: true }
+        Self { comes: true, only_urgent: false, after: 20.0, stays: 5.0, fetches: true }
     }
 }

@@ -6,18 +6,10 @@ use std::time::Duration;
 
 use tokio::time::Instant;
 
+use super::behaviour::Behaviour;
 use super::event::{Moment, RoomEvent};
 use super::script::{By, ClinicianScript, PatientScript, Reply};
-use crate::{Device, DeviceError, Page, PageId, Question};
-
-/// How a device behaves.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(super) enum Behaviour {
-    #[default]
-    Works,
-    Fails,
-    Lies,
-}
+use crate::{Device, Page, Question};
 
 /// A question that the person can answer now: at least one device waits for the answer.
 #[derive(Debug)]
@@ -48,27 +40,43 @@ impl Window {
     }
 }
 
+/// Whether a person is in view of the robot.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct View {
+    pub(super) inside: bool,
+    pub(super) since: Instant,
+}
+
+/// A request of a person.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Asked {
+    pub(super) request: String,
+    pub(super) person: String,
+    /// By voice or by touch; `None` by whatever works.
+    pub(super) by: Option<By>,
+}
+
 #[derive(Debug)]
 pub(super) struct State {
     pub(super) patient: PatientScript,
     pub(super) clinician: ClinicianScript,
     pub(super) started: Instant,
-    pub(super) in_view: bool,
-    /// When `in_view` last changed.
-    pub(super) view_changed: Instant,
-    pub(super) behaviour: BTreeMap<Device, Behaviour>,
+    /// The patient's.
+    pub(super) view: View,
+    /// Other people, by name, who have been in view.
+    visitors: BTreeMap<String, View>,
+    /// How each device behaves, and since when.
+    pub(super) behaviour: BTreeMap<Device, (Behaviour, Instant)>,
     /// Whether the robot is speaking.
     pub(super) speaking: bool,
     pub(super) displayed: Option<Page>,
-    /// Pages that the screen has shown and has not yet reported.
-    pub(super) unreported: VecDeque<PageId>,
     /// How many sentences and pages the person has perceived.
     perceived: u64,
     perceived_at_last_window: u64,
     pub(super) window: Option<Window>,
     asked: BTreeSet<(String, String)>,
-    /// Requests of the person that no device has heard yet.
-    pub(super) requests: VecDeque<String>,
+    /// Requests that no device has taken yet.
+    pub(super) requests: VecDeque<Asked>,
     /// The last command, if no operation has taken it.
     pub(super) pressed: Option<String>,
     /// Whether the clinician comes to the next call at once.
@@ -83,15 +91,14 @@ pub(super) struct State {
 impl State {
     pub(super) fn new(patient: PatientScript, clinician: ClinicianScript, now: Instant) -> Self {
         Self {
-            in_view: patient.in_view,
+            view: View { inside: patient.in_view, since: now },
+            visitors: BTreeMap::new(),
             patient,
             clinician,
             started: now,
-            view_changed: now,
             behaviour: BTreeMap::new(),
             speaking: false,
             displayed: None,
-            unreported: VecDeque::new(),
             perceived: 0,
             perceived_at_last_window: 0,
             window: None,
@@ -119,40 +126,50 @@ impl State {
         id
     }
 
-    fn behaviour(&self, device: Device) -> Behaviour {
-        self.behaviour.get(&device).copied().unwrap_or_default()
-    }
-
-    /// The error of a device that fails.
-    pub(super) fn check(&self, device: Device) -> Result<(), DeviceError> {
-        match self.behaviour(device) {
-            Behaviour::Fails => Err(DeviceError::Disconnected { device }),
-            Behaviour::Works | Behaviour::Lies => Ok(()),
-        }
-    }
-
-    pub(super) fn works(&self, device: Device) -> bool {
-        self.behaviour(device) == Behaviour::Works
-    }
-
-    /// The person perceives a finished sentence or a new page, if they are in view.
+    /// The patient perceives a finished sentence or a page that has stood, if they are in view.
     pub(super) fn perceive(&mut self) {
-        if self.in_view {
+        if self.view.inside {
             self.perceived += 1;
             self.changed = true;
         }
     }
 
-    pub(super) fn set_view(&mut self, in_view: bool, now: Instant, event: RoomEvent) {
-        if self.in_view != in_view {
-            self.in_view = in_view;
-            self.view_changed = now;
-            // A person who comes back sees the page on the screen.
-            if in_view && self.displayed.is_some() {
-                self.perceive();
+    /// Whether a person is in view; the patient if `person` is empty. A visitor who has never come is not.
+    pub(super) fn view_of(&self, person: &str) -> View {
+        if self.is_patient(person) {
+            return self.view;
+        }
+        self.visitors.get(person).copied().unwrap_or(View { inside: false, since: self.started })
+    }
+
+    fn is_patient(&self, person: &str) -> bool {
+        person.is_empty() || person == self.patient.name
+    }
+
+    pub(super) fn set_view(&mut self, person: &str, inside: bool, now: Instant, event: RoomEvent) {
+        if self.view_of(person).inside != inside {
+            let view = View { inside, since: now };
+            if self.is_patient(person) {
+                self.view = view;
+                // A person who comes back sees the page on the screen.
+                if inside && self.displayed.is_some() {
+                    self.perceive();
+                }
+            } else {
+                self.visitors.insert(person.to_owned(), view);
             }
         }
         self.happens(now, event);
+    }
+
+    /// Takes a request of this person by voice or by touch, if they have made one.
+    pub(super) fn take_request(&mut self, request: &str, person: &str, by: By) -> Option<Asked> {
+        let at = self.requests.iter().position(|asked| {
+            asked.request == request
+                && asked.by.is_none_or(|only| only == by)
+                && (asked.person == person || (self.is_patient(person) && self.is_patient(&asked.person)))
+        })?;
+        self.requests.remove(at)
     }
 
     /// A device begins to wait for an answer. Another question than the open one replaces it.
@@ -200,10 +217,10 @@ impl State {
     /// When and how the person replies to the open question; `None` if they do not reply now.
     pub(super) fn reply(&self, question: &Question) -> Option<(Instant, Reply)> {
         let window = self.window.as_ref().filter(|window| window.is_of(question))?;
-        if window.answered || !self.in_view || !window.asked(self.perceived) {
+        if window.answered || !self.view.inside || !window.asked(self.perceived) {
             return None;
         }
-        let from = window.opened.max(self.view_changed);
+        let from = window.opened.max(self.view.since);
         Some((from + seconds(window.reply.delay()?), window.reply.clone()))
     }
 
@@ -221,7 +238,7 @@ impl State {
     /// Whether the person can touch this option on the screen.
     pub(super) fn offers(&self, option: &str) -> bool {
         self.works(Device::Buttons)
-            && self.behaviour(Device::Screen) != Behaviour::Fails
+            && !matches!(self.behaviour(Device::Screen), Behaviour::Fails | Behaviour::Panics)
             && self.displayed.as_ref().is_some_and(|page| page.options.iter().any(|o| o.id == option))
     }
 }

@@ -1,4 +1,4 @@
-//! The touchscreen: pages, the screen's own reports of them, and touches.
+//! The touchscreen: pages that stand long enough to be read, and touches.
 
 use std::time::Duration;
 
@@ -10,60 +10,87 @@ use super::room::SimRoom;
 use super::script::{By, Reply};
 use super::state::State;
 use super::waiting::{Activity, Step};
-use crate::{Buttons, Device, DeviceError, Operation, Page, PageId, Question, Screen};
+use crate::{Buttons, Device, DeviceError, Evidence, Operation, Page, Question, Screen};
 
 /// How long the screen takes to show a page.
 const TO_SHOW: Duration = Duration::from_millis(200);
 
 impl Screen for SimRoom {
-    fn show<'a>(&'a self, page: &'a Page) -> Operation<'a, ()> {
-        self.operate(put_up(Some(page)))
+    fn show<'a>(&'a self, page: &'a Page) -> Operation<'a, Evidence> {
+        self.operate(Device::Screen, Showing { page, since: None, up: false })
     }
 
     fn clear(&self) -> Operation<'_, ()> {
-        self.operate(put_up(None))
-    }
-
-    fn next_shown(&self) -> Operation<'_, PageId> {
-        self.operate(|state: &mut State, _: Instant| {
-            if let Err(error) = state.check(Device::Screen) {
-                return Step::Done(Err(error));
+        let mut since = None;
+        self.operate(Device::Screen, move |state: &mut State, now: Instant| {
+            let ready = *since.get_or_insert(now) + TO_SHOW;
+            if now < ready {
+                return Step::Until(ready);
             }
-            state.unreported.pop_front().map_or(Step::Idle, |page| Step::Done(Ok(page)))
+            take_down(state, now);
+            Step::Done(Ok(()))
         })
     }
 }
 
-fn put_up<'a>(
-    page: Option<&'a Page>,
-) -> impl FnMut(&mut State, Instant) -> Step<Result<(), DeviceError>> + Send + 'a {
-    let mut since = None;
-    move |state, now| {
-        if let Err(error) = state.check(Device::Screen) {
-            return Step::Done(Err(error));
-        }
-        let ready = *since.get_or_insert(now) + TO_SHOW;
+fn take_down(state: &mut State, now: Instant) {
+    if state.works(Device::Screen) && state.displayed.take().is_some() {
+        state.happens(now, RoomEvent::ScreenClears);
+    }
+}
+
+struct Showing<'a> {
+    page: &'a Page,
+    since: Option<Instant>,
+    up: bool,
+}
+
+impl Activity<Evidence> for Showing<'_> {
+    fn step(&mut self, state: &mut State, now: Instant) -> Step<Result<Evidence, DeviceError>> {
+        let ready = *self.since.get_or_insert(now) + TO_SHOW;
         if now < ready {
             return Step::Until(ready);
         }
-        if state.works(Device::Screen) {
-            state.displayed = page.cloned();
-            match page {
-                Some(page) => {
-                    state.unreported.push_back(page.id.clone());
-                    state.perceive();
-                    state.happens(now, RoomEvent::ScreenShows { page: page.clone() });
-                }
-                None => state.happens(now, RoomEvent::ScreenClears),
-            }
+        if state.works(Device::Screen) && !self.up {
+            self.up = true;
+            state.displayed = Some(self.page.clone());
+            state.happens(now, RoomEvent::ScreenShows { page: self.page.clone() });
         }
-        Step::Done(Ok(()))
+        let read = ready + self.page.dwell;
+        if now < read {
+            return Step::Until(read);
+        }
+        // The screen reports its page itself, whatever was sent to it.
+        if !self.up || state.displayed.as_ref() != Some(self.page) {
+            return Step::Done(Err(DeviceError::NotSensed { device: Device::Screen }));
+        }
+        state.perceive();
+        Step::Done(Ok(Evidence::Sensed))
+    }
+
+    fn stop(&mut self, state: &mut State, now: Instant) {
+        if self.up {
+            take_down(state, now);
+        }
     }
 }
 
 impl Buttons for SimRoom {
     fn next_touch<'a>(&'a self, question: &'a Question) -> Operation<'a, String> {
-        self.operate(Touching { question, open: false })
+        self.operate(Device::Buttons, Touching { question, open: false })
+    }
+
+    fn next_request<'a>(&'a self, request: &'a str, person: &'a str) -> Operation<'a, ()> {
+        self.operate(Device::Buttons, move |state: &mut State, now: Instant| {
+            let reachable = state.works(Device::Buttons) && state.view_of(person).inside;
+            match reachable.then(|| state.take_request(request, person, By::Touch)).flatten() {
+                Some(asked) => {
+                    state.happens(now, asked.event());
+                    Step::Done(Ok(()))
+                }
+                None => Step::Idle,
+            }
+        })
     }
 }
 
@@ -76,10 +103,6 @@ impl Activity<String> for Touching<'_> {
     fn step(&mut self, state: &mut State, now: Instant) -> Step<Result<String, DeviceError>> {
         if !std::mem::replace(&mut self.open, true) {
             state.open(self.question, By::Touch, now);
-        }
-        if let Err(error) = state.check(Device::Buttons) {
-            state.close(self.question, By::Touch);
-            return Step::Done(Err(error));
         }
         let Some((at, Reply::Answer { option, by, .. })) = state.reply(self.question) else {
             return Step::Idle;

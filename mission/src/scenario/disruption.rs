@@ -9,7 +9,8 @@ use pddl::model::Name;
 
 pub use self::step::Step;
 use super::GraphCondition;
-use super::names::node;
+use super::names::{self, node};
+use super::patient::By;
 use crate::layers::Layers;
 use diagnostics::Finding;
 use diagnostics::did_you_mean;
@@ -24,7 +25,50 @@ pub enum Device {
     Screen,
     /// Speech recognition.
     Microphone,
+    /// The touchscreen's touch input.
+    Touch,
+    /// The tracker of bodies.
+    Tracker,
+    /// The clinician's console.
+    Console,
 }
+
+/// Each device by its name.
+const DEVICES: [(&str, Device); 6] = [
+    ("speaker", Device::Speaker),
+    ("screen", Device::Screen),
+    ("microphone", Device::Microphone),
+    ("touch", Device::Touch),
+    ("tracker", Device::Tracker),
+    ("console", Device::Console),
+];
+
+/// What a disruption makes of a device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Fault {
+    /// It fails at once.
+    Fail,
+    /// It reports success and does nothing.
+    Lie,
+    /// It neither works nor fails.
+    Stall,
+    /// It reports everything late.
+    Slow,
+    /// It rejects every request.
+    Refuse,
+    /// Its driver panics.
+    Panic,
+}
+
+/// Each fault by its name.
+const FAULTS: [(&str, Fault); 6] = [
+    ("fail", Fault::Fail),
+    ("lie", Fault::Lie),
+    ("stall", Fault::Stall),
+    ("slow", Fault::Slow),
+    ("refuse", Fault::Refuse),
+    ("panic", Fault::Panic),
+];
 
 /// When a disruption is due.
 #[derive(Clone, Debug)]
@@ -54,10 +98,24 @@ pub enum Act {
     LosePerson,
     /// The person comes back.
     ReturnPerson,
-    /// The person asks for something.
+    /// Another person comes into view.
+    VisitorComes {
+        /// The node that stands for them.
+        person: Name,
+    },
+    /// Another person goes out of view.
+    VisitorGoes {
+        /// The node that stands for them.
+        person: Name,
+    },
+    /// A person asks for something.
     Ask {
         /// The request.
         request: Name,
+        /// Who; `None` is the patient.
+        person: Option<Name>,
+        /// By voice or by touch; `None` is by whatever works.
+        by: Option<By>,
     },
     /// The clinician pauses the test.
     Pause,
@@ -65,10 +123,15 @@ pub enum Act {
     Resume,
     /// The clinician aborts it.
     Abort,
-    /// A device fails from now on.
-    Fail(Device),
-    /// A device reports success and does nothing from now on.
-    Lie(Device),
+    /// A device does not work as it should.
+    Disturb {
+        /// Which.
+        device: Device,
+        /// In what way.
+        fault: Fault,
+        /// For how long; `None` until a `recover`.
+        lasts: Option<Duration>,
+    },
     /// A device works again.
     Recover(Device),
 }
@@ -86,8 +149,10 @@ pub struct Disruption {
     pub span: Span,
 }
 
-const ACTS: [&str; 9] =
-    ["lose-person", "return-person", "ask", "pause", "resume", "abort", "fail", "lie", "recover"];
+const ACTS: [&str; 15] = [
+    "lose-person", "return-person", "visitor-comes", "visitor-goes", "ask", "pause", "resume", "abort", "fail",
+    "lie", "stall", "slow", "refuse", "panic", "recover",
+];
 
 /// Reads a `[[disruption]]`.
 pub(super) fn read(reader: &mut Reader<'_>, layers: &Layers, mut table: Table<'_>) -> Option<Disruption> {
@@ -146,34 +211,53 @@ fn read_act(reader: &mut Reader<'_>, layers: &Layers, table: &mut Table<'_>) -> 
         "ask" => {
             let text = table.required_text(reader, "request")?;
             let id = node(reader, layers, &text, layers.tokens.requests, "request")?;
-            Some(Act::Ask { request: layers.graph.model.objects[id].name.clone() })
+            let request = layers.graph.model.objects[id].name.clone();
+            let (by, person) = (super::patient::by(reader, table), person(reader, layers, table));
+            Some(Act::Ask { request, person, by })
         }
-        "fail" => read_device(reader, table).map(Act::Fail),
-        "lie" => read_device(reader, table).map(Act::Lie),
+        "visitor-comes" => required_person(reader, layers, table).map(|person| Act::VisitorComes { person }),
+        "visitor-goes" => required_person(reader, layers, table).map(|person| Act::VisitorGoes { person }),
         "recover" => read_device(reader, table).map(Act::Recover),
+        name if FAULTS.iter().any(|(known, _)| *known == name) => {
+            let fault = FAULTS.into_iter().find(|(known, _)| *known == name)?.1;
+            let lasts = table.seconds(reader, "for");
+            read_device(reader, table).map(|device| Act::Disturb { device, fault, lasts })
+        }
         unknown => {
             let help = did_you_mean(unknown, ACTS).unwrap_or_else(|| format!("one of: {}", ACTS.join(", ")));
             let message = format!("a scenario cannot do `{unknown}`");
             let finding = Finding::error("E0908", reader.place(act.span), message);
             reader.findings.push(finding.help(help));
             // Do not report the keys that the intended act would have read.
-            let _ = (table.text(reader, "request"), table.text(reader, "device"));
+            for key in ["request", "device", "person", "by", "for"] {
+                let _ = table.text(reader, key);
+            }
             None
         }
     }
 }
 
+/// The person of `person`, a node of the graph; `None` without the key.
+fn person(reader: &mut Reader<'_>, layers: &Layers, table: &mut Table<'_>) -> Option<Name> {
+    let text = table.text(reader, "person")?;
+    let id = names::any(reader, layers, &text, "person")?;
+    Some(layers.graph.model.objects[id].name.clone())
+}
+
+fn required_person(reader: &mut Reader<'_>, layers: &Layers, table: &mut Table<'_>) -> Option<Name> {
+    table.require(reader, "person");
+    person(reader, layers, table)
+}
+
 fn read_device(reader: &mut Reader<'_>, table: &mut Table<'_>) -> Option<Device> {
     let text = table.required_text(reader, "device")?;
-    match text.value.as_str() {
-        "speaker" => Some(Device::Speaker),
-        "screen" => Some(Device::Screen),
-        "microphone" => Some(Device::Microphone),
-        unknown => {
-            let message = format!("there is no device `{unknown}`");
-            let finding = Finding::error("E0908", reader.place(text.span), message);
-            reader.findings.push(finding.help("one of: speaker, screen, microphone"));
-            None
-        }
+    let found = DEVICES.into_iter().find(|(name, _)| *name == text.value).map(|(_, device)| device);
+    if found.is_none() {
+        let message = format!("there is no device `{}`", text.value);
+        let finding = Finding::error("E0908", reader.place(text.span), message);
+        let names: Vec<_> = DEVICES.iter().map(|(name, _)| *name).collect();
+        let help = did_you_mean(&text.value, names.iter().copied());
+        reader.findings.push(finding.help(help.unwrap_or_else(|| format!("one of: {}", names.join(", ")))));
     }
+    found
 }

@@ -21,7 +21,7 @@ use std::time::Duration;
 use pddl::Source;
 
 pub use condition::GraphCondition;
-pub use disruption::{Act, Device, Disruption, Step, Trigger};
+pub use disruption::{Act, Device, Disruption, Fault, Step, Trigger};
 pub use expect::{Expectation, Expected, Naming, ReplanExpectation};
 pub use judge::{Outcome, Replan, Violation};
 pub use patient::{Answer, By, Patient, Reply, ReplyRule};
@@ -50,6 +50,8 @@ pub struct Scenario {
 pub struct Clinician {
     /// How long after a call they come; `None` if they never come.
     pub comes_after: Option<Duration>,
+    /// Whether they come to an urgent call only.
+    pub only_urgent: bool,
     /// How long they stay; then the call is finished.
     pub stays: Duration,
     /// Whether they bring back a person who is out of view.

@@ -18,6 +18,11 @@ pub(super) fn node(
     find(reader, layers, text, kind, &|id| layers.is_a(id, ty))
 }
 
+/// A node of any type, by its name.
+pub(super) fn any(reader: &mut Reader<'_>, layers: &Layers, text: &Text, kind: &str) -> Option<ObjectId> {
+    find(reader, layers, text, kind, &|_| true)
+}
+
 /// A node that may stand as the `position`-th argument of a predicate.
 pub(super) fn argument(
     reader: &mut Reader<'_>,

@@ -129,7 +129,7 @@ fn read_reply(
     let silent = table.boolean(reader, "silent");
     let misheard = table.text(reader, "misheard");
     let delay = table.seconds(reader, "delay").unwrap_or(DELAY);
-    let by = read_by(reader, table);
+    let by = by(reader, table).unwrap_or_default();
     if ["option", "silent", "misheard"].iter().filter(|k| table.has(k)).count() != 1 {
         let message = "a reply is exactly one of `option`, `silent = true`, `misheard`";
         reader.error("E0904", table.span, message);
@@ -161,14 +161,15 @@ fn read_reply(
     Some(Reply { answer: Answer::Silent, delay, by })
 }
 
-fn read_by(reader: &mut Reader<'_>, table: &mut Table<'_>) -> By {
-    let Some(text) = table.text(reader, "by") else { return By::Voice };
+/// The manner of `by`; `None` without the key.
+pub(super) fn by(reader: &mut Reader<'_>, table: &mut Table<'_>) -> Option<By> {
+    let text = table.text(reader, "by")?;
     match text.value.as_str() {
-        "voice" => By::Voice,
-        "touch" => By::Touch,
+        "voice" => Some(By::Voice),
+        "touch" => Some(By::Touch),
         _ => {
             reader.error("E0903", text.span, "`by` is \"voice\" or \"touch\"");
-            By::Voice
+            None
         }
     }
 }

@@ -77,9 +77,11 @@ fn read_root(
 }
 
 fn read_clinician(reader: &mut Reader<'_>, table: Option<Table<'_>>) -> Clinician {
-    let mut clinician = Clinician { comes_after: None, stays: Duration::from_secs(5), fetches: true };
+    let stays = Duration::from_secs(5);
+    let mut clinician = Clinician { comes_after: None, only_urgent: false, stays, fetches: true };
     if let Some(mut table) = table {
         clinician.comes_after = table.seconds(reader, "comes-after");
+        clinician.only_urgent = table.boolean(reader, "only-urgent").unwrap_or_default();
         clinician.stays = table.seconds(reader, "stays").unwrap_or(clinician.stays);
         clinician.fetches = table.boolean(reader, "fetches").unwrap_or(clinician.fetches);
         table.finish(reader);

@@ -1,7 +1,12 @@
 ; CGAmed: the clinician's side: commands from the clinician's console, calls to the clinician, and
 ; the report.
+;
+; Who asks for help is answered here, with no plan in between. A call stands until a clinician has
+; attended to it, whoever asked for it and whatever became of them: it is repeated when the link fails or
+; nobody comes, and then it is urgent.
 (define (domain cgamed)
-  (:requirements :typing :negative-preconditions :durative-actions :agent-rules)
+  (:requirements :typing :equality :negative-preconditions :disjunctive-preconditions
+                 :universal-preconditions :conditional-effects :durative-actions :agent-rules)
   (:import clarc)
 
   (:durative-action hear-pause
@@ -22,20 +27,82 @@
     :effect (and (at end (is ?t aborted)) (at end (not (is ?t paused))))
     :skill (await-command abort))
 
-  ; Ends when the clinician has attended to the need.
+  (:durative-action answer-help
+    :parameters (?c - clinician ?p - person)
+    :condition (and
+      (at start (asks ?p help))
+      (at start (not (is_needed_for ?c assistance)))
+      (at start (not (is_called_for ?c assistance))))
+    :effect (at start (is_needed_for ?c assistance)))
+
   (:durative-action call
-    :parameters (?c - clinician ?n - need ?p - person)
-    :condition (over all (is_needed_for ?c ?n))
+    :parameters (?c - clinician ?n - need)
+    :duration (<= ?duration 120)
+    :condition (and
+      (at start (is_needed_for ?c ?n))
+      (at start (not (is_called_for ?c ?n)))
+      (at start (not (is_overdue_for ?c ?n))))
     :effect (and
       (at start (is_called_for ?c ?n))
       (at end (not (is_needed_for ?c ?n)))
       (at end (not (is_called_for ?c ?n)))
-      (at end (not (asks ?p help)))
+      (at end (forall (?p - person) (not (asks ?p help))))
       (at end (attended ?c ?n))
-      (at abort (not (is_called_for ?c ?n)))
-      (at failure (not (is_needed_for ?c ?n)))
-      (at failure (not (is_called_for ?c ?n))))
+      (at timeout (not (is_called_for ?c ?n)))
+      (at timeout (is_needed_for ?c ?n))
+      (at timeout (is_overdue_for ?c ?n))
+      (at failure (not (is_called_for ?c ?n)))
+      (at failure (is_needed_for ?c ?n)))
     :skill (call-clinician ?n))
+
+  (:durative-action call-urgently
+    :parameters (?c - clinician ?n - need)
+    :duration (<= ?duration 120)
+    :condition (and
+      (at start (is_overdue_for ?c ?n))
+      (at start (not (is_called_for ?c ?n))))
+    :effect (and
+      (at start (is_called_for ?c ?n))
+      (at end (not (is_needed_for ?c ?n)))
+      (at end (not (is_called_for ?c ?n)))
+      (at end (not (is_overdue_for ?c ?n)))
+      (at end (forall (?p - person) (not (asks ?p help))))
+      (at end (attended ?c ?n))
+      (at timeout (not (is_called_for ?c ?n)))
+      (at failure (not (is_called_for ?c ?n))))
+    :skill (call-clinician ?n urgent))
+
+  ; A robot that has been blind, or that a person cannot reach or hear, for five seconds.
+  (:durative-action call-for-repair
+    :parameters (?c - clinician)
+    :duration (<= ?duration 5)
+    :condition (and
+      (at start (not (is_needed_for ?c repair)))
+      (at start (not (is_called_for ?c repair)))
+      (at start (not (attended ?c repair)))
+      (over all (or
+        (is tracker broken)
+        (and (or (is microphone broken) (is microphone doubted))
+             (or (is touch broken) (is screen broken) (is screen doubted)))
+        (and (or (is speaker broken) (is speaker doubted))
+             (or (is screen broken) (is screen doubted))))))
+    :effect (at timeout (is_needed_for ?c repair))
+    :skill (wait))
+
+  ; What was repaired may break again.
+  (:durative-action note-repair
+    :parameters (?c - clinician)
+    :duration (<= ?duration 5)
+    :condition (and
+      (at start (attended ?c repair))
+      (over all (not (or
+        (is tracker broken)
+        (and (or (is microphone broken) (is microphone doubted))
+             (or (is touch broken) (is screen broken) (is screen doubted)))
+        (and (or (is speaker broken) (is speaker doubted))
+             (or (is screen broken) (is screen doubted)))))))
+    :effect (at timeout (not (attended ?c repair)))
+    :skill (wait))
 
   (:durative-action deliver
     :parameters (?d - document ?c - clinician)
@@ -43,5 +110,5 @@
     :effect (and
       (at end (not (is_due_to ?d ?c)))
       (at end (was_delivered_to ?d ?c))
-      (at failure (not (is_due_to ?d ?c))))
+      (at failure (is console broken)))
     :skill (deliver ?d)))

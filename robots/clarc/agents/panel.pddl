@@ -1,17 +1,22 @@
 ; Panel: the touchscreen, with its pages and touches.
+;
+; A page was shown when the screen itself reports that the page has stood long enough to be read.
 (define (domain panel)
   (:requirements :typing :equality :negative-preconditions :existential-preconditions
-                 :fluents :durative-actions :agent-rules)
+                 :disjunctive-preconditions :conditional-effects :fluents :durative-actions :agent-rules)
   (:import clarc)
 
   (:durative-action show
     :parameters (?r - robot ?p - person ?t - test ?i - part ?u - remark)
-    :duration (<= ?duration 10)
+    :duration (<= ?duration 30)
     :condition (and
       (at start (not (is ?r showing)))
-      (at start (not (is screen broken)))
+      (at start (not (is screen doubted)))
+      (at start (not (refuses screen ?i)))
+      (over all (not (is screen broken)))
       (over all (is_in ?t ?i))
       (over all (= (view ?t ?i) ?u))
+      (over all (takes ?p ?t))
       (over all (is_with ?p ?r)))
     :effect (and
       (at start (not (is_not ?r showing)))
@@ -19,12 +24,26 @@
       (at start (is ?r showing))
       (at end (not (is ?r showing)))
       (at end (finish ?r showing))
+      (at end (was_shown_in ?u ?i))
+      (at end (when (not (= (label ?t ?i) ?u)) (was_told_in ?u ?i)))
       (at end (assign (view ?t ?i) undefined))
+      (at claimed (not (is ?r showing)))
+      (at claimed (finish ?r showing))
+      (at claimed (was_shown_in ?u ?i))
+      (at claimed (when (not (= (label ?t ?i) ?u)) (was_told_in ?u ?i)))
+      (at claimed (was_claimed_in ?u ?i))
+      (at claimed (assign (view ?t ?i) undefined))
       (at abort (not (is ?r showing)))
       (at abort (is_not ?r showing))
+      (at unsensed (not (is ?r showing)))
+      (at unsensed (is_not ?r showing))
+      (at unsensed (is screen doubted))
+      (at refused (not (is ?r showing)))
+      (at refused (is_not ?r showing))
+      (at refused (refuses screen ?i))
       (at timeout (not (is ?r showing)))
       (at timeout (is_not ?r showing))
-      (at timeout (is screen broken))
+      (at timeout (is screen doubted))
       (at failure (not (is ?r showing)))
       (at failure (is_not ?r showing))
       (at failure (is screen broken)))
@@ -34,10 +53,12 @@
 
   (:durative-action show-summons
     :parameters (?r - robot ?t - test ?i - part ?u - summons)
-    :duration (<= ?duration 10)
+    :duration (<= ?duration 30)
     :condition (and
       (at start (not (is ?r showing)))
-      (at start (not (is screen broken)))
+      (at start (not (is screen doubted)))
+      (at start (not (refuses screen ?i)))
+      (over all (not (is screen broken)))
       (over all (is_in ?t ?i))
       (over all (= (view ?t ?i) ?u)))
     :effect (and
@@ -46,12 +67,26 @@
       (at start (is ?r showing))
       (at end (not (is ?r showing)))
       (at end (finish ?r showing))
+      (at end (was_shown_in ?u ?i))
+      (at end (when (not (= (label ?t ?i) ?u)) (was_told_in ?u ?i)))
       (at end (assign (view ?t ?i) undefined))
+      (at claimed (not (is ?r showing)))
+      (at claimed (finish ?r showing))
+      (at claimed (was_shown_in ?u ?i))
+      (at claimed (when (not (= (label ?t ?i) ?u)) (was_told_in ?u ?i)))
+      (at claimed (was_claimed_in ?u ?i))
+      (at claimed (assign (view ?t ?i) undefined))
       (at abort (not (is ?r showing)))
       (at abort (is_not ?r showing))
+      (at unsensed (not (is ?r showing)))
+      (at unsensed (is_not ?r showing))
+      (at unsensed (is screen doubted))
+      (at refused (not (is ?r showing)))
+      (at refused (is_not ?r showing))
+      (at refused (refuses screen ?i))
       (at timeout (not (is ?r showing)))
       (at timeout (is_not ?r showing))
-      (at timeout (is screen broken))
+      (at timeout (is screen doubted))
       (at failure (not (is ?r showing)))
       (at failure (is_not ?r showing))
       (at failure (is screen broken)))
@@ -59,39 +94,38 @@
     :claims (display)
     :priority 70)
 
-  ; A page that was sent need not be on the screen; the screen itself reports the page that it shows.
-  (:durative-action see-page
-    :parameters (?r - robot) ; allow(unused-parameter): it runs once for each robot
-    :condition (at start (not (is screen broken)))
-    :results (?u - utterance ?i - part)
-    :effect (at end (was_shown_in ?u ?i))
-    :skill (watch-page))
-
   (:durative-action touch
     :parameters (?r - robot ?p - person ?t - test ?i - item ?a - answer ?q - question)
     :condition (and
       (at start (not (is microphone broken)))
+      (at start (not (is microphone doubted)))
+      (over all (not (is touch broken)))
       (over all (waiting ?p ?a))
       (over all (is_in ?t ?i))
       (over all (= (question ?t ?i) ?q))
+      (over all (takes ?p ?t))
       (over all (is_with ?p ?r)))
     :results (?o - option)
     :effect (and
       (at end (not (waiting ?p ?a)))
       (at end (got ?p ?a))
-      (at end (was_chosen_in ?o ?i)))
+      (at end (was_chosen_in ?o ?i))
+      (at failure (is touch broken)))
     :skill (await-touch ?i ?q))
 
-  ; With a broken microphone, only the screen takes the answer, and this rule reports a silence.
+  ; With a microphone that does not hear, only the screen takes the answer, and this rule reports a silence.
   (:durative-action touch-alone
     :parameters (?r - robot ?p - person ?t - test ?i - item ?a - answer ?q - question)
     :duration (<= ?duration 20)
     :condition (and
       (at start (can ?p ?a))
-      (at start (is microphone broken))
+      (at start (or (is microphone broken) (is microphone doubted)))
+      (over all (not (is touch broken)))
       (over all (not (is screen broken)))
+      (over all (not (is screen doubted)))
       (over all (is_in ?t ?i))
       (over all (= (question ?t ?i) ?q))
+      (over all (takes ?p ?t))
       (over all (is_with ?p ?r))
       (over all (not (is ?t paused)))
       (over all (not (is ?t aborted)))
@@ -107,5 +141,16 @@
       (at timeout (not (waiting ?p ?a)))
       (at timeout (was_unanswered_in ?q ?i))
       (at failure (not (waiting ?p ?a)))
-      (at failure (is screen broken)))
-    :skill (await-touch ?i ?q)))
+      (at failure (is touch broken)))
+    :skill (await-touch ?i ?q))
+
+  ; The button for help is on every page.
+  (:durative-action see-request
+    :parameters (?p - person ?q - request)
+    :condition (and
+      (at start (not (asks ?p ?q)))
+      (over all (not (is touch broken))))
+    :effect (and
+      (at end (asks ?p ?q))
+      (at failure (is touch broken)))
+    :skill (await-request ?q ?p)))

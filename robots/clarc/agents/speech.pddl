@@ -4,9 +4,12 @@
 ; condition that must hold meanwhile (over all), or the skill is stopped in the same commit. Then it
 ; gives the graph after, for each outcome: `end` when the skill succeeds, `abort` when a reflex stops
 ; it, `timeout` when the duration is over, and the skill's own outcomes.
+;
+; The loudspeaker is heard by the microphone. What it did not hear was not said (`unsensed`): one of the
+; two does not do what it claims. Without a microphone the loudspeaker is believed, and the report says so.
 (define (domain speech)
   (:requirements :typing :equality :negative-preconditions :existential-preconditions
-                 :fluents :durative-actions :agent-rules)
+                 :conditional-effects :fluents :durative-actions :agent-rules)
   (:import clarc)
 
   (:durative-action say
@@ -14,9 +17,12 @@
     :duration (<= ?duration 60)
     :condition (and
       (at start (not (is ?r speaking)))
-      (at start (not (is speaker broken)))
+      (at start (not (is speaker doubted)))
+      (at start (not (refuses speaker ?i)))
+      (over all (not (is speaker broken)))
       (over all (is_in ?t ?i))
       (over all (= (label ?t ?i) ?u))
+      (over all (takes ?p ?t))
       (over all (is_with ?p ?r))
       (over all (not (is ?t paused)))
       (over all (not (is ?t aborted))))
@@ -27,12 +33,26 @@
       (at end (not (is ?r speaking)))
       (at end (finish ?r speaking))
       (at end (was_said_in ?u ?i))
+      (at end (when (not (= (view ?t ?i) ?u)) (was_told_in ?u ?i)))
       (at end (assign (label ?t ?i) undefined))
+      (at claimed (not (is ?r speaking)))
+      (at claimed (finish ?r speaking))
+      (at claimed (was_said_in ?u ?i))
+      (at claimed (when (not (= (view ?t ?i) ?u)) (was_told_in ?u ?i)))
+      (at claimed (was_claimed_in ?u ?i))
+      (at claimed (assign (label ?t ?i) undefined))
       (at abort (not (is ?r speaking)))
       (at abort (is_not ?r speaking))
+      (at unsensed (not (is ?r speaking)))
+      (at unsensed (is_not ?r speaking))
+      (at unsensed (is speaker doubted))
+      (at unsensed (is microphone doubted))
+      (at refused (not (is ?r speaking)))
+      (at refused (is_not ?r speaking))
+      (at refused (refuses speaker ?i))
       (at timeout (not (is ?r speaking)))
       (at timeout (is_not ?r speaking))
-      (at timeout (is speaker broken))
+      (at timeout (is speaker doubted))
       (at failure (not (is ?r speaking)))
       (at failure (is_not ?r speaking))
       (at failure (is speaker broken)))
@@ -45,7 +65,7 @@
     :duration (<= ?duration 60)
     :condition (and
       (at start (not (is ?r speaking)))
-      (at start (not (is speaker broken)))
+      (over all (not (is speaker broken)))
       (over all (is_in ?t ?i))
       (over all (= (label ?t ?i) ?u)))
     :effect (and
@@ -55,12 +75,27 @@
       (at end (not (is ?r speaking)))
       (at end (finish ?r speaking))
       (at end (was_said_in ?u ?i))
+      (at end (when (not (= (view ?t ?i) ?u)) (was_told_in ?u ?i)))
       (at end (assign (label ?t ?i) undefined))
+      (at claimed (not (is ?r speaking)))
+      (at claimed (finish ?r speaking))
+      (at claimed (was_said_in ?u ?i))
+      (at claimed (when (not (= (view ?t ?i) ?u)) (was_told_in ?u ?i)))
+      (at claimed (was_claimed_in ?u ?i))
+      (at claimed (assign (label ?t ?i) undefined))
       (at abort (not (is ?r speaking)))
       (at abort (is_not ?r speaking))
+      (at unsensed (not (is ?r speaking)))
+      (at unsensed (is_not ?r speaking))
+      (at unsensed (assign (label ?t ?i) undefined))
+      (at unsensed (is speaker doubted))
+      (at unsensed (is microphone doubted))
+      (at refused (not (is ?r speaking)))
+      (at refused (is_not ?r speaking))
+      (at refused (refuses speaker ?i))
       (at timeout (not (is ?r speaking)))
       (at timeout (is_not ?r speaking))
-      (at timeout (is speaker broken))
+      (at timeout (is speaker doubted))
       (at failure (not (is ?r speaking)))
       (at failure (is_not ?r speaking))
       (at failure (is speaker broken)))
@@ -76,9 +111,11 @@
     :duration (<= ?duration 15)
     :condition (and
       (at start (can ?p ?a))
-      (at start (not (is microphone broken)))
+      (at start (not (is microphone doubted)))
+      (over all (not (is microphone broken)))
       (over all (is_in ?t ?i))
       (over all (= (question ?t ?i) ?q))
+      (over all (takes ?p ?t))
       (over all (is_with ?p ?r))
       (over all (not (is ?t paused)))
       (over all (not (is ?t aborted)))
@@ -100,13 +137,13 @@
       (at failure (is microphone broken)))
     :skill (listen ?i ?q))
 
+  ; A request is heard wherever the person is: a voice needs no view.
   (:durative-action hear-request
-    :parameters (?r - robot ?p - person ?q - request)
+    :parameters (?p - person ?q - request)
     :condition (and
       (at start (not (asks ?p ?q)))
-      (at start (not (is microphone broken)))
-      (over all (is_with ?p ?r)))
+      (over all (not (is microphone broken))))
     :effect (and
       (at end (asks ?p ?q))
       (at failure (is microphone broken)))
-    :skill (spot ?q)))
+    :skill (spot ?q ?p)))

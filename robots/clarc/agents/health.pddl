@@ -1,0 +1,35 @@
+; Health: which devices can be relied on, as far as the robot can sense it.
+;
+; What broke is used again as soon as it is well, and a doubt does not last: it is tested, or it fades.
+(define (domain health)
+  (:requirements :typing :negative-preconditions :durative-actions :agent-rules)
+  (:import clarc)
+
+  (:durative-action find-broken
+    :parameters (?d - device)
+    :condition (over all (not (is ?d broken)))
+    :effect (at end (is ?d broken))
+    :skill (await-fault ?d))
+
+  (:durative-action find-working
+    :parameters (?d - device)
+    :condition (over all (is ?d broken))
+    :effect (and
+      (at end (not (is ?d broken)))
+      (at end (not (is ?d doubted))))
+    :skill (await-recovery ?d))
+
+  ; A test that fails is repeated, less and less often.
+  (:durative-action clear-doubt
+    :parameters (?d - device)
+    :condition (over all (is ?d doubted))
+    :effect (at end (not (is ?d doubted)))
+    :skill (test-device ?d))
+
+  ; A doubt that no test can clear fades, so that the device is tried again.
+  (:durative-action forget-doubt
+    :parameters (?d - device)
+    :duration (<= ?duration 300)
+    :condition (over all (is ?d doubted))
+    :effect (at timeout (not (is ?d doubted)))
+    :skill (wait)))
