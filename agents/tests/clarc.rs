@@ -337,7 +337,7 @@ async fn silence_help_commands_calls_and_the_report() {
 }
 
 #[tokio::test(start_paused = true)]
-async fn a_device_that_fails_is_broken_in_the_graph_and_one_that_lies_shows_nothing() {
+async fn a_device_that_fails_is_broken_one_that_lies_is_doubted_and_both_heal() {
     for graph in graphs() {
         let session = Session::new(&graph, PatientScript::default());
         let s = &session;
@@ -351,8 +351,14 @@ async fn a_device_that_fails_is_broken_in_the_graph_and_one_that_lies_shows_noth
             seconds(5.0).await;
             s.holds("speaker is broken");
             s.holds("robot is not speaking");
-            s.holds("robot finish showing");
+            s.holds("screen is doubted");
+            s.holds("robot is not showing");
             s.holds_not(&format!("{} was shown in {}", s.name("remark"), s.name("item")));
+            s.room.recover(Device::SpeechOut);
+            s.room.recover(Device::Screen);
+            seconds(10.0).await;
+            s.holds_not("speaker is broken");
+            s.holds_not("screen is doubted");
         })
         .await;
     }

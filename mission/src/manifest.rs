@@ -65,6 +65,8 @@ pub struct ReportTokens {
     pub answer: Mention,
     /// Label from an unanswered question to its item.
     pub unanswered: Mention,
+    /// Label from a question that a sensor noticed to its item; without it every question counts as perceived.
+    pub sensed: Option<Mention>,
     /// Attribute of the pair (item, option): the score of the option.
     pub score: Mention,
 }
@@ -163,6 +165,7 @@ fn report(reader: &mut Reader<'_>, mut table: Table<'_>) -> Option<ReportTokens>
     let offers = required_mention(reader, &mut table, "offers");
     let answer = required_mention(reader, &mut table, "answer");
     let unanswered = required_mention(reader, &mut table, "unanswered");
+    let sensed = table.text(reader, "sensed").map(|text| mention(&text));
     let score = required_mention(reader, &mut table, "score");
     table.finish(reader);
     Some(ReportTokens {
@@ -171,6 +174,7 @@ fn report(reader: &mut Reader<'_>, mut table: Table<'_>) -> Option<ReportTokens>
         offers: offers?,
         answer: answer?,
         unanswered: unanswered?,
+        sensed,
         score: score?,
     })
 }

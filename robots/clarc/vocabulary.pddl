@@ -39,7 +39,7 @@
     (was_said_in ?u - utterance ?p - part)
     (was_shown_in ?u - utterance ?p - part)
     (was_told_in ?u - utterance ?p - part)         ; said or shown, and nothing of it was still to come
-    (was_claimed_in ?u - utterance ?p - part)      ; said or shown without a sensor to confirm it
+    (was_sensed_in ?u - utterance ?p - part)       ; said or shown, and a sensor noticed it
     (refuses ?d - device ?p - part)                ; rejected what it was to say or show, and works
     ; the people: who takes the test, and who else is there
     (takes ?p - person ?t - test)
@@ -77,13 +77,13 @@
   (:writes speech
     (is _ speaking) (is_not _ speaking) (finish _ speaking)
     (is speaker broken) (is speaker doubted) (is microphone broken) (is microphone doubted)
-    label was_said_in was_told_in was_claimed_in refuses
+    label was_said_in was_told_in was_sensed_in refuses
     can waiting got was_chosen_in was_unanswered_in was_misheard_in
     (asks _ help))
   (:writes panel
     (is _ showing) (is_not _ showing) (finish _ showing)
     (is screen broken) (is screen doubted) (is touch broken)
-    view was_shown_in was_told_in was_claimed_in refuses
+    view was_shown_in was_told_in was_sensed_in refuses
     can waiting got was_chosen_in was_unanswered_in
     (asks _ help))
   (:writes person-agent is_with has_left rt (is tracker broken))

@@ -17,6 +17,8 @@ pub struct ReportLabels {
     pub total: String,
     /// Mark of an item without an answer.
     pub unanswered: String,
+    /// Mark of an item of which it is not known whether the person perceived the question.
+    pub not_perceived: String,
     /// Mark of an item that was not asked.
     pub not_reached: String,
     /// Remark when all items were answered.
@@ -29,14 +31,17 @@ pub struct ReportLabels {
 pub(super) fn read(reader: &mut Reader<'_>, root: &mut Table<'_>) -> ReportLabels {
     root.require(reader, "report");
     let Some(mut table) = root.table(reader, "report") else { return ReportLabels::default() };
+    let not_perceived = table.text(reader, "not-perceived").map(|t| t.value);
     let mut of = |key: &str| table.required_text(reader, key).map(|t| t.value).unwrap_or_default();
+    let unanswered = of("unanswered");
     let labels = ReportLabels {
         heading: of("heading"),
         item: of("item"),
         answer: of("answer"),
         score: of("score"),
         total: of("total"),
-        unanswered: of("unanswered"),
+        not_perceived: not_perceived.unwrap_or_else(|| unanswered.clone()),
+        unanswered,
         not_reached: of("not-reached"),
         complete: of("complete"),
         incomplete: of("incomplete"),

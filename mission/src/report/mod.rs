@@ -1,7 +1,7 @@
 //! The report: the answer and the score of each item, and the sum.
 //!
 //! Problem: the report belongs to the test, and Rust must not know the test. Idea: `mission.toml` names five tokens (the
-//! items, their options, the answers, the unanswered questions, the scores), and the report is a query over one snapshot
+//! items, their options, the answers, the unanswered questions, the scores) and perhaps a sixth (what a sensor noticed), and the report is a query over one snapshot
 //! of the graph. Invariant: the same snapshot and language give the same bytes; an item without an answer has no score.
 
 mod table;
@@ -59,6 +59,9 @@ pub enum Status {
     Answered,
     /// It was asked and has no answer.
     Unanswered,
+    /// It was asked and has no answer, and no sensor noticed that a question was said or shown: a failure of the robot,
+    /// not a silence of the person.
+    NotPerceived,
     /// It was not asked, or not completely.
     NotReached,
 }
@@ -137,8 +140,7 @@ impl Report {
                 let option = graph.answer(&name);
                 let status = match option {
                     Some(_) => Status::Answered,
-                    None if graph.has_silence(&name) => Status::Unanswered,
-                    None => Status::NotReached,
+                    None => graph.silence(&name),
                 };
                 let spoken = |o: &Name| words.options(&name).iter().find(|w| w.option == *o);
                 ItemReport {
@@ -176,7 +178,7 @@ impl Report {
     }
 }
 
-/// Look-ups of the five tokens in one snapshot.
+/// Look-ups of the tokens in one snapshot.
 struct Graph<'a> {
     mission: &'a Mission,
     snapshot: &'a Snapshot,
@@ -200,8 +202,21 @@ impl<'a> Graph<'a> {
         edges.iter().max_by_key(|e| since(e)).and_then(|e| self.snapshot.name(e.from)).map(Name::new)
     }
 
-    fn has_silence(&self, item: &str) -> bool {
-        !self.incoming(item, &self.mission.manifest.report.unanswered.name).is_empty()
+    /// The state of an item without an answer.
+    fn silence(&self, item: &str) -> Status {
+        let tokens = &self.mission.manifest.report;
+        let silent = self.incoming(item, &tokens.unanswered.name);
+        let Some(sensed) = &tokens.sensed else {
+            return if silent.is_empty() { Status::NotReached } else { Status::Unanswered };
+        };
+        let sensed = self.incoming(item, &sensed.name);
+        if silent.is_empty() {
+            Status::NotReached
+        } else if silent.iter().any(|question| sensed.iter().any(|noticed| noticed.from == question.from)) {
+            Status::Unanswered
+        } else {
+            Status::NotPerceived
+        }
     }
 
     /// The score of an option: a binary function is a label whose edges carry the attribute of the same name.

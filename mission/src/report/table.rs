@@ -10,6 +10,7 @@ impl fmt::Display for Report {
         let answer = |item: &ItemReport| match item.status {
             Status::Answered => item.answer.clone().unwrap_or_default(),
             Status::Unanswered => format!("— {}", labels.unanswered),
+            Status::NotPerceived => format!("— {}", labels.not_perceived),
             Status::NotReached => format!("— {}", labels.not_reached),
         };
         let points = |item: &ItemReport| match item.score {
