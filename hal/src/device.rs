@@ -92,9 +92,10 @@ impl DeviceError {
     /// The device that failed.
     pub fn device(&self) -> Device {
         match self {
-            Self::Disconnected { device } | Self::NotSensed { device } | Self::Timeout { device, .. } | Self::Refused { device, .. } => {
-                *device
-            }
+            Self::Disconnected { device }
+            | Self::NotSensed { device }
+            | Self::Timeout { device, .. }
+            | Self::Refused { device, .. } => *device,
         }
     }
 }

@@ -16,6 +16,8 @@ impl Skill for AwaitPerson {
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {
         let device = equipment.devices.skeleton.clone();
-        Box::pin(async move { Ended::of(device.await_person(call.argument(0)).await, |pose| vec![Datum::Pose(pose)]) })
+        Box::pin(async move {
+            Ended::of(device.await_person(call.argument(0)).await, |pose| vec![Datum::Pose(pose)])
+        })
     }
 }

@@ -139,12 +139,18 @@ impl Terminal {
             E::DeviceLies { device } => {
                 (Tone::Trouble, "room", format!("{device} claims success from now on, and does nothing"))
             }
-            E::DeviceStalls { device } => (Tone::Trouble, "room", format!("{device} does not answer any more")),
-            E::DeviceSlows { device } => (Tone::Trouble, "room", format!("{device} answers late from now on")),
+            E::DeviceStalls { device } => {
+                (Tone::Trouble, "room", format!("{device} does not answer any more"))
+            }
+            E::DeviceSlows { device } => {
+                (Tone::Trouble, "room", format!("{device} answers late from now on"))
+            }
             E::DeviceRefuses { device } => {
                 (Tone::Trouble, "room", format!("{device} rejects every request from now on"))
             }
-            E::DevicePanics { device } => (Tone::Trouble, "room", format!("the driver of the {device} panics")),
+            E::DevicePanics { device } => {
+                (Tone::Trouble, "room", format!("the driver of the {device} panics"))
+            }
             E::DeviceRecovers { device } => (Tone::Plain, "room", format!("{device} works again")),
         };
         self.line(time, tone, head, &text);

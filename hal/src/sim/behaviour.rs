@@ -44,7 +44,9 @@ impl State {
 
     /// How the device behaves, and since when; since the start if it never changed.
     pub(super) fn behaviour_since(&self, device: Device) -> (Behaviour, Option<Instant>) {
-        self.behaviour.get(&device).map_or((Behaviour::Works, None), |(behaviour, since)| (*behaviour, Some(*since)))
+        self.behaviour
+            .get(&device)
+            .map_or((Behaviour::Works, None), |(behaviour, since)| (*behaviour, Some(*since)))
     }
 
     /// Whether the device does its work.

@@ -101,7 +101,13 @@ impl PatientScript {
 
 impl Default for PatientScript {
     fn default() -> Self {
-        Self { name: "person".into(), in_view: true, position: [1.2, 0.0, 0.0], replies: Vec::new(), otherwise: Reply::option(0) }
+        Self {
+            name: "person".into(),
+            in_view: true,
+            position: [1.2, 0.0, 0.0],
+            replies: Vec::new(),
+            otherwise: Reply::option(0),
+        }
     }
 }
 

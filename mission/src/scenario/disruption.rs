@@ -150,8 +150,21 @@ pub struct Disruption {
 }
 
 const ACTS: [&str; 15] = [
-    "lose-person", "return-person", "visitor-comes", "visitor-goes", "ask", "pause", "resume", "abort", "fail",
-    "lie", "stall", "slow", "refuse", "panic", "recover",
+    "lose-person",
+    "return-person",
+    "visitor-comes",
+    "visitor-goes",
+    "ask",
+    "pause",
+    "resume",
+    "abort",
+    "fail",
+    "lie",
+    "stall",
+    "slow",
+    "refuse",
+    "panic",
+    "recover",
 ];
 
 /// Reads a `[[disruption]]`.
