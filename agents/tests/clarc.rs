@@ -89,11 +89,9 @@ impl Session {
         let robot = root().join("../robots/clarc");
         let words = domain(&robot.join("vocabulary.pddl"), &[]);
         let tokens = Tokens::new(&words).unwrap();
-        let world = parse_problem(&source(&robot.join("world.pddl")), &words).model.unwrap();
-        // A test speaks of the nodes of the world, too.
-        let with_world = pddl::model::Domain { constants: world.objects.clone(), ..words.clone() };
-        let graph = parse_problem(&source(graph), &with_world).model.unwrap();
-        let graph = tokens.populate(&[&world, &graph], Time(0)).unwrap();
+        let problems = [&robot.join("world.pddl"), graph]
+            .map(|path| parse_problem(&source(path), &words).model.unwrap());
+        let graph = tokens.populate(&problems.each_ref(), Time(0)).unwrap();
         let agents = folder("robots/clarc/agents")
             .iter()
             .map(|file| {

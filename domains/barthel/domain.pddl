@@ -32,34 +32,39 @@
   ; ---- the protocol ------------------------------------------------------------------------
   (:action greet
     :parameters (?p - person)
-    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p)) (not (clinician-needed ?p))
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p))
+                       (not (clinician-needed ?p))
                        (not (paused ?p)) (not (aborted ?p)))
     :effect (greeted ?p))
 
   (:action explain
     :parameters (?p - person ?i ?j - part)
-    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p)) (not (clinician-needed ?p))
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p))
+                       (not (clinician-needed ?p))
                        (not (paused ?p)) (not (aborted ?p))
                        (greeted ?p) (next ?i ?j) (opens-with ?i))
     :effect (done ?i))
 
   (:action introduce
     :parameters (?p - person ?i - part ?j - item)
-    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p)) (not (clinician-needed ?p))
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p))
+                       (not (clinician-needed ?p))
                        (not (paused ?p)) (not (aborted ?p))
                        (next ?i ?j) (done ?i))
     :effect (introduced ?j))
 
   (:action describe
     :parameters (?p - person ?i - item)
-    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p)) (not (clinician-needed ?p))
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p))
+                       (not (clinician-needed ?p))
                        (not (paused ?p)) (not (aborted ?p))
                        (introduced ?i))
     :effect (described ?i))
 
   (:action ask
     :parameters (?p - person ?i - item)
-    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p)) (not (clinician-needed ?p))
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p))
+                       (not (clinician-needed ?p))
                        (not (paused ?p)) (not (aborted ?p))
                        (described ?i) (not (unanswered-once ?i)))
     :effect (done ?i))
@@ -67,7 +72,8 @@
   ; No answer in time: describe by voice again, show all options, ask again.
   (:action ask-again
     :parameters (?p - person ?i - item)
-    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p)) (not (clinician-needed ?p))
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p))
+                       (not (clinician-needed ?p))
                        (not (paused ?p)) (not (aborted ?p))
                        (unanswered-once ?i) (not (unanswered-twice ?i)))
     :effect (done ?i))
@@ -75,14 +81,16 @@
   ; No answer again: the next item.
   (:action pass-over
     :parameters (?p - person ?i - item)
-    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p)) (not (clinician-needed ?p))
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p))
+                       (not (clinician-needed ?p))
                        (not (paused ?p)) (not (aborted ?p))
                        (unanswered-twice ?i))
     :effect (done ?i))
 
   (:action thank
     :parameters (?p - person ?i ?j - part)
-    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p)) (not (clinician-needed ?p))
+    :precondition (and (present ?p) (not (wants-help ?p)) (not (impaired ?p))
+                       (not (clinician-needed ?p))
                        (not (paused ?p)) (not (aborted ?p))
                        (next ?i ?j) (done ?i) (closes-with ?j))
     :effect (thanked ?p))

@@ -13,7 +13,6 @@
     sit-down stay-calm help-is-coming - summons)
   (:init
     (is_in barthel opening)
-    (takes person barthel)
     (precedes option-1 option-2) (precedes option-2 option-3) (precedes option-3 option-4)
     (precedes opening feeding)
     (precedes feeding bathing)

@@ -19,7 +19,7 @@
     pelea speech panel person-agent cgamed health - agent
     loudspeaker display - resource
     speaker screen microphone touch tracker console - device
-    speaking showing paused aborted broken doubted - state
+    speaking showing paused aborted broken doubted patient - state
     pause resume abort - command
     help - request
     answer - answer
@@ -29,7 +29,7 @@
   (:predicates
     ; the states of the robot, its devices and the test. A device is broken if it fails or does not
     ; answer, and doubted if it claims success where nothing was sensed; both end when it is well again.
-    (is ?x - (either robot device test) ?s - state)
+    (is ?x - (either robot device test person) ?s - state)
     (is_not ?r - robot ?s - state)
     (finish ?r - robot ?s - state)
     ; the present part of the test, and what was said and shown in each part
@@ -41,8 +41,7 @@
     (was_told_in ?u - utterance ?p - part)         ; said or shown, and nothing of it was still to come
     (was_sensed_in ?u - utterance ?p - part)       ; said or shown, and a sensor noticed it
     (refuses ?d - device ?p - part)                ; rejected what it was to say or show, and works
-    ; the people: who takes the test, and who else is there
-    (takes ?p - person ?t - test)
+    ; the people: a patient takes the test, others may be there
     (is_with ?p - person ?r - robot)
     (has_left ?p - person ?m - room)
     (asks ?p - person ?q - request)

@@ -9,6 +9,7 @@
     room - room
     clinician - clinician)
   (:init
+    (is person patient)
     (is_not robot speaking)
     (is_not robot showing)
     (= (rt_x world robot) 0)

@@ -81,11 +81,11 @@
       (at start (not (is_called_for ?c repair)))
       (at start (not (attended ?c repair)))
       (over all (or
-        (is tracker broken)
-        (and (or (is microphone broken) (is microphone doubted))
-             (or (is touch broken) (is screen broken) (is screen doubted)))
-        (and (or (is speaker broken) (is speaker doubted))
-             (or (is screen broken) (is screen doubted))))))
+                  (is tracker broken)
+                  (and (or (is microphone broken) (is microphone doubted))
+                       (or (is touch broken) (is screen broken) (is screen doubted)))
+                  (and (or (is speaker broken) (is speaker doubted))
+                       (or (is screen broken) (is screen doubted))))))
     :effect (at timeout (is_needed_for ?c repair))
     :skill (wait))
 
@@ -96,11 +96,11 @@
     :condition (and
       (at start (attended ?c repair))
       (over all (not (or
-        (is tracker broken)
-        (and (or (is microphone broken) (is microphone doubted))
-             (or (is touch broken) (is screen broken) (is screen doubted)))
-        (and (or (is speaker broken) (is speaker doubted))
-             (or (is screen broken) (is screen doubted)))))))
+                       (is tracker broken)
+                       (and (or (is microphone broken) (is microphone doubted))
+                            (or (is touch broken) (is screen broken) (is screen doubted)))
+                       (and (or (is speaker broken) (is speaker doubted))
+                            (or (is screen broken) (is screen doubted)))))))
     :effect (at timeout (not (attended ?c repair)))
     :skill (wait))
 

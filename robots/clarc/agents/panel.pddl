@@ -3,7 +3,8 @@
 ; A page was shown when the screen itself reports that the page has stood long enough to be read.
 (define (domain panel)
   (:requirements :typing :equality :negative-preconditions :existential-preconditions
-                 :disjunctive-preconditions :conditional-effects :fluents :durative-actions :agent-rules)
+                 :disjunctive-preconditions :conditional-effects :fluents :durative-actions
+                 :agent-rules)
   (:import clarc)
 
   (:durative-action show
@@ -16,7 +17,7 @@
       (over all (not (is screen broken)))
       (over all (is_in ?t ?i))
       (over all (= (view ?t ?i) ?u))
-      (over all (takes ?p ?t))
+      (over all (is ?p patient))
       (over all (is_with ?p ?r)))
     :effect (and
       (at start (not (is_not ?r showing)))
@@ -103,7 +104,7 @@
       (over all (waiting ?p ?a))
       (over all (is_in ?t ?i))
       (over all (= (question ?t ?i) ?q))
-      (over all (takes ?p ?t))
+      (over all (is ?p patient))
       (over all (is_with ?p ?r)))
     :results (?o - option)
     :effect (and
@@ -125,7 +126,7 @@
       (over all (not (is screen doubted)))
       (over all (is_in ?t ?i))
       (over all (= (question ?t ?i) ?q))
-      (over all (takes ?p ?t))
+      (over all (is ?p patient))
       (over all (is_with ?p ?r))
       (over all (not (is ?t paused)))
       (over all (not (is ?t aborted)))

@@ -2,7 +2,7 @@
 ;
 ; Who is seen is with the robot. A tracker that fails sees nobody: what it reported last holds no longer.
 (define (domain person-agent)
-  (:requirements :typing :negative-preconditions :existential-preconditions :fluents :durative-actions :agent-rules)
+  (:requirements :typing :negative-preconditions :fluents :durative-actions :agent-rules)
   (:import clarc)
 
   (:durative-action see
@@ -11,7 +11,7 @@
     :condition (and
       (at start (not (is_with ?p ?r)))
       (at start (not (has_left ?p ?m)))
-      (at start (exists (?t - test) (takes ?p ?t)))
+      (at start (is ?p patient))
       (over all (not (is tracker broken))))
     :results (?at - pose)
     :effect (and
@@ -40,7 +40,7 @@
     :parameters (?w - world ?r - robot ?p - person)
     :condition (and
       (at start (not (is_with ?p ?r)))
-      (at start (not (exists (?t - test) (takes ?p ?t))))
+      (at start (not (is ?p patient)))
       (over all (not (is tracker broken))))
     :results (?at - pose)
     :effect (and
