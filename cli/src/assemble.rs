@@ -4,7 +4,7 @@
 //! `run` and `check` both use this, so a mission that passes the check can run.
 //!
 //! Codes: E10xx. E1001 vocabulary, E1002 world and graph, E1003 rules, E1004 perception, E1005 methods,
-//! E1006 planning problem, E1007 a condition of a scenario (`scenario`).
+//! E1006 planning problem, E1007 a condition of a scenario (`scenario`), E1008 no agent for PELEA to write as.
 
 use crate::console::Console;
 use crate::disk::{Disk, show};
@@ -12,11 +12,11 @@ use crate::exit::Exit;
 use crate::render;
 use agents::{Agent, skills};
 use diagnostics::{Finding, Place, SourceId};
-use dsr::{Graph, Time};
-use executive::{Model, Policy, Step, Wheel};
+use dsr::{AgentId, Graph, Time};
+use executive::{Bounds, Model, Policy, Step, Wheel};
 use high_to_low::Methods;
 use low_to_high::Perception;
-use mission::{Mission, MissionErrors};
+use mission::{Mission, MissionErrors, MissionTask};
 use pddl::Span;
 use pddl::model::Name;
 use std::collections::BTreeSet;
@@ -31,6 +31,8 @@ pub(crate) struct Assembly {
     pub(crate) graph: Graph,
     pub(crate) agents: Vec<Arc<Agent>>,
     pub(crate) wheel: Wheel,
+    /// The agent that PELEA writes as.
+    pub(crate) writer: AgentId,
 }
 
 /// Why a mission cannot be loaded.
@@ -121,16 +123,46 @@ fn put_together(mission: &Mission, findings: &mut Vec<Finding>) -> Option<Assemb
     let (Ok(graph), Ok(perception), Ok(methods), Ok(model)) = (graph, perception, methods, model) else {
         return None;
     };
-    let policy = Policy {
-        fallback: Step {
-            action: mission.fallback.name.clone(),
-            arguments: mission.fallback.arguments.clone(),
-        },
-        expansions: u64::from(mission.manifest.budget.replan_expansions),
-        attempts: mission.manifest.budget.attempts,
+    let Some(writer) = graph.vocabulary().agent(PELEA) else {
+        findings.push(nobody_to_write_as(mission, &graph));
+        return None;
     };
-    let wheel = Wheel::new(Arc::new(model), Arc::new(perception), Arc::new(methods), policy);
-    Some(Assembly { vocabulary, graph, agents, wheel })
+    let wheel = Wheel::new(Arc::new(model), Arc::new(perception), Arc::new(methods), policy(mission));
+    Some(Assembly { vocabulary, graph, agents, wheel, writer })
+}
+
+/// The agent that PELEA writes as.
+const PELEA: &str = "pelea";
+
+/// Without an agent of its own, nothing would hold PELEA to what it may write.
+fn nobody_to_write_as(mission: &Mission, graph: &Graph) -> Finding {
+    let layer = &mission.layers.vocabulary;
+    let is_agent = |o: &&pddl::model::Object| graph.vocabulary().agent(&o.name).is_some();
+    let span = layer.model.constants.iter().find(is_agent).map(|o| o.span).unwrap_or_default();
+    let text = format!("no agent is called `{PELEA}`: the executive has nobody to write as");
+    let help = format!("declare `{PELEA} - agent`, and what the methods write under (:writes {PELEA} …)");
+    finding("E1008", layer.source, span, &text).help_if(Some(help))
+}
+
+/// What the manifest decides about the executive, and its defaults.
+fn policy(mission: &Mission) -> Policy {
+    let step = |task: &MissionTask| Step { action: task.name.clone(), arguments: task.arguments.clone() };
+    let default = Policy::new(step(&mission.fallback));
+    let (budget, patience) = (mission.manifest.budget, &mission.manifest.patience);
+    Policy {
+        escalation: mission.escalation.as_ref().map(step),
+        meanwhile: mission.meanwhile.as_ref().map(step),
+        meanwhile_after: patience.meanwhile_after.unwrap_or(default.meanwhile_after),
+        deciding: patience.deciding.unwrap_or(default.deciding),
+        expansions: u64::from(budget.replan_expansions),
+        attempts: budget.attempts,
+        bounds: Bounds {
+            replans: patience.replans.unwrap_or(default.bounds.replans),
+            restarts: patience.restarts.unwrap_or(default.bounds.restarts),
+            asks: patience.asks.unwrap_or(default.bounds.asks),
+        },
+        ..default
+    }
 }
 
 /// The predicates of the planning domain that perception derives.

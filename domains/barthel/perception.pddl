@@ -63,5 +63,6 @@
         (and (unanswered-twice ?i) (was_told_in moving-on ?i))))
   (:derived (thanked ?p - person)
     (exists (?i - phase) (was_told_in farewell ?i)))
+  ; What the fallback delivers before the goodbye is not the report of a whole test.
   (:derived (reported ?p - person)
-    (exists (?c - clinician) (was_delivered_to report ?c))))
+    (and (thanked ?p) (exists (?c - clinician) (was_delivered_to report ?c)))))

@@ -3,9 +3,10 @@
 #![allow(missing_docs, reason = "criterion's macros define functions")]
 #![allow(clippy::unwrap_used, reason = "a bench stops by panicking")]
 
+use budget::Cancellation;
 use criterion::{Criterion, criterion_group, criterion_main};
 use dsr::{Edit, Graph, Time, Transaction};
-use executive::{Decision, Effect, Event, Model, Policy, Request, RequestId, Step, Wheel, decide};
+use executive::{Decision, Effect, Event, Model, Policy, Request, RequestId, Step, Wheel};
 use high_to_low::Methods;
 use low_to_high::{LowToHigh, Perception};
 use pddl::model::{Domain, Name};
@@ -32,6 +33,11 @@ fn domain(path: &str, imports: &[&Domain]) -> Domain {
     parse_domain(&read(path), imports).model.unwrap()
 }
 
+/// What Decision Support answers if nothing cancels it.
+fn decide(model: &Arc<Model>, request: &Request) -> Decision {
+    executive::decide(model, request, &Cancellation::default())
+}
+
 fn barthel() -> Barthel {
     let clarc = domain("robots/clarc/vocabulary.pddl", &[]);
     let barthel = domain("domains/barthel/domain.pddl", &[]);
@@ -49,8 +55,7 @@ fn barthel() -> Barthel {
     let problem = problem("domains/barthel/problem.pddl", &barthel);
     let model = Arc::new(Model::new(barthel, problem, &names).unwrap());
     let fallback = Step { action: Name::new("fall-back"), arguments: vec![Name::new("person")] };
-    let policy = Policy { fallback, expansions: 20_000, attempts: 3 };
-    let wheel = Wheel::new(model, perception.clone(), methods, policy);
+    let wheel = Wheel::new(model, perception.clone(), methods, Policy::new(fallback));
     let deltas = graph.subscribe_deltas();
     let mut barthel = Barthel { graph, deltas, wheel, perception };
     barthel.write("person-agent", "person", "is_with", "robot", true);

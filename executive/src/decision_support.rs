@@ -8,12 +8,14 @@
 //! no code with the planner: a plan that does not validate is a bug of ours, and must not reach a patient. Where there is
 //! no plan, the planner's explanation is the reason.
 //!
-//! Invariant: effort is counted in states, never in seconds, so the same request gives the same decision.
+//! Invariant: effort is counted in states, never in seconds, so the same request gives the same decision. Time is the
+//! wheel's: it cancels a request that is moot, and starts the fallback when a decision takes too long.
 //!
 //! Source: Fox, Gerevini, Long & Serina, "Plan stability: replanning versus plan repair", ICAPS 2006.
 
 use crate::outcome::{NoPlan, Unsolvable};
 use crate::{Model, Step};
+use budget::Cancellation;
 use planner::{
     Attempt, Budget, Distance, OperatorId, Outcome, Preference, Query, Repaired, Report, SearchConfiguration,
     State, Way, explain, repair, solve,
@@ -60,6 +62,8 @@ pub enum Decision {
     },
     /// None, and why.
     NoPlan(NoPlan),
+    /// None without the barred steps, and why; with them there is one.
+    Barred(NoPlan),
 }
 
 /// A repaired plan beside a new one.
@@ -121,8 +125,8 @@ impl Repair {
     }
 }
 
-/// Plans. Deterministic: the same request on the same model gives the same decision.
-pub fn decide(model: &Arc<Model>, request: &Request) -> Decision {
+/// Plans. Deterministic: the same request on the same model gives the same decision, if it is not cancelled.
+pub fn decide(model: &Arc<Model>, request: &Request, cancellation: &Cancellation) -> Decision {
     let task = model.task();
     let excluded: Vec<OperatorId> = if request.barred.is_empty() {
         Vec::new()
@@ -130,7 +134,8 @@ pub fn decide(model: &Arc<Model>, request: &Request) -> Decision {
         task.operators().ids().filter(|&o| request.barred.contains(&model.step(o))).collect()
     };
     let query = Query { state: &request.state, goal: task.goal(), excluded: &excluded };
-    let budget = Budget { work: Some(request.expansions), ..Budget::default() };
+    let interrupted = || cancellation.is_cancelled();
+    let budget = Budget { work: Some(request.expansions), interrupted: &interrupted, ..Budget::default() };
     let configuration = SearchConfiguration::default();
     let (Report { outcome, statistics }, repair) = if request.broken.is_empty() {
         (solve(task, &query, &configuration, &budget), None)
@@ -153,13 +158,22 @@ pub fn decide(model: &Arc<Model>, request: &Request) -> Decision {
             let work = Some(request.expansions.saturating_sub(statistics.expanded).min(VISITED));
             let rest = Budget { work, ..budget };
             let explanation = explain(model.domain(), model.problem(), task, &query, &reason, &rest);
-            Decision::NoPlan(NoPlan::Unsolvable(Unsolvable {
+            let why = NoPlan::Unsolvable(Unsolvable {
                 model: Arc::clone(model),
                 explanation,
                 barred: request.barred.clone(),
-            }))
+            });
+            if excluded.is_empty() {
+                return Decision::NoPlan(why);
+            }
+            let free = Query { excluded: &[], ..query };
+            match solve(task, &free, &configuration, &budget).outcome {
+                Outcome::Solved(_) => Decision::Barred(why),
+                _ => Decision::NoPlan(why),
+            }
         }
         Outcome::Unsupported(feature) => Decision::NoPlan(NoPlan::Unsupported(feature)),
+        Outcome::LimitReached(_) if cancellation.is_cancelled() => Decision::NoPlan(NoPlan::Stopped),
         Outcome::LimitReached(_) => Decision::NoPlan(NoPlan::LimitReached(request.expansions)),
     }
 }

@@ -21,7 +21,8 @@
 //! let request = Request {
 //!     id: RequestId(0), state, broken: Vec::new(), running: None, barred: Vec::new(), expansions: 100,
 //! };
-//! assert!(matches!(decide(&model, &request), Decision::Plan { operators, .. } if operators.len() == 1));
+//! let never = budget::Cancellation::default();
+//! assert!(matches!(decide(&model, &request, &never), Decision::Plan { operators, .. } if operators.len() == 1));
 //! ```
 //!
 //! | module | PELEA's module (paper §4.2) |
@@ -48,6 +49,6 @@ pub use decision_support::{Decision, Figures, Repair, Request, RequestId, decide
 pub use model::{Model, ModelError, Step};
 pub use monitoring::{BrokenLiteral, Deviation, Monitor};
 pub use narration::Narration;
-pub use outcome::{Ending, Fallback, NoPlan, StepFailure, Unsolvable};
+pub use outcome::{Ending, NoPlan, StepFailure, Stuck, Trouble, Unsolvable};
 pub use shell::Shell;
-pub use wheel::{Effect, Event, Policy, Wheel};
+pub use wheel::{Bounds, Effect, Event, Policy, Wheel};

@@ -3,9 +3,9 @@
 use crate::Step;
 use crate::decision_support::Repair;
 use crate::monitoring::Deviation;
-use crate::outcome::{Ending, NoPlan, StepFailure};
+use crate::outcome::{Ending, NoPlan, StepFailure, Stuck};
 use dsr::TransactionError;
-use high_to_low::RefinementEvent;
+use high_to_low::{Failure, RefinementEvent};
 use serde::{Serialize, Serializer};
 use std::fmt::Display;
 
@@ -61,11 +61,58 @@ pub enum Narration {
         #[serde(serialize_with = "as_text")]
         what: RefinementEvent,
     },
+    /// The only plans need steps that have just failed; they are tried again.
+    Resting {
+        /// The steps.
+        steps: Vec<Step>,
+        /// In how many seconds, if nothing changes before.
+        seconds: f64,
+    },
+    /// The world moved on while a plan was made, and Decision Support is asked again.
+    AskedAgain {
+        /// How often in a row.
+        times: u32,
+    },
+    /// The world moved on while a plan was made, and the plan before fits again.
+    FitsAgain,
+    /// A decision takes its time; this task is carried out meanwhile.
+    Meanwhile {
+        /// The task.
+        task: Step,
+    },
     /// There is no plan, and why; the fallback starts.
     FellBack {
         /// Why.
         #[serde(serialize_with = "as_text")]
         why: NoPlan,
+    },
+    /// The mission does not get on, and why; the task that it names for this starts.
+    Escalated {
+        /// Why.
+        #[serde(serialize_with = "as_text")]
+        why: Stuck,
+        /// The task.
+        task: Step,
+    },
+    /// The fallback or an escalation failed, and is tried again.
+    Retried {
+        /// The task.
+        task: Step,
+        /// Why it failed.
+        #[serde(serialize_with = "as_text")]
+        why: Failure,
+        /// In how many seconds it is tried again.
+        seconds: f64,
+    },
+    /// There is a plan again; the fallback or the escalation is withdrawn.
+    Displaced {
+        /// The task that is withdrawn.
+        task: Step,
+    },
+    /// The executive did not run for a while; deadlines do not count that time.
+    StoodStill {
+        /// How long.
+        seconds: f64,
     },
     /// The graph refused a write of the executive.
     Refused {

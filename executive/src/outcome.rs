@@ -2,7 +2,7 @@
 
 use crate::{Model, Step};
 use dsr::TransactionError;
-use high_to_low::{Failure, StartError};
+use high_to_low::Failure;
 use planner::Explanation;
 use std::fmt;
 use std::sync::Arc;
@@ -18,8 +18,10 @@ pub enum NoPlan {
     Unsupported(planner::Feature),
     /// The plan that was found does not validate: a bug of ours, with the validator's finding.
     Invalid(validator::Finding),
-    /// The planner panicked: a bug of ours.
+    /// The planner panicked, a bug of ours, or was cancelled.
     Stopped,
+    /// There is none yet: the decision takes longer than this many seconds.
+    Late(f64),
 }
 
 /// The proof that no plan exists.
@@ -67,28 +69,60 @@ pub enum StepFailure {
     Refused(TransactionError),
 }
 
-/// What became of the mission's fallback.
+/// Why a mission that has plans does not get on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Stuck {
+    /// So many plans were replaced, and nothing was achieved that had not been before.
+    Replans(u32),
+    /// One step was started again so often.
+    Restarts {
+        /// The step.
+        step: Step,
+        /// How often it was started again.
+        times: u32,
+    },
+    /// So many plans in a row came for a world that had moved on.
+    Asks(u32),
+    /// These steps failed as often as the mission allows, and there is no plan without them.
+    Attempts(Vec<Step>),
+}
+
+/// Why the mission's own task is carried out, and not a plan.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Fallback {
-    /// It was carried out.
-    Done,
-    /// It could not start.
-    NotStarted(StartError),
-    /// It failed.
-    Failed(Failure),
+pub enum Trouble {
+    /// There is no plan.
+    NoPlan(NoPlan),
+    /// There are plans, and the mission does not get on.
+    Stuck(Stuck),
 }
 
 /// How a mission ended.
 #[derive(Clone, Debug, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "there is one, at the end of a mission")]
 pub enum Ending {
     /// The goal was seen to hold.
     Accomplished,
-    /// The goal was not reached; the fallback was at least tried.
-    NotAccomplished {
-        /// Why there was no plan any more.
+    /// There was no plan any more, and the fallback was carried out: the person is with a human.
+    WithHuman {
+        /// Why there was no plan.
         why: NoPlan,
-        /// What became of the fallback.
-        fallback: Fallback,
     },
+    /// The horizon of the run came while the fallback or an escalation was still being carried out.
+    StillCalling {
+        /// Why it was.
+        why: Trouble,
+    },
+    /// The horizon of the run came while the mission was going on.
+    StillGoing,
+}
+
+impl Ending {
+    /// Its name in records.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Accomplished => "accomplished",
+            Self::WithHuman { .. } => "with_human",
+            Self::StillCalling { .. } => "still_calling",
+            Self::StillGoing => "still_going",
+        }
+    }
 }

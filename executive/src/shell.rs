@@ -2,22 +2,27 @@
 //!
 //! The wheel decides; the shell subscribes to the part of the graph that the wheel reads, commits, plans in a thread of
 //! its own, sets the timer, and passes the story on. On a paused clock, time stands still while the planner's thread
-//! works, so a simulated run is the same every time.
+//! works, so a simulated run is the same every time; how long a decision takes there is an argument.
+//!
+//! Invariant: what was committed before a timer rang is handed in before the timer is, at the time at which the queue was
+//! last found empty.
 
-use crate::decision_support::{Decision, RequestId, decide};
+use crate::decision_support::{Decision, Request, RequestId, decide};
 use crate::narration::Narration;
 use crate::outcome::{Ending, NoPlan};
 use crate::wheel::{Effect, Event, Wheel};
+use budget::Cancellation;
 use dsr::{AgentId, Graph, Subscription, Time, Transaction};
 use std::collections::VecDeque;
 use std::future::pending;
 use std::sync::Arc;
+use std::time::Duration;
 use tokio::sync::Notify;
 use tokio::task::{JoinHandle, spawn_blocking};
 use tokio::time::{Instant, sleep_until};
 
 /// The surroundings of a wheel.
-pub struct Shell<Tell> {
+pub struct Shell<Tell, Latency> {
     /// The shared graph.
     pub graph: Graph,
     /// The agent that PELEA writes as.
@@ -26,9 +31,20 @@ pub struct Shell<Tell> {
     pub epoch: Instant,
     /// Receives the story.
     pub tell: Tell,
+    /// How long a decision takes at least.
+    pub latency: Latency,
 }
 
-impl<Tell: FnMut(Time, Narration)> Shell<Tell> {
+/// A decision on its way.
+struct Planning {
+    id: RequestId,
+    cancellation: Cancellation,
+    answer: JoinHandle<Decision>,
+    /// The decision is handed in no earlier.
+    not_before: Option<Instant>,
+}
+
+impl<Tell: FnMut(Time, Narration), Latency: FnMut(RequestId) -> Duration> Shell<Tell, Latency> {
     /// Turns the wheel until the mission is over.
     pub async fn run(mut self, mut wheel: Wheel) -> Ending {
         let news = Arc::new(Notify::new());
@@ -38,45 +54,57 @@ impl<Tell: FnMut(Time, Narration)> Shell<Tell> {
         let mut events = VecDeque::new();
         take_in(&mut graph, &mut events);
         let mut alarm: Option<Instant> = None;
-        let mut planning: Option<(RequestId, JoinHandle<Decision>)> = None;
+        let mut planning: Option<Planning> = None;
+        let mut now = self.now();
         loop {
             while let Some(event) = events.pop_front() {
-                for effect in wheel.step(event, self.now()) {
+                for effect in wheel.step(event, now) {
                     match effect {
                         Effect::Write(edits) => {
                             let answer = self.write(edits);
+                            now = self.now();
                             take_in(&mut graph, &mut events);
                             events.push_back(answer);
                         }
-                        Effect::Plan(request) => {
-                            let model = wheel.model().clone();
-                            let id = request.id;
-                            tracing::debug!(request = id.0, barred = request.barred.len(), "planning");
-                            planning = Some((id, spawn_blocking(move || decide(&model, &request))));
+                        Effect::Plan(request) => planning = Some(self.plan(&wheel, request)),
+                        Effect::Cancel(id) => {
+                            if let Some(moot) = planning.take_if(|planning| planning.id == id) {
+                                moot.cancellation.cancel();
+                            }
                         }
                         Effect::WakeAt(time) => alarm = Some(self.instant(time)),
-                        Effect::Tell(narration) => {
-                            let now = self.now();
-                            (self.tell)(now, narration);
-                        }
+                        Effect::Tell(narration) => (self.tell)(now, narration),
                         Effect::End(ending) => return ending,
                     }
                 }
             }
-            tokio::select! {
+            let event = tokio::select! {
                 biased;
-                () = news.notified() => {}
+                () = news.notified() => None,
                 decided = join(&mut planning) => {
                     planning = None;
-                    events.push_back(decided);
+                    Some(decided)
                 }
                 () = ring(alarm) => {
                     alarm = None;
-                    events.push_back(Event::Woke);
+                    Some(Event::Woke)
                 }
-            }
+            };
+            // The queue is emptied after the clock is read: every version up to that time comes before the event.
+            now = self.now();
             take_in(&mut graph, &mut events);
+            events.extend(event);
         }
+    }
+
+    fn plan(&mut self, wheel: &Wheel, request: Request) -> Planning {
+        let (id, model, cancellation) = (request.id, wheel.model().clone(), Cancellation::default());
+        tracing::debug!(request = id.0, barred = request.barred.len(), "planning");
+        let latency = Some((self.latency)(id)).filter(|latency| !latency.is_zero());
+        let not_before = latency.map(|latency| Instant::now() + latency);
+        let cancelled = cancellation.clone();
+        let answer = spawn_blocking(move || decide(&model, &request, &cancelled));
+        Planning { id, cancellation, answer, not_before }
     }
 
     fn write(&self, edits: Vec<dsr::Edit>) -> Event {
@@ -96,7 +124,7 @@ impl<Tell: FnMut(Time, Narration)> Shell<Tell> {
     }
 
     fn instant(&self, time: Time) -> Instant {
-        self.epoch + std::time::Duration::from_nanos(time.0)
+        self.epoch + Duration::from_nanos(time.0)
     }
 }
 
@@ -110,15 +138,15 @@ fn take_in(graph: &mut Subscription, events: &mut VecDeque<Event>) {
     }
 }
 
-async fn join(planning: &mut Option<(RequestId, JoinHandle<Decision>)>) -> Event {
-    match planning {
-        Some((id, handle)) => {
-            // A panic in the planner is a bug of ours; the mission must not hang on it.
-            let stopped = |_| Decision::NoPlan(NoPlan::Stopped);
-            Event::Decided(*id, handle.await.unwrap_or_else(stopped))
-        }
-        None => pending().await,
+async fn join(planning: &mut Option<Planning>) -> Event {
+    let Some(Planning { id, answer, not_before, .. }) = planning else { return pending().await };
+    // The sleep comes first: the caller may drop this future and join again, and an answer can be taken only once.
+    if let Some(instant) = *not_before {
+        sleep_until(instant).await;
     }
+    // A panic in the planner is a bug of ours; the mission must not hang on it.
+    let decision = answer.await.unwrap_or(Decision::NoPlan(NoPlan::Stopped));
+    Event::Decided(*id, decision)
 }
 
 async fn ring(alarm: Option<Instant>) {

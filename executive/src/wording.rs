@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 
 use crate::Step;
 use crate::monitoring::{BrokenLiteral, Deviation};
-use crate::outcome::{Ending, Fallback, NoPlan, StepFailure, Unsolvable};
+use crate::outcome::{Ending, NoPlan, StepFailure, Stuck, Trouble, Unsolvable};
 
 /// How many reasons follow the first sentence.
 const REASONS: usize = 4;
@@ -30,6 +30,7 @@ impl Display for NoPlan {
             Self::Unsupported(feature) => write!(f, "the planner does not support {feature}"),
             Self::Invalid(finding) => write!(f, "the plan found does not validate: {}", finding.sentence),
             Self::Stopped => f.write_str("the planner stopped"),
+            Self::Late(seconds) => write!(f, "no plan within {seconds} s"),
         }
     }
 }
@@ -49,8 +50,7 @@ impl Display for Unsolvable {
             write!(f, ": {reasons}")?;
         }
         if !self.barred.is_empty() {
-            let steps: Vec<_> = self.barred.iter().map(ToString::to_string).collect();
-            write!(f, " (without what just failed: {})", steps.join(", "))?;
+            write!(f, " (without what just failed: {})", list(&self.barred))?;
         }
         Ok(())
     }
@@ -66,46 +66,60 @@ impl Display for StepFailure {
     }
 }
 
-impl Display for Ending {
+impl Display for Stuck {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         match self {
-            Self::Accomplished => f.write_str("mission accomplished"),
-            Self::NotAccomplished { why, fallback } => {
-                write!(f, "mission not accomplished: {}", reason(why, fallback))
+            Self::Replans(times) => write!(f, "{times} replans without progress"),
+            Self::Restarts { step, times } => {
+                write!(f, "{step} was started again {times} times without progress")
+            }
+            Self::Asks(times) => write!(f, "{times} plans in a row came for a world that had moved on"),
+            Self::Attempts(steps) => {
+                write!(f, "no plan without what failed again and again: {}", list(steps))
             }
         }
     }
 }
 
-fn reason(why: &NoPlan, fallback: &Fallback) -> String {
-    match fallback {
-        Fallback::Done => why.to_string(),
-        Fallback::NotStarted(error) => format!("{why}; {error}"),
-        Fallback::Failed(failure) => format!("{why}; {failure}"),
+impl Display for Trouble {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        match self {
+            Self::NoPlan(why) => why.fmt(f),
+            Self::Stuck(why) => why.fmt(f),
+        }
     }
 }
 
-/// An ending in a record.
-#[derive(Serialize)]
-#[serde(tag = "ending", rename_all = "snake_case")]
-enum Record {
-    Accomplished,
-    NotAccomplished {
-        why: String,
-        /// Whether the fallback was carried out.
-        fallback: bool,
-    },
+impl Display for Ending {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        match self {
+            Self::Accomplished => f.write_str("mission accomplished"),
+            Self::WithHuman { why } => write!(f, "mission ended with a human: {why}"),
+            Self::StillCalling { why } => write!(f, "mission ended still calling: {why}"),
+            Self::StillGoing => f.write_str("mission still going on at the horizon of the run"),
+        }
+    }
 }
 
+fn list(steps: &[Step]) -> String {
+    steps.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}
+
+/// An ending in a record: its name, and why.
 impl Serialize for Ending {
     fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        let record = match self {
-            Self::Accomplished => Record::Accomplished,
-            Self::NotAccomplished { why, fallback } => {
-                Record::NotAccomplished { why: reason(why, fallback), fallback: *fallback == Fallback::Done }
-            }
+        #[derive(Serialize)]
+        struct Record {
+            ending: &'static str,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            why: Option<String>,
+        }
+        let why = match self {
+            Self::Accomplished | Self::StillGoing => None,
+            Self::WithHuman { why } => Some(why.to_string()),
+            Self::StillCalling { why } => Some(why.to_string()),
         };
-        record.serialize(serializer)
+        Record { ending: self.name(), why }.serialize(serializer)
     }
 }
 

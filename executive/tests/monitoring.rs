@@ -53,7 +53,7 @@ fn plan(model: &Arc<Model>) -> Vec<OperatorId> {
         barred: Vec::new(),
         expansions: 10_000,
     };
-    match decide(model, &request) {
+    match decide(model, &request, &budget::Cancellation::default()) {
         Decision::Plan { operators, .. } => operators,
         other => panic!("{other:?}"),
     }

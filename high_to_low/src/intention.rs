@@ -105,7 +105,7 @@ impl Activity {
         compiled: &Intention,
     ) -> Standing {
         match self.deadline {
-            Some(deadline) if turn.now >= deadline => {
+            Some(deadline) if turn.moment.seen > deadline => {
                 let written = matches!(self.state, State::Written { .. });
                 let awaited = if written { &compiled.expects } else { &compiled.before };
                 let unmet = awaited.why_not(turn.snapshot, &self.binding);
@@ -117,7 +117,7 @@ impl Activity {
                 self.fail(turn, reason(unmet, self.ground.clone()))
             }
             Some(deadline) => {
-                turn.wake(deadline);
+                turn.wake_after(deadline);
                 Standing::Running
             }
             None => Standing::Running,

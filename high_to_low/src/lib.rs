@@ -8,7 +8,7 @@
 //!
 //! ```
 //! use dsr::{AgentId, Time};
-//! use high_to_low::{Methods, Refinement, Status};
+//! use high_to_low::{Methods, Moment, Refinement, Status};
 //! use pddl::{Source, parse_domain, parse_problem};
 //! use vocabulary::Tokens;
 //!
@@ -31,7 +31,7 @@
 //! let methods = Methods::new(&methods, &tokens).unwrap();
 //!
 //! let mut light = Refinement::new(&methods, &graph.snapshot(), "light", &[pddl::model::Name::new("l")]).unwrap();
-//! let step = light.step(&methods, &graph.snapshot(), Time(0));
+//! let step = light.step(&methods, &graph.snapshot(), Moment::at(Time(0)));
 //! assert_eq!(step.edits.len(), 1); // the intention
 //! assert!(matches!(step.status, Status::Running { .. })); // nothing is lit yet
 //! ```
@@ -57,3 +57,4 @@ pub use failure::{Failure, Reason, StartError};
 pub use ground::GroundTask;
 pub use library::{Methods, MethodsError};
 pub use refinement::{Refinement, Status, Step};
+pub use turn::Moment;

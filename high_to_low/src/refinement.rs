@@ -11,7 +11,7 @@ use crate::failure::{Failure, Reason, StartError};
 use crate::ground::GroundTask;
 use crate::intention::{Activity, Standing};
 use crate::library::{Argument, Head, Method, Methods, Subtask};
-use crate::turn::Turn;
+use crate::turn::{Moment, Turn};
 use dsr::{Edit, NodeId, Snapshot, Time};
 use pddl::model::Name;
 use vocabulary::Binding;
@@ -75,9 +75,9 @@ impl Refinement {
 
     /// Advances every part that can advance. Call it when the graph has changed, and at `wake_at`, with a snapshot that
     /// contains the edits of earlier steps.
-    pub fn step(&mut self, methods: &Methods, snapshot: &Snapshot, now: Time) -> Step {
+    pub fn step(&mut self, methods: &Methods, snapshot: &Snapshot, moment: Moment) -> Step {
         let (mut edits, mut events) = (Vec::new(), Vec::new());
-        let mut turn = Turn { snapshot, now, edits: &mut edits, events: &mut events, wake_at: None };
+        let mut turn = Turn { snapshot, moment, edits: &mut edits, events: &mut events, wake_at: None };
         let progress = self.root.step(methods, &mut turn, 0);
         let wake_at = turn.wake_at;
         let status = match progress {
@@ -289,7 +289,7 @@ impl Expansion {
             Head::Task(task) => Child::Task(Box::new(Goal::new(task, nodes))),
             Head::Intention(intention) => {
                 let ground = ground(methods, subtask.head, &nodes, turn.snapshot);
-                Child::Intention(Activity::new(methods, intention, &nodes, ground, turn.now))
+                Child::Intention(Activity::new(methods, intention, &nodes, ground, turn.moment.now))
             }
         })
     }

@@ -4,7 +4,7 @@
 
 use dsr::{AgentId, Edit, Graph, Time};
 use expect_test::{Expect, expect};
-use high_to_low::{Methods, Refinement, Status, Step};
+use high_to_low::{Methods, Moment, Refinement, Status, Step};
 use pddl::model::{Domain, Name};
 use pddl::{Source, parse_domain, parse_problem};
 use vocabulary::Tokens;
@@ -79,7 +79,8 @@ impl House {
 
     /// Steps the refinement and writes its edits.
     fn step(&mut self) -> Step {
-        let step = self.refinement.step(&self.methods, &self.graph.snapshot(), self.now);
+        let moment = Moment::at(self.now);
+        let step = self.refinement.step(&self.methods, &self.graph.snapshot(), moment);
         self.write(&step.edits);
         step
     }
@@ -180,6 +181,23 @@ fn a_missed_deadline_doubts_the_device_before_the_next_method_is_chosen() {
     .assert_eq(&events(&house.step()));
 }
 
+/// A process that was stopped: it is late now, and has read its queue up to the deadline only.
+#[test]
+fn breakage_8_a_deadline_waits_for_the_graph_of_its_own_time() {
+    let mut house = House::new("tell", &["r", "hall", "one"]);
+    house.step();
+    house.pass(14);
+    let at = |seconds: u64| Time(seconds * 1_000_000_000);
+    for seen in [3, 4] {
+        let moment = Moment { seen: at(seen), now: house.now };
+        let step = house.refinement.step(&house.methods, &house.graph.snapshot(), moment);
+        assert!(matches!(step.status, Status::Running { .. }), "{}", events(&step));
+    }
+    house.perform("view", "shown_in", "hall", "one");
+    house.perform("label", "said_in", "hall", "one");
+    assert_eq!(house.step().status, Status::Done);
+}
+
 #[test]
 fn a_broken_over_all_condition_stops_an_intention_at_once() {
     let mut house = House::new("tell", &["r", "hall", "one"]);
@@ -246,7 +264,7 @@ fn cancelling_leaves_tokens_that_were_overwritten_since() {
         &["r", "hall", "two"].map(Name::new),
     )
     .unwrap();
-    let step = other.step(&house.methods, &house.graph.snapshot(), Time(0));
+    let step = other.step(&house.methods, &house.graph.snapshot(), Moment::at(Time(0)));
     house.write(&step.edits);
     let edits = house.refinement.cancel(&house.graph.snapshot());
     house.write(&edits);

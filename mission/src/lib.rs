@@ -36,5 +36,5 @@ pub use content::{OptionWords, ReportLabels, Words};
 pub use errors::MissionErrors;
 pub use files::{FileError, Files, MemoryFiles};
 pub use layers::{Layer, Layers, NamedTokens};
-pub use manifest::{Budget, Manifest, Mention, ReportTokens};
-pub use mission::{Fallback, Mission};
+pub use manifest::{Budget, Manifest, Mention, Patience, ReportTokens};
+pub use mission::{Mission, MissionTask};

@@ -5,21 +5,21 @@
 
 mod layers;
 mod loader;
+mod tasks;
 mod words;
 
 use std::collections::BTreeMap;
 
-use pddl::model::ObjectId;
-use pddl::{Source, Span};
+use pddl::Source;
 
 use self::loader::Loader;
 use crate::content::Words;
 use crate::errors::MissionErrors;
 use crate::files::{FileError, Files, join};
-use crate::manifest::{self, Manifest};
-use crate::mission::{Fallback, Mission};
+use crate::manifest::{self, TaskText};
+use crate::mission::Mission;
 use diagnostics::toml::Reader;
-use diagnostics::{Finding, Place, SourceId, Sources};
+use diagnostics::{Finding, Sources};
 
 impl Mission {
     /// Reads the mission in the folder `path`, or the mission whose `mission.toml` has that path.
@@ -70,7 +70,11 @@ fn load_into(loader: &mut Loader<'_>, path: &str) -> Option<Mission> {
     let manifest = manifest?;
     let layers = layers::read(loader, manifest_source, &manifest)?;
     let words = words::read(loader, manifest_source, &manifest, &layers);
-    let fallback = fallback(loader, manifest_source, &manifest, &layers)?;
+    let mut task = |text: &TaskText| tasks::resolve(loader, manifest_source, text, &layers);
+    let fallback = task(&manifest.fallback)?;
+    // A mistake in one of them is a finding, which keeps the mission from being loaded.
+    let escalation = manifest.escalation.as_ref().and_then(&mut task);
+    let meanwhile = manifest.meanwhile.as_ref().and_then(task);
     let words: BTreeMap<String, Words> = words.into_iter().map(|w| (w.tag().to_owned(), w)).collect();
     // Scenarios are optional.
     let scenarios = match loader.files.list(&manifest.paths.scenarios) {
@@ -84,68 +88,10 @@ fn load_into(loader: &mut Loader<'_>, path: &str) -> Option<Mission> {
         layers,
         words,
         fallback,
+        escalation,
+        meanwhile,
         scenarios,
         warnings: Vec::new(),
         sources: Sources::new(),
     })
-}
-
-/// Resolves `fallback = "(task argument …)"`. If the arguments are left out, each is the only object of its type in the
-/// problem.
-fn fallback(
-    loader: &mut Loader<'_>,
-    source: SourceId,
-    manifest: &Manifest,
-    layers: &crate::layers::Layers,
-) -> Option<Fallback> {
-    let (methods, problem) = (&layers.methods.model, &layers.problem.model);
-    let wanted = &manifest.fallback;
-    let mut report = |span: Span, message: String| {
-        let place = Place { source, span };
-        loader.findings.push(Finding::error("E0708", place, message));
-        None
-    };
-    let Some(task) = methods.task(&wanted.name) else {
-        return report(wanted.span, format!("the methods have no task `{}`", wanted.name));
-    };
-    let parameters = methods.tasks[task].variables.parameters();
-    let fits = |object: ObjectId, parameter: &pddl::model::Variable| {
-        let types = &problem.objects[object].types;
-        types.0.iter().all(|&t| {
-            let name = &layers.domain.model.types[t].name;
-            methods.types.find(name).is_some_and(|t| methods.types.is_in(t, &parameter.types))
-        })
-    };
-    let mut arguments = Vec::new();
-    if manifest.fallback_arguments.is_empty() {
-        for parameter in parameters {
-            let mut fitting = problem.objects.ids().filter(|&o| fits(o, parameter));
-            match (fitting.next(), fitting.next()) {
-                (Some(object), None) => arguments.push(object),
-                _ => {
-                    let message = format!(
-                        "the problem does not have exactly one object for `?{}` of `{}`; name it: \"({} …)\"",
-                        parameter.name, wanted.name, wanted.name
-                    );
-                    return report(wanted.span, message);
-                }
-            }
-        }
-    } else if manifest.fallback_arguments.len() != parameters.len() {
-        let message = format!("`{}` takes {} arguments", wanted.name, parameters.len());
-        return report(wanted.span, message);
-    } else {
-        for (mention, parameter) in manifest.fallback_arguments.iter().zip(parameters) {
-            match problem.object(&mention.name) {
-                Some(object) if fits(object, parameter) => arguments.push(object),
-                _ => {
-                    let message =
-                        format!("`{}` is not an object that fits `?{}`", mention.name, parameter.name);
-                    return report(mention.span, message);
-                }
-            }
-        }
-    }
-    let names = arguments.iter().map(|&o| problem.objects[o].name.clone()).collect();
-    Some(Fallback { task, name: wanted.name.clone(), arguments: names })
 }

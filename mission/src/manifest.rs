@@ -3,6 +3,8 @@
 //! No mission appears in Rust source. The manifest therefore names what the report counts, what is said, and what happens
 //! without a plan, as tokens of the graph and tasks of the methods.
 
+use std::time::Duration;
+
 use pddl::Span;
 use pddl::model::Name;
 
@@ -48,8 +50,24 @@ pub(crate) struct Paths {
 pub struct Budget {
     /// States that one replan may expand.
     pub replan_expansions: u32,
-    /// How often one action may start before it counts as failed.
+    /// How often one action may fail without progress before its failure is escalated.
     pub attempts: u32,
+}
+
+/// What happens when a mission does not get on, and while it waits for a decision. What is `None` is for the executive
+/// to choose.
+#[derive(Clone, Debug, Default)]
+pub struct Patience {
+    /// Plans that may replace a plan without progress.
+    pub replans: Option<u32>,
+    /// Starts of one step without progress.
+    pub restarts: Option<u32>,
+    /// Requests in a row whose answers the world had overtaken.
+    pub asks: Option<u32>,
+    /// How long a decision may take before the fallback starts.
+    pub deciding: Option<Duration>,
+    /// How long a decision takes before the task `meanwhile` starts.
+    pub meanwhile_after: Option<Duration>,
 }
 
 /// The tokens that make the report.
@@ -82,6 +100,14 @@ pub(crate) struct WordTypes {
     pub(crate) requests: Mention,
 }
 
+/// A task with its arguments: `fall-back` or `(fall-back person)`.
+#[derive(Clone, Debug)]
+pub(crate) struct TaskText {
+    pub(crate) task: Mention,
+    /// Its arguments, if the manifest gives them.
+    pub(crate) arguments: Vec<Mention>,
+}
+
 /// `mission.toml`, its names not yet resolved.
 #[derive(Clone, Debug)]
 pub struct Manifest {
@@ -95,14 +121,18 @@ pub struct Manifest {
     pub(crate) language_span: Span,
     /// The place of the robot's folder.
     pub(crate) robot_span: Span,
-    /// The task to execute without a plan: `fall-back` or `(fall-back person)`.
-    pub(crate) fallback: Mention,
-    /// Its arguments, if the manifest gives them.
-    pub(crate) fallback_arguments: Vec<Mention>,
+    /// The task to execute without a plan.
+    pub(crate) fallback: TaskText,
+    /// The task to execute without progress, if it is another.
+    pub(crate) escalation: Option<TaskText>,
+    /// The task to execute while a decision takes its time.
+    pub(crate) meanwhile: Option<TaskText>,
     /// The files.
     pub(crate) paths: Paths,
     /// The limits of planning and of retries.
     pub budget: Budget,
+    /// The limits of progress and of decisions.
+    pub patience: Patience,
     /// The tokens of the report.
     pub report: ReportTokens,
     /// The types of the words.
@@ -118,7 +148,10 @@ pub(crate) fn read(reader: &mut Reader<'_>, mut root: Table<'_>, folder: &str) -
     let robot = root.required_text(reader, "robot");
     let language = root.required_text(reader, "language");
     let fallback = root.required_text(reader, "fallback");
-    let budget = budget(reader, &mut root);
+    let meanwhile = root.text(reader, "meanwhile");
+    let mut patience = Patience::default();
+    let budget = budget(reader, &mut root, &mut patience);
+    let escalation = progress(reader, &mut root, &mut patience);
     root.require(reader, "report");
     let report = root.table(reader, "report").and_then(|t| report(reader, t));
     let words = words(reader, &mut root);
@@ -127,31 +160,53 @@ pub(crate) fn read(reader: &mut Reader<'_>, mut root: Table<'_>, folder: &str) -
     root.finish(reader);
 
     let (name, robot, language, fallback) = (name?, robot?, language?, fallback?);
-    let mut words_of_fallback = symbols(&fallback);
-    if words_of_fallback.is_empty() {
-        reader.error("E0705", fallback.span, "`fallback` should name a task, as in \"(fall-back person)\"");
-        return None;
-    }
-    let arguments = words_of_fallback.split_off(1);
+    let fallback = task_text(reader, "fallback", &fallback)?;
+    let escalation = escalation.and_then(|text| task_text(reader, "escalation", &text));
+    let meanwhile = meanwhile.and_then(|text| task_text(reader, "meanwhile", &text));
     Some(Manifest {
         title: title.map_or_else(|| name.value.clone(), |t| t.value),
         name: name.value,
         language: language.value,
         language_span: language.span,
         robot_span: robot.span,
-        fallback: words_of_fallback.remove(0),
-        fallback_arguments: arguments,
+        fallback,
+        escalation,
+        meanwhile,
         paths,
         budget,
+        patience,
         report: report?,
         words,
     })
 }
 
-fn budget(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Budget {
+fn task_text(reader: &mut Reader<'_>, key: &str, text: &Text) -> Option<TaskText> {
+    let mut mentions = symbols(text);
+    if mentions.is_empty() {
+        reader.error("E0705", text.span, format!("`{key}` should name a task, as in \"(fall-back person)\""));
+        return None;
+    }
+    let arguments = mentions.split_off(1);
+    Some(TaskText { task: mentions.remove(0), arguments })
+}
+
+/// `[progress]`: its bounds, and the task when one is reached.
+fn progress(reader: &mut Reader<'_>, root: &mut Table<'_>, patience: &mut Patience) -> Option<Text> {
+    let mut table = root.table(reader, "progress")?;
+    patience.replans = table.count(reader, "replans", 1).map(|(n, _)| n);
+    patience.restarts = table.count(reader, "restarts", 1).map(|(n, _)| n);
+    patience.asks = table.count(reader, "asks", 1).map(|(n, _)| n);
+    let escalation = table.text(reader, "escalation");
+    table.finish(reader);
+    escalation
+}
+
+fn budget(reader: &mut Reader<'_>, root: &mut Table<'_>, patience: &mut Patience) -> Budget {
     let Some(mut table) = root.table(reader, "budget") else { return DEFAULT_BUDGET };
     let expansions = table.count(reader, "replan-expansions", 1).map(|(n, _)| n);
     let attempts = table.count(reader, "attempts", 1).map(|(n, _)| n);
+    patience.deciding = table.seconds(reader, "deciding");
+    patience.meanwhile_after = table.seconds(reader, "meanwhile-after");
     table.finish(reader);
     Budget {
         replan_expansions: expansions.unwrap_or(DEFAULT_BUDGET.replan_expansions),

@@ -9,9 +9,9 @@ use crate::layers::Layers;
 use crate::manifest::Manifest;
 use diagnostics::{Finding, Place, SourceId, Sources};
 
-/// The task to execute when there is no plan.
+/// A task that the manifest names, to be executed outside any plan.
 #[derive(Clone, Debug)]
-pub struct Fallback {
+pub struct MissionTask {
     /// The task, of the methods.
     pub task: TaskId,
     /// Its name.
@@ -32,7 +32,11 @@ pub struct Mission {
     /// Its PDDL.
     pub layers: Layers,
     /// The task to execute when there is no plan.
-    pub fallback: Fallback,
+    pub fallback: MissionTask,
+    /// The task to execute when the mission does not get on, if it is another.
+    pub escalation: Option<MissionTask>,
+    /// The task to execute while a decision takes its time.
+    pub meanwhile: Option<MissionTask>,
     /// The findings that are not errors.
     pub warnings: Vec<Finding>,
     /// Every text of the mission.

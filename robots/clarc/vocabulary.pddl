@@ -72,7 +72,8 @@
 
   (:writes pelea
     is_in label view question (can _ answer) (got _ answer)
-    (is _ doubted) refuses (is_needed_for _ _) (attended _ _) (is_due_to _ _))
+    (is _ doubted) refuses (is_needed_for _ _) (attended _ _) (is_due_to _ _)
+    (was_delivered_to _ _))
   (:writes speech
     (is _ speaking) (is_not _ speaking) (finish _ speaking)
     (is speaker broken) (is speaker doubted) (is microphone broken) (is microphone doubted)

@@ -69,6 +69,20 @@ fn the_same_seed_gives_the_same_bytes_and_another_seed_other_delays() {
     assert_ne!(first.out, play(&mission, "figure-8", &["--seed", "8"]).out);
 }
 
+/// What a plan finds when it comes late is another world: the story changes, the outcome must not.
+#[test]
+fn breakage_16_decisions_that_take_their_time_change_no_ending() {
+    for (mission, scenarios) in missions() {
+        for scenario in scenarios {
+            let mission = mission.to_string_lossy();
+            let at_once = play(&mission, &scenario, &[]).result()["ending"].clone();
+            let slow =
+                play(&mission, &scenario, &["--planning-latency", "0.1..3"]).result()["ending"].clone();
+            assert_eq!(slow, at_once, "{scenario}");
+        }
+    }
+}
+
 #[test]
 fn speech_stops_in_the_very_version_in_which_the_person_is_lost() {
     let said = play(&barthel(), "figure-8", &[]);

@@ -7,7 +7,7 @@ use super::script::questions;
 use super::story::{Commit, Entry, What};
 use crate::scenario::Staged;
 use dsr::Snapshot;
-use executive::Narration;
+use executive::{Ending, Narration};
 use mission::Mission;
 use mission::scenario::{Outcome, Replan, Violation};
 use pddl::model::{Condition, ConditionKind, Domain, Name};
@@ -114,13 +114,18 @@ impl<'a> Record<'a> {
     pub(super) fn judge(
         &self,
         staged: &Staged,
-        accomplished: bool,
+        ending: &Ending,
         content: &Content,
         snapshot: &Snapshot,
     ) -> Vec<Violation> {
         let report = content.report(snapshot);
-        let outcome =
-            Outcome { accomplished, report: &report, replans: &self.replans, asked_again: &self.asked_again };
+        let outcome = Outcome {
+            accomplished: *ending == Ending::Accomplished,
+            ending: ending.name(),
+            report: &report,
+            replans: &self.replans,
+            asked_again: &self.asked_again,
+        };
         staged.scenario.expect.judge(&outcome, |condition| staged.holds(condition, snapshot))
     }
 }

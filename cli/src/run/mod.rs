@@ -5,11 +5,13 @@
 //! paused and jumps to the next event, so the same mission, scenario and seed give the same bytes.
 //!
 //! From the ground up: `script`, `director` (the disruptions in the room), `story` (all events as one stream), `content`
-//! (the mission's words) → `judge`, `terminal`, `teller` (reports of the story) → `play`.
+//! (the mission's words), `latency` (how long a decision takes) → `judge`, `terminal`, `teller` (reports of the story) →
+//! `play`.
 
 mod content;
 mod director;
 mod judge;
+mod latency;
 mod play;
 mod script;
 mod story;
@@ -17,6 +19,7 @@ mod teller;
 mod terminal;
 
 use crate::assemble::{assemble, load};
+use crate::clock::Seconds;
 use crate::console::Console;
 use crate::disk::show;
 use crate::exit::Exit;
@@ -25,9 +28,11 @@ use crate::scenario;
 use clap::{Args, ValueEnum};
 use content::Content;
 use dsr::Journal;
+use latency::Latency;
 use play::Play;
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Arguments of `pelea run`.
 #[derive(Debug, Args)]
@@ -53,6 +58,12 @@ pub(crate) struct Arguments {
     /// Write every version of the graph to a journal in this folder, for `pelea dsr`
     #[arg(long, value_name = "FOLDER")]
     journal: Option<PathBuf>,
+    /// End the run after this time, whatever happens; four hours in simulated time, and never in real time, by default
+    #[arg(long, value_name = "SECONDS")]
+    horizon: Option<Seconds>,
+    /// The time that a decision takes at least; of a range, the seed chooses
+    #[arg(long, value_name = "SECONDS|MIN..MAX")]
+    planning_latency: Option<latency::Range>,
     /// Also show how each step is executed
     #[arg(long)]
     verbose: bool,
@@ -67,6 +78,11 @@ enum Speed {
     /// Simulated time, as fast as the machine
     Max,
 }
+
+/// The end of a simulated run in which nobody ever comes.
+const HORIZON: Duration = Duration::from_hours(4);
+/// The longest span between two turns of PELEA in real time; after a much longer one the process was stopped.
+const PULSE: Duration = Duration::from_secs(1);
 
 /// Runs a mission.
 pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
@@ -105,7 +121,14 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         Ok(journal) => journal,
         Err(failed) => return failed.show(console),
     };
+    let simulated = arguments.speed == Speed::Max;
+    let horizon = arguments.horizon.map(Seconds::duration);
+    let of_scenario = staged.as_ref().and_then(|staged| staged.scenario.horizon);
+    let latency = Latency::new(arguments.planning_latency.unwrap_or_default(), arguments.seed);
     let play = Play {
+        horizon: horizon.or(of_scenario).or_else(|| simulated.then_some(HORIZON)),
+        latency: if simulated { latency.simulated() } else { latency },
+        pulse: (!simulated).then_some(PULSE),
         content: Content { mission: Arc::new(mission), language },
         staged,
         seed: arguments.seed,

@@ -1,6 +1,7 @@
 //! Runs a mission on simulated devices, in one task.
 
 use super::content::Content;
+use super::latency::Latency;
 use super::story::{Story, What, seconds};
 use super::teller::Teller;
 use super::{director, script};
@@ -23,6 +24,12 @@ pub(super) struct Play {
     pub(super) staged: Option<Staged>,
     pub(super) seed: u64,
     pub(super) verbose: bool,
+    /// When the run ends whatever happens, if ever.
+    pub(super) horizon: Option<Duration>,
+    /// How long a decision takes at least.
+    pub(super) latency: Latency,
+    /// How often PELEA must turn on a clock that does not wait for it.
+    pub(super) pulse: Option<Duration>,
 }
 
 impl Play {
@@ -33,7 +40,9 @@ impl Play {
         report_file: Option<&Path>,
         console: &mut Console<'_>,
     ) -> Exit {
-        let Assembly { graph, agents, wheel, .. } = assembly;
+        let Assembly { graph, agents, wheel, writer, .. } = assembly;
+        let wheel = self.horizon.iter().fold(wheel, |wheel, horizon| wheel.until(time(*horizon)));
+        let wheel = self.pulse.iter().fold(wheel, |wheel, pulse| wheel.with_pulse(*pulse));
         let epoch = Instant::now();
         let room = self.room();
         let (reader, mut entries) = mpsc::unbounded_channel();
@@ -59,7 +68,9 @@ impl Play {
         let mut teller = Teller::new(&self.content, self.staged.as_ref(), self.verbose, console);
         teller.heading();
         let ending = {
-            let pelea = pelea(graph.clone(), wheel, story.clone(), steps, epoch);
+            let latency = self.latency.clone();
+            let pelea =
+                pelea(Seat { graph: graph.clone(), writer, epoch }, wheel, story.clone(), steps, latency);
             let agents = agents::run_all(agents, environment);
             let directed = async {
                 director::direct(cues, stage).await;
@@ -98,15 +109,21 @@ impl Play {
     }
 }
 
+/// Where PELEA works.
+struct Seat {
+    graph: Graph,
+    writer: AgentId,
+    epoch: Instant,
+}
+
 /// PELEA on the real graph.
 async fn pelea(
-    graph: Graph,
+    Seat { graph, writer, epoch }: Seat,
     wheel: Wheel,
     story: Story,
     steps: broadcast::Sender<Step>,
-    epoch: Instant,
+    mut latency: Latency,
 ) -> Ending {
-    let writer = graph.vocabulary().agent("pelea").unwrap_or(AgentId::DSR);
     let tell = move |time: dsr::Time, narration: Narration| {
         if let Narration::Started { step, .. } = &narration {
             // Without a disruption that waits for a step there is no receiver.
@@ -114,5 +131,10 @@ async fn pelea(
         }
         story.tell(seconds(Duration::from_nanos(time.0)), What::Pelea(narration));
     };
-    Shell { graph, writer, epoch, tell }.run(wheel).await
+    let latency = move |_| latency.next();
+    Shell { graph, writer, epoch, tell, latency }.run(wheel).await
+}
+
+fn time(after: Duration) -> dsr::Time {
+    dsr::Time(u64::try_from(after.as_nanos()).unwrap_or(u64::MAX))
 }

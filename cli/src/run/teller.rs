@@ -82,7 +82,7 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
         let report = self.content.report(snapshot);
         let accomplished = *ending == Ending::Accomplished;
         let violations = self.staged.map_or_else(Vec::new, |staged| {
-            let judged = self.record.judge(staged, accomplished, self.content, snapshot);
+            let judged = self.record.judge(staged, ending, self.content, snapshot);
             judged.iter().map(|v| format!("{}: {v}", place(&staged.scenario, v.span()))).collect()
         });
         self.console.result("");
@@ -95,7 +95,12 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
         }
         let (replans, repairs) = (self.record.replans(), self.record.repairs());
         let time = seconds(elapsed);
-        let word = if accomplished { "accomplished" } else { "not accomplished" };
+        let word = match ending {
+            Ending::Accomplished => "accomplished",
+            Ending::WithHuman { .. } => "ended with a human",
+            Ending::StillCalling { .. } => "ended still calling",
+            Ending::StillGoing => "still going on",
+        };
         self.console
             .result(&format!("\nmission {word} after {time:.1} s, {}", counted(replans, repairs.reuse)));
         let asked_again = self.record.asked_again().iter().map(ToString::to_string).collect();

@@ -212,6 +212,29 @@ impl Terminal {
             N::FellBack { why } => {
                 self.line(time, Tone::Trouble, "no plan", &format!("{why}; falling back"));
             }
+            N::Resting { steps, seconds } => {
+                let steps: Vec<_> = steps.iter().map(ToString::to_string).collect();
+                self.line(time, Tone::Plan, "rest", &format!("{} again in {seconds} s", steps.join(" ")));
+            }
+            N::AskedAgain { times } => {
+                let text = format!("the world has moved on; asking for a plan again ({times})");
+                self.line(time, Tone::Plan, "ask", &text);
+            }
+            N::FitsAgain => self.line(time, Tone::Plan, "plan", "fits again, and goes on"),
+            N::Meanwhile { task } => self.line(time, Tone::Plan, "wait", &format!("meanwhile {task}")),
+            N::Escalated { why, task } => {
+                self.line(time, Tone::Trouble, "stuck", &format!("{why}; {task}"));
+            }
+            N::Retried { task, why, seconds } => {
+                self.line(time, Tone::Trouble, "failed", &format!("{task}: {why}; again in {seconds} s"));
+            }
+            N::Displaced { task } => {
+                self.line(time, Tone::Plan, "resume", &format!("there is a plan again; {task} ends"));
+            }
+            N::StoodStill { seconds } => {
+                let text = format!("PELEA stood still for {seconds:.1} s; deadlines do not count that time");
+                self.line(time, Tone::Trouble, "late", &text);
+            }
             N::Refused { why } => self.line(time, Tone::Trouble, "refused", &why.to_string()),
             N::Ended(ending) => {
                 let tone = if *ending == Ending::Accomplished { Tone::Plan } else { Tone::Trouble };

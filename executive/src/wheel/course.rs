@@ -6,7 +6,7 @@ use crate::Model;
 use crate::monitoring::Monitor;
 use crate::narration::Narration;
 use dsr::{Snapshot, Time};
-use high_to_low::{Methods, Refinement, Status};
+use high_to_low::{Methods, Moment, Refinement, Status};
 use planner::{OperatorId, State, Task};
 
 /// A plan, its current step, and that step's refinement.
@@ -15,6 +15,8 @@ pub(super) struct Course {
     /// The current step; the plan's length when all are done.
     pub(super) current: usize,
     refinement: Option<Refinement>,
+    /// The next deadline of the current step.
+    wake_at: Option<Time>,
 }
 
 /// What Monitoring finds about the current step.
@@ -33,12 +35,22 @@ pub(super) enum Progress {
 impl Course {
     pub(super) fn new(model: &Model, plan: Vec<OperatorId>, state: &State) -> Self {
         let goal = model.task().goal().clone();
-        Self { monitor: Monitor::new(model.task(), plan, goal, state), current: 0, refinement: None }
+        Self {
+            monitor: Monitor::new(model.task(), plan, goal, state),
+            current: 0,
+            refinement: None,
+            wake_at: None,
+        }
     }
 
     /// The steps from the current one on.
     pub(super) fn left(&self) -> &[OperatorId] {
         &self.monitor.plan()[self.current.min(self.monitor.plan().len())..]
+    }
+
+    /// When the current step goes on even if nothing changes.
+    pub(super) fn wake_at(&self) -> Option<Time> {
+        self.wake_at
     }
 
     /// Whether the current step has been started.
@@ -81,7 +93,7 @@ impl Course {
         model: &Model,
         methods: &Methods,
         snapshot: &Snapshot,
-        now: Time,
+        moment: Moment,
         effects: &mut Vec<Effect>,
     ) -> Status {
         let mut refinement = match self.refinement.take() {
@@ -95,15 +107,20 @@ impl Course {
                 }
             }
         };
-        let step = refinement.step(methods, snapshot, now);
+        let step = refinement.step(methods, snapshot, moment);
         write(step.edits, effects);
         tell(step.events, effects);
         self.refinement = Some(refinement);
+        self.wake_at = match step.status {
+            Status::Running { wake_at } => wake_at,
+            Status::Done | Status::Failed(_) => None,
+        };
         step.status
     }
 
     /// Takes back the intentions of the current step that are not yet achieved.
     pub(super) fn withdraw(&mut self, snapshot: &Snapshot, effects: &mut Vec<Effect>) {
+        self.wake_at = None;
         if let Some(mut refinement) = self.refinement.take() {
             write(refinement.cancel(snapshot), effects);
         }
@@ -118,7 +135,7 @@ impl Course {
     ) -> bool {
         let running = old.monitor.plan().get(old.current);
         if running.is_some() && running == self.monitor.plan().first() {
-            self.refinement = old.refinement;
+            (self.refinement, self.wake_at) = (old.refinement, old.wake_at);
             self.refinement.is_some()
         } else {
             old.withdraw(snapshot, effects);

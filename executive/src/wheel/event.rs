@@ -19,7 +19,7 @@ pub enum Event {
     },
     /// The present graph without a delta: at the start, or after commits were missed.
     Seen(Snapshot),
-    /// The time of [`Effect::WakeAt`] has come.
+    /// The time of [`Effect::WakeAt`] has come, and every version that was committed until now has been handed in.
     Woke,
     /// Decision Support answers.
     Decided(RequestId, Decision),
@@ -37,6 +37,8 @@ pub enum Effect {
     Write(Vec<Edit>),
     /// Plan, and answer with [`Event::Decided`].
     Plan(Request),
+    /// Decision Support need not answer this request any more.
+    Cancel(RequestId),
     /// Send [`Event::Woke`] at this time; replaces an earlier one.
     WakeAt(Time),
     /// Report this to the listeners.

@@ -44,6 +44,8 @@ pub struct ReplanExpectation {
 pub struct Expectation {
     /// Whether the mission reaches its goal.
     pub accomplished: Option<Expected<bool>>,
+    /// The name of the ending.
+    pub ending: Option<Expected<String>>,
     /// Conditions over the final graph.
     pub holds: Vec<GraphCondition>,
     /// The number of answered items.
@@ -64,6 +66,7 @@ pub(super) fn read(reader: &mut Reader<'_>, layers: &Layers, table: Option<Table
     let Some(mut table) = table else { return expect };
     let span = table.key_span("accomplished");
     expect.accomplished = table.boolean(reader, "accomplished").map(|value| Expected { value, span });
+    expect.ending = table.text(reader, "ending").and_then(|text| ending(reader, &text));
     for text in table.texts(reader, "holds").unwrap_or_default() {
         expect.holds.extend(super::condition::read(reader, layers, &text));
     }
@@ -81,6 +84,18 @@ pub(super) fn read(reader: &mut Reader<'_>, layers: &Layers, table: Option<Table
     }
     table.finish(reader);
     expect
+}
+
+/// The ways in which a run ends, as its result names them.
+const ENDINGS: [&str; 4] = ["accomplished", "with_human", "still_calling", "still_going"];
+
+fn ending(reader: &mut Reader<'_>, text: &Text) -> Option<Expected<String>> {
+    if !ENDINGS.contains(&text.value.as_str()) {
+        let message = format!("no run ends `{}`; it ends {}", text.value, ENDINGS.join(", "));
+        reader.error("E0705", text.span, message);
+        return None;
+    }
+    Some(Expected { value: text.value.clone(), span: text.span })
 }
 
 fn count(reader: &mut Reader<'_>, table: &mut Table<'_>, key: &str) -> Option<Expected<u32>> {

@@ -18,6 +18,8 @@ pub struct Replan {
 pub struct Outcome<'a> {
     /// Whether the mission reached its goal.
     pub accomplished: bool,
+    /// The name of its ending.
+    pub ending: &'a str,
     /// The report over the final graph.
     pub report: &'a Report,
     /// All replans.
@@ -33,6 +35,9 @@ pub enum Violation {
     /// The mission missed its goal, or reached it against the expectation.
     #[error("the mission was {}accomplished", if *expected { "not " } else { "" })]
     Accomplished { expected: bool, span: Span },
+    /// The mission ended in another way.
+    #[error("the mission ended {found}, {expected} expected")]
+    Ended { expected: String, found: String, span: Span },
     /// A condition does not hold in the final graph.
     #[error("{condition} does not hold in the end")]
     DoesNotHold { condition: String, span: Span },
@@ -64,6 +69,7 @@ impl Violation {
     pub fn span(&self) -> Span {
         match self {
             Self::Accomplished { span, .. }
+            | Self::Ended { span, .. }
             | Self::DoesNotHold { span, .. }
             | Self::Answered { span, .. }
             | Self::Total { span, .. }
@@ -86,6 +92,10 @@ impl Expectation {
         let mut violations = Vec::new();
         if let Some(e) = self.accomplished.as_ref().filter(|e| e.value != outcome.accomplished) {
             violations.push(Violation::Accomplished { expected: e.value, span: e.span });
+        }
+        if let Some(e) = self.ending.as_ref().filter(|e| e.value != outcome.ending) {
+            let (expected, found) = (e.value.clone(), outcome.ending.to_owned());
+            violations.push(Violation::Ended { expected, found, span: e.span });
         }
         for condition in self.holds.iter().filter(|c| !holds(c)) {
             let (condition, span) = (condition.text.clone(), condition.span);

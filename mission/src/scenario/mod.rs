@@ -37,6 +37,8 @@ pub struct Scenario {
     pub patient: Patient,
     /// The simulated clinician.
     pub clinician: Clinician,
+    /// When the run ends whatever happens; `None` leaves it to the run.
+    pub horizon: Option<Duration>,
     /// The disruptions.
     pub disruptions: Vec<Disruption>,
     /// The expectations.

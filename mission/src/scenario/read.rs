@@ -60,6 +60,7 @@ fn read_root(
     let patient = patient::read(reader, mission, patient);
     let clinician = root.table(reader, "clinician");
     let clinician = read_clinician(reader, clinician);
+    let horizon = root.seconds(reader, "horizon");
     let disruptions = root.tables(reader, "disruption");
     let disruptions = disruptions.into_iter().filter_map(|t| disruption::read(reader, layers, t)).collect();
     let expect = root.table(reader, "expect");
@@ -70,6 +71,7 @@ fn read_root(
         title: title?.value,
         patient,
         clinician,
+        horizon,
         disruptions,
         expect,
         source: Arc::clone(source),

@@ -94,7 +94,13 @@ asked-again = []
 
     let report = report(Some(("which", "was_unanswered_in")), "en");
     let again = ["drink"].map(pddl::model::Name::new);
-    let bad = Outcome { accomplished: false, report: &report, replans: &[], asked_again: &again };
+    let bad = Outcome {
+        accomplished: false,
+        ending: "with_human",
+        report: &report,
+        replans: &[],
+        asked_again: &again,
+    };
     let violations = scenario.expect.judge(&bad, |c| !c.text.starts_with("(is_with"));
     let lines: Vec<String> = violations
         .iter()
@@ -116,6 +122,12 @@ asked-again = []
     let report = self::report(Some(("green", "was_chosen_in")), "en");
     let names = ["is_with", "greeted"].map(pddl::model::Name::new).to_vec();
     let replans = [Replan { names }];
-    let good = Outcome { accomplished: true, report: &report, replans: &replans, asked_again: &[] };
+    let good = Outcome {
+        accomplished: true,
+        ending: "accomplished",
+        report: &report,
+        replans: &replans,
+        asked_again: &[],
+    };
     assert_eq!(scenario.expect.judge(&good, |_| true), []);
 }

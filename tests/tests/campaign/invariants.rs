@@ -7,8 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The utterances that may be spoken to a person who is not in view, or who asks for help.
 const SUMMONS: [&str; 3] = ["sit-down", "stay-calm", "help-is-coming"];
 
-/// Longer than all disruptions, deadlines and fallbacks of one mission together.
-const LONGEST: f64 = 9_000.0;
+/// The horizon of a simulated run.
+const LONGEST: f64 = 14_401.0;
 const MOST_RECORDS: usize = 6_000;
 
 /// The graph as the records report it, and the findings.
@@ -173,8 +173,8 @@ impl Run {
             if !records.iter().any(|r| r["event"] == "fell_back") {
                 self.finding(result, "not accomplished, and nothing else was tried");
             }
-            if made_up.comes && result["fallback"] != true {
-                self.finding(result, &format!("the fallback failed: {}", result["why"]));
+            if made_up.comes && result["ending"] != "with_human" {
+                self.finding(result, &format!("{}: {}", result["ending"], result["why"]));
             }
         }
         let silent =

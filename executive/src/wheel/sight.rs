@@ -1,0 +1,62 @@
+//! What the wheel has seen of the graph: the last version, its predicates, the planner's state.
+
+use crate::Model;
+use crate::monitoring::Deviation;
+use dsr::{Delta, Snapshot, Time};
+use low_to_high::{LowToHigh, Perception};
+use planner::{FactId, State};
+use std::sync::Arc;
+
+pub(super) struct Sight {
+    pub(super) snapshot: Snapshot,
+    low_to_high: LowToHigh,
+    pub(super) state: State,
+    /// Since when the state is as it is, in the wheel's time.
+    pub(super) since: Time,
+}
+
+impl Sight {
+    /// The first look, or a new one after commits were missed.
+    pub(super) fn new(perception: &Arc<Perception>, model: &Model, snapshot: Snapshot, now: Time) -> Self {
+        let low_to_high = LowToHigh::new(perception.clone(), &snapshot);
+        let state = model.state(low_to_high.facts());
+        Self { snapshot, low_to_high, state, since: now }
+    }
+
+    /// Follows a commit: the facts of the state that changed, with their new truth.
+    pub(super) fn follow(
+        &mut self,
+        model: &Model,
+        snapshot: Snapshot,
+        delta: &Delta,
+        now: Time,
+    ) -> Vec<(FactId, bool)> {
+        let change = self.low_to_high.update(&snapshot, delta);
+        self.snapshot = snapshot;
+        let gone = change.disappeared.iter().filter_map(|f| Some((model.fact(f)?, false)));
+        let come = change.appeared.iter().filter_map(|f| Some((model.fact(f)?, true)));
+        let changes: Vec<_> = gone.chain(come).collect();
+        if !changes.is_empty() {
+            self.state = model.state(self.low_to_high.facts());
+            self.since = now;
+        }
+        changes
+    }
+
+    /// How its state differs from the one before.
+    pub(super) fn differences(&self, before: &Self) -> Vec<(FactId, bool)> {
+        let (before, after) = (&before.state, &self.state);
+        let gone = before.facts().into_iter().filter(|&f| !after.contains(f)).map(|f| (f, false));
+        let come = after.facts().into_iter().filter(|&f| !before.contains(f)).map(|f| (f, true));
+        gone.chain(come).collect()
+    }
+
+    /// Adds the tokens of the graph to each reason.
+    pub(super) fn name_tokens(&self, deviation: &mut Deviation) {
+        for literal in &mut deviation.broken {
+            if let Some(fact) = &literal.fact {
+                literal.seen = self.low_to_high.explain(&self.snapshot, fact);
+            }
+        }
+    }
+}

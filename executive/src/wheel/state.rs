@@ -1,0 +1,157 @@
+//! What the wheel keeps between two events.
+
+use super::clock::Clock;
+use super::course::Course;
+use super::errand::Errand;
+use super::failures::Failures;
+use super::patience::Patience;
+use super::policy::Policy;
+use super::sight::Sight;
+use crate::Model;
+use crate::decision_support::{Decision, RequestId};
+use dsr::{AgentId, Interest, Time};
+use high_to_low::{Methods, Moment};
+use low_to_high::Perception;
+use planner::{OperatorId, State};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// PELEA between two events.
+///
+/// It decides only with its own writes in view: between asking for a write and seeing it in the graph, it
+/// takes in what happens and does nothing. It takes old writes back before it writes anything new, so that no intention
+/// is mistaken for the remains of another.
+pub struct Wheel {
+    pub(super) model: Arc<Model>,
+    pub(super) methods: Arc<Methods>,
+    pub(super) perception: Arc<Perception>,
+    pub(super) policy: Policy,
+    /// When the run ends whatever happens, on the clock.
+    pub(super) horizon: Option<Time>,
+    pub(super) clock: Clock,
+    /// The present turn, in the wheel's own time.
+    pub(super) moment: Moment,
+    /// LowToHigh over the last graph seen; `None` before the first.
+    pub(super) sight: Option<Sight>,
+    pub(super) hand: Hand,
+    /// The question that Decision Support has not answered.
+    pub(super) inquiry: Option<Inquiry>,
+    pub(super) failures: Failures,
+    pub(super) patience: Patience,
+    pub(super) next_request: u64,
+    pub(super) plans: u32,
+    /// A write was asked for and not yet answered.
+    pub(super) unanswered: bool,
+    /// A decision that came while its own write was out of view.
+    pub(super) deferred: Option<(RequestId, Decision)>,
+    pub(super) ended: bool,
+}
+
+/// What is being carried out.
+#[expect(clippy::large_enum_variant, reason = "a wheel has one of it")]
+pub(super) enum Hand {
+    /// Nothing.
+    Empty,
+    /// A plan. While a question is open, the plan does not fit: its current step keeps its intentions, and no other
+    /// starts.
+    Plan(Course),
+    /// Nothing yet: the only plans need a step that has just failed.
+    Rest(Rest),
+    /// A task of the mission's own, outside any plan.
+    Errand(Box<Errand>),
+}
+
+/// A wait for the time when a step may be tried again.
+pub(super) struct Rest {
+    /// The state; when it changes, the wait is over.
+    pub(super) from: State,
+    pub(super) until: Time,
+}
+
+/// A question to Decision Support.
+pub(super) struct Inquiry {
+    pub(super) id: RequestId,
+    /// The state that it was asked for.
+    pub(super) from: State,
+    pub(super) asked: Time,
+    /// What was left of a plan whose current step had ended.
+    pub(super) stopped: Vec<OperatorId>,
+    /// The decision takes longer than the mission allows.
+    pub(super) late: bool,
+}
+
+impl Wheel {
+    /// A wheel at rest; the first [`Event::Seen`](super::Event::Seen) sets it in motion.
+    pub fn new(
+        model: Arc<Model>,
+        perception: Arc<Perception>,
+        methods: Arc<Methods>,
+        policy: Policy,
+    ) -> Self {
+        let failures = Failures::new(policy.attempts);
+        let patience = Patience::new(policy.bounds);
+        Self {
+            model,
+            methods,
+            perception,
+            policy,
+            horizon: None,
+            clock: Clock::default(),
+            moment: Moment::at(Time(0)),
+            sight: None,
+            hand: Hand::Empty,
+            inquiry: None,
+            failures,
+            patience,
+            next_request: 0,
+            plans: 0,
+            unanswered: false,
+            deferred: None,
+            ended: false,
+        }
+    }
+
+    /// The same wheel, for a run that ends at `horizon` whatever happens. Without one it calls until a human comes.
+    #[must_use]
+    pub fn until(mut self, horizon: Time) -> Self {
+        self.horizon = Some(horizon);
+        self
+    }
+
+    /// The same wheel, for a clock on which it can stand still: it asks to be woken at least every `pulse` while it waits
+    /// for any time, and takes a much later turn for a stop. A simulated clock waits for the wheel and needs none.
+    #[must_use]
+    pub fn with_pulse(mut self, pulse: Duration) -> Self {
+        self.clock.pulse = Some(pulse);
+        self
+    }
+
+    /// The model it plans with; Decision Support needs it.
+    pub fn model(&self) -> &Arc<Model> {
+        &self.model
+    }
+
+    /// The part of the graph that it reads as this writer: the tokens of perception and of the methods, and its own
+    /// commits.
+    pub fn interest(&self, writer: AgentId) -> Interest {
+        let mut interest = Interest::default();
+        interest.add_tokens(&self.perception.mentions());
+        interest.add_tokens(&self.methods.mentions());
+        interest.follow_commits(writer);
+        interest
+    }
+
+    /// Takes what is being carried out, to be put back or replaced.
+    pub(super) fn take_hand(&mut self) -> Hand {
+        std::mem::replace(&mut self.hand, Hand::Empty)
+    }
+}
+
+impl Hand {
+    /// What is left of a plan, and its step that is under way.
+    pub(super) fn left(&self) -> (Vec<OperatorId>, Option<OperatorId>) {
+        let Self::Plan(course) = self else { return (Vec::new(), None) };
+        let left = course.left();
+        (left.to_vec(), left.first().copied().filter(|_| course.is_under_way()))
+    }
+}

@@ -1,0 +1,202 @@
+//! One turn of the wheel: what is seen, then what follows from it, then when to turn next.
+
+use super::effects::{in_one_transaction, is_write};
+use super::errand::Purpose;
+use super::event::{Effect, Event};
+use super::sight::Sight;
+use super::state::{Hand, Wheel};
+use crate::narration::Narration;
+use crate::outcome::{Ending, StepFailure, Trouble};
+use dsr::{Delta, Snapshot, Time, TransactionError};
+use high_to_low::Moment;
+
+impl Wheel {
+    /// One turn. `now` is the time on the clock, never less than before.
+    pub fn step(&mut self, event: Event, now: Time) -> Vec<Effect> {
+        let mut effects = Vec::new();
+        if self.ended {
+            return effects;
+        }
+        self.turn_clock(&event, now, &mut effects);
+        match event {
+            Event::Seen(snapshot) => self.look(snapshot, &mut effects),
+            Event::Changed { snapshot, delta } => self.follow(snapshot, &delta, &mut effects),
+            Event::Woke => self.advance(&mut effects),
+            Event::Decided(id, decision) => {
+                self.deferred = Some((id, decision));
+                self.advance(&mut effects);
+            }
+            Event::Written => {
+                self.unanswered = false;
+                self.advance(&mut effects);
+            }
+            Event::Refused(why) => {
+                self.unanswered = false;
+                self.refused(why, &mut effects);
+            }
+        }
+        let mut effects = in_one_transaction(effects);
+        self.unanswered |= effects.iter().any(is_write);
+        if !self.ended {
+            let wake_at = self.clock.set(self.next_time());
+            effects.extend(wake_at.map(Effect::WakeAt));
+        }
+        effects
+    }
+
+    /// A version is judged by the time of its own commit, a timer by the present. Nothing else tells how far the graph
+    /// has been seen.
+    fn turn_clock(&mut self, event: &Event, now: Time, effects: &mut Vec<Effect>) {
+        if let Some(stop) = self.clock.turn(now) {
+            effects.push(Effect::Tell(Narration::StoodStill { seconds: stop.as_secs_f64() }));
+        }
+        let now = self.clock.own(now);
+        let seen = match event {
+            Event::Seen(snapshot) | Event::Changed { snapshot, .. } => {
+                self.clock.own(snapshot.time()).min(now)
+            }
+            Event::Woke => now,
+            Event::Decided(..) | Event::Written | Event::Refused(_) => self.moment.seen,
+        };
+        self.moment = Moment { seen: seen.max(self.moment.seen), now };
+    }
+
+    /// Takes in a version of the graph as a whole.
+    fn look(&mut self, snapshot: Snapshot, effects: &mut Vec<Effect>) {
+        let sight = Sight::new(&self.perception, &self.model, snapshot, self.moment.now);
+        match self.sight.replace(sight) {
+            None => {
+                let sight = self.sight.as_ref().expect("it was just put there");
+                self.patience.begins_with(&sight.state);
+            }
+            Some(before) => {
+                let sight = self.sight.as_mut().expect("it was just put there");
+                let changes = sight.differences(&before);
+                if changes.is_empty() {
+                    sight.since = before.since;
+                }
+                self.changed(&changes);
+            }
+        }
+        self.advance(effects);
+    }
+
+    /// Takes in a commit.
+    fn follow(&mut self, snapshot: Snapshot, delta: &Delta, effects: &mut Vec<Effect>) {
+        let Some(sight) = &mut self.sight else { return self.look(snapshot, effects) };
+        let changes = sight.follow(&self.model, snapshot, delta, self.moment.now);
+        self.changed(&changes);
+        self.advance(effects);
+    }
+
+    fn changed(&mut self, changes: &[(planner::FactId, bool)]) {
+        if changes.is_empty() {
+            return;
+        }
+        if let Hand::Plan(course) = &mut self.hand {
+            course.monitor.change(changes);
+        }
+        let became_true = changes.iter().filter(|(_, now)| *now).map(|&(fact, _)| fact);
+        if self.patience.became_true(became_true) {
+            self.failures.progressed();
+        }
+    }
+
+    /// Decides what to do from here, and does it.
+    pub(super) fn advance(&mut self, effects: &mut Vec<Effect>) {
+        // Between asking for a write and seeing it, there is nothing to decide on.
+        if self.unanswered || self.ended {
+            return;
+        }
+        let Some(sight) = &self.sight else { return };
+        let task = self.model.task();
+        if task.satisfies(&sight.state, task.goal()) {
+            return self.accomplished(effects);
+        }
+        if self.horizon.is_some_and(|horizon| self.moment.now >= self.clock.horizon(horizon)) {
+            return self.out_of_time(effects);
+        }
+        if let Some((id, decision)) = self.deferred.take()
+            && let Some(inquiry) = self.inquiry.take_if(|inquiry| inquiry.id == id)
+        {
+            return self.decided(decision, inquiry, effects);
+        }
+        self.wait_for_decision(effects);
+        if self.ended || effects.iter().any(is_write) {
+            return;
+        }
+        match self.take_hand() {
+            Hand::Empty => {
+                if self.inquiry.is_none() {
+                    self.ask(Vec::new(), effects);
+                }
+            }
+            Hand::Plan(course) if self.inquiry.is_some() => self.hand = Hand::Plan(course),
+            Hand::Plan(course) => self.act(course, effects),
+            Hand::Rest(rest) => self.rest(rest, effects),
+            Hand::Errand(errand) => self.carry(errand, effects),
+        }
+    }
+
+    /// When to turn next even if nothing happens, in the wheel's time.
+    fn next_time(&self) -> Option<Time> {
+        let horizon = self.horizon.map(|horizon| self.clock.horizon(horizon));
+        let hand = match &self.hand {
+            Hand::Plan(course) if self.inquiry.is_none() => course.wake_at(),
+            Hand::Rest(rest) => Some(rest.until),
+            Hand::Errand(errand) => errand.wake_at(),
+            Hand::Empty | Hand::Plan(_) => None,
+        };
+        [horizon, hand, self.next_question(), self.decision_due()].into_iter().flatten().min()
+    }
+
+    /// The graph refused what the wheel wanted to write.
+    fn refused(&mut self, why: TransactionError, effects: &mut Vec<Effect>) {
+        effects.push(Effect::Tell(Narration::Refused { why: why.clone() }));
+        match self.take_hand() {
+            Hand::Plan(course) if self.inquiry.is_none() => {
+                self.failed(course, StepFailure::Refused(why), effects);
+            }
+            // An errand goes on: the missing write is noticed at its deadline, and the next method is tried. To end here
+            // would leave the person alone.
+            other => {
+                self.hand = other;
+                self.advance(effects);
+            }
+        }
+    }
+
+    fn accomplished(&mut self, effects: &mut Vec<Effect>) {
+        let hand = self.take_hand();
+        let sight = self.sight.as_ref().expect("the goal was seen to hold");
+        match hand {
+            Hand::Plan(mut course) => {
+                let end = course.monitor.plan().len();
+                course.move_to(end, &self.model, &sight.snapshot, effects);
+            }
+            Hand::Errand(mut errand) => errand.withdraw(&sight.snapshot, effects),
+            Hand::Empty | Hand::Rest(_) => {}
+        }
+        self.end(Ending::Accomplished, effects);
+    }
+
+    /// The run is over. A call that nobody has attended stands.
+    fn out_of_time(&mut self, effects: &mut Vec<Effect>) {
+        let ending = match self.take_hand() {
+            Hand::Errand(errand) => match errand.purpose {
+                Purpose::Trouble(Trouble::NoPlan(why)) if errand.done => Ending::WithHuman { why },
+                Purpose::Trouble(why) => Ending::StillCalling { why },
+                Purpose::Meanwhile => Ending::StillGoing,
+            },
+            Hand::Empty | Hand::Plan(_) | Hand::Rest(_) => Ending::StillGoing,
+        };
+        self.end(ending, effects);
+    }
+
+    pub(super) fn end(&mut self, ending: Ending, effects: &mut Vec<Effect>) {
+        self.moot(effects);
+        self.ended = true;
+        effects.push(Effect::Tell(Narration::Ended(ending.clone())));
+        effects.push(Effect::End(ending));
+    }
+}

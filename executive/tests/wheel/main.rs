@@ -1,0 +1,11 @@
+//! The wheel turned by hand: the test plays graph, planner thread, clock and the lighter.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod bench;
+mod deciding;
+mod progress;
+mod shell;
+mod time;
+mod trouble;
+mod turning;
