@@ -4,6 +4,7 @@
 //! the exit code is still that of the command. Colours are written only to a terminal that supports
 //! them.
 
+use crate::outlet::Outlet;
 use serde::Serialize;
 use std::io::{self, IsTerminal, Write};
 
@@ -24,6 +25,8 @@ pub struct Console<'a> {
     colour: bool,
     result_colour: bool,
     result_width: Option<usize>,
+    /// Whether it writes to the standard streams of the process.
+    of_process: bool,
 }
 
 /// The output of another thread, kept until its turn.
@@ -63,6 +66,7 @@ impl<'a> Console<'a> {
             colour: false,
             result_colour: false,
             result_width: None,
+            of_process: false,
         }
     }
 
@@ -76,6 +80,20 @@ impl<'a> Console<'a> {
             colour: wanted && io::stderr().is_terminal(),
             result_colour: wanted && io::stdout().is_terminal(),
             result_width: terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| width.0.into()),
+            of_process: true,
+        }
+    }
+
+    /// From now on, no write waits for the reader: for commands during which a robot moves.
+    pub(crate) fn never_wait(&mut self) {
+        if self.of_process {
+            self.flush();
+            let note: fn(usize) -> String = match self.form {
+                Form::Text => |lost| format!("({lost} lines were not read in time, and are left out here)"),
+                Form::Json => |lost| format!(r#"{{"kind":"lost","lines":{lost}}}"#),
+            };
+            self.out = Box::new(Outlet::new(io::stdout(), note));
+            self.err = Box::new(Outlet::new(io::stderr(), note));
         }
     }
 

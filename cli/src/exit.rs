@@ -13,6 +13,8 @@ pub enum Exit {
     Limit,
     /// 4: the task uses a PDDL feature that this command does not support; it is named.
     Unsupported,
+    /// 130: a person ended the command with Ctrl-C; what there was by then is reported.
+    Interrupted,
     /// 2: input that cannot be read: syntax, types, a missing file, wrong arguments.
     Unreadable,
     /// 74: a result could not be written.
@@ -30,6 +32,7 @@ impl Exit {
             Self::Unreadable => 2,
             Self::Limit => 3,
             Self::Unsupported => 4,
+            Self::Interrupted => 130,
             Self::Bug => 70,
             Self::Unwritable => 74,
         }

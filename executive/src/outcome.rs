@@ -113,6 +113,8 @@ pub enum Ending {
     },
     /// The horizon of the run came while the mission was going on.
     StillGoing,
+    /// A person ended the run from outside. The wheel never decides this.
+    Interrupted,
 }
 
 impl Ending {
@@ -123,6 +125,7 @@ impl Ending {
             Self::WithHuman { .. } => "with_human",
             Self::StillCalling { .. } => "still_calling",
             Self::StillGoing => "still_going",
+            Self::Interrupted => "interrupted",
         }
     }
 }

@@ -97,6 +97,7 @@ impl Display for Ending {
             Self::WithHuman { why } => write!(f, "mission ended with a human: {why}"),
             Self::StillCalling { why } => write!(f, "mission ended still calling: {why}"),
             Self::StillGoing => f.write_str("mission still going on at the horizon of the run"),
+            Self::Interrupted => f.write_str("mission interrupted"),
         }
     }
 }
@@ -115,7 +116,7 @@ impl Serialize for Ending {
             why: Option<String>,
         }
         let why = match self {
-            Self::Accomplished | Self::StillGoing => None,
+            Self::Accomplished | Self::StillGoing | Self::Interrupted => None,
             Self::WithHuman { why } => Some(why.to_string()),
             Self::StillCalling { why } => Some(why.to_string()),
         };

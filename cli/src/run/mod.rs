@@ -14,6 +14,7 @@ mod judge;
 mod latency;
 mod play;
 mod script;
+mod speed;
 mod story;
 mod teller;
 mod terminal;
@@ -25,11 +26,12 @@ use crate::disk::show;
 use crate::exit::Exit;
 use crate::render;
 use crate::scenario;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use content::Content;
 use dsr::Journal;
 use latency::Latency;
 use play::Play;
+use speed::Speed;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -43,8 +45,8 @@ pub(crate) struct Arguments {
     /// answers every question
     #[arg(long, value_name = "NAME|FILE")]
     scenario: Option<String>,
-    /// The speed of the simulation
-    #[arg(long, value_enum, default_value_t = Speed::Real)]
+    /// How many seconds pass in the run in one second: `1` is real time, `max` as fast as the machine
+    #[arg(long, value_name = "FACTOR|max", default_value_t = Speed::Factor(1.0))]
     speed: Speed,
     /// Vary the delays of the simulated person's answers; the same seed gives the same output
     #[arg(long, default_value_t = 0)]
@@ -67,16 +69,6 @@ pub(crate) struct Arguments {
     /// Also show how each step is executed
     #[arg(long)]
     verbose: bool,
-}
-
-/// The speed of the simulation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Speed {
-    /// Real time
-    #[value(name = "1")]
-    Real,
-    /// Simulated time, as fast as the machine
-    Max,
 }
 
 /// The end of a simulated run in which nobody ever comes.
@@ -108,10 +100,11 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         render::error_with_help(text, Some(&help), console);
         return Exit::Unreadable;
     }
-    let runtime = tokio::runtime::Builder::new_current_thread()
-        .enable_time()
-        .start_paused(arguments.speed == Speed::Max)
-        .build();
+    let simulated = arguments.speed.is_simulated();
+    if arguments.speed != Speed::Max {
+        console.never_wait();
+    }
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_time().start_paused(simulated).build();
     let Ok(runtime) = runtime else {
         console.complain("error: the system gives no threads or timers\n");
         return Exit::Limit;
@@ -121,13 +114,13 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         Ok(journal) => journal,
         Err(failed) => return failed.show(console),
     };
-    let simulated = arguments.speed == Speed::Max;
     let horizon = arguments.horizon.map(Seconds::duration);
     let of_scenario = staged.as_ref().and_then(|staged| staged.scenario.horizon);
     let latency = Latency::new(arguments.planning_latency.unwrap_or_default(), arguments.seed);
     let play = Play {
         horizon: horizon.or(of_scenario).or_else(|| simulated.then_some(HORIZON)),
         latency: if simulated { latency.simulated() } else { latency },
+        speed: arguments.speed,
         pulse: (!simulated).then_some(PULSE),
         content: Content { mission: Arc::new(mission), language },
         staged,

@@ -2,12 +2,14 @@
 
 use super::content::Content;
 use super::latency::Latency;
+use super::speed::Speed;
 use super::story::{Story, What, seconds};
 use super::teller::Teller;
 use super::{director, script};
 use crate::assemble::Assembly;
 use crate::console::Console;
 use crate::exit::Exit;
+use crate::interrupt;
 use crate::scenario::Staged;
 use dsr::{AgentId, Graph};
 use executive::{Ending, Narration, Shell, Step, Wheel};
@@ -28,6 +30,8 @@ pub(super) struct Play {
     pub(super) horizon: Option<Duration>,
     /// How long a decision takes at least.
     pub(super) latency: Latency,
+    /// How fast time passes.
+    pub(super) speed: Speed,
     /// How often PELEA must turn on a clock that does not wait for it.
     pub(super) pulse: Option<Duration>,
 }
@@ -79,6 +83,8 @@ impl Play {
             let mut pelea = std::pin::pin!(pelea);
             let mut agents = std::pin::pin!(agents);
             let mut directed = std::pin::pin!(directed);
+            let mut time = std::pin::pin!(self.speed.pass_time());
+            let mut interrupted = std::pin::pin!(interrupt::first());
             loop {
                 tokio::select! {
                     biased;
@@ -86,6 +92,8 @@ impl Play {
                     ending = &mut pelea => break ending,
                     never = &mut agents => match never {},
                     () = &mut directed => {}
+                    () = &mut interrupted => break Ending::Interrupted,
+                    () = &mut time => {}
                 }
             }
         };

@@ -80,8 +80,9 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
         report_file: Option<&Path>,
     ) -> Exit {
         let report = self.content.report(snapshot);
-        let accomplished = *ending == Ending::Accomplished;
-        let violations = self.staged.map_or_else(Vec::new, |staged| {
+        // A run that was cut short could not meet all that was expected of it.
+        let judged = self.staged.filter(|_| *ending != Ending::Interrupted);
+        let violations = judged.map_or_else(Vec::new, |staged| {
             let judged = self.record.judge(staged, ending, self.content, snapshot);
             judged.iter().map(|v| format!("{}: {v}", place(&staged.scenario, v.span()))).collect()
         });
@@ -100,6 +101,7 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
             Ending::WithHuman { .. } => "ended with a human",
             Ending::StillCalling { .. } => "ended still calling",
             Ending::StillGoing => "still going on",
+            Ending::Interrupted => "interrupted",
         };
         self.console
             .result(&format!("\nmission {word} after {time:.1} s, {}", counted(replans, repairs.reuse)));
@@ -126,7 +128,11 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
                 return Exit::Unwritable;
             }
         }
-        if accomplished && !failed { Exit::Yes } else { Exit::No }
+        match ending {
+            Ending::Interrupted => Exit::Interrupted,
+            Ending::Accomplished if !failed => Exit::Yes,
+            _ => Exit::No,
+        }
     }
 }
 
