@@ -2,7 +2,7 @@
 
 use crate::console::{Console, Form};
 use crate::exit::Exit;
-use crate::{check, dsr as graphs, explain, fmt, lsp, plan, run as mission, test, validate};
+use crate::{check, dsr as graphs, explain, fmt, lsp, plan, replay, run as mission, test, validate};
 use clap::{Parser, Subcommand};
 use std::ffi::OsString;
 
@@ -12,7 +12,7 @@ use std::ffi::OsString;
     name = "pelea",
     version,
     after_help = "Exit codes: 0 success · 1 negative result · 2 invalid input · 3 limit reached · \
-                  4 unsupported PDDL feature · 70 internal error · 74 output cannot be written"
+                  4 unsupported PDDL feature · 70 internal error · 74 output cannot be written · 130 interrupted"
 )]
 struct Arguments {
     /// Write the output as JSON, one object per line
@@ -26,6 +26,8 @@ struct Arguments {
 enum Command {
     /// Run a mission on simulated devices
     Run(mission::Arguments),
+    /// Repeat the decisions of a recorded run, and show why each was made
+    Replay(replay::Arguments),
     /// Find a plan
     Plan(plan::Arguments),
     /// Validate plans
@@ -69,6 +71,7 @@ where
     }
     match arguments.command {
         Command::Run(arguments) => mission::run(&arguments, console),
+        Command::Replay(arguments) => replay::run(&arguments, console),
         Command::Plan(arguments) => plan::run(&arguments, console),
         Command::Validate(arguments) => validate::run(&arguments, console),
         Command::Check(arguments) => check::run(&arguments, console),

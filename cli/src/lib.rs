@@ -40,10 +40,12 @@ mod outlet;
 mod plan;
 mod pool;
 mod render;
+mod replay;
 mod run;
 mod scenario;
 mod task;
 mod test;
+mod turns;
 mod validate;
 
 pub use arguments::run;

@@ -33,6 +33,7 @@
 //! | `model` | the high-level model that they share |
 //! | `outcome` | why there is no plan, why a step failed, how the mission ended |
 //! | `narration` | the story: every decision with its reason |
+//! | `record` | a turn of the wheel as data, to be taken again |
 //! | `shell` | where the pure wheel meets graph, clock and threads |
 //! | `wording` | outcomes and reasons as sentences |
 
@@ -41,6 +42,7 @@ mod model;
 mod monitoring;
 mod narration;
 mod outcome;
+mod record;
 mod shell;
 mod wheel;
 mod wording;
@@ -50,5 +52,6 @@ pub use model::{Model, ModelError, Step};
 pub use monitoring::{BrokenLiteral, Deviation, Monitor};
 pub use narration::Narration;
 pub use outcome::{Ending, NoPlan, StepFailure, Stuck, Trouble, Unsolvable};
+pub use record::{Occurrence, Turn};
 pub use shell::Shell;
 pub use wheel::{Bounds, Effect, Event, Policy, Wheel};

@@ -10,6 +10,7 @@
 use crate::decision_support::{Decision, Request, RequestId, decide};
 use crate::narration::Narration;
 use crate::outcome::{Ending, NoPlan};
+use crate::record::{Occurrence, Turn};
 use crate::wheel::{Effect, Event, Wheel};
 use budget::Cancellation;
 use dsr::{AgentId, Graph, Subscription, Time, Transaction};
@@ -22,7 +23,7 @@ use tokio::task::{JoinHandle, spawn_blocking};
 use tokio::time::{Instant, sleep_until};
 
 /// The surroundings of a wheel.
-pub struct Shell<Tell, Latency> {
+pub struct Shell<Tell, Latency, Record> {
     /// The shared graph.
     pub graph: Graph,
     /// The agent that PELEA writes as.
@@ -33,6 +34,8 @@ pub struct Shell<Tell, Latency> {
     pub tell: Tell,
     /// How long a decision takes at least.
     pub latency: Latency,
+    /// Receives every turn.
+    pub record: Record,
 }
 
 /// A decision on its way.
@@ -44,7 +47,12 @@ struct Planning {
     not_before: Option<Instant>,
 }
 
-impl<Tell: FnMut(Time, Narration), Latency: FnMut(RequestId) -> Duration> Shell<Tell, Latency> {
+impl<Tell, Latency, Record> Shell<Tell, Latency, Record>
+where
+    Tell: FnMut(Time, Narration),
+    Latency: FnMut(RequestId) -> Duration,
+    Record: FnMut(&Turn<'_>),
+{
     /// Turns the wheel until the mission is over.
     pub async fn run(mut self, mut wheel: Wheel) -> Ending {
         let news = Arc::new(Notify::new());
@@ -58,7 +66,10 @@ impl<Tell: FnMut(Time, Narration), Latency: FnMut(RequestId) -> Duration> Shell<
         let mut now = self.now();
         loop {
             while let Some(event) = events.pop_front() {
-                for effect in wheel.step(event, now) {
+                let occurrence = Occurrence::from(&event);
+                let effects = wheel.step(event, now);
+                (self.record)(&Turn::new(now, occurrence, &effects));
+                for effect in effects {
                     match effect {
                         Effect::Write(edits) => {
                             let answer = self.write(edits);

@@ -26,6 +26,7 @@ use crate::disk::show;
 use crate::exit::Exit;
 use crate::render;
 use crate::scenario;
+use crate::turns::{Heading, Turns};
 use clap::Args;
 use content::Content;
 use dsr::Journal;
@@ -35,6 +36,7 @@ use speed::Speed;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
+pub(crate) use terminal::Terminal;
 
 /// Arguments of `pelea run`.
 #[derive(Debug, Args)]
@@ -116,12 +118,23 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     };
     let horizon = arguments.horizon.map(Seconds::duration);
     let of_scenario = staged.as_ref().and_then(|staged| staged.scenario.horizon);
+    let horizon = horizon.or(of_scenario).or_else(|| simulated.then_some(HORIZON));
+    let pulse = (!simulated).then_some(PULSE);
+    let heading = Heading::new(&mission, horizon, pulse);
+    let turns = match arguments.journal.as_deref().map(|folder| Turns::begin(folder, &heading)).transpose() {
+        Ok(turns) => turns,
+        Err(error) => {
+            render::error(format!("cannot record the turns beside the journal: {error}"), console);
+            return Exit::Unwritable;
+        }
+    };
     let latency = Latency::new(arguments.planning_latency.unwrap_or_default(), arguments.seed);
     let play = Play {
-        horizon: horizon.or(of_scenario).or_else(|| simulated.then_some(HORIZON)),
+        horizon,
+        turns,
         latency: if simulated { latency.simulated() } else { latency },
         speed: arguments.speed,
-        pulse: (!simulated).then_some(PULSE),
+        pulse,
         content: Content { mission: Arc::new(mission), language },
         staged,
         seed: arguments.seed,

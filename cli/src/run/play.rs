@@ -11,8 +11,9 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::interrupt;
 use crate::scenario::Staged;
+use crate::turns::Turns;
 use dsr::{AgentId, Graph};
-use executive::{Ending, Narration, Shell, Step, Wheel};
+use executive::{Ending, Narration, Shell, Step, Turn, Wheel};
 use hal::sim::{ClinicianScript, PatientScript, SimRoom};
 use std::path::Path;
 use std::sync::Arc;
@@ -30,6 +31,8 @@ pub(super) struct Play {
     pub(super) horizon: Option<Duration>,
     /// How long a decision takes at least.
     pub(super) latency: Latency,
+    /// Where every turn of PELEA is recorded, if anywhere.
+    pub(super) turns: Option<Turns>,
     /// How fast time passes.
     pub(super) speed: Speed,
     /// How often PELEA must turn on a clock that does not wait for it.
@@ -72,9 +75,15 @@ impl Play {
         let mut teller = Teller::new(&self.content, self.staged.as_ref(), self.verbose, console);
         teller.heading();
         let ending = {
-            let latency = self.latency.clone();
-            let pelea =
-                pelea(Seat { graph: graph.clone(), writer, epoch }, wheel, story.clone(), steps, latency);
+            let (latency, turns) = (self.latency.clone(), self.turns.take());
+            let pelea = pelea(
+                Seat { graph: graph.clone(), writer, epoch },
+                wheel,
+                story.clone(),
+                steps,
+                latency,
+                turns,
+            );
             let agents = agents::run_all(agents, environment);
             let directed = async {
                 director::direct(cues, stage).await;
@@ -131,6 +140,7 @@ async fn pelea(
     story: Story,
     steps: broadcast::Sender<Step>,
     mut latency: Latency,
+    mut turns: Option<Turns>,
 ) -> Ending {
     let tell = move |time: dsr::Time, narration: Narration| {
         if let Narration::Started { step, .. } = &narration {
@@ -140,7 +150,12 @@ async fn pelea(
         story.tell(seconds(Duration::from_nanos(time.0)), What::Pelea(narration));
     };
     let latency = move |_| latency.next();
-    Shell { graph, writer, epoch, tell, latency }.run(wheel).await
+    let record = move |turn: &Turn<'_>| {
+        if let Some(turns) = &mut turns {
+            turns.note(turn);
+        }
+    };
+    Shell { graph, writer, epoch, tell, latency, record }.run(wheel).await
 }
 
 fn time(after: Duration) -> dsr::Time {

@@ -5,13 +5,13 @@
 //! width, and the others are truncated to one row. In a pipe every line is complete, so that it can
 //! be searched.
 
-use super::story::{Commit, Entry, What};
+use super::story::{Commit, Entry, What, seconds};
 use executive::{Ending, Figures, Narration, Repair};
 use hal::sim::RoomEvent;
 use planner::Way;
 
 /// Converts entries to lines.
-pub(super) struct Terminal {
+pub(crate) struct Terminal {
     lines: Vec<String>,
     colour: bool,
     /// The number of columns, if the output is a terminal.
@@ -56,9 +56,15 @@ impl Tone {
 }
 
 impl Terminal {
-    pub(super) fn new(colour: bool, width: Option<usize>, verbose: bool) -> Self {
+    pub(crate) fn new(colour: bool, width: Option<usize>, verbose: bool) -> Self {
         let (said, options) = (String::new(), Vec::new());
         Self { lines: Vec::new(), colour, width, said, options, steps: 0, verbose }
+    }
+
+    /// The lines of a decision at this time, in nanoseconds since the start.
+    pub(crate) fn narrate(&mut self, now: u64, narration: &Narration) -> Vec<String> {
+        self.pelea(seconds(std::time::Duration::from_nanos(now)), narration);
+        std::mem::take(&mut self.lines)
     }
 
     /// The lines of an entry.

@@ -53,7 +53,14 @@ fn run<F: Future<Output = ()>>(latency: Duration, happens: impl FnOnce(Room) -> 
         let (writer, epoch) = (graph.vocabulary().agent("pelea").unwrap(), room.epoch);
         let told = room.told.clone();
         let tell = move |_: Time, narration: Narration| told.borrow_mut().push(narration);
-        let shell = Shell { graph, writer, epoch, tell, latency: move |_| latency };
+        let shell = Shell {
+            graph,
+            writer,
+            epoch,
+            tell,
+            latency: move |_| latency,
+            record: |_: &executive::Turn<'_>| {},
+        };
         let wheel = wheel.with_pulse(Duration::from_secs(1));
         let (ending, ()) = tokio::join!(shell.run(wheel), happens(room.clone()));
         (ending, room)

@@ -1,0 +1,217 @@
+//! `pelea replay`: takes every turn of a recorded run again, and shows what was decided, when, and why.
+//!
+//! The journal has every version of the graph, and the file beside it every turn of PELEA. The wheel is a pure function,
+//! so the same mission gives the same effects; the first that differs is reported.
+
+use crate::assemble::{assemble, load};
+use crate::console::{Console, Form};
+use crate::disk::show;
+use crate::exit::Exit;
+use crate::render;
+use crate::run::Terminal;
+use crate::turns::{self, Heading, Recorded};
+use clap::Args;
+use dsr::{Played, Recording, Replay, Snapshot, Time, Version};
+use executive::{Decision, Effect, Event, NoPlan, Occurrence, Request, RequestId, Wheel, decide};
+use serde::Serialize;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Arguments of `pelea replay`.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// The folder of the mission that was run
+    mission: PathBuf,
+    /// The journal of the run
+    journal: PathBuf,
+    /// Stop after the turn on this version of the graph, and show all that was decided on it
+    #[arg(long, value_name = "VERSION")]
+    at: Option<u64>,
+    /// Also show how each step was executed
+    #[arg(long)]
+    verbose: bool,
+}
+
+/// Why a replay cannot go on.
+#[derive(Debug, thiserror::Error)]
+enum ReplayError {
+    #[error(transparent)]
+    Turns(#[from] turns::TurnsError),
+    #[error(transparent)]
+    Recording(#[from] dsr::RecordingError),
+    #[error("the journal has no version {0}, on which PELEA decided")]
+    NoVersion(u64),
+    #[error("PELEA was refused a write ({0}); what follows cannot be replayed")]
+    Refused(String),
+    #[error("PELEA was given an answer to request {0}, which the replay has not made")]
+    NoRequest(u64),
+}
+
+/// The last line in JSON.
+#[derive(Serialize)]
+#[serde(tag = "kind", rename = "result")]
+struct Summary {
+    turns: usize,
+    version: u64,
+    equal: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    recorded: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    replayed: Option<String>,
+}
+
+/// Replays a run.
+pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
+    let mission = match load(&arguments.mission) {
+        Ok(mission) => mission,
+        Err(error) => return error.show(console),
+    };
+    let (assembly, findings) = assemble(&mission);
+    let Some(assembly) = assembly else { return show(&mission.sources, &findings, console) };
+    let replayed = turns::read(&arguments.journal).map_err(ReplayError::from).and_then(|(heading, turns)| {
+        let changed = Heading::new(&mission, heading.horizon, heading.pulse).changed(&heading);
+        if !changed.is_empty() {
+            console.note(&format!("the texts of the mission have changed since: {}", changed.join(", ")));
+        }
+        let wheel = heading.horizon.iter().fold(assembly.wheel, |wheel, horizon| {
+            wheel.until(Time(u64::try_from(horizon.as_nanos()).unwrap_or(u64::MAX)))
+        });
+        let wheel = heading.pulse.iter().fold(wheel, |wheel, pulse| wheel.with_pulse(*pulse));
+        let recording = Recording::open(&arguments.journal)?;
+        let mut again = Again::new(wheel, &recording)?;
+        again.all(&turns, arguments, console)
+    });
+    match replayed {
+        Ok(exit) => exit,
+        Err(error) => {
+            render::error(error.to_string(), console);
+            Exit::Unreadable
+        }
+    }
+}
+
+/// The wheel, turning again.
+struct Again<'r> {
+    wheel: Wheel,
+    replay: Replay<'r>,
+    /// Requests that were made and not yet answered.
+    requests: Vec<Request>,
+}
+
+impl<'r> Again<'r> {
+    fn new(wheel: Wheel, recording: &'r Recording) -> Result<Self, ReplayError> {
+        Ok(Self { wheel, replay: recording.replay()?, requests: Vec::new() })
+    }
+
+    fn all(
+        &mut self,
+        turns: &[Recorded],
+        arguments: &Arguments,
+        console: &mut Console<'_>,
+    ) -> Result<Exit, ReplayError> {
+        let mut terminal = Terminal::new(console.result_colour(), console.result_width(), arguments.verbose);
+        for (count, turn) in turns.iter().enumerate() {
+            let event = self.event(&turn.event)?;
+            let effects = self.wheel.step(event, Time(turn.now));
+            let version = self.replay.version();
+            let at = arguments.at.is_some_and(|at| version >= Version(at));
+            let replayed = serde_json::to_string(&effects).unwrap_or_default();
+            tell(&effects, turn.now, console, &mut terminal);
+            if at && turn.event.version().is_some() {
+                console.result(&format!("version {}, {:?}:", version.0, turn.event));
+                effects.iter().for_each(|effect| shown(effect, console));
+            }
+            let equal = replayed == turn.effects.get();
+            let last = at || count + 1 == turns.len();
+            if !equal || last {
+                let text = |text: &str| (!equal).then(|| text.to_owned());
+                let summary = Summary {
+                    turns: count + 1,
+                    version: version.0,
+                    equal,
+                    recorded: text(turn.effects.get()),
+                    replayed: text(&replayed),
+                };
+                return Ok(conclude(&summary, console));
+            }
+            for effect in effects {
+                if let Effect::Plan(request) = effect {
+                    self.requests.push(request);
+                }
+            }
+        }
+        Err(turns::TurnsError::Empty.into())
+    }
+
+    /// The event that was recorded.
+    fn event(&mut self, occurrence: &Occurrence) -> Result<Event, ReplayError> {
+        Ok(match occurrence {
+            Occurrence::Changed(version) => {
+                let (snapshot, delta) = self.until(*version)?;
+                match delta {
+                    Some(delta) => Event::Changed { snapshot, delta },
+                    None => Event::Seen(snapshot),
+                }
+            }
+            Occurrence::Seen(version) => Event::Seen(self.until(*version)?.0),
+            Occurrence::Woke => Event::Woke,
+            Occurrence::Written => Event::Written,
+            Occurrence::Refused(why) => return Err(ReplayError::Refused(why.clone())),
+            Occurrence::Stopped(id) => Event::Decided(RequestId(*id), Decision::NoPlan(NoPlan::Stopped)),
+            Occurrence::Decided(id) => {
+                let at = self.requests.iter().position(|request| request.id == RequestId(*id));
+                let request = self.requests.remove(at.ok_or(ReplayError::NoRequest(*id))?);
+                let model = Arc::clone(self.wheel.model());
+                let decision = decide(&model, &request, &budget::Cancellation::default());
+                Event::Decided(request.id, decision)
+            }
+        })
+    }
+
+    /// This version, with the delta that led to it.
+    fn until(&mut self, version: u64) -> Result<(Snapshot, Option<Arc<dsr::Delta>>), ReplayError> {
+        let mut last = None;
+        while self.replay.version() < Version(version) {
+            last = match self.replay.next() {
+                Some(Ok(Played::Commit(delta))) => Some(Arc::new(delta)),
+                Some(Ok(Played::Jump { .. })) => None,
+                Some(Err(error)) => return Err(error.into()),
+                None => return Err(ReplayError::NoVersion(version)),
+            };
+        }
+        if self.replay.version() != Version(version) {
+            return Err(ReplayError::NoVersion(version));
+        }
+        Ok((self.replay.snapshot(), last))
+    }
+}
+
+fn tell(effects: &[Effect], now: u64, console: &mut Console<'_>, terminal: &mut Terminal) {
+    if console.form() == Form::Json {
+        return;
+    }
+    for effect in effects {
+        if let Effect::Tell(narration) = effect {
+            terminal.narrate(now, narration).iter().for_each(|line| console.result(line));
+        }
+    }
+}
+
+/// An effect in full.
+fn shown(effect: &Effect, console: &mut Console<'_>) {
+    console.record(effect);
+    console.result(&format!("  {}", serde_json::to_string(effect).unwrap_or_default()));
+}
+
+fn conclude(summary: &Summary, console: &mut Console<'_>) -> Exit {
+    let Summary { turns, version, .. } = summary;
+    if summary.equal {
+        console.result(&format!("{turns} turns up to version {version}: every decision as it was recorded"));
+    } else {
+        console.result(&format!("turn {turns}, on version {version}, differs"));
+        console.result(&format!("  recorded: {}", summary.recorded.as_deref().unwrap_or_default()));
+        console.result(&format!("  replayed: {}", summary.replayed.as_deref().unwrap_or_default()));
+    }
+    console.record(summary);
+    if summary.equal { Exit::Yes } else { Exit::No }
+}

@@ -1,0 +1,119 @@
+//! The file of PELEA's turns, beside a journal: written by `run`, read by `replay`.
+//!
+//! A line each: first the run's own settings and the checksum of every text of the mission, then the turns.
+
+use crate::outlet::Outlet;
+use executive::{Occurrence, Turn};
+use mission::Mission;
+use serde::{Deserialize, Serialize};
+use serde_json::value::RawValue;
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Write};
+use std::path::Path;
+use std::time::Duration;
+
+/// The file's name in the folder of a journal.
+const NAME: &str = "turns.jsonl";
+
+/// What a replay needs to know about a run.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Heading {
+    /// The checksum of each text, by the name of its file.
+    pub(crate) texts: BTreeMap<String, u32>,
+    /// The end of the run whatever happens, in nanoseconds.
+    pub(crate) horizon: Option<Duration>,
+    /// How often PELEA turns at least.
+    pub(crate) pulse: Option<Duration>,
+}
+
+impl Heading {
+    /// The settings of a run of this mission.
+    pub(crate) fn new(mission: &Mission, horizon: Option<Duration>, pulse: Option<Duration>) -> Self {
+        let text = |source: &diagnostics::Source| (file_name(source.name()), checksum(source.text()));
+        Self { texts: mission.sources.iter().map(|(_, source)| text(source)).collect(), horizon, pulse }
+    }
+
+    /// The texts that are not those of the other run.
+    pub(crate) fn changed(&self, other: &Self) -> Vec<String> {
+        let differs = |name: &&String| self.texts.get(*name) != other.texts.get(*name);
+        let mut names: Vec<_> =
+            self.texts.keys().chain(other.texts.keys()).filter(differs).cloned().collect();
+        names.sort_unstable();
+        names.dedup();
+        names
+    }
+}
+
+/// The last two parts of a path, which tell `robots/clarc/agents/speech.pddl` from another `speech.pddl` wherever the
+/// mission's folder stands.
+fn file_name(path: &str) -> String {
+    let parts: Vec<_> = path.rsplit('/').take(2).collect();
+    parts.into_iter().rev().collect::<Vec<_>>().join("/")
+}
+
+fn checksum(text: &str) -> u32 {
+    crc32fast::hash(text.as_bytes())
+}
+
+/// The writing end.
+pub(crate) struct Turns(Outlet);
+
+impl Turns {
+    /// Begins the file in the folder of a journal.
+    pub(crate) fn begin(folder: &Path, heading: &Heading) -> io::Result<Self> {
+        let file = File::create(folder.join(NAME))?;
+        let mut turns = Self(Outlet::new(file, |lost| format!(r#"{{"lost":{lost}}}"#)));
+        turns.line(heading);
+        Ok(turns)
+    }
+
+    /// Adds a turn.
+    pub(crate) fn note(&mut self, turn: &Turn<'_>) {
+        self.line(turn);
+    }
+
+    fn line(&mut self, line: &impl Serialize) {
+        if let Ok(text) = serde_json::to_string(line) {
+            // An outlet takes every line; a disk that fails is the journal's to report.
+            let _ = writeln!(self.0, "{text}");
+        }
+    }
+}
+
+/// A turn as it was recorded.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Recorded {
+    pub(crate) now: u64,
+    pub(crate) event: Occurrence,
+    /// The effects, as they were written.
+    pub(crate) effects: Box<RawValue>,
+}
+
+/// Why the file cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum TurnsError {
+    #[error("cannot read `{NAME}` of the journal: {0}")]
+    Io(#[from] io::Error),
+    #[error("line {line} of `{NAME}` is no turn: {error}")]
+    Line { line: usize, error: serde_json::Error },
+    #[error("`{NAME}` is empty")]
+    Empty,
+}
+
+/// Reads the file: its heading, and its turns up to a last line that a crash has cut short.
+pub(crate) fn read(folder: &Path) -> Result<(Heading, Vec<Recorded>), TurnsError> {
+    let file = BufReader::new(File::open(folder.join(NAME))?);
+    let lines = file.lines().collect::<Result<Vec<_>, _>>()?;
+    let (heading, rest) = lines.split_first().ok_or(TurnsError::Empty)?;
+    let heading = serde_json::from_str(heading).map_err(|error| TurnsError::Line { line: 1, error })?;
+    let mut turns = Vec::with_capacity(rest.len());
+    for (at, line) in rest.iter().enumerate() {
+        match serde_json::from_str(line) {
+            Ok(turn) => turns.push(turn),
+            Err(error) if error.is_eof() && at + 1 == rest.len() => break,
+            Err(error) => return Err(TurnsError::Line { line: at + 2, error }),
+        }
+    }
+    Ok((heading, turns))
+}
