@@ -74,7 +74,7 @@ pub(crate) struct Arguments {
 }
 
 /// The end of a simulated run in which nobody ever comes.
-const HORIZON: Duration = Duration::from_hours(4);
+const HORIZON: Duration = Duration::from_secs(4 * 3_600);
 /// The longest span between two turns of PELEA in real time; after a much longer one the process was stopped.
 const PULSE: Duration = Duration::from_secs(1);
 

@@ -39,6 +39,7 @@ pub(super) struct Errand {
 }
 
 /// What an errand is for.
+#[expect(clippy::large_enum_variant, reason = "a wheel has one of it")]
 pub(super) enum Purpose {
     /// To do something about a trouble.
     Trouble(Trouble),
