@@ -60,7 +60,7 @@ mod skill;
 mod words;
 
 pub use rules::{Agent, RuleError, RuleErrorKind, compile};
-pub use runtime::{Action, InstanceId, Runtime};
+pub use runtime::{Action, InstanceId, Rest, Runtime};
 pub use shell::{Clock, Environment, TokioClock, run_all};
 pub use skill::{Call, Datum, DatumKind, Ended, Equipment, Outcome, Signature, Skill, Skills, Work};
 pub use words::{Reporter, Words};

@@ -12,8 +12,10 @@
 //!   the guard, or by the guard, which has then written the effects of `abort` already.
 //! - A resource that is held at a lower priority is taken in a commit of its own. The reflexes of its holder
 //!   write in that commit, so the rule starts on a graph that they have left in order.
-//! - No loop without time passing: a rule whose skill failed, or that ended in the instant in which it began,
-//!   rests for a second (`REST`) for that binding.
+//! - What was taken is used by that start or given back: also when the start is refused, or when the commit that gives
+//!   it back comes too late.
+//! - No loop without time passing: a rule begins at most twice for a binding within an instant, whatever ends it, and
+//!   rests after attempts that led to nothing (`patience`).
 //!
 //! Cost: nothing for commits outside the agent's [interest](Agent::interest). For the others, what it takes to find the
 //! matches that changed; no rule is matched as a whole again.
@@ -21,24 +23,26 @@
 mod access;
 mod instance;
 mod matching;
+mod patience;
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
+use std::time::Duration;
 
 use dsr::{
-    Commit, Mentions, News, Preemption, ReflexId, ResourceId, Snapshot, Time, Transaction, TransactionError,
+    Commit, Mentions, News, NodeId, Preemption, ReflexId, ResourceId, Snapshot, Time, Transaction,
+    TransactionError,
 };
+use pddl::model::Name;
 use tracing::{debug, error};
 
-use self::access::{Access, access};
+use self::access::{Access, Grant, access};
 pub use self::instance::InstanceId;
 use self::instance::{Instance, Phase};
 use self::matching::Matching;
+use self::patience::{Patience, after};
 use crate::rules::{Agent, Concern, Parameters, RuleId};
 use crate::skill::{Call, Ended, Outcome, Skill};
-
-/// How long a rule rests for a binding after a failure, or after it began and ended in one instant.
-const REST: std::time::Duration = std::time::Duration::from_secs(1);
 
 /// What the shell must do.
 pub enum Action {
@@ -57,6 +61,19 @@ pub enum Action {
     Stop(InstanceId),
 }
 
+/// A rule that rests for a binding of its parameters.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Rest {
+    /// The rule.
+    pub rule: Name,
+    /// The nodes that stand for its parameters.
+    pub parameters: Vec<NodeId>,
+    /// After how many attempts in a row that led to nothing.
+    pub in_a_row: u32,
+    /// Until when.
+    pub until: Time,
+}
+
 /// A rule for a binding of its parameters.
 type Key = (RuleId, Parameters);
 
@@ -64,10 +81,10 @@ type Key = (RuleId, Parameters);
 enum Pending {
     /// To take resources from lower priorities, for this rule.
     Take(Key, Vec<ResourceId>),
-    /// To start this rule.
-    Start(Key),
+    /// To start this rule, for which these resources were taken before.
+    Start(Key, Vec<Grant>),
     /// To release resources that were taken and are no longer needed.
-    GiveBack,
+    GiveBack(Vec<Grant>),
     /// To end this instance.
     End(Key),
 }
@@ -83,10 +100,10 @@ pub struct Runtime {
     /// Bindings to look at, before the next dirty rule is.
     candidates: VecDeque<Key>,
     /// Resources taken for a rule that is about to start.
-    taken: Option<(Key, Vec<ResourceId>)>,
-    resting: BTreeMap<Key, Time>,
-    /// The last time at which rules without a skill were carried out.
-    carried_out: BTreeMap<Key, Time>,
+    taken: Option<(Key, Vec<Grant>)>,
+    /// Resources that were taken in vain.
+    give_back: Vec<Grant>,
+    patience: Patience,
     actions: VecDeque<Action>,
     pending: Option<Pending>,
 }
@@ -102,8 +119,8 @@ impl Runtime {
             dirty: BTreeSet::new(),
             candidates: VecDeque::new(),
             taken: None,
-            resting: BTreeMap::new(),
-            carried_out: BTreeMap::new(),
+            give_back: Vec::new(),
+            patience: Patience::default(),
             actions: VecDeque::new(),
             pending: None,
         }
@@ -119,11 +136,21 @@ impl Runtime {
         self.instances.len()
     }
 
+    /// The rules that rest, with the bindings for which they do.
+    pub fn resting(&self) -> impl Iterator<Item = Rest> + '_ {
+        self.patience.resting().map(|((rule, parameters), in_a_row, until)| Rest {
+            rule: self.agent.rule(*rule).name.clone(),
+            parameters: parameters.nodes().to_vec(),
+            in_a_row,
+            until,
+        })
+    }
+
     /// News of a subscription to the agent's [interest](Agent::interest), in their order. May come late. The first news
     /// of another subscription starts over: nothing but the guards in the graph is needed to go on.
     pub fn changed(&mut self, news: &News) {
         for delta in &news.deltas {
-            delta.reflexes.iter().for_each(|&reflex| self.fired(reflex));
+            delta.reflexes.iter().for_each(|&reflex| self.fired(reflex, delta.time));
             self.may_now_keep(&Mentions::of(delta));
         }
         if news.deltas.is_empty() {
@@ -162,7 +189,7 @@ impl Runtime {
             .map(|(key, _)| key.clone())
             .collect();
         for key in broken {
-            self.stopped(&key);
+            self.stopped(&key, snapshot.time());
         }
         self.dirty.extend(self.agent.rule_ids());
     }
@@ -179,7 +206,7 @@ impl Runtime {
     /// The next instant at which [`Runtime::next_action`] must be called even without any event.
     pub fn deadline(&self) -> Option<Time> {
         let limits = self.instances.values().filter_map(|instance| instance.deadline);
-        limits.chain(self.resting.values().copied()).min()
+        limits.chain(self.patience.next()).min()
     }
 
     /// The next action for the present graph and time; `None` when there is none until the next event. All news of the
@@ -191,6 +218,7 @@ impl Runtime {
         }
         self.end_one(snapshot)
             .or_else(|| self.use_what_was_taken(snapshot, now))
+            .or_else(|| self.give_back(snapshot))
             .or_else(|| self.start_one(snapshot, now))
             .map(Action::Commit)
     }
@@ -199,10 +227,13 @@ impl Runtime {
     pub fn committed(&mut self, result: Result<&Commit, &TransactionError>, now: Time) {
         let Some(pending) = self.pending.take() else { return };
         match (pending, result) {
-            (Pending::Take(key, resources), Ok(_)) => self.taken = Some((key, resources)),
-            (Pending::Start(key), Ok(commit)) => self.started(key, commit, now),
+            (Pending::Take(key, resources), Ok(commit)) => {
+                let grant = |resource| Grant { resource, version: commit.version };
+                self.taken = Some((key, resources.into_iter().map(grant).collect()));
+            }
+            (Pending::Start(key, _), Ok(commit)) => self.started(key, commit, now),
             (Pending::End(key), Ok(_)) => self.finished(&key, now),
-            (Pending::GiveBack, Ok(_)) => {}
+            (Pending::GiveBack(_), Ok(_)) => {}
             (pending, Err(error)) => self.refused(pending, error, now),
         }
     }
@@ -219,14 +250,8 @@ impl Runtime {
                 }
             }
         }
-        let dirty = &mut self.dirty;
-        self.resting.retain(|(rule, _), until| {
-            let rests = *until > now;
-            if !rests {
-                dirty.insert(*rule);
-            }
-            rests
-        });
+        let instances = &self.instances;
+        self.dirty.extend(self.patience.awake(now, |key| instances.contains_key(key)));
     }
 
     /// The commit that ends an instance whose skill has ended.
@@ -245,25 +270,41 @@ impl Runtime {
                 }
                 Err(refusal) => {
                     error!(rule = %rule.name, outcome = %ended.outcome, %refusal, "a rule cannot end so");
-                    instance.phase = instance.phase.retreat();
+                    instance.retreat();
                 }
             }
         }
     }
 
-    /// Starts the rule for which resources were taken, or gives them back.
+    /// Starts the rule for which resources were taken, if it may start and all of them are still there.
     fn use_what_was_taken(&mut self, snapshot: &Snapshot, now: Time) -> Option<Transaction> {
-        let (key, resources) = self.taken.take()?;
-        if self.agent.rule(key.0).may_start(snapshot, &key.1)
-            && let Some(start) = self.start(snapshot, key, &resources, now)
-        {
-            return Some(start);
+        let (key, taken) = self.taken.take()?;
+        if !taken.iter().all(|grant| grant.holds(snapshot, self.agent.id)) {
+            // Another agent took one of them meanwhile: the rule asks again like any other.
+            self.give_back.extend(taken);
+            self.candidates.push_front(key);
+            return None;
+        }
+        if self.agent.rule(key.0).may_start(snapshot, &key.1) {
+            return self.start(snapshot, key, taken, now);
+        }
+        self.give_back.extend(taken);
+        self.fruitless(&key, now);
+        None
+    }
+
+    /// The commit that releases what was taken in vain, as far as it still belongs to this agent.
+    fn give_back(&mut self, snapshot: &Snapshot) -> Option<Transaction> {
+        let mut grants = std::mem::take(&mut self.give_back);
+        grants.retain(|grant| grant.holds(snapshot, self.agent.id));
+        if grants.is_empty() {
+            return None;
         }
         let mut transaction = transaction(&self.agent, snapshot);
-        for resource in resources {
-            transaction.release(resource);
+        for grant in &grants {
+            transaction.release(grant.resource);
         }
-        self.pending = Some(Pending::GiveBack);
+        self.pending = Some(Pending::GiveBack(grants));
         Some(transaction)
     }
 
@@ -277,7 +318,7 @@ impl Runtime {
                 self.candidates = bindings.map(|parameters| (rule, parameters.clone())).collect();
                 continue;
             };
-            if self.instances.contains_key(&key) || self.resting.contains_key(&key) {
+            if self.instances.contains_key(&key) || self.patience.rests(&key) {
                 continue;
             }
             let rule = self.agent.rule(key.0);
@@ -286,7 +327,7 @@ impl Runtime {
             }
             match access(snapshot, rule) {
                 Access::Free => {
-                    if let Some(start) = self.start(snapshot, key, &[], now) {
+                    if let Some(start) = self.start(snapshot, key, Vec::new(), now) {
                         return Some(start);
                     }
                 }
@@ -307,17 +348,12 @@ impl Runtime {
         self.dirty.iter().copied().min_by_key(|&id| (std::cmp::Reverse(self.agent.rule(id).priority), id))
     }
 
-    /// The commit that starts a rule; `held` has been claimed for it before.
-    fn start(
-        &mut self,
-        snapshot: &Snapshot,
-        key: Key,
-        held: &[ResourceId],
-        now: Time,
-    ) -> Option<Transaction> {
+    /// The commit that starts a rule; `held` has been taken for it before.
+    fn start(&mut self, snapshot: &Snapshot, key: Key, held: Vec<Grant>, now: Time) -> Option<Transaction> {
         let rule = self.agent.rule(key.0);
         let mut transaction = transaction(&self.agent, snapshot);
-        for &resource in rule.claims.iter().filter(|resource| !held.contains(resource)) {
+        let is_held = |resource| held.iter().any(|grant| grant.resource == resource);
+        for &resource in rule.claims.iter().filter(|&&resource| !is_held(resource)) {
             transaction.claim(resource, rule.priority, Preemption::Yields);
         }
         let prepared = rule.meanwhile(snapshot, &key.1).and_then(|edits| {
@@ -329,18 +365,20 @@ impl Runtime {
         });
         if let Err(refusal) = prepared {
             error!(rule = %rule.name, %refusal, "a rule cannot start");
-            self.rest(&key, now);
+            self.give_back.extend(held);
+            self.fruitless(&key, now);
             return None;
         }
-        self.pending = Some(Pending::Start(key));
+        self.pending = Some(Pending::Start(key, held));
         Some(transaction)
     }
 
     fn started(&mut self, key: Key, commit: &Commit, now: Time) {
+        let again = self.patience.begins(&key, now);
         let rule = self.agent.rule(key.0);
         let Some((skill, arguments)) = &rule.skill else {
-            if self.carried_out.insert(key.clone(), now) == Some(now) {
-                self.rest(&key, now);
+            if again {
+                self.fruitless(&key, now);
             }
             return;
         };
@@ -357,8 +395,7 @@ impl Runtime {
             snapshot: commit.snapshot.clone(),
         };
         self.actions.push_back(Action::Launch { instance, skill: Arc::clone(skill), call });
-        self.instances
-            .insert(key, Instance { id: instance, guard, since: now, deadline, phase: Phase::Running });
+        self.instances.insert(key, Instance::begin(instance, guard, now, deadline));
     }
 
     /// An instance has committed its end.
@@ -369,54 +406,73 @@ impl Runtime {
             debug!(
                 agent = %self.agent.name, rule = %self.agent.rule(key.0).name, outcome = %ended.outcome, "ends"
             );
-            if instance.since == now || ended.outcome.name() == Outcome::FAILURE {
-                self.rest(key, now);
-            }
+            let failed = instance.refused || ended.outcome.name() == Outcome::FAILURE;
+            let rest = self.patience.ended(key, instance.since, now, failed);
+            self.say_that_it_rests(key, rest);
         }
     }
 
     fn refused(&mut self, pending: Pending, refusal: &TransactionError, now: Time) {
         match (pending, refusal) {
             // The graph moved on; the same question gets a new answer.
-            (Pending::Take(key, _) | Pending::Start(key), TransactionError::Stale { .. }) => {
+            (Pending::Take(key, _), TransactionError::Stale { .. }) => self.candidates.push_front(key),
+            (Pending::Start(key, held), TransactionError::Stale { .. }) if held.is_empty() => {
                 self.candidates.push_front(key);
             }
+            (Pending::Start(key, held), TransactionError::Stale { .. }) => self.taken = Some((key, held)),
+            (Pending::GiveBack(grants), TransactionError::Stale { .. }) => self.give_back = grants,
             (Pending::End(_), TransactionError::Stale { .. }) => {}
             // Another agent was faster, or what the start would leave does not keep: later news ask again.
             (
-                Pending::Take(..) | Pending::Start(_),
+                Pending::Take(..),
                 TransactionError::ResourceHeld { .. } | TransactionError::KeepBroken { .. },
             ) => {}
+            (
+                Pending::Start(key, held),
+                TransactionError::ResourceHeld { .. } | TransactionError::KeepBroken { .. },
+            ) => {
+                if !held.is_empty() {
+                    self.give_back.extend(held);
+                    self.fruitless(&key, now);
+                }
+            }
             // The guard was faster than the end; `abort` is written.
-            (Pending::End(key), TransactionError::ReflexGone { .. }) => self.stopped(&key),
-            // What was taken is gone by itself if another agent took it; otherwise nothing else is left to try.
-            (Pending::GiveBack, refusal) => debug!(%refusal, "nothing to give back"),
-            (Pending::Take(key, _) | Pending::Start(key), refusal) => {
-                error!(rule = %self.agent.rule(key.0).name, %refusal, "a rule cannot start");
-                self.rest(&key, now);
+            (Pending::End(key), TransactionError::ReflexGone { .. }) => self.stopped(&key, now),
+            (Pending::GiveBack(_), refusal) => error!(%refusal, "resources cannot be given back"),
+            (Pending::Take(key, _), refusal) => self.cannot_start(&key, refusal, now),
+            (Pending::Start(key, held), refusal) => {
+                self.give_back.extend(held);
+                self.cannot_start(&key, refusal, now);
             }
             (Pending::End(key), refusal) => {
                 error!(rule = %self.agent.rule(key.0).name, %refusal, "a rule cannot end so");
                 if let Some(instance) = self.instances.get_mut(&key) {
-                    instance.phase = instance.phase.retreat();
+                    instance.retreat();
                 }
             }
         }
     }
 
+    fn cannot_start(&mut self, key: &Key, refusal: &TransactionError, now: Time) {
+        error!(rule = %self.agent.rule(key.0).name, %refusal, "a rule cannot start");
+        self.fruitless(key, now);
+    }
+
     /// A reflex fired: if it was the guard of an instance, its skill is dropped.
-    fn fired(&mut self, reflex: ReflexId) {
+    fn fired(&mut self, reflex: ReflexId, now: Time) {
         let key =
             self.instances.iter().find(|(_, instance)| instance.guard == reflex).map(|(key, _)| key.clone());
         if let Some(key) = key {
             debug!(agent = %self.agent.name, rule = %self.agent.rule(key.0).name, "reflex");
-            self.stopped(&key);
+            self.stopped(&key, now);
         }
     }
 
-    fn stopped(&mut self, key: &Key) {
+    fn stopped(&mut self, key: &Key, now: Time) {
         if let Some(instance) = self.instances.remove(key) {
             self.dirty.insert(key.0);
+            let rest = self.patience.stopped(key, instance.since, now);
+            self.say_that_it_rests(key, rest);
             // Before anything that is still to be launched.
             self.actions.retain(
                 |action| !matches!(action, Action::Launch { instance: id, .. } if *id == instance.id),
@@ -425,8 +481,17 @@ impl Runtime {
         }
     }
 
-    fn rest(&mut self, key: &Key, now: Time) {
-        self.resting.insert(key.clone(), after(now, REST));
+    /// An attempt of this instant led to nothing.
+    fn fruitless(&mut self, key: &Key, now: Time) {
+        let rest = self.patience.fruitless(key, now, now);
+        self.say_that_it_rests(key, Some(rest));
+    }
+
+    fn say_that_it_rests(&self, key: &Key, rest: Option<Duration>) {
+        if let Some(rest) = rest {
+            let (agent, rule) = (&self.agent.name, &self.agent.rule(key.0).name);
+            debug!(%agent, %rule, parameters = ?key.1, seconds = rest.as_secs(), "rests");
+        }
     }
 }
 
@@ -437,16 +502,12 @@ fn transaction(agent: &Agent, snapshot: &Snapshot) -> Transaction {
     transaction
 }
 
-fn after(now: Time, duration: std::time::Duration) -> Time {
-    Time(now.0.saturating_add(u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX)))
-}
-
 impl std::fmt::Debug for Runtime {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Runtime")
             .field("agent", &self.agent.name)
             .field("instances", &self.instances)
-            .field("resting", &self.resting)
+            .field("patience", &self.patience)
             .finish_non_exhaustive()
     }
 }

@@ -7,7 +7,7 @@
     world robot person - frame
     state sentence - symbol)
   (:constants
-    director talker shouter watcher secretary polite - agent
+    director talker shouter watcher secretary polite heckler pedant clerk auditor driver host - agent
     mouth - resource
     speaking broken quiet - state)
   (:predicates
@@ -23,10 +23,18 @@
     (heard ?r - robot ?s - sentence)
     (missed ?r - robot ?p - person))
   (:functions
-    (rt ?a ?b - frame) - pose)
-  (:writes director is_with shall_say shall_shout shall_ask (is _ broken) (is _ quiet))
+    (rt ?a ?b - frame) - pose
+    (distance ?a ?b - frame) - number
+    (likes ?r - robot ?p - person) - sentence)
+  (:writes director rt is_with shall_say shall_shout shall_ask (is _ broken) (is _ quiet))
   (:writes talker (is _ _) (is_not _ speaking) shall_say says said shall_ask waits_for heard missed)
   (:writes shouter (is _ speaking) (is_not _ speaking) shall_shout says said)
   (:writes watcher is_with rt)
   (:writes secretary said heard)
-  (:writes polite waits_for shall_ask))
+  (:writes polite waits_for shall_ask)
+  (:writes heckler (is _ quiet))
+  (:writes pedant heard shall_shout)
+  (:writes clerk said heard)
+  (:writes auditor said heard)
+  (:writes driver waits_for shall_ask)
+  (:writes host likes shall_ask))

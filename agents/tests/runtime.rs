@@ -300,3 +300,13 @@ fn the_same_script_gives_the_same_log() {
     };
     assert_eq!(script(), script());
 }
+
+#[test]
+fn an_edge_that_is_written_through_its_attribute_may_break_a_condition() {
+    let mut bench = Bench::new(&["host"]);
+    bench.direct(1, &["+robot is quiet"]);
+    bench.direct(2, &["+robot shall_ask person"]);
+    assert!(bench.running.is_empty());
+    bench.direct(3, &["-robot is quiet"]);
+    assert_eq!(bench.running.len(), 1, "{}", bench.log());
+}

@@ -11,7 +11,10 @@
 use std::fmt;
 use std::sync::Arc;
 
-use dsr::{AgentId, Interest, LabelId, Pattern, PatternBuilder, PatternId, ResourceId, TypeId, Vocabulary};
+use dsr::{
+    AgentId, AttributeId, Comparison, HolderTerm, Interest, LabelId, Pattern, PatternBuilder, PatternId,
+    Priority, ResourceId, TypeId, Vocabulary,
+};
 use pddl::model::Name;
 
 use super::rule::Rule;
@@ -30,7 +33,7 @@ pub(crate) enum Concern {
         /// The position of the alternative.
         alternative: usize,
     },
-    /// It is the lease of this resource.
+    /// It is the lease of this resource, or one that a rule with its priority may take.
     Lease(ResourceId),
 }
 
@@ -51,19 +54,20 @@ impl Agent {
     pub(super) fn new(name: Name, id: AgentId, rules: Vec<Rule>, vocabulary: &Vocabulary) -> Self {
         let (mut interest, mut concerns) = (Interest::default(), Vec::new());
         interest.follow_reflexes(id);
-        let mut resources = Vec::new();
+        let mut claims = Vec::new();
         for (at, rule) in rules.iter().enumerate() {
             for (alternative, pattern) in rule.triggers().enumerate() {
                 interest.add(Arc::clone(pattern));
                 concerns.push(Concern::Start { rule: RuleId(at), alternative });
             }
             interest.add_tokens(rule.unsure());
-            resources.extend(&rule.claims);
+            claims.extend(rule.claims.iter().map(|&resource| (resource, None)));
+            claims.extend(rule.claims.iter().map(|&resource| (resource, Some(rule.priority))));
         }
-        resources.sort_unstable();
-        resources.dedup();
-        for resource in resources {
-            if let Some(pattern) = lease(resource, vocabulary) {
+        claims.sort_unstable();
+        claims.dedup();
+        for (resource, below) in claims {
+            if let Some(pattern) = lease(resource, below, vocabulary) {
                 interest.add(pattern);
                 concerns.push(Concern::Lease(resource));
             }
@@ -100,12 +104,18 @@ impl Agent {
     }
 }
 
-/// The pattern "an agent holds the resource".
-fn lease(resource: ResourceId, vocabulary: &Vocabulary) -> Option<Pattern> {
+/// The pattern "an agent holds the resource"; or "… below this priority, and yields it", which the same lease may
+/// become while its holder stays.
+fn lease(resource: ResourceId, below: Option<Priority>, vocabulary: &Vocabulary) -> Option<Pattern> {
     let node = vocabulary.resource_node(resource)?;
     let mut pattern = PatternBuilder::new(vocabulary);
     let holder = pattern.variable("holder", TypeId::AGENT);
     pattern.edge(holder, LabelId::HOLDS, node);
+    if let Some(priority) = below {
+        let lease = HolderTerm::edge(holder, LabelId::HOLDS, node);
+        pattern.guard(lease.clone(), AttributeId::PRIORITY, Comparison::Less, f64::from(priority.0));
+        pattern.guard(lease, AttributeId::YIELDS, Comparison::Equal, true);
+    }
     Some(pattern.build().expect("agents may hold resources in every vocabulary"))
 }
 

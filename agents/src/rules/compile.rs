@@ -10,7 +10,7 @@ use pddl::model::{
     Comparison, Condition, Domain, DurativeAction, Effect, EffectKind, ExpressionKind, Name, SkillCall, Term,
     TimeSpecifier, TypeSet, VariableId,
 };
-use vocabulary::{Link, Sort, Tokens, ValueSort};
+use vocabulary::{Link, LinkError, Sort, Tokens, ValueSort};
 
 use super::agent::Agent;
 use super::error::{RuleError, RuleErrorKind};
@@ -240,46 +240,47 @@ impl<'a> Compiler<'a> {
         Conditions { trigger: self.condition(trigger), keep: self.condition(keep), left }
     }
 
-    /// The tokens to watch because the effects at start may falsify what is left of the condition over all.
+    /// The tokens to watch because the effects at start may falsify what is left of the condition over all. A part that
+    /// they cannot change holds after the start if it held before, and the matches of the trigger report that.
     fn unsure(&self, left: &[&Condition], start: &vocabulary::Effect) -> Mentions {
-        let unlinked = |_| Mentions::default();
-        let read = self.link.condition(&self.action.variables, left.iter().copied());
-        let mut read = read.map_or_else(unlinked, |condition| condition.mentions().clone());
         let written = start.mentions();
-        let shared = read.attributes().any(|read| written.attributes().any(|written| written == read))
-            || (read.transforms() && written.transforms())
-            || left.iter().any(|condition| self.beginning.may_change(condition));
-        if !shared {
-            return Mentions::default();
+        let mut watched = Mentions::default();
+        for condition in left {
+            let read = self.link.condition(&self.action.variables, [*condition]);
+            let read = read.map_or_else(|_| Mentions::default(), |condition| condition.mentions().clone());
+            let shared = read.attributes().any(|read| written.attributes().any(|written| written == read))
+                || (read.transforms() && written.transforms())
+                || self.beginning.may_change(condition);
+            if shared {
+                watched.extend(&read);
+                watched.extend(&written);
+            }
         }
-        read.extend(&written);
-        read
+        watched
     }
 
     fn condition(&mut self, parts: Vec<&Condition>) -> Option<vocabulary::Condition> {
-        match self.link.condition(&self.action.variables, parts) {
-            Ok(condition) => Some(condition),
-            Err(errors) => {
-                errors
-                    .into_iter()
-                    .for_each(|error| self.report(error.span, RuleErrorKind::Graph(error.kind)));
-                None
-            }
-        }
+        let linked = self.link.condition(&self.action.variables, parts);
+        self.linked(linked)
     }
 
     fn effect(&mut self, when: &TimeSpecifier) -> Option<vocabulary::Effect> {
         let effects =
             self.action.effects.iter().filter(|timed| timed.when == *when).map(|timed| &timed.effect);
-        match self.link.effect(&self.action.variables, effects) {
-            Ok(effect) => Some(effect),
-            Err(errors) => {
-                errors
-                    .into_iter()
-                    .for_each(|error| self.report(error.span, RuleErrorKind::Graph(error.kind)));
-                None
-            }
+        let linked = self.link.effect(&self.action.variables, effects);
+        self.linked(linked)
+    }
+
+    /// What was linked to the vocabulary; otherwise its mistakes are reported.
+    fn linked<T>(&mut self, linked: Result<T, Vec<LinkError>>) -> Option<T> {
+        let mistakes = match linked {
+            Ok(linked) => return Some(linked),
+            Err(mistakes) => mistakes,
+        };
+        for mistake in mistakes {
+            self.report(mistake.span, RuleErrorKind::Graph(mistake.kind));
         }
+        None
     }
 
     /// Checks that every outcome can happen, and that only effects at the end use results.

@@ -28,6 +28,12 @@ use crate::skill::{Datum, Ended, Outcome, Skill};
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct Parameters(Vec<NodeId>);
 
+impl Parameters {
+    pub(crate) fn nodes(&self) -> &[NodeId] {
+        &self.0
+    }
+}
+
 /// What an argument of a skill is.
 #[derive(Debug, Clone)]
 pub(crate) enum Argument {

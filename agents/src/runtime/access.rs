@@ -1,6 +1,6 @@
 //! Access to the resources that a rule claims.
 
-use dsr::{Preemption, ResourceId, Snapshot};
+use dsr::{AgentId, Preemption, ResourceId, Snapshot, Version};
 
 use crate::rules::Rule;
 
@@ -26,4 +26,20 @@ pub(super) fn access(snapshot: &Snapshot, rule: &Rule) -> Access {
         }
     }
     if takeable.is_empty() { Access::Free } else { Access::Takeable(takeable) }
+}
+
+/// A resource that was taken for a rule that is about to start.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Grant {
+    pub(super) resource: ResourceId,
+    /// The version in which it was taken: no other lease of the resource has it.
+    pub(super) version: Version,
+}
+
+impl Grant {
+    /// Whether it is still the agent's, and not one that another agent, or the same one, was granted later.
+    pub(super) fn holds(&self, snapshot: &Snapshot, agent: AgentId) -> bool {
+        let lease = snapshot.lease(self.resource);
+        lease.is_some_and(|lease| lease.holder == agent && lease.claimed == self.version)
+    }
 }

@@ -17,6 +17,24 @@ pub(super) struct Instance {
     /// When its duration is over.
     pub(super) deadline: Option<Time>,
     pub(super) phase: Phase,
+    /// Whether the effects of an ending could not be written.
+    pub(super) refused: bool,
+}
+
+impl Instance {
+    pub(super) fn begin(id: InstanceId, guard: ReflexId, since: Time, deadline: Option<Time>) -> Self {
+        Self { id, guard, since, deadline, phase: Phase::Running, refused: false }
+    }
+
+    /// The effects of its ending cannot be written: the next try is as if aborted, and the last one without any effect.
+    pub(super) fn retreat(&mut self) {
+        self.refused = true;
+        let next = match &self.phase {
+            Phase::Ending(ended) if ended.outcome.name() == Outcome::ABORT => Outcome::NOTHING,
+            _ => Outcome::ABORT,
+        };
+        self.phase = Phase::Ending(Ended::otherwise(next));
+    }
 }
 
 #[derive(Debug)]
@@ -25,15 +43,4 @@ pub(super) enum Phase {
     Running,
     /// Its skill has ended; the effects are to be committed.
     Ending(Ended),
-}
-
-impl Phase {
-    /// The ending to try after the graph refused one: first as if aborted, then without any effect.
-    pub(super) fn retreat(&self) -> Self {
-        let next = match self {
-            Self::Ending(ended) if ended.outcome.name() == Outcome::ABORT => Outcome::NOTHING,
-            _ => Outcome::ABORT,
-        };
-        Self::Ending(Ended::otherwise(next))
-    }
 }

@@ -6,8 +6,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use agents::{Action, Agent, Call, Ended, InstanceId, Runtime, Skill, Skills, compile};
-use dsr::{Delta, Deltas, Event, Graph, Snapshot, Subscription, Time, Transaction};
+use agents::{Action, Agent, Call, Ended, InstanceId, Rest, Runtime, Skill, Skills, compile};
+use dsr::{Delta, Deltas, Event, Graph, NodeId, Snapshot, Subscription, Time, Transaction};
 use pddl::model::Domain;
 use pddl::{Source, parse_domain, parse_problem};
 use vocabulary::Tokens;
@@ -48,6 +48,10 @@ impl Lab {
         let rules = domain(&root().join("test_data/ok").join(name).with_extension("pddl"), &[&self.words]);
         let skills: Skills = agents::skills::standard();
         Arc::new(compile(&rules, &self.tokens, &skills).unwrap_or_else(|errors| panic!("{errors:?}")))
+    }
+
+    pub(crate) fn name(&self, node: NodeId) -> String {
+        self.graph.snapshot().name(node).unwrap().to_owned()
     }
 
     /// Writes as the director: `+robot shall_say hello`, `-person is_with robot`.
@@ -123,12 +127,15 @@ impl Bench {
     /// Agents take turns until none has anything to do.
     pub(crate) fn settle(&mut self, seconds: u64) {
         let now = at(seconds);
+        let mut turns = 0;
         let mut idle = false;
         while !idle {
             idle = true;
             for agent in 0..self.runtimes.len() {
                 while self.turn(agent, now) {
                     idle = false;
+                    turns += 1;
+                    assert!(turns < 1_000, "agents that never rest: {:#?}", &self.log[self.log.len() - 8..]);
                 }
             }
         }
@@ -171,6 +178,11 @@ impl Bench {
             }
         }
         true
+    }
+
+    /// The rules that rest, of all agents.
+    pub(crate) fn resting(&self) -> Vec<Rest> {
+        self.runtimes.iter().flat_map(|(runtime, _)| runtime.resting()).collect()
     }
 
     /// Writes the commits since the last look into the log.
