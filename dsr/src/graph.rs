@@ -16,10 +16,11 @@ use smallvec::SmallVec;
 
 use crate::delta::Delta;
 use crate::export::{self, Export, RestoreError};
-use crate::id::{AgentId, ReflexId, Time, Version};
+use crate::id::{AgentId, Epoch, ReflexId, Time, Version};
 use crate::interest::Interest;
 use crate::journal::feed::{Feed, Rest};
 use crate::left_right::{LeftRight, Twin};
+use crate::liveness::Epochs;
 use crate::past::Past;
 use crate::pattern::Pattern;
 use crate::replay::{self, ReplayError};
@@ -64,6 +65,7 @@ struct Writers {
     queues: Routes,
     /// The journals that receive each delta.
     feeds: Vec<Arc<Feed>>,
+    epochs: Epochs,
 }
 
 impl Twin for State {
@@ -132,8 +134,13 @@ impl Graph {
     fn with(state: State) -> Self {
         let vocabulary = Arc::clone(&state.vocabulary);
         let version = state.version;
-        let writers =
-            Writers { version, reflexes: Registry::default(), queues: Routes::default(), feeds: Vec::new() };
+        let writers = Writers {
+            version,
+            reflexes: Registry::default(),
+            queues: Routes::default(),
+            feeds: Vec::new(),
+            epochs: Epochs::default(),
+        };
         Self {
             shared: Arc::new(Shared {
                 vocabulary,
@@ -176,6 +183,7 @@ impl Graph {
         // and states, which must not be dropped under the lock.
         let mut queues = SmallVec::<[Arc<Queue>; 8]>::new();
         let mut writing = self.shared.states.write();
+        writing.own().epochs.admit(transaction, &self.shared.vocabulary)?;
         transaction.stale_at(writing.own().version)?;
         if let Some(state) = writing.ahead() {
             warm(state, &transaction.edits);
@@ -194,6 +202,7 @@ impl Graph {
         let (state, before) = writing.publish(short.then(|| Arc::clone(&delta)));
         let owners = owners(&writing.own().reflexes, &delta);
         writing.own().reflexes = outcome.reflexes;
+        writing.own().epochs.follow(transaction);
         let snapshot = Snapshot::new(state);
         if changed {
             let writers = writing.own();
@@ -249,7 +258,12 @@ impl Graph {
         }
     }
 
-    /// Declares an agent dead: releases its leases and fires its reflexes.
+    /// Begins the next life of an agent: what was written for an earlier one is refused from now on.
+    pub(crate) fn begin_life(&self, agent: AgentId) -> Epoch {
+        self.shared.states.write().own().epochs.next(agent)
+    }
+
+    /// Declares an agent dead: releases its leases, fires its reflexes, and ends its life.
     pub fn expire(&self, agent: AgentId, time: Time) -> Result<Commit, TransactionError> {
         self.edit(AgentId::DSR, time, |transaction| {
             transaction.push(Edit::Expire { agent });

@@ -99,6 +99,11 @@ pub struct Version(pub u64);
 #[serde(transparent)]
 pub struct Time(pub u64);
 
+/// One life of an agent: from [`Graph::attend`](crate::Graph::attend) until the agent expires or is attended again.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Epoch(pub u64);
+
 /// A registered reflex. Ids are never used twice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(transparent)]

@@ -88,7 +88,8 @@ pub use export::{
 };
 pub use graph::{Commit, Graph};
 pub use id::{
-    AgentId, AttributeId, EdgeKey, Holder, LabelId, NodeId, ReflexId, ResourceId, Time, TypeId, Version,
+    AgentId, AttributeId, EdgeKey, Epoch, Holder, LabelId, NodeId, ReflexId, ResourceId, Time, TypeId,
+    Version,
 };
 pub use interest::{Interest, PatternId};
 pub use journal::{

@@ -1,12 +1,62 @@
-//! Liveness: an agent that dies gives up what it holds.
+//! Liveness: an agent that dies gives up what it holds, and no longer writes.
 //!
-//! Problem: the thread of an agent ends, by a panic or normally, and the loudspeaker stays leased to the agent. Idea:
-//! the code that runs the agent keeps a [`Liveness`]. Dropping it, as unwinding its thread does, expires the agent in a
-//! commit of its own: its leases pass to the agents that wait for them, and its reflexes fire. For an agent in another
-//! process, the server of its connection keeps the `Liveness` and drops it when the connection ends.
+//! Problem: the thread of an agent ends, by a panic or normally, and the loudspeaker stays leased to the agent. Or it
+//! hangs, is replaced, and then goes on: two of the same name write. Idea: the code that runs the agent keeps a
+//! [`Liveness`]. Dropping it, as unwinding its thread does, expires the agent in a commit of its own: its leases pass to
+//! the agents that wait for them, and its reflexes fire. For an agent in another process, the server of its connection
+//! keeps the `Liveness` and drops it when the connection ends.
+//!
+//! Each life of an agent has a number, its [`Epoch`]. A transaction that names one
+//! ([`Transaction::in_epoch`](crate::Transaction::in_epoch)) is refused after that life, so a watchdog may declare an agent
+//! dead that only hangs. Invariants: the epochs of an agent rise; dropping the `Liveness` of an earlier life changes
+//! nothing.
+//!
+//! Source: fencing tokens; Kleppmann, *Designing Data-Intensive Applications*, 2017, ch. 8.
+
+use rustc_hash::FxHashMap;
 
 use crate::graph::Graph;
-use crate::id::AgentId;
+use crate::id::{AgentId, Epoch};
+use crate::transaction::{Edit, Transaction, TransactionError};
+use crate::vocabulary::Vocabulary;
+
+/// The present lives of agents; one that was never attended nor expired has the first.
+#[derive(Debug, Default)]
+pub(crate) struct Epochs(FxHashMap<AgentId, Epoch>);
+
+impl Epochs {
+    /// Ends the present life of an agent, and begins the next.
+    pub(crate) fn next(&mut self, agent: AgentId) -> Epoch {
+        let epoch = self.0.entry(agent).or_default();
+        epoch.0 += 1;
+        *epoch
+    }
+
+    /// Fails if the transaction was written for a life that is over.
+    pub(crate) fn admit(
+        &self,
+        transaction: &Transaction,
+        vocabulary: &Vocabulary,
+    ) -> Result<(), TransactionError> {
+        let Some((agent, epoch)) = transaction.life else { return Ok(()) };
+        if self.0.get(&agent).copied().unwrap_or_default() == epoch {
+            return Ok(());
+        }
+        let name = vocabulary.agent_name(agent);
+        Err(name.map_or(TransactionError::UnknownAgent { id: agent }, |agent| TransactionError::Fenced {
+            agent: agent.clone(),
+        }))
+    }
+
+    /// Ends the lives of the agents that a transaction has expired.
+    pub(crate) fn follow(&mut self, transaction: &Transaction) {
+        for edit in &transaction.edits {
+            if let Edit::Expire { agent } = edit {
+                self.next(*agent);
+            }
+        }
+    }
+}
 
 /// Keeps an agent alive. Dropping it expires the agent, at the time of the newest commit.
 #[derive(Debug)]
@@ -14,12 +64,15 @@ use crate::id::AgentId;
 pub struct Liveness {
     graph: Graph,
     agent: AgentId,
+    epoch: Epoch,
+    last: Vec<Edit>,
 }
 
 impl Graph {
-    /// Expires the agent when the returned value is dropped.
+    /// Begins a life of the agent, which expires when the returned value is dropped. Writes for an earlier life are
+    /// refused from now on.
     pub fn attend(&self, agent: AgentId) -> Liveness {
-        Liveness { graph: self.clone(), agent }
+        Liveness { graph: self.clone(), agent, epoch: self.begin_life(agent), last: Vec::new() }
     }
 }
 
@@ -28,11 +81,30 @@ impl Liveness {
     pub fn agent(&self) -> AgentId {
         self.agent
     }
+
+    /// This life of the agent.
+    pub fn epoch(&self) -> Epoch {
+        self.epoch
+    }
+
+    /// What the graph itself writes in the commit in which the agent expires: that it is gone.
+    pub fn leave_behind(&mut self, edits: impl IntoIterator<Item = Edit>) {
+        self.last.extend(edits);
+    }
 }
 
 impl Drop for Liveness {
     fn drop(&mut self) {
-        // Rejected only for an agent of another vocabulary, which holds nothing here.
-        let _ = self.graph.expire(self.agent, self.graph.snapshot().time());
+        let mut end = Transaction::new(AgentId::DSR);
+        end.in_epoch(self.agent, self.epoch).push(Edit::Expire { agent: self.agent });
+        let without = end.clone();
+        end.extend(std::mem::take(&mut self.last));
+        let now = self.graph.snapshot().time();
+        // Refused if this life is over, and for an agent of another vocabulary, which holds nothing here.
+        match self.graph.commit(&end, now) {
+            Ok(_) | Err(TransactionError::Fenced { .. }) => {}
+            // What was to be left behind is no token of this graph.
+            Err(_) => _ = self.graph.commit(&without, now),
+        }
     }
 }

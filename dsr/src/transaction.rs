@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 
 pub use self::edit::{Edit, HolderRef};
 pub use self::error::TransactionError;
-use crate::id::{AgentId, AttributeId, LabelId, ReflexId, ResourceId, Time, TypeId, Version};
+use crate::id::{AgentId, AttributeId, Epoch, LabelId, ReflexId, ResourceId, Time, TypeId, Version};
 use crate::lease::{Preemption, Priority};
 use crate::pattern::{Pattern, PatternError, PatternSource};
 use crate::pose::Pose;
@@ -37,6 +37,8 @@ use crate::vocabulary::Vocabulary;
 pub struct Transaction<P = Arc<Pattern>> {
     pub(crate) writer: AgentId,
     pub(crate) expected: Option<Version>,
+    #[serde(default)]
+    pub(crate) life: Option<(AgentId, Epoch)>,
     pub(crate) edits: Vec<Edit>,
     pub(crate) guards: Vec<Reflex<P>>,
     pub(crate) dismissed: Vec<ReflexId>,
@@ -45,16 +47,23 @@ pub struct Transaction<P = Arc<Pattern>> {
 impl Transaction<PatternSource> {
     /// Compiles the patterns of the transaction for a vocabulary.
     pub fn build(self, vocabulary: &Vocabulary) -> Result<Transaction, PatternError> {
-        let Self { writer, expected, edits, guards, dismissed } = self;
+        let Self { writer, expected, life, edits, guards, dismissed } = self;
         let guards = guards.into_iter().map(|guard| guard.build(vocabulary)).collect::<Result<_, _>>()?;
-        Ok(Transaction { writer, expected, edits, guards, dismissed })
+        Ok(Transaction { writer, expected, life, edits, guards, dismissed })
     }
 }
 
 impl Transaction {
     /// An empty transaction of this writer.
     pub fn new(writer: AgentId) -> Self {
-        Self { writer, expected: None, edits: Vec::new(), guards: Vec::new(), dismissed: Vec::new() }
+        Self {
+            writer,
+            expected: None,
+            life: None,
+            edits: Vec::new(),
+            guards: Vec::new(),
+            dismissed: Vec::new(),
+        }
     }
 
     /// The agent that writes.
@@ -70,6 +79,13 @@ impl Transaction {
     /// Makes the commit fail if the graph is no longer at this version.
     pub fn expect_version(&mut self, version: Version) -> &mut Self {
         self.expected = Some(version);
+        self
+    }
+
+    /// Makes the commit fail if this life of the agent is over. An agent that was declared dead and is not can then no
+    /// longer interfere with its successor.
+    pub fn in_epoch(&mut self, agent: AgentId, epoch: Epoch) -> &mut Self {
+        self.life = Some((agent, epoch));
         self
     }
 

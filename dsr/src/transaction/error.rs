@@ -106,6 +106,9 @@ pub enum TransactionError {
     /// The graph is at another version than the expected one.
     #[error("expected version {}, the graph is at {}", expected.0, current.0)]
     Stale { expected: Version, current: Version },
+    /// The life of the agent for which this was written is over: the agent has expired, or was attended again.
+    #[error("this life of '{agent}' is over")]
+    Fenced { agent: Name },
     /// The reflex to be dismissed has fired or was dismissed before.
     #[error("reflex {} is gone", reflex.0)]
     ReflexGone { reflex: ReflexId },
