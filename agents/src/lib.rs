@@ -61,6 +61,6 @@ mod words;
 
 pub use rules::{Agent, RuleError, RuleErrorKind, compile};
 pub use runtime::{Action, InstanceId, Rest, Runtime};
-pub use shell::{Clock, Environment, TokioClock, run_all};
+pub use shell::{Absence, Clock, Environment, Housing, TokioClock, run_all};
 pub use skill::{Call, Datum, DatumKind, Ended, Equipment, Outcome, Signature, Skill, Skills, Work};
 pub use words::{Reporter, Words};

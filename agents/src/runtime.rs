@@ -30,7 +30,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use dsr::{
-    Commit, Mentions, News, NodeId, Preemption, ReflexId, ResourceId, Snapshot, Time, Transaction,
+    Commit, Epoch, Mentions, News, NodeId, Preemption, ReflexId, ResourceId, Snapshot, Time, Transaction,
     TransactionError,
 };
 use pddl::model::Name;
@@ -106,6 +106,10 @@ pub struct Runtime {
     patience: Patience,
     actions: VecDeque<Action>,
     pending: Option<Pending>,
+    /// The life of the agent for which this runtime writes.
+    epoch: Option<Epoch>,
+    /// Whether that life is over.
+    fenced: bool,
 }
 
 impl Runtime {
@@ -123,7 +127,21 @@ impl Runtime {
             patience: Patience::default(),
             actions: VecDeque::new(),
             pending: None,
+            epoch: None,
+            fenced: false,
         }
+    }
+
+    /// Writes for this life of the agent alone: after it, every commit is refused, and the runtime stops.
+    #[must_use]
+    pub fn in_epoch(mut self, epoch: Epoch) -> Self {
+        self.epoch = Some(epoch);
+        self
+    }
+
+    /// Whether the agent was declared dead or replaced: all that is left to do is to stop its skills.
+    pub fn is_fenced(&self) -> bool {
+        self.fenced
     }
 
     /// The agent.
@@ -216,6 +234,9 @@ impl Runtime {
         if let Some(action) = self.actions.pop_front() {
             return Some(action);
         }
+        if self.fenced {
+            return None;
+        }
         self.end_one(snapshot)
             .or_else(|| self.use_what_was_taken(snapshot, now))
             .or_else(|| self.give_back(snapshot))
@@ -263,9 +284,10 @@ impl Runtime {
             let rule = self.agent.rule(key.0);
             match rule.after(snapshot, &key.1, ended) {
                 Ok(edits) => {
-                    let mut transaction = transaction(&self.agent, snapshot);
-                    transaction.dismiss(instance.guard).extend(edits);
-                    self.pending = Some(Pending::End(key.clone()));
+                    let (key, guard) = (key.clone(), instance.guard);
+                    let mut transaction = self.transaction(snapshot);
+                    transaction.dismiss(guard).extend(edits);
+                    self.pending = Some(Pending::End(key));
                     return Some(transaction);
                 }
                 Err(refusal) => {
@@ -300,7 +322,7 @@ impl Runtime {
         if grants.is_empty() {
             return None;
         }
-        let mut transaction = transaction(&self.agent, snapshot);
+        let mut transaction = self.transaction(snapshot);
         for grant in &grants {
             transaction.release(grant.resource);
         }
@@ -333,7 +355,7 @@ impl Runtime {
                 }
                 Access::Refused => {}
                 Access::Takeable(resources) => {
-                    let mut transaction = transaction(&self.agent, snapshot);
+                    let mut transaction = self.transaction(snapshot);
                     for &resource in &resources {
                         transaction.claim(resource, rule.priority, Preemption::Yields);
                     }
@@ -351,7 +373,7 @@ impl Runtime {
     /// The commit that starts a rule; `held` has been taken for it before.
     fn start(&mut self, snapshot: &Snapshot, key: Key, held: Vec<Grant>, now: Time) -> Option<Transaction> {
         let rule = self.agent.rule(key.0);
-        let mut transaction = transaction(&self.agent, snapshot);
+        let mut transaction = self.transaction(snapshot);
         let is_held = |resource| held.iter().any(|grant| grant.resource == resource);
         for &resource in rule.claims.iter().filter(|&&resource| !is_held(resource)) {
             transaction.claim(resource, rule.priority, Preemption::Yields);
@@ -414,6 +436,7 @@ impl Runtime {
 
     fn refused(&mut self, pending: Pending, refusal: &TransactionError, now: Time) {
         match (pending, refusal) {
+            (_, TransactionError::Fenced { .. }) => self.fence(),
             // The graph moved on; the same question gets a new answer.
             (Pending::Take(key, _), TransactionError::Stale { .. }) => self.candidates.push_front(key),
             (Pending::Start(key, held), TransactionError::Stale { .. }) if held.is_empty() => {
@@ -453,6 +476,14 @@ impl Runtime {
         }
     }
 
+    /// This life is over; the graph has returned the leases and fired the guards.
+    fn fence(&mut self) {
+        self.fenced = true;
+        self.actions.clear();
+        let running = std::mem::take(&mut self.instances);
+        self.actions.extend(running.into_values().map(|instance| Action::Stop(instance.id)));
+    }
+
     fn cannot_start(&mut self, key: &Key, refusal: &TransactionError, now: Time) {
         error!(rule = %self.agent.rule(key.0).name, %refusal, "a rule cannot start");
         self.fruitless(key, now);
@@ -481,6 +512,16 @@ impl Runtime {
         }
     }
 
+    /// A transaction on exactly this version, the one that the decision was made on.
+    fn transaction(&self, snapshot: &Snapshot) -> Transaction {
+        let mut transaction = Transaction::new(self.agent.id);
+        transaction.expect_version(snapshot.version());
+        if let Some(epoch) = self.epoch {
+            transaction.in_epoch(self.agent.id, epoch);
+        }
+        transaction
+    }
+
     /// An attempt of this instant led to nothing.
     fn fruitless(&mut self, key: &Key, now: Time) {
         let rest = self.patience.fruitless(key, now, now);
@@ -493,13 +534,6 @@ impl Runtime {
             debug!(%agent, %rule, parameters = ?key.1, seconds = rest.as_secs(), "rests");
         }
     }
-}
-
-/// A transaction on exactly this version, the one that the decision was made on.
-fn transaction(agent: &Agent, snapshot: &Snapshot) -> Transaction {
-    let mut transaction = Transaction::new(agent.id);
-    transaction.expect_version(snapshot.version());
-    transaction
 }
 
 impl std::fmt::Debug for Runtime {

@@ -1,26 +1,31 @@
-//! The shell: drives one agent over the real graph, clock and devices.
+//! The shell: drives agents over the real graph, clock and devices.
 //!
 //! Idea: one future per agent that is woken by the graph (for the agent's interest alone), by a skill, or by the time.
-//! It feeds the pure [`Runtime`] and does what that asks for. It spawns nothing, so all agents can live in one task.
+//! It feeds the pure [`Runtime`] and does what that asks for. `supervisor` begins and ends the lives of agents, and `work`
+//! keeps skills apart: together in the caller's task, or each agent and each skill on a thread of its own
+//! ([`Housing`]).
 //!
-//! Invariant: the same wakings in the same order give the same commits. News of the graph come before endings
-//! of skills, so that a skill which a reflex stopped can no longer end; skills are polled in the order of their
-//! launch. Dropping the future drops every skill, which stops every device; the caller then reports it to the graph
-//! with [`dsr::Graph::expire`].
+//! Invariants: where all work together, the same wakings in the same order give the same commits. News of the graph come
+//! before endings of skills, so that a skill which a reflex stopped can no longer end; skills are polled in the order of
+//! their launch. Dropping the future drops every skill, which stops every device, and expires every agent.
+
+mod supervisor;
+mod work;
 
 use std::collections::BTreeMap;
-use std::convert::Infallible;
 use std::fmt;
 use std::future::poll_fn;
 use std::sync::Arc;
 use std::task::Poll;
 use std::time::Duration;
 
-use dsr::{Graph, Time};
-use tokio::sync::Notify;
+use dsr::{Epoch, Graph, Time};
 use tokio::time::{Instant, sleep};
-use tracing::{Instrument, debug_span};
 
+pub use self::supervisor::{Absence, run_all};
+use self::supervisor::{Gone, Pulse};
+pub use self::work::Housing;
+use self::work::Launcher;
 use crate::rules::Agent;
 use crate::runtime::{Action, InstanceId, Runtime};
 use crate::skill::{Ended, Equipment, Work};
@@ -59,6 +64,10 @@ pub struct Environment {
     pub equipment: Equipment,
     /// The time.
     pub clock: Arc<dyn Clock>,
+    /// Where agents and skills work.
+    pub housing: Housing,
+    /// How the graph says that an agent is absent, if the vocabulary has words for it.
+    pub absence: Option<Absence>,
 }
 
 impl fmt::Debug for Environment {
@@ -67,34 +76,22 @@ impl fmt::Debug for Environment {
     }
 }
 
-/// Runs an agent until it is dropped.
-async fn run(agent: Arc<Agent>, environment: Environment) -> Infallible {
-    let span = debug_span!("agent", name = %agent.name);
-    drive(Runtime::new(agent), environment).instrument(span).await
-}
-
-/// Runs agents side by side in one task until it is dropped. They take their turns in the order given.
-pub async fn run_all(agents: impl IntoIterator<Item = Arc<Agent>>, environment: Environment) -> Infallible {
-    let mut agents: Vec<_> =
-        agents.into_iter().map(|agent| Box::pin(run(agent, environment.clone()))).collect();
-    poll_fn(|context| {
-        for agent in &mut agents {
-            if let Poll::Ready(never) = agent.as_mut().poll(context) {
-                return Poll::Ready(never);
-            }
-        }
-        Poll::Pending
-    })
-    .await
-}
-
-async fn drive(mut runtime: Runtime, Environment { graph, equipment, clock }: Environment) -> Infallible {
-    let news = Arc::new(Notify::new());
+/// Runs one life of an agent, until it is fenced or dropped.
+async fn drive(
+    agent: Arc<Agent>,
+    epoch: Epoch,
+    environment: Environment,
+    launcher: Launcher,
+    pulse: Arc<Pulse>,
+) -> Gone {
+    let Environment { graph, equipment, clock, .. } = environment;
+    let mut runtime = Runtime::new(agent).in_epoch(epoch);
     let mut subscription = graph.subscribe_to(runtime.agent().interest());
-    let waker = Arc::clone(&news);
+    let waker = Arc::clone(pulse.wake());
     subscription.on_wake(move || waker.notify_one());
     let mut skills: BTreeMap<InstanceId, Work> = BTreeMap::new();
     loop {
+        pulse.beat();
         loop {
             while let Some(news) = subscription.try_recv() {
                 runtime.changed(&news);
@@ -106,9 +103,10 @@ async fn drive(mut runtime: Runtime, Environment { graph, equipment, clock }: En
                     runtime.committed(result.as_ref(), now);
                 }
                 Some(Action::Launch { instance, skill, call }) => {
-                    skills.insert(instance, skill.launch(call, &equipment));
+                    skills.insert(instance, launcher.launch(skill, call, &equipment));
                 }
                 Some(Action::Stop(instance)) => drop(skills.remove(&instance)),
+                None if runtime.is_fenced() => return Gone::Fenced,
                 None => break,
             }
         }
@@ -122,7 +120,7 @@ async fn drive(mut runtime: Runtime, Environment { graph, equipment, clock }: En
         };
         tokio::select! {
             biased;
-            () = news.notified() => {}
+            () = pulse.wake().notified() => {}
             (instance, ended) = first_ended(&mut skills) => {
                 skills.remove(&instance);
                 runtime.ended(instance, ended);

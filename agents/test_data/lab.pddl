@@ -9,7 +9,7 @@
   (:constants
     director talker shouter watcher secretary polite heckler pedant clerk auditor driver host - agent
     mouth - resource
-    speaking broken quiet - state)
+    speaking broken quiet absent - state)
   (:predicates
     (is ?r - robot ?s - state)
     (is_not ?r - robot ?s - state)
@@ -21,7 +21,8 @@
     (says ?r - robot ?s - sentence)
     (said ?r - robot ?s - sentence)
     (heard ?r - robot ?s - sentence)
-    (missed ?r - robot ?p - person))
+    (missed ?r - robot ?p - person)
+    (is_gone ?a - agent ?s - state))
   (:functions
     (rt ?a ?b - frame) - pose
     (distance ?a ?b - frame) - number

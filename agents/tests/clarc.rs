@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use agents::{Agent, Clock, Environment, Equipment, Reporter, TokioClock, Words, compile, run_all};
+use agents::{Agent, Clock, Environment, Equipment, Housing, Reporter, TokioClock, Words, compile, run_all};
 use common::{domain, root, source};
 use dsr::{Graph, NodeId, Snapshot, Time, Transaction};
 use hal::Device;
@@ -107,7 +107,13 @@ impl Session {
     async fn play(&self, director: impl Future<Output = ()>) {
         let words = Arc::new(AnyWords(self.graph.snapshot()));
         let equipment = Equipment { devices: self.room.devices(), words: words.clone(), reporter: words };
-        let environment = Environment { graph: self.graph.clone(), equipment, clock: Arc::new(self.clock) };
+        let environment = Environment {
+            graph: self.graph.clone(),
+            equipment,
+            clock: Arc::new(self.clock),
+            housing: Housing::default(),
+            absence: None,
+        };
         tokio::select! {
             biased;
             never = run_all(self.agents.iter().cloned(), environment) => match never {},

@@ -6,7 +6,7 @@ mod common;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use agents::{Datum, Ended, Outcome};
+use agents::{Action, Datum, Ended, Outcome, Runtime};
 use common::{Bench, Lab, at};
 use dsr::Isometry3;
 use expect_test::expect;
@@ -309,4 +309,42 @@ fn an_edge_that_is_written_through_its_attribute_may_break_a_condition() {
     assert!(bench.running.is_empty());
     bench.direct(3, &["-robot is quiet"]);
     assert_eq!(bench.running.len(), 1, "{}", bench.log());
+}
+
+#[test]
+fn a_runtime_whose_life_is_over_stops_its_skills_and_writes_nothing() {
+    let lab = Lab::new();
+    let agent = lab.agent("talker");
+    let life = lab.graph.attend(agent.id);
+    let mut subscription = lab.graph.subscribe_to(agent.interest());
+    let mut runtime = Runtime::new(agent).in_epoch(life.epoch());
+    lab.direct(&["+robot shall_say hello", "+robot shall_ask person"], 1);
+    let mut settle = |news: bool| {
+        while let Some(news) = subscription.try_recv().filter(|_| news) {
+            runtime.changed(&news);
+        }
+        let (mut launched, mut stopped) = (0, 0);
+        while let Some(action) = runtime.next_action(&lab.graph.snapshot(), at(1)) {
+            match action {
+                Action::Commit(transaction) => {
+                    runtime.committed(lab.graph.commit(&transaction, at(1)).as_ref(), at(1));
+                }
+                Action::Launch { instance, .. } => {
+                    launched += 1;
+                    if launched == 2 {
+                        // Its ending will be the first commit that is refused.
+                        runtime.ended(instance, well());
+                        drop(lab.graph.attend(runtime.agent().id));
+                    }
+                }
+                Action::Stop(_) => stopped += 1,
+            }
+        }
+        (launched, stopped, runtime.is_fenced(), runtime.running())
+    };
+    assert_eq!(settle(true), (2, 2, true, 0));
+    let version = lab.graph.snapshot().version();
+    lab.direct(&["+robot shall_say goodbye"], 2);
+    assert_eq!(settle(true), (0, 0, true, 0));
+    assert_eq!(lab.graph.snapshot().version().0, version.0 + 1);
 }

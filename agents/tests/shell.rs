@@ -6,7 +6,7 @@ mod common;
 use std::sync::Arc;
 use std::time::Duration;
 
-use agents::{Environment, Equipment, Reporter, TokioClock, Words, run_all};
+use agents::{Environment, Equipment, Housing, Reporter, TokioClock, Words, run_all};
 use common::{Lab, told};
 use dsr::{Event, Snapshot};
 use expect_test::expect;
@@ -50,20 +50,30 @@ async fn play<F: Future<Output = ()>>(
     let deltas = lab.graph.subscribe_deltas();
     let words = Arc::new(LabWords);
     let equipment = Equipment { devices: room.devices(), words: words.clone(), reporter: words };
-    let environment =
-        Environment { graph: lab.graph.clone(), equipment, clock: Arc::new(TokioClock::start()) };
+    let environment = Environment {
+        graph: lab.graph.clone(),
+        equipment,
+        clock: Arc::new(TokioClock::start()),
+        housing: Housing::default(),
+        absence: None,
+    };
     let agents: Vec<_> = names.iter().map(|name| lab.agent(name)).collect();
-    tokio::select! {
+    let directed = async {
+        director(Arc::clone(&lab), room.clone()).await;
+        // Before the agents are dropped and expire.
+        let mut lines = Vec::new();
+        while let Some(event) = deltas.try_recv() {
+            let Event::Committed(committed) = event else { panic!("lagged") };
+            let seconds = Duration::from_nanos(committed.delta.time.0).as_secs_f64();
+            lines.push(format!("{seconds:.1} {}", told(&committed.delta, &committed.snapshot)));
+        }
+        lines
+    };
+    let lines = tokio::select! {
         biased;
         never = run_all(agents, environment) => match never {},
-        () = director(Arc::clone(&lab), room.clone()) => {}
-    }
-    let mut lines = Vec::new();
-    while let Some(event) = deltas.try_recv() {
-        let Event::Committed(committed) = event else { panic!("lagged") };
-        let seconds = Duration::from_nanos(committed.delta.time.0).as_secs_f64();
-        lines.push(format!("{seconds:.1} {}", told(&committed.delta, &committed.snapshot)));
-    }
+        lines = directed => lines,
+    };
     (lines, room)
 }
 

@@ -12,7 +12,8 @@ use crate::exit::Exit;
 use crate::interrupt;
 use crate::scenario::Staged;
 use crate::turns::Turns;
-use dsr::{AgentId, Graph};
+use agents::Housing;
+use dsr::{AgentId, Graph, TypeId};
 use executive::{Ending, Narration, Shell, Step, Turn, Wheel};
 use hal::sim::{ClinicianScript, PatientScript, SimRoom};
 use std::path::Path;
@@ -70,6 +71,9 @@ impl Play {
                 reporter: Arc::new(self.content.clone()),
             },
             clock: Arc::new(agents::TokioClock::start()),
+            // Simulated time passes in this task alone: everything takes its turn here, and gives the same bytes.
+            housing: if self.speed.is_simulated() { Housing::Together } else { Housing::Apart },
+            absence: absence(&graph),
         };
 
         let mut teller = Teller::new(&self.content, self.staged.as_ref(), self.verbose, console);
@@ -124,6 +128,15 @@ impl Play {
             None => SimRoom::new(PatientScript::default(), ClinicianScript::default()),
         }
     }
+}
+
+/// The words for an agent that is gone, if the vocabulary has them: `(is ?agent absent)`.
+fn absence(graph: &Graph) -> Option<agents::Absence> {
+    let (vocabulary, state) = (graph.vocabulary(), "absent");
+    let label = vocabulary.label("is")?;
+    let for_agents = vocabulary.signatures(label).iter().any(|s| vocabulary.is_a(TypeId::AGENT, s.from));
+    (for_agents && graph.snapshot().node(state).is_some())
+        .then(|| agents::Absence { label, state: state.into() })
 }
 
 /// Where PELEA works.
