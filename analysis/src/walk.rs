@@ -4,8 +4,8 @@
 
 use pddl::model::{
     Application, AssignOperator, AssignedValue, Atom, Condition, ConditionKind, Constraint, ConstraintKind,
-    Constraints, Effect, EffectKind, Expression, ExpressionKind, PredicateId, Preference, SubtaskHead, Term,
-    VariableId,
+    Constraints, Effect, EffectKind, Expression, ExpressionKind, Invariant, PredicateId, Preference,
+    SubtaskHead, Term, VariableId,
 };
 
 /// Whether something must be true or must be false for the whole to hold.
@@ -112,6 +112,11 @@ pub fn constraints<'a>(of: &'a Constraints, f: &mut dyn FnMut(Part<'a>)) {
         }
         constraint(&preference.body, Polarity::Positive, f);
     }
+}
+
+/// The parts of an invariant; its parameters are not bound by a part.
+pub fn invariant<'a>(of: &'a Invariant, f: &mut dyn FnMut(Part<'a>)) {
+    constraint(&of.constraint, Polarity::Positive, f);
 }
 
 fn constraint<'a>(of: &'a Constraint, polarity: Polarity, f: &mut dyn FnMut(Part<'a>)) {

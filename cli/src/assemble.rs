@@ -4,7 +4,8 @@
 //! `run` and `check` both use this, so a mission that passes the check can run.
 //!
 //! Codes: E10xx. E1001 vocabulary, E1002 world and graph, E1003 rules, E1004 perception, E1005 methods,
-//! E1006 planning problem, E1007 a condition of a scenario (`scenario`), E1008 no agent for PELEA to write as.
+//! E1006 planning problem, E1007 a condition of a scenario (`scenario`), E1008 no agent for PELEA to write as,
+//! E1009 invariants.
 
 use crate::console::Console;
 use crate::disk::{Disk, show};
@@ -19,6 +20,7 @@ use low_to_high::Perception;
 use mission::{Mission, MissionErrors, MissionTask};
 use pddl::Span;
 use pddl::model::Name;
+use safety::Invariants;
 use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -33,6 +35,8 @@ pub(crate) struct Assembly {
     pub(crate) wheel: Wheel,
     /// The agent that PELEA writes as.
     pub(crate) writer: AgentId,
+    /// What a run must satisfy.
+    pub(crate) invariants: Arc<Invariants>,
 }
 
 /// Why a mission cannot be loaded.
@@ -120,7 +124,17 @@ fn put_together(mission: &Mission, findings: &mut Vec<Finding>) -> Option<Assemb
     let model = model.map_err(|error| {
         findings.push(finding("E1006", layers.problem.source, layers.problem.model.goal_span, &error));
     });
-    let (Ok(graph), Ok(perception), Ok(methods), Ok(model)) = (graph, perception, methods, model) else {
+    let invariants = Invariants::new(layers.safety.iter().map(|layer| &layer.model), &vocabulary);
+    let invariants = invariants.map_err(|errors| {
+        findings.extend(
+            errors
+                .iter()
+                .map(|(layer, error)| finding("E1009", layers.safety[*layer].source, error.span, error)),
+        );
+    });
+    let (Ok(graph), Ok(perception), Ok(methods), Ok(model), Ok(invariants)) =
+        (graph, perception, methods, model, invariants)
+    else {
         return None;
     };
     let Some(writer) = graph.vocabulary().agent(PELEA) else {
@@ -128,7 +142,8 @@ fn put_together(mission: &Mission, findings: &mut Vec<Finding>) -> Option<Assemb
         return None;
     };
     let wheel = Wheel::new(Arc::new(model), Arc::new(perception), Arc::new(methods), policy(mission));
-    Some(Assembly { vocabulary, graph, agents, wheel, writer })
+    let invariants = Arc::new(invariants);
+    Some(Assembly { vocabulary, graph, agents, wheel, writer, invariants })
 }
 
 /// The agent that PELEA writes as.

@@ -127,7 +127,7 @@ pub(crate) fn stage(
         .map(|disruption| {
             let condition = match &disruption.trigger {
                 Trigger::When { condition, .. } => watch(condition),
-                Trigger::At(_) | Trigger::Step { .. } => None,
+                Trigger::At(_) | Trigger::Version(_) | Trigger::Instant | Trigger::Step { .. } => None,
             };
             Cue { disruption: disruption.clone(), condition }
         })

@@ -61,6 +61,8 @@ pub struct Layers {
     pub perception: Layer<Domain>,
     /// HighToLow; imports [`Layers::nodes`].
     pub methods: Layer<Domain>,
+    /// Domains of invariants: the robot's, then the test's; each imports [`Layers::nodes`] or a part of it.
+    pub safety: Vec<Layer<Domain>>,
     /// The tokens of `mission.toml`.
     pub tokens: NamedTokens,
 }

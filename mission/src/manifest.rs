@@ -43,6 +43,14 @@ pub(crate) struct Paths {
     pub(crate) content: String,
     /// The folder of the scenarios.
     pub(crate) scenarios: String,
+    /// The robot's library of disruptions; it need not exist.
+    pub(crate) robot_disruptions: String,
+    /// The mission's own; it need not exist.
+    pub(crate) disruptions: String,
+    /// What all tests with the robot must satisfy; it need not exist.
+    pub(crate) robot_safety: String,
+    /// What this test must satisfy; it need not exist.
+    pub(crate) safety: String,
 }
 
 /// The limits of planning and of retries.
@@ -129,6 +137,8 @@ pub struct Manifest {
     pub(crate) meanwhile: Option<TaskText>,
     /// The files.
     pub(crate) paths: Paths,
+    /// The place of `invariants = "none"`, if the mission is to run without invariants.
+    pub(crate) no_invariants: Option<Span>,
     /// The limits of planning and of retries.
     pub budget: Budget,
     /// The limits of progress and of decisions.
@@ -149,6 +159,7 @@ pub(crate) fn read(reader: &mut Reader<'_>, mut root: Table<'_>, folder: &str) -
     let language = root.required_text(reader, "language");
     let fallback = root.required_text(reader, "fallback");
     let meanwhile = root.text(reader, "meanwhile");
+    let no_invariants = no_invariants(reader, &mut root);
     let mut patience = Patience::default();
     let budget = budget(reader, &mut root, &mut patience);
     let escalation = progress(reader, &mut root, &mut patience);
@@ -173,11 +184,22 @@ pub(crate) fn read(reader: &mut Reader<'_>, mut root: Table<'_>, folder: &str) -
         escalation,
         meanwhile,
         paths,
+        no_invariants,
         budget,
         patience,
         report: report?,
         words,
     })
+}
+
+/// `invariants = "none"`, the only value: the invariants themselves are PDDL.
+fn no_invariants(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Option<Span> {
+    let text = root.text(reader, "invariants")?;
+    if text.value != "none" {
+        let message = "`invariants` is \"none\" or left out; what must hold stands in `safety.pddl`";
+        reader.error("E0705", text.span, message);
+    }
+    Some(text.span)
 }
 
 fn task_text(reader: &mut Reader<'_>, key: &str, text: &Text) -> Option<TaskText> {
@@ -269,6 +291,10 @@ fn paths(reader: &mut Reader<'_>, root: &mut Table<'_>, folder: &str, robot: &st
         methods: of("methods", folder, "methods.hddl"),
         content: of("content", folder, "content"),
         scenarios: of("scenarios", folder, "scenarios"),
+        robot_disruptions: of("robot-disruptions", robot, "disruptions"),
+        disruptions: of("disruptions", folder, "disruptions"),
+        robot_safety: of("robot-safety", robot, "safety.pddl"),
+        safety: of("safety", folder, "safety.pddl"),
     };
     if let Some(table) = table {
         table.finish(reader);

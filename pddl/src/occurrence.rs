@@ -43,6 +43,8 @@ pub enum NameKind {
     Skill,
     /// An agent that `:writes` names.
     Agent,
+    /// An invariant.
+    Invariant,
 }
 
 impl std::fmt::Display for NameKind {
@@ -65,6 +67,7 @@ impl std::fmt::Display for NameKind {
             Self::Event => "event",
             Self::Skill => "skill",
             Self::Agent => "agent",
+            Self::Invariant => "invariant",
         })
     }
 }

@@ -5,18 +5,22 @@
 //! the scenario.
 
 use crate::scenario::{Cue, Watch};
-use dsr::Graph;
+use dsr::{AgentId, Graph, Time};
 use executive::Step;
 use futures::future::join_all;
 use hal::Device;
 use hal::sim::{Behaviour, By, SimRoom};
 use mission::scenario::{self, Act, Trigger};
+use pddl::model::Name;
 use std::future::pending;
+use std::num::NonZeroUsize;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use tokio::sync::{Notify, broadcast};
 use tokio::time::{Instant, sleep, sleep_until};
 
 /// The input of the director.
+#[derive(Clone)]
 pub(super) struct Stage {
     pub(super) graph: Graph,
     pub(super) room: SimRoom,
@@ -35,15 +39,44 @@ async fn follow(cue: Cue, steps: broadcast::Receiver<Step>, stage: &Stage) {
             let condition = cue.condition.as_ref().expect("a `when` is compiled");
             appears(condition, *occurrence, &stage.graph).await;
         }
+        Trigger::Version(version) if cue.disruption.after.is_zero() => {
+            let (act, staged) = (cue.disruption.act.clone(), stage.clone());
+            reaches(*version, &stage.graph, move || carry_out(&act, &staged)).await;
+            return last(&cue.disruption.act, stage).await;
+        }
+        Trigger::Version(version) => reaches(*version, &stage.graph, || ()).await,
+        // A campaign has replaced it.
+        Trigger::Instant => {}
         Trigger::Step { step, occurrence } => starts(step, *occurrence, steps).await,
     }
     sleep(cue.disruption.after).await;
     let act = &cue.disruption.act;
-    carry_out(act, &stage.room);
+    carry_out(act, stage);
+    last(act, stage).await;
+}
+
+/// Ends a fault that does not last for ever.
+async fn last(act: &Act, stage: &Stage) {
     if let Act::Disturb { device, lasts: Some(lasts), .. } = act {
         sleep(*lasts).await;
         stage.room.recover(hardware(*device));
     }
+}
+
+/// Waits until the graph has this version. `then` is called before the commit that makes it returns, so that no agent has
+/// acted on the version yet.
+async fn reaches(version: u64, graph: &Graph, then: impl Fn() + Send + Sync + 'static) {
+    let reached = Arc::new(Notify::new());
+    let (notify, done, seen) = (reached.clone(), AtomicBool::new(false), graph.clone());
+    let deltas = graph.subscribe_deltas_with(NonZeroUsize::MIN);
+    deltas.on_wake(move || {
+        // What `then` commits comes here again.
+        if seen.snapshot().version().0 >= version && !done.swap(true, Ordering::SeqCst) {
+            then();
+            notify.notify_one();
+        }
+    });
+    reached.notified().await;
 }
 
 /// Waits until the condition has become true for the nth time.
@@ -82,7 +115,8 @@ async fn starts(wanted: &scenario::Step, occurrence: u32, mut steps: broadcast::
     }
 }
 
-fn carry_out(act: &Act, room: &SimRoom) {
+fn carry_out(act: &Act, stage: &Stage) {
+    let room = &stage.room;
     match act {
         Act::LosePerson => room.lose_person(),
         Act::ReturnPerson => room.return_person(),
@@ -100,7 +134,24 @@ fn carry_out(act: &Act, room: &SimRoom) {
         Act::Abort => room.command("abort"),
         Act::Disturb { device, fault, .. } => room.behave(hardware(*device), behaviour(*fault)),
         Act::Recover(device) => room.recover(hardware(*device)),
+        Act::Flip { label, ends } => flip(label, ends, stage),
     }
+}
+
+/// Removes or adds a token, as no agent may: what a confused agent or a bug of ours would do.
+fn flip(label: &str, [from, to]: &[Name; 2], stage: &Stage) {
+    let snapshot = stage.graph.snapshot();
+    let nodes = (snapshot.node(from), snapshot.vocabulary().label(label), snapshot.node(to));
+    let (Some(from), Some(label), Some(to)) = nodes else { return };
+    let time = Time(u64::try_from(stage.epoch.elapsed().as_nanos()).unwrap_or(u64::MAX));
+    // The graph may refuse a token that its limits exclude; then nothing happens.
+    let _ = stage.graph.edit(AgentId::DSR, time, |transaction| {
+        if snapshot.has_edge(from, label, to) {
+            transaction.remove_edge(from, label, to);
+        } else {
+            transaction.add_edge(from, label, to);
+        }
+    });
 }
 
 fn hardware(device: scenario::Device) -> Device {

@@ -4,7 +4,7 @@
 
 use super::content::Content;
 use super::script::questions;
-use super::story::{Commit, Entry, What};
+use super::story::{Alarm, Commit, Entry, What};
 use crate::scenario::Staged;
 use dsr::Snapshot;
 use executive::{Ending, Narration};
@@ -12,6 +12,7 @@ use mission::Mission;
 use mission::scenario::{Outcome, Replan, Violation};
 use pddl::model::{Condition, ConditionKind, Domain, Name};
 use planner::Way;
+use safety::Broken;
 use serde::Serialize;
 use std::collections::BTreeSet;
 
@@ -26,6 +27,16 @@ pub(super) struct Record<'a> {
     replans: Vec<Replan>,
     plans: u32,
     repairs: Repairs,
+    broken: Vec<Breakage>,
+}
+
+/// A broken invariant, in the summary.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Breakage {
+    time: f64,
+    version: u64,
+    #[serde(flatten)]
+    what: Broken,
 }
 
 /// The replacements of broken plans.
@@ -54,6 +65,7 @@ impl<'a> Record<'a> {
             replans: Vec::new(),
             plans: 0,
             repairs: Repairs::default(),
+            broken: Vec::new(),
         }
     }
 
@@ -70,6 +82,11 @@ impl<'a> Record<'a> {
     /// Items that were asked again after they had been answered.
     pub(super) fn asked_again(&self) -> &[Name] {
         &self.asked_again
+    }
+
+    /// The invariants that were broken.
+    pub(super) fn broken(&self) -> &[Breakage] {
+        &self.broken
     }
 
     /// Records an entry.
@@ -96,6 +113,10 @@ impl<'a> Record<'a> {
                 }
             }
             What::Graph(commit) => self.note_commit(commit),
+            What::Safety(Alarm::Broken(what)) => {
+                let (time, version, what) = (entry.time, entry.version, what.clone());
+                self.broken.push(Breakage { time, version, what });
+            }
             _ => {}
         }
     }

@@ -5,11 +5,12 @@
 //! paused and jumps to the next event, so the same mission, scenario and seed give the same bytes.
 //!
 //! From the ground up: `script`, `director` (the disruptions in the room), `story` (all events as one stream), `content`
-//! (the mission's words), `latency` (how long a decision takes) → `judge`, `terminal`, `teller` (reports of the story) →
+//! (the mission's words), `latency` (how long a decision takes), `guard` (the invariants) → `judge`, `terminal`, `teller` (reports of the story) →
 //! `play`.
 
 mod content;
 mod director;
+mod guard;
 mod judge;
 mod latency;
 mod play;

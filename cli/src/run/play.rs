@@ -1,6 +1,7 @@
 //! Runs a mission on simulated devices, in one task.
 
 use super::content::Content;
+use super::guard::Guard;
 use super::latency::Latency;
 use super::speed::Speed;
 use super::story::{Story, What, seconds};
@@ -48,13 +49,14 @@ impl Play {
         report_file: Option<&Path>,
         console: &mut Console<'_>,
     ) -> Exit {
-        let Assembly { graph, agents, wheel, writer, .. } = assembly;
+        let Assembly { graph, agents, wheel, writer, invariants, .. } = assembly;
         let wheel = self.horizon.iter().fold(wheel, |wheel, horizon| wheel.until(time(*horizon)));
         let wheel = self.pulse.iter().fold(wheel, |wheel, pulse| wheel.with_pulse(*pulse));
         let epoch = Instant::now();
         let room = self.room();
         let (reader, mut entries) = mpsc::unbounded_channel();
         let story = Story::new(&graph, reader);
+        let mut guard = Guard::new(&invariants, &graph, epoch);
         let observed = story.clone();
         room.observe(move |moment| observed.tell(seconds(moment.at), What::Room(moment.event.clone())));
 
@@ -102,6 +104,7 @@ impl Play {
                 tokio::select! {
                     biased;
                     Some(entry) = entries.recv() => teller.tell(&entry),
+                    () = guard.alerted() => guard.look().into_iter().for_each(|b| story.alarm(b)),
                     ending = &mut pelea => break ending,
                     never = &mut agents => match never {},
                     () = &mut directed => {}
@@ -111,6 +114,7 @@ impl Play {
             }
         };
         story.catch_up();
+        guard.end().into_iter().for_each(|broken| story.alarm(broken));
         while let Ok(entry) = entries.try_recv() {
             teller.tell(&entry);
         }

@@ -9,6 +9,7 @@ use dsr::{
 };
 use executive::Narration;
 use hal::sim::RoomEvent;
+use safety::Broken;
 use serde::Serialize;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -36,6 +37,16 @@ pub(super) enum What {
     Graph(Commit),
     /// A decision of PELEA.
     Pelea(Narration),
+    /// A finding of the monitor.
+    Safety(Alarm),
+}
+
+/// A finding of the monitor.
+#[derive(Clone, Debug, Serialize)]
+#[serde(tag = "event", rename_all = "snake_case")]
+pub(super) enum Alarm {
+    /// An invariant does not hold.
+    Broken(Broken),
 }
 
 /// The changes of a commit, in the paper's sentences.
@@ -78,6 +89,14 @@ impl Story {
         telling.catch_up();
         let version = telling.graph.snapshot().version().0;
         let _ = telling.reader.send(Entry { time, version, what });
+    }
+
+    /// Adds a broken invariant, with the version and the time that broke it.
+    pub(super) fn alarm(&self, broken: Broken) {
+        let mut telling = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        telling.catch_up();
+        let (time, version) = (seconds(Duration::from_nanos(broken.time.0)), broken.version.0);
+        let _ = telling.reader.send(Entry { time, version, what: What::Safety(Alarm::Broken(broken)) });
     }
 
     /// Adds the graph's commits so far.

@@ -1,7 +1,7 @@
 //! The report of a run on the console: the story during the run, then the summary.
 
 use super::content::Content;
-use super::judge::{Record, Repairs};
+use super::judge::{Breakage, Record, Repairs};
 use super::story::{Entry, seconds};
 use super::terminal::Terminal;
 use crate::console::{Console, Form};
@@ -27,6 +27,7 @@ struct Summary<'a> {
     repairs: Repairs,
     asked_again: Vec<String>,
     violations: Vec<String>,
+    broken: &'a [Breakage],
     report: &'a mission::report::Report,
 }
 
@@ -109,7 +110,12 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
         for violation in &violations {
             self.console.note(&format!("expectation not met: {violation}"));
         }
-        let failed = !violations.is_empty();
+        let broken = self.record.broken();
+        if !broken.is_empty() {
+            let count = broken.len();
+            self.console.note(&format!("{count} invariants broken; the lines `broken` above say where"));
+        }
+        let failed = !violations.is_empty() || !broken.is_empty();
         let source = "result";
         self.console.record(&Summary {
             source,
@@ -119,6 +125,7 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
             repairs,
             asked_again,
             violations,
+            broken,
             report: &report,
         });
         if let Some(path) = report_file {

@@ -5,7 +5,7 @@
 //! width, and the others are truncated to one row. In a pipe every line is complete, so that it can
 //! be searched.
 
-use super::story::{Commit, Entry, What, seconds};
+use super::story::{Alarm, Commit, Entry, What, seconds};
 use executive::{Ending, Figures, Narration, Repair};
 use hal::sim::RoomEvent;
 use planner::Way;
@@ -73,6 +73,9 @@ impl Terminal {
             What::Room(event) => self.room(entry.time, event),
             What::Graph(commit) => self.graph(entry.time, commit),
             What::Pelea(narration) => self.pelea(entry.time, narration),
+            What::Safety(Alarm::Broken(broken)) => {
+                self.line(entry.time, Tone::Trouble, "broken", &broken.to_string());
+            }
         }
         std::mem::take(&mut self.lines)
     }

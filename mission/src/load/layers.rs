@@ -4,7 +4,7 @@ use pddl::model::{Domain, Feature, Problem};
 use pddl::{Parsed, Source, Span};
 
 use super::loader::Loader;
-use crate::files::join;
+use crate::files::{FileError, join};
 use crate::layers::{Layer, Layers, NamedTokens};
 use crate::manifest::{Manifest, Mention};
 use diagnostics::did_you_mean;
@@ -31,6 +31,7 @@ pub(super) fn read(loader: &mut Loader<'_>, from: SourceId, manifest: &Manifest)
     let nodes = with_nodes(&vocabulary.model, &graph.model);
 
     let methods = parse(loader, &paths.methods, here, |s| pddl::parse_domain(s, &[&nodes]));
+    let safety = safety(loader, from, manifest, &seen, &nodes);
     let domain = domain?;
     let perception =
         parse(loader, &paths.perception, here, |s| pddl::parse_domain(s, &[&nodes, &domain.model]));
@@ -45,6 +46,7 @@ pub(super) fn read(loader: &mut Loader<'_>, from: SourceId, manifest: &Manifest)
         problem: problem?,
         perception: perception?,
         methods: methods?,
+        safety: safety?,
         tokens: tokens?,
     })
 }
@@ -72,12 +74,23 @@ fn parse<M: Model>(
     asked_at: Place,
     parse: impl FnOnce(&Source) -> Parsed<M>,
 ) -> Option<Layer<M>> {
+    // HighToLow evaluates the constraints of methods.
+    parse_with(loader, path, asked_at, Feature::NetworkConstraints, parse)
+}
+
+/// Reads a layer in which one feature is evaluated that other layers may not use.
+fn parse_with<M: Model>(
+    loader: &mut Loader<'_>,
+    path: &str,
+    asked_at: Place,
+    evaluated: Feature,
+    parse: impl FnOnce(&Source) -> Parsed<M>,
+) -> Option<Layer<M>> {
     let source = loader.source(path, asked_at)?;
     let parsed = parse(&loader.sources[source]);
     loader.findings.extend(parsed.diagnostics.iter().map(|d| d.finding(source)));
     let features = parsed.model.iter().flat_map(Model::features);
-    // HighToLow evaluates the constraints of methods.
-    let features = features.filter(|(feature, _)| *feature != Feature::NetworkConstraints);
+    let features = features.filter(|(feature, _)| *feature != evaluated);
     loader.findings.extend(features.map(|(feature, span)| {
         let message = format!("a mission does not support {feature}");
         Finding::error("E0709", Place { source, span }, message)
@@ -97,6 +110,59 @@ fn agents(
         .map(|name| parse(loader, &join(folder, name), asked_at, |s| pddl::parse_domain(s, &[vocabulary])))
         .collect();
     parsed.into_iter().collect()
+}
+
+/// The invariants of the robot and of the test. Either file may be missing, but not both, unless the manifest says so.
+fn safety(
+    loader: &mut Loader<'_>,
+    from: SourceId,
+    manifest: &Manifest,
+    robot: &Domain,
+    nodes: &Domain,
+) -> Option<Vec<Layer<Domain>>> {
+    let here = Place { source: from, span: manifest.no_invariants.unwrap_or_default() };
+    let mut layers = Vec::new();
+    // The robot's invariants know the nodes of the world only, so that they fit every test.
+    for (path, known) in [(&manifest.paths.robot_safety, robot), (&manifest.paths.safety, nodes)] {
+        if loader.files.read(path).err() != Some(FileError::NotFound) {
+            let read = |source: &Source| pddl::parse_domain(source, &[known]);
+            layers.push(parse_with(loader, path, here, Feature::Invariants, read)?);
+        }
+    }
+    let mut all = layers.iter().flat_map(|layer| layer.model.invariants.iter().map(|i| (layer.source, i)));
+    let first = all.next();
+    match (first, manifest.no_invariants) {
+        (None, None) => {
+            let message = "the mission has no invariants: nothing says what must never happen in a run";
+            let help = format!(
+                "write `(:invariant …)` into `{}` or `{}`, or say `invariants = \"none\"`",
+                manifest.paths.safety, manifest.paths.robot_safety
+            );
+            loader.findings.push(Finding::error("E0710", here, message).help(help));
+        }
+        (Some((source, invariant)), Some(_)) => {
+            let message = "`invariants = \"none\"`, but there are some";
+            let place = Place { source, span: invariant.name_span };
+            let finding = Finding::error("E0711", here, message);
+            loader.findings.push(finding.related(place, format!("`{}` is one", invariant.name)));
+        }
+        _ => {}
+    }
+    twice(loader, &layers);
+    Some(layers)
+}
+
+/// Reports invariants of the test that have the name of one of the robot's: a report could not tell them apart.
+fn twice(loader: &mut Loader<'_>, layers: &[Layer<Domain>]) {
+    let [robot, test] = layers else { return };
+    for invariant in &test.model.invariants {
+        if let Some(first) = robot.model.invariants.iter().find(|i| i.name == invariant.name) {
+            let place = Place { source: test.source, span: invariant.name_span };
+            let message = format!("the robot has an invariant `{}` already", invariant.name);
+            let at = Place { source: robot.source, span: first.name_span };
+            loader.findings.push(Finding::error("E0712", place, message).related(at, "here"));
+        }
+    }
 }
 
 /// The vocabulary with the objects of `problem` as constants. The vocabulary's own constants come first among them.

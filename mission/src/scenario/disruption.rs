@@ -11,10 +11,12 @@ pub use self::step::Step;
 use super::GraphCondition;
 use super::names::{self, node};
 use super::patient::By;
+use super::read::Triggers;
 use crate::layers::Layers;
+use crate::manifest::{Mention, symbols};
 use diagnostics::Finding;
 use diagnostics::did_you_mean;
-use diagnostics::toml::{Reader, Table};
+use diagnostics::toml::{Reader, Table, Text};
 
 /// A device that can be disturbed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -82,6 +84,10 @@ pub enum Trigger {
         /// Which occurrence, counted from 1.
         occurrence: u32,
     },
+    /// After the commit that makes this version of the graph.
+    Version(u64),
+    /// At the instant that a campaign chooses; only in a library.
+    Instant,
     /// When PELEA starts an action.
     Step {
         /// The action.
@@ -134,6 +140,13 @@ pub enum Act {
     },
     /// A device works again.
     Recover(Device),
+    /// A token of the graph is removed if it is there, and added if it is not.
+    Flip {
+        /// The label.
+        label: Name,
+        /// The nodes from which and to which it goes.
+        ends: [Name; 2],
+    },
 }
 
 /// One disruption.
@@ -149,7 +162,7 @@ pub struct Disruption {
     pub span: Span,
 }
 
-const ACTS: [&str; 15] = [
+const ACTS: [&str; 16] = [
     "lose-person",
     "return-person",
     "visitor-comes",
@@ -165,28 +178,41 @@ const ACTS: [&str; 15] = [
     "refuse",
     "panic",
     "recover",
+    "flip",
 ];
 
 /// Reads a `[[disruption]]`.
-pub(super) fn read(reader: &mut Reader<'_>, layers: &Layers, mut table: Table<'_>) -> Option<Disruption> {
+pub(super) fn read(
+    reader: &mut Reader<'_>,
+    layers: &Layers,
+    mut table: Table<'_>,
+    triggers: Triggers,
+) -> Option<Disruption> {
     let span = table.span;
-    let trigger = read_trigger(reader, layers, &mut table);
+    let trigger = read_trigger(reader, layers, &mut table, triggers);
     let after = table.seconds(reader, "after").unwrap_or_default();
     let act = read_act(reader, layers, &mut table);
     table.finish(reader);
     Some(Disruption { trigger: trigger?, after, act: act?, span })
 }
 
-fn read_trigger(reader: &mut Reader<'_>, layers: &Layers, table: &mut Table<'_>) -> Option<Trigger> {
+fn read_trigger(
+    reader: &mut Reader<'_>,
+    layers: &Layers,
+    table: &mut Table<'_>,
+    triggers: Triggers,
+) -> Option<Trigger> {
     let at = table.seconds(reader, "at");
     let when = table.text(reader, "when");
     let step = table.text(reader, "step");
+    let version = table.count(reader, "version", 1);
     let occurrence = table.count(reader, "occurrence", 1);
-    let given: Vec<&str> = ["at", "when", "step"].into_iter().filter(|k| table.has(k)).collect();
+    let given: Vec<&str> = ["at", "when", "step", "version"].into_iter().filter(|k| table.has(k)).collect();
     match given[..] {
         [_] => {}
+        [] if triggers == Triggers::OrInstant => return Some(Trigger::Instant),
         [] => {
-            reader.error("E0906", table.span, "a disruption needs one of `at`, `when`, `step`");
+            reader.error("E0906", table.span, "a disruption needs one of `at`, `when`, `step`, `version`");
             return None;
         }
         [first, second, ..] => {
@@ -198,8 +224,12 @@ fn read_trigger(reader: &mut Reader<'_>, layers: &Layers, table: &mut Table<'_>)
             return None;
         }
     }
-    if let Some((_, span)) = occurrence.filter(|_| table.has("at")) {
-        reader.error("E0906", span, "`occurrence` counts a `when` or a `step`; a time occurs once");
+    if let Some((_, span)) = occurrence.filter(|_| table.has("at") || table.has("version")) {
+        reader.error(
+            "E0906",
+            span,
+            "`occurrence` counts a `when` or a `step`; a time or a version occurs once",
+        );
     }
     let occurrence = occurrence.map_or(1, |(n, _)| n);
     if let Some(text) = when {
@@ -209,6 +239,9 @@ fn read_trigger(reader: &mut Reader<'_>, layers: &Layers, table: &mut Table<'_>)
     if let Some(text) = step {
         let step = step::read(reader, layers, &text)?;
         return Some(Trigger::Step { step, occurrence });
+    }
+    if let Some((version, _)) = version {
+        return Some(Trigger::Version(u64::from(version)));
     }
     at.map(Trigger::At)
 }
@@ -231,6 +264,7 @@ fn read_act(reader: &mut Reader<'_>, layers: &Layers, table: &mut Table<'_>) -> 
         "visitor-comes" => required_person(reader, layers, table).map(|person| Act::VisitorComes { person }),
         "visitor-goes" => required_person(reader, layers, table).map(|person| Act::VisitorGoes { person }),
         "recover" => read_device(reader, table).map(Act::Recover),
+        "flip" => read_flip(reader, layers, table),
         name if FAULTS.iter().any(|(known, _)| *known == name) => {
             let fault = FAULTS.into_iter().find(|(known, _)| *known == name)?.1;
             let lasts = table.seconds(reader, "for");
@@ -242,12 +276,39 @@ fn read_act(reader: &mut Reader<'_>, layers: &Layers, table: &mut Table<'_>) -> 
             let finding = Finding::error("E0908", reader.place(act.span), message);
             reader.findings.push(finding.help(help));
             // Do not report the keys that the intended act would have read.
-            for key in ["request", "device", "person", "by", "for"] {
+            for key in ["request", "device", "person", "by", "for", "token"] {
                 let _ = table.text(reader, key);
             }
             None
         }
     }
+}
+
+/// `token = "(is_with person robot)"`: a predicate of the vocabulary with two nodes of the initial graph.
+fn read_flip(reader: &mut Reader<'_>, layers: &Layers, table: &mut Table<'_>) -> Option<Act> {
+    let text = table.required_text(reader, "token")?;
+    let mentions = symbols(&text);
+    let [label, from, to] = mentions.as_slice() else {
+        reader.error(
+            "E0908",
+            text.span,
+            "a token is a predicate with two nodes, as in \"(is_with person robot)\"",
+        );
+        return None;
+    };
+    let Some(predicate) = layers.nodes.predicate(&label.name) else {
+        let known = layers.nodes.predicates.enumerate().map(|(_, p)| p.name.as_str());
+        let message = format!("there is no token `{}`", label.name);
+        let finding = Finding::error("E0908", reader.place(label.span), message);
+        reader.findings.push(finding.help_if(did_you_mean(&label.name, known)));
+        return None;
+    };
+    let mut end = |mention: &Mention, position| {
+        let text = Text::new(&mention.name, mention.span, "");
+        names::argument(reader, layers, &text, predicate, position, "node for this token")
+    };
+    let ends = [end(from, 0)?, end(to, 1)?].map(|id| layers.graph.model.objects[id].name.clone());
+    Some(Act::Flip { label: label.name.clone(), ends })
 }
 
 /// The person of `person`, a node of the graph; `None` without the key.

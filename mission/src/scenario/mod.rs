@@ -11,6 +11,7 @@ mod condition;
 mod disruption;
 mod expect;
 mod judge;
+mod library;
 mod names;
 mod patient;
 mod read;
@@ -24,6 +25,7 @@ pub use condition::GraphCondition;
 pub use disruption::{Act, Device, Disruption, Fault, Step, Trigger};
 pub use expect::{Expectation, Expected, Naming, ReplanExpectation};
 pub use judge::{Outcome, Replan, Violation};
+pub use library::Disturbance;
 pub use patient::{Answer, By, Patient, Reply, ReplyRule};
 
 /// A scenario, read and resolved against its mission.

@@ -59,10 +59,13 @@ fn read_root(
     let patient = root.table(reader, "patient");
     let patient = patient::read(reader, mission, patient);
     let clinician = root.table(reader, "clinician");
-    let clinician = read_clinician(reader, clinician);
+    let clinician = self::clinician(reader, clinician);
     let horizon = root.seconds(reader, "horizon");
     let disruptions = root.tables(reader, "disruption");
-    let disruptions = disruptions.into_iter().filter_map(|t| disruption::read(reader, layers, t)).collect();
+    let disruptions = disruptions
+        .into_iter()
+        .filter_map(|t| disruption::read(reader, layers, t, Triggers::Required))
+        .collect();
     let expect = root.table(reader, "expect");
     let expect = expect::read(reader, layers, expect);
     root.finish(reader);
@@ -78,7 +81,17 @@ fn read_root(
     })
 }
 
-fn read_clinician(reader: &mut Reader<'_>, table: Option<Table<'_>>) -> Clinician {
+/// Whether each disruption must have a trigger.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Triggers {
+    /// In a scenario.
+    Required,
+    /// In a library: without a trigger it happens at the campaign's instant.
+    OrInstant,
+}
+
+/// Reads `[clinician]`.
+pub(super) fn clinician(reader: &mut Reader<'_>, table: Option<Table<'_>>) -> Clinician {
     let stays = Duration::from_secs(5);
     let mut clinician = Clinician { comes_after: None, only_urgent: false, stays, fetches: true };
     if let Some(mut table) = table {

@@ -40,6 +40,8 @@ pub enum SymbolKind {
     Process,
     /// An event.
     Event,
+    /// An invariant.
+    Invariant,
     /// An action or a task of a hierarchical plan, by its number.
     PlanStep,
 }
@@ -62,6 +64,7 @@ impl SymbolKind {
             | Self::Preference
             | Self::Process
             | Self::Event
+            | Self::Invariant
             | Self::PlanStep => return None,
         })
     }
@@ -87,6 +90,7 @@ impl std::fmt::Display for SymbolKind {
             Self::Preference => "preference",
             Self::Process => "process",
             Self::Event => "event",
+            Self::Invariant => "invariant",
         })
     }
 }
@@ -471,7 +475,7 @@ impl DiagnosticKind {
                 SymbolKind::PlanStep => "E0214",
                 SymbolKind::Preference => "W0215",
                 // Nothing names them, so none is unknown.
-                SymbolKind::Process | SymbolKind::Event => "E0206",
+                SymbolKind::Process | SymbolKind::Event | SymbolKind::Invariant => "E0206",
             },
             Self::Duplicate { .. } => "E0220",
             Self::ImportConflict { .. } => "E0221",

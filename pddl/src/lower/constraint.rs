@@ -118,6 +118,11 @@ impl Body<'_> {
         }
     }
 
+    /// A constraint with no operator around it.
+    pub(super) fn whole_constraint(&mut self, node: Node<'_>) -> Option<Constraint> {
+        self.constraint(node, Below::Nothing)
+    }
+
     fn constraint(&mut self, node: Node<'_>, below: Below) -> Option<Constraint> {
         let kind = if self.holds_operator(node) {
             self.constraint_kind(node, below)?

@@ -14,6 +14,7 @@ use super::functions::functions;
 use super::header::{Header, header};
 use super::htn::{method, task};
 use super::init::Init;
+use super::invariant::invariant;
 use super::permissions::permission;
 use super::predicates::predicates;
 use super::process::{event, process};
@@ -24,7 +25,7 @@ use super::world::World;
 use super::{htn, imports, sink};
 use crate::Span;
 use crate::diagnostic::{DiagnosticKind, FileKind, Label, SymbolKind, UnsupportedFeature};
-use crate::model::{Domain, Event, Idx, IndexVec, Name, Process, SubtaskHead};
+use crate::model::{Domain, Event, IndexVec, Invariant, Name, Process, SubtaskHead};
 use crate::syntax::Tree;
 
 const SECTIONS: &[&str] = &[
@@ -41,6 +42,7 @@ const SECTIONS: &[&str] = &[
     ":method",
     ":writes",
     ":constraints",
+    ":invariant",
     // PDDL 1.2.
     ":axiom",
     ":timeless",
@@ -148,6 +150,8 @@ fn read(sink: &mut Sink, header: &Header<'_>, given: &[&Domain]) -> Domain {
             methods.push(method);
         }
     }
+    let invariants: Vec<_> = header.all(":invariant").filter_map(|s| invariant(&world, sink, s)).collect();
+    distinct(sink, SymbolKind::Invariant, &invariants, |i: &Invariant| (&i.name, i.name_span));
     let permissions = header.all(":writes").filter_map(|s| permission(&world, sink, s)).collect();
     Domain {
         name: header.name.clone(),
@@ -163,6 +167,7 @@ fn read(sink: &mut Sink, header: &Header<'_>, given: &[&Domain]) -> Domain {
         events,
         axioms,
         constraints,
+        invariants,
         tasks,
         methods,
         permissions,
@@ -172,10 +177,10 @@ fn read(sink: &mut Sink, header: &Header<'_>, given: &[&Domain]) -> Domain {
 }
 
 /// Reports names that are declared twice.
-fn distinct<I: Idx, T>(
+fn distinct<'a, T: 'a>(
     sink: &mut Sink,
     symbol: SymbolKind,
-    all: &IndexVec<I, T>,
+    all: impl IntoIterator<Item = &'a T>,
     name: impl Fn(&T) -> (&Name, Span),
 ) {
     let mut names = rustc_hash::FxHashMap::default();

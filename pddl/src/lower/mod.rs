@@ -23,6 +23,7 @@ mod header;
 mod htn;
 mod imports;
 mod init;
+mod invariant;
 mod keys;
 mod metric;
 mod permissions;

@@ -7,8 +7,8 @@
 
 use super::{
     Action, ActionId, CompoundTask, Condition, Constraints, DurativeAction, DurativeActionId, Event, EventId,
-    FunctionId, IndexVec, Method, MethodId, Name, ObjectId, PredicateId, Process, ProcessId, Requirements,
-    TaskId, TypeId, TypeSet, TypeTable, Variables,
+    FunctionId, IndexVec, Invariant, Method, MethodId, Name, ObjectId, PredicateId, Process, ProcessId,
+    Requirements, TaskId, TypeId, TypeSet, TypeTable, Variables,
 };
 use crate::Span;
 
@@ -133,6 +133,8 @@ pub struct Domain {
     pub axioms: Vec<Axiom>,
     /// Its constraints on every plan.
     pub constraints: Constraints,
+    /// What every run must satisfy, whatever is planned (requirement `:invariants`).
+    pub invariants: Vec<Invariant>,
     /// Its compound tasks.
     pub tasks: IndexVec<TaskId, CompoundTask>,
     /// Its methods.

@@ -18,6 +18,8 @@ pub enum Feature {
     Preferences,
     /// `(:constraints …)` of a domain or problem, preferences aside.
     TrajectoryConstraints,
+    /// `(:invariant …)`
+    Invariants,
     /// `(at 5 (p))` in `:init`.
     TimedInitials,
     /// `(:process …)`
@@ -41,6 +43,7 @@ impl std::fmt::Display for Feature {
         f.write_str(match self {
             Self::Preferences => "preferences",
             Self::TrajectoryConstraints => "trajectory constraints",
+            Self::Invariants => "invariants",
             Self::TimedInitials => "timed initial literals and fluents",
             Self::Processes => "processes",
             Self::Events => "events",
@@ -79,6 +82,7 @@ impl Domain {
             uses.network(&method.network);
         }
         uses.constraints(&self.constraints);
+        uses.first(Feature::Invariants, self.invariants.iter().map(|i| i.name_span));
         uses.0
     }
 }

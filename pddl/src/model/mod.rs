@@ -20,6 +20,7 @@ mod feature;
 mod htn;
 mod ids;
 mod index;
+mod invariant;
 mod name;
 mod preference;
 mod problem;
@@ -48,6 +49,7 @@ pub use ids::{
     TypeId, VariableId,
 };
 pub use index::{Idx, IndexVec};
+pub use invariant::{Invariant, Word};
 pub use name::Name;
 pub use preference::Preference;
 pub use problem::{

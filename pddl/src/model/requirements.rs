@@ -83,6 +83,8 @@ requirements! {
     AgentRules = ":agent-rules",
     /// Pelea's own: `:writes` lists the tokens that each agent may write.
     Vocabulary = ":vocabulary",
+    /// Pelea's own: `:invariant` says what every run must satisfy.
+    Invariants = ":invariants",
 }
 
 impl Requirement {

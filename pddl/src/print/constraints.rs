@@ -67,7 +67,7 @@ impl Printer<'_> {
         self.push("))");
     }
 
-    fn constraint(&mut self, v: &Variables, constraint: &Constraint) {
+    pub(super) fn constraint(&mut self, v: &Variables, constraint: &Constraint) {
         use ConstraintKind as Kind;
         match &constraint.kind {
             Kind::Holds(condition) => self.condition(v, condition),

@@ -26,6 +26,9 @@ impl<'m> Printer<'m> {
             self.push(")");
         }
         self.constraint_section(&domain.constraints);
+        for invariant in &domain.invariants {
+            self.invariant(invariant);
+        }
         for axiom in &domain.axioms {
             self.axiom(axiom);
         }

@@ -12,6 +12,7 @@ mod constraints;
 mod declarations;
 mod domain;
 mod htn;
+mod invariants;
 mod plan;
 mod problem;
 mod schemas;

@@ -51,6 +51,7 @@ const SECTIONS: &[&str] = &[
     ":htn",
     ":import",
     ":init",
+    ":invariant",
     ":length",
     ":method",
     ":metric",

@@ -26,6 +26,7 @@ pub(crate) const DOMAIN_SECTIONS: &[&str] = &[
     ":method",
     ":writes",
     ":constraints",
+    ":invariant",
 ];
 
 /// Keywords of a problem's sections.

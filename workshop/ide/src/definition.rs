@@ -43,7 +43,8 @@ pub(crate) fn full(project: &Project, name: Place) -> Place {
     let (tree, _) = syntax::parse(project.source(name.source));
     let way = path(&tree, name.span.start);
     let lists: Vec<_> = way.iter().rev().filter(|n| n.is_list()).collect();
-    let sections = [":action", ":durative-action", ":task", ":method", ":process", ":event", "preference"];
+    let sections =
+        [":action", ":durative-action", ":task", ":method", ":process", ":event", ":invariant", "preference"];
     let opens = lists.first().and_then(|list| {
         // `(at ?x)`, `(:action go …)`, and `(define (domain hall) …)`.
         let head = list.head()?;

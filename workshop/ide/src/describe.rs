@@ -76,7 +76,9 @@ pub(crate) fn signature(tree: &Tree<'_>, span: Span, kind: NameKind) -> Option<S
             format!("{} - {}", name.text(), types().unwrap_or_else(|| "object".to_owned()))
         }
         NameKind::Variable => format!("{} - {}", name.text(), types().unwrap_or_else(|| "object".to_owned())),
-        NameKind::Action | NameKind::Task | NameKind::Process | NameKind::Event => section_signature(around),
+        NameKind::Action | NameKind::Task | NameKind::Process | NameKind::Event | NameKind::Invariant => {
+            section_signature(around)
+        }
         NameKind::Method => {
             let task = value_of(around, ":task").map(|task| format!(" for {}", flat(task)));
             format!("{}{}", section_signature(around), task.unwrap_or_default())

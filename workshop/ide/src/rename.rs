@@ -181,6 +181,7 @@ fn namespace(kind: NameKind) -> &'static [NameKind] {
         NameKind::Method => &[NameKind::Method],
         NameKind::Subtask => &[NameKind::Subtask],
         NameKind::Preference => &[NameKind::Preference],
+        NameKind::Invariant => &[NameKind::Invariant],
         NameKind::Skill => &[NameKind::Skill],
         NameKind::Agent => &[NameKind::Agent],
     }

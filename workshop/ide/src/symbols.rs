@@ -80,7 +80,7 @@ impl<'t> Outline<'t> {
 
     fn section(&self, section: Node<'t>) -> Option<DocumentSymbol> {
         let keyword = section.head()?;
-        let named = [":action", ":durative-action", ":task", ":method", ":process", ":event"];
+        let named = [":action", ":durative-action", ":task", ":method", ":process", ":event", ":invariant"];
         let declared = self.within(section).iter();
         let mut declared = declared.filter(|o| o.role == Role::Declaration && !is_local(o.symbol.kind));
         if named.iter().any(|k| keyword.is(k)) {

@@ -43,6 +43,7 @@ const WORDS: &[(&str, &str)] = &[
     (":factored-privacy", "`:private` says what is private to the agent whose file this is (MA-PDDL)."),
     (":agent-rules", "Durative actions are rules of agents: skills, results, claims, priorities, outcomes."),
     (":vocabulary", "`(:writes agent token …)` says which agent may write what."),
+    (":invariants", "`(:invariant name …)` says what every run of the robot must satisfy."),
     // Sections.
     ("define", "Opens a definition: `(define (domain name) …)` or `(define (problem name) …)`."),
     (":requirements", "Which parts of the language the file uses."),
@@ -69,6 +70,7 @@ const WORDS: &[(&str, &str)] = &[
     (":timeless", "Facts that hold in the beginning of every problem (PDDL 1.2)."),
     (":extends", "Domains whose declarations hold here too (PDDL 1.2)."),
     (":constraint", "What must hold in every state of a plan."),
+    (":invariant", "What every run must satisfy; a monitor holds it against what happens."),
     (":length", "How long a plan may be; no planner reads it."),
     // Keys.
     (":parameters", "Which objects it is about; any that fit their types."),

@@ -92,6 +92,10 @@ impl Usage {
         }
         walk::constraints(&domain.constraints, &mut |part| usage.asked(part));
         usage.variables(&domain.constraints.variables);
+        for invariant in &domain.invariants {
+            walk::invariant(invariant, &mut |part| usage.asked(part));
+            usage.variables(&invariant.variables);
+        }
         domain.constants.iter().for_each(|constant| usage.type_set(&constant.types));
         domain.tasks.iter().for_each(|task| usage.variables(&task.variables));
         for pattern in domain.permissions.iter().flat_map(|permission| &permission.tokens) {

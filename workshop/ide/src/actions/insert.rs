@@ -62,7 +62,7 @@ pub(super) fn into_parameters(section: Node<'_>, text: &str) -> Option<TextEdit>
             None => insertion(list.span().start + 1, text.to_owned()),
         });
     }
-    let keyed = [":action", ":durative-action", ":task", ":method", ":process", ":event"];
+    let keyed = [":action", ":durative-action", ":task", ":method", ":process", ":event", ":invariant"];
     let name = section.children().nth(1).filter(|_| keyed.iter().any(|k| section.is_headed(k)))?;
     Some(insertion(name.span().end, format!("\n    :parameters ({text})")))
 }

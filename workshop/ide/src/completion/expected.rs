@@ -110,9 +110,8 @@ pub(super) fn expected(context: &Context<'_>, is_plan: bool) -> Option<Expected>
             false => inner.expects_type().then_some(Expected::Type),
         },
         ":derived" => form(context, Form::Condition, 2),
-        ":action" | ":durative-action" | ":task" | ":method" | ":process" | ":event" | ":htn" => {
-            keyed(context, section, &keyword)
-        }
+        ":action" | ":durative-action" | ":task" | ":method" | ":process" | ":event" | ":invariant"
+        | ":htn" => keyed(context, section, &keyword),
         _ => None,
     }
 }
@@ -133,6 +132,7 @@ fn keyed(context: &Context<'_>, section: &Open<'_>, keyword: &str) -> Option<Exp
     let durative = keyword == ":durative-action";
     match key.as_str() {
         ":parameters" | ":results" | ":vars" => inner.expects_type().then_some(Expected::Type),
+        ":constraint" if keyword == ":invariant" => form(context, Form::Constraint, 2),
         ":precondition" | ":constraints" => form(context, Form::Condition, 2),
         ":condition" if durative => form(context, Form::TimedCondition, 2),
         ":effect" if durative => form(context, Form::TimedEffect, 2),

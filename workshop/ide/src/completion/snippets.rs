@@ -47,6 +47,10 @@ pub(super) const SECTIONS: &[Snippet] = &[
     ),
     (":writes", ":writes ${1:agent} $0)"),
     (":constraints", ":constraints (and $0))"),
+    (
+        ":invariant",
+        ":invariant ${1:name}\n  :parameters (${2:?x - object})\n  :says (${3:sentence})\n  :constraint (always $0))",
+    ),
     (":domain", ":domain ${1:name})"),
     (":objects", ":objects\n  ${1:name} - ${2:object})"),
     (":htn", ":htn\n  :parameters ()\n  :ordered-subtasks (and $0))"),
@@ -77,6 +81,7 @@ pub(super) const KEYS: &[Snippet] = &[
 pub(super) fn keys_of(section: &str) -> &'static [&'static str] {
     match section.to_ascii_lowercase().as_str() {
         ":action" | ":process" | ":event" => &[":parameters", ":precondition", ":effect"],
+        ":invariant" => &[":parameters", ":says", ":constraint"],
         ":durative-action" => &[
             ":parameters",
             ":duration",

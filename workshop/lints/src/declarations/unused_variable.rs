@@ -22,6 +22,9 @@ fn in_domain(view: &DomainView<'_>, found: &mut Findings) {
     }
     let constraints = &view.domain.constraints;
     unused(&constraints.variables, place::domain, found, |f| walk::constraints(constraints, f));
+    for invariant in &view.domain.invariants {
+        unused(&invariant.variables, place::domain, found, |f| walk::invariant(invariant, f));
+    }
 }
 
 fn in_goal(view: &ProblemView<'_, '_>, found: &mut Findings) {

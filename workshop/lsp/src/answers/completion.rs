@@ -68,9 +68,11 @@ fn kind_of(kind: CompletionKind) -> CompletionItemKind {
             NameKind::Variable => CompletionItemKind::Variable,
             NameKind::Action | NameKind::Task | NameKind::Method => CompletionItemKind::Method,
             NameKind::Process | NameKind::Event => CompletionItemKind::Event,
-            NameKind::Subtask | NameKind::Preference | NameKind::Skill | NameKind::Agent => {
-                CompletionItemKind::Reference
-            }
+            NameKind::Subtask
+            | NameKind::Preference
+            | NameKind::Invariant
+            | NameKind::Skill
+            | NameKind::Agent => CompletionItemKind::Reference,
         },
     }
 }

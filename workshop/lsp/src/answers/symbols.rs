@@ -79,6 +79,10 @@ fn kind(kind: NameKind) -> SymbolKind {
         NameKind::Variable => SymbolKind::Variable,
         NameKind::Action | NameKind::Task | NameKind::Method => SymbolKind::Method,
         NameKind::Process | NameKind::Event => SymbolKind::Event,
-        NameKind::Subtask | NameKind::Preference | NameKind::Skill | NameKind::Agent => SymbolKind::Field,
+        NameKind::Subtask
+        | NameKind::Preference
+        | NameKind::Invariant
+        | NameKind::Skill
+        | NameKind::Agent => SymbolKind::Field,
     }
 }

@@ -102,7 +102,7 @@ fn name(kind: NameKind) -> &'static str {
         NameKind::Variable => "variable",
         NameKind::Action | NameKind::Task | NameKind::Method | NameKind::Skill => "method",
         NameKind::Process | NameKind::Event => "event",
-        NameKind::Subtask | NameKind::Preference | NameKind::Agent => "label",
+        NameKind::Subtask | NameKind::Preference | NameKind::Invariant | NameKind::Agent => "label",
     }
 }
 

@@ -1,0 +1,11 @@
+(define (domain ward)
+  (:requirements :typing :constraints :invariants :quantified-preconditions)
+  (:types person - object)
+  (:predicates (rings ?p - person) (calm ?p - person))
+  (:invariant heard
+    :parameters (?p - person)
+    :says (the bell of ?p is heard within 2 seconds, always)
+    :constraint (always-within 2 (rings ?p) (calm ?p)))
+  (:invariant all-calm :parameters ()
+    :constraint (and (forall (?p ?q - person) (at-most-once (and (rings ?p) (rings ?q))))
+                     (at end (forall (?p - person) (calm ?p))))))
