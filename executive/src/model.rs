@@ -3,10 +3,10 @@
 //! Problem: LowToHigh speaks of `(introduced feeding)`, the planner of fact 17. Idea: ground the domain
 //! once, at the start, and keep the map. Predicates that perception derives are exogenous, so that
 //! grounding keeps every value that they can take and no replan grounds again; all other predicates
-//! are as in the problem. Cost: one hash look-up per fact that changes.
+//! are as in the problem. Cost: one hash look-up per fact that changes, and a copy of the state's bits.
 
 use indexmap::IndexSet;
-use low_to_high::Fact;
+use low_to_high::{Change, Fact};
 use pddl::model::{Domain, FluentFact, FluentValue, GroundApplication, Name, ObjectId, PredicateId, Problem};
 use planner::{FactId, GroundAtom, GroundError, GroundOptions, OperatorId, State, Task, ground};
 use rustc_hash::FxHashMap;
@@ -20,7 +20,7 @@ pub struct Model {
     predicates: FxHashMap<Name, PredicateId>,
     objects: FxHashMap<Name, ObjectId>,
     exogenous: IndexSet<PredicateId>,
-    /// Facts of the initial state that are not perceived.
+    /// Facts of the initial state that are not perceived, sorted.
     given: Vec<FactId>,
 }
 
@@ -91,6 +91,17 @@ impl Model {
     pub fn state<'f>(&self, perceived: impl IntoIterator<Item = &'f Fact>) -> State {
         let seen = perceived.into_iter().filter_map(|fact| self.fact(fact));
         self.task.state(self.given.iter().copied().chain(seen))
+    }
+
+    /// Turns the state of what was perceived before `change` into that of what is perceived now. Returns the facts
+    /// on which plans depend that changed, without derived ones.
+    pub fn update(&self, state: &mut State, change: &Change) -> Vec<(FactId, bool)> {
+        let known = |fact: &Fact| self.fact(fact).filter(|fact| self.given.binary_search(fact).is_err());
+        let gone = change.disappeared.iter().filter_map(|fact| Some((known(fact)?, false)));
+        let come = change.appeared.iter().filter_map(|fact| Some((known(fact)?, true)));
+        let changes: Vec<_> = gone.chain(come).collect();
+        self.task.change(state, changes.iter().copied());
+        changes
     }
 
     /// The name of a planner's fact; `None` for an auxiliary fact of grounding.

@@ -60,8 +60,8 @@ pub use search::{
     SearchConfiguration, Statistics, UnsolvableReason, Way, improve, repair, solve,
 };
 pub use task::{
-    AtomStatus, AxiomRule, ConditionalEffect, ConditionalEffects, Fact, Goal, GroundAtom, Impossible, Kernel,
-    Literals, LiteralsRef, Mutexes, ObjectValue, Operator, Operators, State, Task, Variable,
+    AtomStatus, AxiomRule, ConditionalEffect, ConditionalEffects, Fact, Goal, GroundAtom, Impossible,
+    Literals, LiteralsRef, Mutexes, ObjectValue, Operator, Operators, State, Suffixes, Task, Variable,
 };
 pub use unsolvability::{
     Achiever, Exclusive, Explanation, Extent, Literal, Nearest, Need, Never, NeverCompares, Obstruction,

@@ -1,129 +1,99 @@
 //! A monitored plan.
 
 use super::deviation::{BrokenLiteral, Deviation};
-use super::kernels::{Kernels, Literal};
 use crate::Model;
-use planner::{FactId, Goal, Kernel, OperatorId, State, Task};
+use planner::{FactId, Goal, LiteralsRef, OperatorId, State, Suffixes, Task};
 
 /// A plan, the suffix of it that still reaches the goal, and the reasons where none does.
 #[derive(Clone, Debug)]
 pub struct Monitor {
-    plan: Vec<OperatorId>,
+    suffixes: Suffixes,
     goal: Goal,
-    method: Method,
-}
-
-#[derive(Clone, Debug)]
-enum Method {
-    /// Kernels, exact where regression is.
-    Regressed(Kernels),
-    /// Progression of the state through each suffix: exact for every feature, linear in the plan per suffix.
-    Simulated,
 }
 
 impl Monitor {
-    /// Monitors `plan` for `goal`, starting from `state`. The plan must be valid there: kernels do not notice a step that
-    /// takes away what a later one needs.
+    /// Monitors `plan` for `goal`, starting from `state`.
     pub fn new(task: &Task, plan: Vec<OperatorId>, goal: Goal, state: &State) -> Self {
-        let method = if Kernel::is_exact(task, &plan) {
-            Method::Regressed(Kernels::new(task, &plan, &goal, state))
-        } else {
-            Method::Simulated
-        };
-        Self { plan, goal, method }
+        Self { suffixes: Suffixes::new(task, plan, goal.clone(), state), goal }
     }
 
     /// The plan.
     pub fn plan(&self) -> &[OperatorId] {
-        &self.plan
+        self.suffixes.plan()
     }
 
-    /// Facts of the state changed: those in `changes` now have the given truth.
-    pub fn change(&mut self, changes: &[(FactId, bool)]) {
-        if let Method::Regressed(kernels) = &mut self.method {
-            for &(fact, now) in changes {
-                kernels.change(fact, now);
-            }
-        }
+    /// Takes in the state as it is now. Everything else that a monitor answers is about the state last observed.
+    pub fn observe(&mut self, task: &Task, state: &State) {
+        self.suffixes.observe(task, state);
     }
 
-    /// The last suffix of the plan that reaches the goal from `state`, as the number of steps it leaves
-    /// out; the plan's length if the goal holds. `None`: no suffix does.
-    pub fn furthest(&self, task: &Task, state: &State) -> Option<usize> {
-        match &self.method {
-            Method::Regressed(kernels) => kernels.furthest(),
-            Method::Simulated => {
-                (0..=self.plan.len()).rev().find(|&start| self.reaches_goal(task, state, start))
-            }
-        }
+    /// The last suffix of the plan that reaches the goal, as the number of steps it leaves out; the plan's length if the
+    /// goal holds. `None`: no suffix does.
+    pub fn furthest(&self, task: &Task) -> Option<usize> {
+        self.suffixes.furthest(task)
     }
 
-    fn reaches_goal(&self, task: &Task, state: &State, start: usize) -> bool {
-        task.after(state, &self.plan[start..]).is_some_and(|end| task.satisfies(&end, &self.goal))
+    /// The first suffix that is not simulated; 0 where regression is exact for the whole plan.
+    pub fn exact_from(&self) -> usize {
+        self.suffixes.exact_from()
     }
 
-    /// Why the suffix that starts at `current` does not reach the goal from `state`.
+    /// Why the suffix that starts at `current` does not reach the goal from `state`, the state last observed: the
+    /// literals that it needs and does not find. Where it needs one of several, the literals of the first step that
+    /// cannot be applied are named instead.
     pub fn deviation(&self, model: &Model, state: &State, current: usize) -> Deviation {
-        let broken = match &self.method {
-            Method::Regressed(kernels) => kernels
-                .condition(current)
-                .iter()
-                .filter(|&&(fact, positive)| state.contains(fact) != positive)
-                .map(|&literal| self.explain(model, current, literal))
-                .collect(),
-            Method::Simulated => self.first_failure(model, state, current),
-        };
-        Deviation { broken }
+        if self.suffixes.reaches(model.task(), current) {
+            return Deviation::default();
+        }
+        let (mut broken, all) = self.suffixes.broken(current);
+        if !all {
+            broken.extend(self.first_failure(model.task(), state, current));
+            broken.sort_unstable();
+            broken.dedup();
+        }
+        Deviation {
+            broken: broken.into_iter().map(|literal| self.explain(model, current, literal)).collect(),
+        }
     }
 
     /// The unsatisfied literals of the first step that cannot be applied, or of the goal.
-    fn first_failure(&self, model: &Model, state: &State, current: usize) -> Vec<BrokenLiteral> {
-        let task = model.task();
+    fn first_failure(&self, task: &Task, state: &State, current: usize) -> Vec<(FactId, bool)> {
         let mut state = state.clone();
-        for &operator in &self.plan[current..] {
-            let precondition = task.operator(operator).precondition;
-            let Some(next) = task.successor(&state, operator) else {
-                return self.unsatisfied(model, current, precondition, &state);
+        for &operator in &self.plan()[current..] {
+            let Some(next) = task.ways(operator).find_map(|way| task.successor(&state, way)) else {
+                return unsatisfied(task.operator(operator).precondition, &state);
             };
             state = next;
         }
-        self.unsatisfied(model, current, self.goal.literals.as_ref(), &state)
-    }
-
-    fn unsatisfied(
-        &self,
-        model: &Model,
-        current: usize,
-        literals: planner::LiteralsRef<'_>,
-        state: &State,
-    ) -> Vec<BrokenLiteral> {
-        let positive = literals.positive.iter().map(|&fact| (fact, true));
-        let negative = literals.negative.iter().map(|&fact| (fact, false));
-        positive
-            .chain(negative)
-            .filter(|&(fact, wanted)| state.contains(fact) != wanted)
-            .map(|literal| self.explain(model, current, literal))
-            .collect()
+        unsatisfied(self.goal.literals.as_ref(), &state)
     }
 
     /// The step that needs the literal, and the step that was to give it.
-    fn explain(&self, model: &Model, current: usize, (fact, positive): Literal) -> BrokenLiteral {
+    fn explain(&self, model: &Model, current: usize, (fact, positive): (FactId, bool)) -> BrokenLiteral {
         let operators = model.task().operators();
+        let among = |(if_positive, if_negative): (&[FactId], &[FactId])| {
+            (if positive { if_positive } else { if_negative }).contains(&fact)
+        };
         let needs = |&&operator: &&OperatorId| {
-            let precondition = operators.get(operator).precondition;
-            let among = if positive { precondition.positive } else { precondition.negative };
-            among.contains(&fact)
+            let LiteralsRef { positive, negative } = operators.get(operator).precondition;
+            among((positive, negative))
         };
         let gives = |&&operator: &&OperatorId| {
-            let among = if positive { operators.get(operator).adds } else { operators.get(operator).deletes };
-            among.contains(&fact)
+            let operator = operators.get(operator);
+            among((operator.adds, operator.deletes))
+                || operator.conditional.iter().any(|effect| among((effect.adds, effect.deletes)))
         };
+        let plan = self.plan();
         BrokenLiteral {
             fact: model.name(fact),
             expected: positive,
-            needed_by: self.plan[current..].iter().find(needs).map(|&o| model.step(o)),
-            given_by: self.plan[..current].iter().rfind(gives).map(|&o| model.step(o)),
+            needed_by: plan[current..].iter().find(needs).map(|&o| model.step(o)),
+            given_by: plan[..current].iter().rfind(gives).map(|&o| model.step(o)),
             seen: Vec::new(),
         }
     }
+}
+
+fn unsatisfied(literals: LiteralsRef<'_>, state: &State) -> Vec<(FactId, bool)> {
+    literals.iter().filter(|&(fact, wanted)| state.contains(fact) != wanted).collect()
 }

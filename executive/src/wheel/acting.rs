@@ -12,7 +12,7 @@ impl Wheel {
     /// Finds the current step of the plan, and carries it further.
     pub(super) fn act(&mut self, mut course: Course, effects: &mut Vec<Effect>) {
         let sight = self.sight.as_ref().expect("a plan is made from what was seen");
-        match course.progress(self.model.task(), &sight.state) {
+        match course.progress(self.model.task()) {
             Progress::Stays => {}
             Progress::Moves { to } => {
                 let achieved = course.monitor.plan()[course.current];

@@ -58,8 +58,8 @@ impl Course {
         self.refinement.is_some()
     }
 
-    pub(super) fn progress(&self, task: &Task, state: &State) -> Progress {
-        match self.monitor.furthest(task, state) {
+    pub(super) fn progress(&self, task: &Task) -> Progress {
+        match self.monitor.furthest(task) {
             Some(to) if to == self.current => Progress::Stays,
             Some(to) if to > self.current => Progress::Moves { to },
             // An earlier suffix may reach the goal, by steps that were meant for another situation; Decision Support

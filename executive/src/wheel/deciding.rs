@@ -45,7 +45,7 @@ impl Wheel {
         let (Some(inquiry), Some(sight)) = (&mut self.inquiry, &self.sight) else { return };
         let now = self.moment.now;
         if let Hand::Plan(course) = &self.hand
-            && !matches!(course.progress(self.model.task(), &sight.state), Progress::Deviates)
+            && !matches!(course.progress(self.model.task()), Progress::Deviates)
         {
             return self.goes_on(effects);
         }
@@ -103,7 +103,7 @@ impl Wheel {
         match decision {
             Decision::Plan { operators, expanded, repair } => {
                 let course = Course::new(&self.model, operators, &sight.state);
-                match course.monitor.furthest(self.model.task(), &sight.state) {
+                match course.monitor.furthest(self.model.task()) {
                     Some(_) => self.adopt(course, expanded, repair, effects),
                     None => self.ask_again(inquiry.stopped, effects),
                 }

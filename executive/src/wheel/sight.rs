@@ -33,11 +33,8 @@ impl Sight {
     ) -> Vec<(FactId, bool)> {
         let change = self.low_to_high.update(&snapshot, delta);
         self.snapshot = snapshot;
-        let gone = change.disappeared.iter().filter_map(|f| Some((model.fact(f)?, false)));
-        let come = change.appeared.iter().filter_map(|f| Some((model.fact(f)?, true)));
-        let changes: Vec<_> = gone.chain(come).collect();
+        let changes = model.update(&mut self.state, &change);
         if !changes.is_empty() {
-            self.state = model.state(self.low_to_high.facts());
             self.since = now;
         }
         changes

@@ -93,8 +93,8 @@ impl Wheel {
         if changes.is_empty() {
             return;
         }
-        if let Hand::Plan(course) = &mut self.hand {
-            course.monitor.change(changes);
+        if let (Hand::Plan(course), Some(sight)) = (&mut self.hand, &self.sight) {
+            course.monitor.observe(self.model.task(), &sight.state);
         }
         let became_true = changes.iter().filter(|(_, now)| *now).map(|&(fact, _)| fact);
         if self.patience.became_true(became_true) {

@@ -181,17 +181,8 @@ impl Repair<'_> {
     /// action and arguments (each stands for one disjunct of the precondition). Returns it with the
     /// state after it.
     fn taken(&self, state: &State, step: OperatorId) -> Option<(OperatorId, State)> {
-        let operators = self.task.operators();
-        let own = operators.get(step);
-        let after = (step.0 + 1..).map(OperatorId).take_while(|o| (o.0 as usize) < operators.len());
-        let before = (0..step.0).rev().map(OperatorId);
-        let same = |o: &OperatorId| {
-            let other = operators.get(*o);
-            other.action == own.action && other.arguments == own.arguments
-        };
-        let copies = after.take_while(same).chain(before.take_while(same));
-        std::iter::once(step)
-            .chain(copies)
+        self.task
+            .ways(step)
             .filter(|o| !self.query.excluded.contains(o))
             .find_map(|o| Some((o, self.task.successor(state, o)?)))
     }

@@ -48,7 +48,11 @@ pub(crate) struct AxiomProgram {
     readers: Rows,
     /// By fact: the rules of its own component that need it.
     followers: Rows,
+    /// By fact: its component; `NONE` if no rule derives it.
+    component: Vec<u32>,
 }
+
+const NONE: u32 = u32::MAX;
 
 /// The reason why there is no order of evaluation.
 #[derive(Clone, Copy, Debug)]
@@ -96,7 +100,8 @@ impl AxiomProgram {
                 }
             }
             let recursive = sorted[start..end].iter().any(|r| r.body.positive.iter().any(own));
-            let heads = order[component].clone().into_boxed_slice();
+            let mut heads = order[component].clone().into_boxed_slice();
+            heads.sort_unstable();
             built.push(Component { rules: start..end, heads, recursive });
             start = end;
         }
@@ -105,9 +110,13 @@ impl AxiomProgram {
         Ok(program)
     }
 
-    /// Fills `read`, `readers` and `followers`.
+    /// Fills `read`, `readers`, `followers` and `component`.
     fn index(&mut self, facts: usize, component_of: &[usize], meter: &Meter<'_>) -> Result<(), Interrupted> {
         self.read = vec![0; facts.div_ceil(64)];
+        self.component = vec![NONE; facts];
+        for (i, component) in self.components.iter().enumerate() {
+            component.heads.iter().for_each(|head| self.component[head.index()] = id32(i));
+        }
         let (mut reads, mut needs) = (Rows::default(), Rows::default());
         for component in &self.components {
             let rules = &self.rules[component.rules.clone()];
@@ -132,6 +141,101 @@ impl AxiomProgram {
 
     pub(crate) fn rules(&self) -> &[AxiomRule] {
         &self.rules
+    }
+
+    /// The component that derives the fact, if any does. A component has a greater number than
+    /// those that it reads.
+    pub(super) fn component(&self, fact: FactId) -> Option<u32> {
+        Some(self.component[fact.index()]).filter(|&component| component != NONE)
+    }
+
+    /// The rules of a component.
+    pub(super) fn rules_of(&self, component: u32) -> &[AxiomRule] {
+        &self.rules[self.components[component as usize].rules.clone()]
+    }
+
+    /// Whether facts of the component may depend on themselves.
+    pub(super) fn is_recursive(&self, component: u32) -> bool {
+        self.components[component as usize].recursive
+    }
+
+    /// Whether the rules of the component derive the fact.
+    pub(super) fn is_own(&self, component: u32, fact: FactId) -> bool {
+        self.component[fact.index()] == component
+    }
+
+    /// The literals of a component's rules that are not its own facts, in order of the rules.
+    pub(super) fn outside(&self, component: u32) -> impl Iterator<Item = (FactId, bool)> {
+        let all = self.rules_of(component).iter().flat_map(|rule| rule.body.as_ref().iter());
+        all.filter(move |&(fact, _)| !self.is_own(component, fact))
+    }
+
+    /// A set bit for each component whose facts may change with these facts.
+    pub(super) fn reached(&self, facts: impl IntoIterator<Item = FactId>) -> Vec<u64> {
+        let mut reached = vec![0_u64; self.components.len().div_ceil(64)];
+        let wake = |reached: &mut [u64], fact: FactId| {
+            self.readers.row(fact.0).iter().for_each(|&c| set(reached, FactId(c)));
+        };
+        if self.components.is_empty() {
+            return reached;
+        }
+        facts.into_iter().for_each(|fact| wake(&mut reached, fact));
+        for (i, component) in self.components.iter().enumerate() {
+            if contains(&reached, FactId(id32(i))) {
+                component.heads.iter().for_each(|&head| wake(&mut reached, head));
+            }
+        }
+        reached
+    }
+
+    /// Evaluates a component whose [`outside`](Self::outside) literals hold or not as `holds` says.
+    /// Returns the truth of its facts, in order of their ids.
+    pub(super) fn fixpoint(&self, component: u32, holds: impl Fn(usize) -> bool) -> Box<[bool]> {
+        let Component { rules, heads, .. } = &self.components[component as usize];
+        let place = |fact: FactId| heads.binary_search(&fact).expect("it is its own");
+        let mut place_outside = 0;
+        let mut open = Vec::with_capacity(rules.len());
+        for rule in &self.rules[rules.clone()] {
+            let mut all = true;
+            for (fact, _) in rule.body.as_ref().iter() {
+                if !self.is_own(component, fact) {
+                    all &= holds(place_outside);
+                    place_outside += 1;
+                }
+            }
+            open.push(all);
+        }
+        let mut derived = vec![false; heads.len()].into_boxed_slice();
+        let fires = |derived: &[bool], rule: usize| {
+            let body = &self.rules[rule].body.positive;
+            open[rule - rules.start]
+                && body.iter().all(|&fact| !self.is_own(component, fact) || derived[place(fact)])
+        };
+        let mut new = Vec::new();
+        let derive = |rule: usize, derived: &mut [bool], new: &mut Vec<FactId>| {
+            let head = self.rules[rule].head;
+            if !derived[place(head)] && fires(derived, rule) {
+                derived[place(head)] = true;
+                new.push(head);
+            }
+        };
+        rules.clone().for_each(|rule| derive(rule, &mut derived, &mut new));
+        while let Some(fact) = new.pop() {
+            let followers = self.followers.row(fact.0);
+            followers.iter().for_each(|&rule| derive(rule as usize, &mut derived, &mut new));
+        }
+        derived
+    }
+
+    /// The place of a fact in what [`fixpoint`](Self::fixpoint) returns.
+    pub(super) fn place(&self, component: u32, fact: FactId) -> usize {
+        let heads = &self.components[component as usize].heads;
+        heads.binary_search(&fact).expect("the component derives it")
+    }
+
+    /// Whether there are no rules.
+    pub(super) fn is_empty(&self) -> bool {
+        self.components.is_empty()
     }
 
     /// Evaluates every derived fact.

@@ -14,10 +14,12 @@ use super::operator::Operator;
 use super::operators::Operators;
 use super::packing::Packing;
 use super::relaxation::Relaxation;
-use super::state::State;
+use super::state::{State, set, unset};
 use super::successors::SuccessorTree;
+use super::ways::Ways;
 use crate::ids::{FactId, OperatorId};
 use pddl::model::{IndexVec, ObjectId, PredicateId};
+use std::sync::OnceLock;
 
 /// A grounded task.
 #[derive(Clone, Debug)]
@@ -41,6 +43,8 @@ pub struct Task {
     pub(crate) relaxation: Relaxation,
     /// The relaxation without dominated effects.
     pub(crate) undominated: Relaxation,
+    /// Made when it is first asked for: few callers do.
+    pub(crate) ways: OnceLock<Ways>,
 }
 
 impl Task {
@@ -117,6 +121,31 @@ impl Task {
         }
         self.axioms.close(state.words_mut());
         state
+    }
+
+    /// Sets the truth of basic facts, and derives the others again (listed ones are ignored). Returns
+    /// whether a basic fact changed. Cost: linear in the words of a state, plus the axioms that read
+    /// what changed.
+    pub fn change(&self, state: &mut State, changes: impl IntoIterator<Item = (FactId, bool)>) -> bool {
+        let before = (!self.axioms.is_empty()).then(|| state.clone());
+        let mut changed = false;
+        for (fact, now) in changes {
+            if !self.facts[fact].derived && state.contains(fact) != now {
+                let change = if now { set } else { unset };
+                change(state.words_mut(), fact);
+                changed = true;
+            }
+        }
+        if let Some(before) = before.filter(|_| changed) {
+            self.axioms.update(before.words(), state.words_mut());
+        }
+        changed
+    }
+
+    /// The operator, then the other operators of its action and arguments: each stands for another
+    /// way to satisfy the action's precondition.
+    pub fn ways(&self, operator: OperatorId) -> impl Iterator<Item = OperatorId> + '_ {
+        self.ways.get_or_init(|| Ways::of(&self.operators)).get(operator)
     }
 
     /// Whether the operator's precondition holds.

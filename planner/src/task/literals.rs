@@ -42,7 +42,13 @@ pub struct LiteralsRef<'a> {
     pub negative: &'a [FactId],
 }
 
-impl LiteralsRef<'_> {
+impl<'a> LiteralsRef<'a> {
+    /// Each fact with whether it must hold.
+    pub fn iter(self) -> impl Iterator<Item = (FactId, bool)> + Clone + use<'a> {
+        let positive = self.positive.iter().map(|&fact| (fact, true));
+        positive.chain(self.negative.iter().map(|&fact| (fact, false)))
+    }
+
     pub(crate) fn hold_in(self, words: &[u64]) -> bool {
         self.positive.iter().all(|&f| contains(words, f))
             && self.negative.iter().all(|&f| !contains(words, f))

@@ -33,6 +33,7 @@ mod sort;
 mod state;
 mod successors;
 mod values;
+mod ways;
 
 pub(crate) use atoms::{AtomTable, RowKeys};
 pub use axioms::AxiomRule;
@@ -53,7 +54,8 @@ pub use operator::Operator;
 pub(crate) use operators::NewOperator;
 pub use operators::Operators;
 pub(crate) use packing::Packing;
-pub use regression::Kernel;
+pub(crate) use regression::Kernel;
+pub use regression::Suffixes;
 pub(crate) use relaxation::{AXIOM, Relaxation};
 pub(crate) use repetition::Way;
 pub(crate) use rows::Rows;

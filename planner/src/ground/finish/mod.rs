@@ -163,5 +163,6 @@ pub(crate) fn finish(
         cost_scale,
         numeric,
         metric,
+        ways: std::sync::OnceLock::new(),
     })
 }

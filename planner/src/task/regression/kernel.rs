@@ -1,54 +1,39 @@
-//! Regression: the condition under which a sequence of steps reaches a goal.
+//! The kernel of steps: the literals that must hold before them, as the goal of a search.
 //!
 //! Idea: go through the steps from the last to the first. Each step removes the literals that it
-//! achieves from the condition and adds its precondition. Repair, the windows of a plan and the
-//! executive's monitoring all regress through this one type.
+//! achieves from the condition and adds its precondition.
 //!
 //! Axioms and numbers are evaluated again after each step. A derived fact is therefore dropped from
 //! the condition before a step: the basic facts that it depends on are not regressed. A comparison
 //! of numbers is dropped only before a step that changes numbers; any other step keeps it as it is.
 //! Conditional effects are not regressed, and a step that deletes a wanted fact is not detected. A
-//! caller that needs a valid plan must therefore replay it.
+//! caller that needs a valid plan must therefore replay it. [`Suffixes`](super::Suffixes) is exact.
 //!
-//! Invariant: if [`Kernel::is_exact`] and the steps are a suffix of some valid plan for that goal,
-//! the kernel of the steps holds exactly in the states from which they reach the goal. Cost: a step
-//! is linear in the kernel, times a search in the step's effects.
+//! Cost: a step is linear in the kernel, times a search in the step's effects.
 //!
 //! Source: Fikes, Hart & Nilsson, "Learning and executing generalized robot plans", AIJ 1972.
 
-use super::grounded::Task;
-use super::literals::{Literals, LiteralsRef};
-use super::state::State;
+use super::super::{Literals, LiteralsRef, State, Task};
 use crate::ids::{FactId, OperatorId};
 use std::collections::BTreeMap;
 
 /// The condition that must hold now so that the steps reach the goal.
 #[derive(Clone, Debug)]
-pub struct Kernel<'a> {
+pub(crate) struct Kernel<'a> {
     task: &'a Task,
     wanted: BTreeMap<FactId, bool>,
 }
 
 impl<'a> Kernel<'a> {
     /// The kernel before no steps: the goal.
-    pub fn new(task: &'a Task, goal: &Literals) -> Self {
+    pub(crate) fn new(task: &'a Task, goal: &Literals) -> Self {
         let mut kernel = Self { task, wanted: BTreeMap::new() };
         kernel.require(goal.as_ref());
         kernel
     }
 
-    /// Whether regression through these steps is exact: no axioms, no conditional effects, no
-    /// changes of numbers.
-    pub fn is_exact(task: &Task, steps: &[OperatorId]) -> bool {
-        let regresses = |&step: &OperatorId| {
-            let operator = task.operator(step);
-            operator.conditional.is_empty() && !operator.changes_numbers()
-        };
-        task.axioms().is_empty() && steps.iter().all(regresses)
-    }
-
     /// Regresses through a step that precedes those so far.
-    pub fn before(&mut self, step: OperatorId) {
+    pub(crate) fn before(&mut self, step: OperatorId) {
         let (task, operator) = (self.task, self.task.operator(step));
         self.wanted.retain(|fact, wanted| {
             let given = if *wanted { operator.adds } else { operator.deletes };
@@ -60,12 +45,11 @@ impl<'a> Kernel<'a> {
     }
 
     fn require(&mut self, literals: LiteralsRef<'_>) {
-        self.wanted.extend(literals.positive.iter().map(|&fact| (fact, true)));
-        self.wanted.extend(literals.negative.iter().map(|&fact| (fact, false)));
+        self.wanted.extend(literals.iter());
     }
 
     /// The literals of the kernel: each fact with whether it must hold, in order of facts.
-    pub fn iter(&self) -> impl Iterator<Item = (FactId, bool)> {
+    fn iter(&self) -> impl Iterator<Item = (FactId, bool)> {
         self.wanted.iter().map(|(&fact, &wanted)| (fact, wanted))
     }
 
