@@ -80,7 +80,8 @@ impl Play {
 
         let mut teller = Teller::new(&self.content, self.staged.as_ref(), self.verbose, console);
         teller.heading();
-        let ending = {
+        // The end of the mission is the graph as it is then; that the agents go afterwards is no part of it.
+        let (ending, end) = {
             let (latency, turns) = (self.latency.clone(), self.turns.take());
             let pelea = pelea(
                 Seat { graph: graph.clone(), writer, epoch },
@@ -100,7 +101,7 @@ impl Play {
             let mut directed = std::pin::pin!(directed);
             let mut time = std::pin::pin!(self.speed.pass_time());
             let mut interrupted = std::pin::pin!(interrupt::first());
-            loop {
+            let ending = loop {
                 tokio::select! {
                     biased;
                     Some(entry) = entries.recv() => teller.tell(&entry),
@@ -111,14 +112,15 @@ impl Play {
                     () = &mut interrupted => break Ending::Interrupted,
                     () = &mut time => {}
                 }
-            }
+            };
+            story.catch_up();
+            guard.end().into_iter().for_each(|broken| story.alarm(broken));
+            (ending, graph.snapshot())
         };
-        story.catch_up();
-        guard.end().into_iter().for_each(|broken| story.alarm(broken));
         while let Ok(entry) = entries.try_recv() {
             teller.tell(&entry);
         }
-        teller.end(&ending, &graph.snapshot(), epoch.elapsed(), report_file)
+        teller.end(&ending, &end, epoch.elapsed(), report_file)
     }
 
     /// The simulated room of the scenario.
