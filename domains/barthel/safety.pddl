@@ -1,6 +1,7 @@
 ; What the Barthel test owes the patient, beyond what CLARC owes everyone.
 (define (domain barthel-safety)
-  (:requirements :typing :negative-preconditions :disjunctive-preconditions :quantified-preconditions
+  (:requirements :typing :negative-preconditions :disjunctive-preconditions
+                 :quantified-preconditions
                  :fluents :constraints :invariants)
   (:import clarc)
   (:constants    ; nodes of graph.pddl
@@ -23,4 +24,5 @@
   (:invariant report-is-delivered
     :parameters (?c - clinician)
     :says (?c gets the report, or it is still due)
-    :constraint (at end (or (was_delivered_to report ?c) (is_due_to report ?c) (is console broken)))))
+    :constraint
+      (at end (or (was_delivered_to report ?c) (is_due_to report ?c) (is console broken)))))
