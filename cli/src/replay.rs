@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
     mission: PathBuf,
     /// The journal of the run
     journal: PathBuf,
-    /// Stop after the turn on this version of the graph, and show all that was decided on it
+    /// Stop after the turns on this version of the graph, and show all that was decided on it
     #[arg(long, value_name = "VERSION")]
     at: Option<u64>,
     /// Also show how each step was executed
@@ -49,7 +49,7 @@ enum ReplayError {
 
 /// The last line in JSON.
 #[derive(Serialize)]
-#[serde(tag = "kind", rename = "result")]
+#[serde(tag = "kind", rename = "replay")]
 struct Summary {
     turns: usize,
     version: u64,
@@ -114,15 +114,18 @@ impl<'r> Again<'r> {
             let event = self.event(&turn.event)?;
             let effects = self.wheel.step(event, Time(turn.now));
             let version = self.replay.version();
-            let at = arguments.at.is_some_and(|at| version >= Version(at));
+            let next = turns[count + 1..].iter().find_map(|turn| turn.event.version());
+            let at = arguments.at.is_some_and(|at| version == Version(at));
+            // The turns on a version last until PELEA is handed a later one.
+            let over = arguments.at.is_some_and(|at| next.is_some_and(|next| next > Version(at)))
+                && turns.get(count + 1).is_some_and(|turn| turn.event.version().is_some());
             let replayed = serde_json::to_string(&effects).unwrap_or_default();
             tell(&effects, turn.now, console, &mut terminal);
-            if at && turn.event.version().is_some() {
-                console.result(&format!("version {}, {:?}:", version.0, turn.event));
-                effects.iter().for_each(|effect| shown(effect, console));
+            if at || (arguments.at.is_none() && console.form() == Form::Json) {
+                shown(turn, &effects, version, console);
             }
             let equal = replayed == turn.effects.get();
-            let last = at || count + 1 == turns.len();
+            let last = over || count + 1 == turns.len();
             if !equal || last {
                 let text = |text: &str| (!equal).then(|| text.to_owned());
                 let summary = Summary {
@@ -197,10 +200,25 @@ fn tell(effects: &[Effect], now: u64, console: &mut Console<'_>, terminal: &mut 
     }
 }
 
-/// An effect in full.
-fn shown(effect: &Effect, console: &mut Console<'_>) {
-    console.record(effect);
-    console.result(&format!("  {}", serde_json::to_string(effect).unwrap_or_default()));
+/// A turn in JSON.
+#[derive(Serialize)]
+#[serde(tag = "kind", rename = "turn")]
+struct Shown<'a> {
+    time: f64,
+    version: u64,
+    handed: &'a Occurrence,
+    effects: &'a [Effect],
+}
+
+/// A turn in full.
+fn shown(turn: &Recorded, effects: &[Effect], version: Version, console: &mut Console<'_>) {
+    let time = std::time::Duration::from_nanos(turn.now).as_secs_f64();
+    let handed = serde_json::to_string(&turn.event).unwrap_or_default();
+    console.record(&Shown { time, version: version.0, handed: &turn.event, effects });
+    console.result(&format!("{time:8.2}  turn     on version {}, handed {handed}", version.0));
+    for effect in effects {
+        console.result(&format!("          {}", serde_json::to_string(effect).unwrap_or_default()));
+    }
 }
 
 fn conclude(summary: &Summary, console: &mut Console<'_>) -> Exit {

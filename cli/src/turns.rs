@@ -30,7 +30,13 @@ pub(crate) struct Heading {
 impl Heading {
     /// The settings of a run of this mission.
     pub(crate) fn new(mission: &Mission, horizon: Option<Duration>, pulse: Option<Duration>) -> Self {
-        let text = |source: &diagnostics::Source| (file_name(source.name()), checksum(source.text()));
+        let manifest = mission
+            .sources
+            .iter()
+            .map(|(_, source)| source.name())
+            .find_map(|name| name.strip_suffix("mission.toml"));
+        let folder = manifest.unwrap_or_default();
+        let text = |source: &diagnostics::Source| (file_name(source.name(), folder), checksum(source.text()));
         Self { texts: mission.sources.iter().map(|(_, source)| text(source)).collect(), horizon, pulse }
     }
 
@@ -45,9 +51,12 @@ impl Heading {
     }
 }
 
-/// The last two parts of a path, which tell `robots/clarc/agents/speech.pddl` from another `speech.pddl` wherever the
-/// mission's folder stands.
-fn file_name(path: &str) -> String {
+/// A path in the mission's folder, or the last two parts of another one, which tell `agents/speech.pddl` from another
+/// `speech.pddl`: the same wherever the mission stands.
+fn file_name(path: &str, folder: &str) -> String {
+    if let Some(inside) = path.strip_prefix(folder).filter(|inside| !inside.starts_with("..")) {
+        return inside.to_owned();
+    }
     let parts: Vec<_> = path.rsplit('/').take(2).collect();
     parts.into_iter().rev().collect::<Vec<_>>().join("/")
 }

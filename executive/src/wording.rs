@@ -134,14 +134,16 @@ impl Display for BrokenLiteral {
         if !self.seen.is_empty() {
             write!(f, " ({})", self.seen.join(", "))?;
         }
-        f.write_str(if self.expected { "; needed by " } else { "; it must not for " })?;
+        f.write_str(if self.expected { "; needed by " } else { "; it must not hold for " })?;
         match &self.needed_by {
             Some(step) => write!(f, "{step}")?,
             None => f.write_str("the goal")?,
         }
-        match &self.given_by {
-            Some(step) => write!(f, ", given by {step}"),
-            None => f.write_str(", true when the plan was made"),
+        match (&self.given_by, self.expected) {
+            (Some(step), true) => write!(f, ", given by {step}"),
+            (Some(step), false) => write!(f, ", ended by {step}"),
+            (None, true) => f.write_str(", true when the plan was made"),
+            (None, false) => f.write_str(", and did not when the plan was made"),
         }
     }
 }

@@ -8,6 +8,7 @@ mod claims_are_ordered;
 mod effects_are_permitted;
 mod effects_are_sensed;
 mod intentions_are_heard;
+mod items_are_complete;
 mod objects_are_nodes;
 mod perception_is_written;
 mod tasks_of_actions;
@@ -20,12 +21,13 @@ use diagnostics::Finding;
 type Check = fn(&Mission, &mut Vec<Finding>);
 
 /// All checks, by code.
-const ALL: [Check; 7] = [
+const ALL: [Check; 8] = [
     tasks_of_actions::check,
     effects_are_sensed::check,
     intentions_are_heard::check,
     perception_is_written::check,
     objects_are_nodes::check,
+    items_are_complete::check,
     effects_are_permitted::check,
     claims_are_ordered::check,
 ];
