@@ -6,7 +6,8 @@
 //! wins, and of two that are equally near the repaired one. The running step is put first where the plan still reaches
 //! the goal that way, so that nothing is interrupted without need. A plan then goes through the validator, which shares
 //! no code with the planner: a plan that does not validate is a bug of ours, and must not reach a patient. Where there is
-//! no plan, the planner's explanation is the reason.
+//! no plan, the planner's explanation is the reason. A first plan minimises the problem's metric, as far as the effort
+//! goes; a repaired plan need not.
 //!
 //! Invariant: effort is counted in states, never in seconds, so the same request gives the same decision. Time is the
 //! wheel's: it cancels a request that is moot, and starts the fallback when a decision takes too long.
@@ -18,7 +19,7 @@ use crate::{Model, Step};
 use budget::Cancellation;
 use planner::{
     Attempt, Budget, Distance, OperatorId, Outcome, Preference, Query, Repaired, Report, SearchConfiguration,
-    State, Way, explain, repair, solve,
+    State, Way, explain, improve, repair, solve,
 };
 use serde::Serialize;
 use std::sync::Arc;
@@ -138,7 +139,7 @@ pub fn decide(model: &Arc<Model>, request: &Request, cancellation: &Cancellation
     let budget = Budget { work: Some(request.expansions), interrupted: &interrupted, ..Budget::default() };
     let configuration = SearchConfiguration::default();
     let (Report { outcome, statistics }, repair) = if request.broken.is_empty() {
-        (solve(task, &query, &configuration, &budget), None)
+        (cheap(model, &query, &configuration, &budget), None)
     } else {
         let broken = &request.broken;
         let repaired = repair(task, &query, broken, &configuration, Preference::Stability, &budget);
@@ -176,6 +177,19 @@ pub fn decide(model: &Arc<Model>, request: &Request, cancellation: &Cancellation
         Outcome::LimitReached(_) if cancellation.is_cancelled() => Decision::NoPlan(NoPlan::Stopped),
         Outcome::LimitReached(_) => Decision::NoPlan(NoPlan::LimitReached(request.expansions)),
     }
+}
+
+/// The cheapest plan that the budget allows if the problem has a metric; otherwise the first plan.
+fn cheap(
+    model: &Model,
+    query: &Query<'_>,
+    configuration: &SearchConfiguration,
+    budget: &Budget<'_>,
+) -> Report {
+    if model.problem().metric.is_none() {
+        return solve(model.task(), query, configuration, budget);
+    }
+    improve(model.task(), query, configuration, budget, &mut |_| ()).report
 }
 
 /// The plan with the running step first, if it is in the plan and the goal is still reached.
