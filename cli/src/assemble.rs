@@ -17,7 +17,7 @@ use dsr::{AgentId, Graph, Time};
 use executive::{Bounds, Model, Policy, Step, Wheel};
 use high_to_low::Methods;
 use low_to_high::Perception;
-use mission::{Mission, MissionErrors, MissionTask};
+use mission::{Mission, MissionErrors, MissionTask, SkillOutcomes};
 use pddl::Span;
 use pddl::model::Name;
 use safety::Invariants;
@@ -77,7 +77,7 @@ pub(crate) fn load(path: &Path) -> Result<Mission, LoadError> {
 /// The findings about a parsed mission, and its assembly if no finding is an error.
 pub(crate) fn assemble(mission: &Mission) -> (Option<Assembly>, Vec<Finding>) {
     let mut findings = mission.warnings.clone();
-    findings.extend(mission.check());
+    findings.extend(mission.check(&outcomes()));
     let places: BTreeSet<_> = findings.iter().map(|f| (f.place.source, f.place.span)).collect();
     let mut objections = Vec::new();
     let assembly = put_together(mission, &mut objections);
@@ -86,6 +86,11 @@ pub(crate) fn assemble(mission: &Mission) -> (Option<Assembly>, Vec<Finding>) {
     findings.extend(objections.into_iter().filter(|f| !places.contains(&(f.place.source, f.place.span))));
     findings.sort_by_key(|f| (f.place.source, f.place.span));
     (assembly.filter(|_| good), findings)
+}
+
+/// The outcomes of the skills that rules may name.
+fn outcomes() -> SkillOutcomes {
+    skills::standard().signatures().map(|skill| (skill.name, skill.outcomes)).collect()
 }
 
 /// Compiles all layers; `None` if one has errors, which are added to `findings`.

@@ -32,6 +32,7 @@ mod mission;
 pub mod report;
 pub mod scenario;
 
+pub use check::SkillOutcomes;
 pub use content::{OptionWords, ReportLabels, Words};
 pub use errors::MissionErrors;
 pub use files::{FileError, Files, MemoryFiles};

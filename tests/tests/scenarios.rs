@@ -43,6 +43,15 @@ fn every_scenario_meets_its_expectations() {
 }
 
 #[test]
+fn every_mission_passes_its_check_without_a_warning() {
+    for (mission, _) in missions() {
+        let said = pelea(&["check", &mission.to_string_lossy(), "--json"]);
+        let result = said.result();
+        assert_eq!((&result["errors"], &result["warnings"]), (&0.into(), &0.into()), "{}", said.out);
+    }
+}
+
+#[test]
 fn every_answer_that_was_given_is_in_the_report() {
     for (mission, scenarios) in missions() {
         for scenario in scenarios {

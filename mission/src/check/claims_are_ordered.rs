@@ -9,10 +9,11 @@ use std::collections::BTreeMap;
 
 use pddl::model::{Name, Term};
 
-use crate::mission::Mission;
+use super::context::Context;
 use diagnostics::{Finding, Place};
 
-pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
+pub(super) fn check(context: &Context<'_>, findings: &mut Vec<Finding>) {
+    let mission = context.mission;
     let mut claimed: BTreeMap<(Name, i32), (Name, Place)> = BTreeMap::new();
     for agent in &mission.layers.agents {
         for (_, action) in agent.model.durative_actions.enumerate() {

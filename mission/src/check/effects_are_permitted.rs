@@ -1,17 +1,21 @@
 //! C0601: a rule that writes what its agent may not write.
 //!
 //! **What** Each effect of a rule is permitted by the `:writes` of its agent, whose name is that of the
-//! rule's domain. Each effect of an intention is permitted by the `:writes` of some agent.
+//! rule's domain. Each effect of an intention at its start or timeout is permitted by the `:writes` of the agent `pelea`,
+//! for each binding that methods give to it.
 //! **Why** The graph refuses the whole commit: the rule's skill runs, and its result never appears.
 //! **Example** `(at end (is_with ?p ?r))` in `speech.pddl`.
+
+use std::collections::BTreeSet;
 
 use pddl::Span;
 use pddl::model::{
     Domain, DurativeAction, Effect, EffectKind, Name, Permission, Term, TimeSpecifier, TokenSymbol, TypeSet,
 };
 
+use super::context::Context;
+use super::grounding::list;
 use crate::layers::Layers;
-use crate::mission::Mission;
 use diagnostics::{Finding, Place};
 
 /// A written token, with the possible nodes of each argument.
@@ -21,7 +25,8 @@ struct Written {
     span: Span,
 }
 
-pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
+pub(super) fn check(context: &Context<'_>, findings: &mut Vec<Finding>) {
+    let mission = context.mission;
     let vocabulary = &mission.layers.vocabulary.model;
     for agent in &mission.layers.agents {
         let own: Vec<&Permission> =
@@ -41,24 +46,48 @@ pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
             }
         }
     }
-    let methods = &mission.layers.methods;
-    for (_, intention) in methods.model.durative_actions.enumerate() {
-        let ends: Vec<Span> = intention
-            .effects
-            .iter()
-            .filter(|e| e.when == TimeSpecifier::End)
-            .map(|e| e.effect.span)
-            .collect();
-        for written in effects(&mission.layers, &methods.model, intention) {
+    intentions(context, findings);
+}
+
+/// The name under which the executive writes.
+const EXECUTIVE: &str = "pelea";
+
+/// What the executive may not write, for the bindings that methods give to its intentions.
+fn intentions(context: &Context<'_>, findings: &mut Vec<Finding>) {
+    let (layers, grounding) = (&context.mission.layers, context.grounding);
+    let (vocabulary, methods) = (&layers.vocabulary.model, &layers.methods);
+    if vocabulary.constant(EXECUTIVE).is_none() {
+        // Nobody to write as: one finding of the assembly.
+        return;
+    }
+    let own: Vec<&Permission> =
+        vocabulary.permissions.iter().filter(|p| p.agent.as_str() == EXECUTIVE).collect();
+    for (id, bindings) in grounding.intentions() {
+        let intention = &methods.model.durative_actions[id];
+        let mut reported = BTreeSet::new();
+        for binding in bindings {
             // The effects at the end of an intention are expectations, not edits.
-            let expected = ends.iter().any(|s| s.start <= written.span.start && written.span.end <= s.end);
-            if expected || vocabulary.permissions.iter().any(|p| permits(vocabulary, p, &written)) {
-                continue;
+            let edits = grounding.effects(intention, binding, |when| *when != TimeSpecifier::End);
+            for fact in edits.true_.iter().chain(&edits.false_) {
+                let mut arguments: Vec<_> =
+                    fact.arguments.iter().map(|&class| grounding.classes.nodes(class).to_vec()).collect();
+                arguments.truncate(fact.arguments.len() - usize::from(fact.valued));
+                let written = Written { token: fact.symbol.clone(), arguments, span: intention.name_span };
+                if own.iter().any(|p| permits(vocabulary, p, &written))
+                    || !reported.insert(fact.symbol.clone())
+                {
+                    continue;
+                }
+                let names: Vec<&str> = binding.iter().map(|&c| grounding.classes.name(c).as_str()).collect();
+                let place = Place { source: methods.source, span: intention.name_span };
+                let message = format!(
+                    "`{}` writes `{}`, which the agent `{EXECUTIVE}` may not write",
+                    list(&intention.name, &names),
+                    fact.text(&grounding.classes)
+                );
+                let help = format!("add it to (:writes {EXECUTIVE} …) in the vocabulary");
+                findings.push(Finding::error("C0601", place, message).help(help));
             }
-            let place = Place { source: methods.source, span: written.span };
-            let message =
-                format!("`{}` writes `{}`, which no agent may write", intention.name, written.token);
-            findings.push(Finding::error("C0601", place, message));
         }
     }
 }

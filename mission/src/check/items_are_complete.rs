@@ -7,10 +7,12 @@
 
 use pddl::model::{FluentValue, ObjectId};
 
+use super::context::Context;
 use crate::mission::Mission;
 use diagnostics::{Finding, Place};
 
-pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
+pub(super) fn check(context: &Context<'_>, findings: &mut Vec<Finding>) {
+    let mission = context.mission;
     let layers = &mission.layers;
     let graph = &layers.graph;
     for item in layers.items() {

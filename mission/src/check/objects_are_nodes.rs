@@ -7,11 +7,13 @@
 
 use pddl::model::{Domain, Object};
 
+use super::context::Context;
 use crate::mission::Mission;
 use diagnostics::did_you_mean;
 use diagnostics::{Finding, Place, SourceId};
 
-pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
+pub(super) fn check(context: &Context<'_>, findings: &mut Vec<Finding>) {
+    let mission = context.mission;
     let layers = &mission.layers;
     let (domain, problem) = (&layers.domain.model, &layers.problem);
     for (_, object) in problem.model.objects.enumerate() {

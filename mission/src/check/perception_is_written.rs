@@ -5,11 +5,12 @@
 //! **Why** The value of such a predicate never changes: a plan waits for it in vain, or relies on it wrongly.
 //! **Example** `(:derived (present ?p) (exists (?r - robot) (is_wth ?p ?r)))` after renaming a token.
 
+use super::context::Context;
 use super::tokens::{Tokens, written_by_intentions, written_by_rules};
-use crate::mission::Mission;
 use diagnostics::{Finding, Place};
 
-pub(super) fn check(mission: &Mission, findings: &mut Vec<Finding>) {
+pub(super) fn check(context: &Context<'_>, findings: &mut Vec<Finding>) {
+    let mission = context.mission;
     let layers = &mission.layers;
     let (perception, nodes) = (&layers.perception, &layers.nodes);
     let mut written = written_by_rules(mission);

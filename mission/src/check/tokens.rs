@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use pddl::model::{
-    Application, Atom, Condition, ConditionKind, Domain, DurativeAction, Effect, EffectKind, Expression,
-    ExpressionKind, Name, TimeSpecifier,
+    Application, AssignedValue, Atom, Condition, ConditionKind, Domain, DurativeAction, Effect, EffectKind,
+    Expression, ExpressionKind, Name, TimeSpecifier,
 };
 
 use crate::mission::Mission;
@@ -24,7 +24,7 @@ impl<'d> Tokens<'d> {
         self.names.insert(self.domain.predicates[atom.predicate].name.clone());
     }
 
-    fn application(&mut self, application: &Application) {
+    pub(super) fn application(&mut self, application: &Application) {
         self.names.insert(self.domain.functions[application.function].name.clone());
     }
 
@@ -34,6 +34,13 @@ impl<'d> Tokens<'d> {
                 self.application(application);
             }
         });
+    }
+
+    /// Adds the tokens that a new value is computed from.
+    pub(super) fn value(&mut self, value: &AssignedValue) {
+        if let AssignedValue::Number(expression) = value {
+            self.expression(expression);
+        }
     }
 
     /// Adds the tokens that the condition reads.
@@ -56,16 +63,6 @@ impl<'d> Tokens<'d> {
             EffectKind::Assign(_, application, _) => self.application(application),
             EffectKind::And(_) | EffectKind::Forall(..) | EffectKind::When(..) => {}
         });
-    }
-
-    /// The tokens that a rule reads in the conditions that `when` selects.
-    pub(super) fn conditions(
-        mut self,
-        action: &DurativeAction,
-        when: fn(&TimeSpecifier) -> bool,
-    ) -> BTreeSet<Name> {
-        action.conditions.iter().filter(|c| when(&c.when)).for_each(|c| self.condition(&c.condition));
-        self.names
     }
 
     /// The tokens that a rule writes in the effects that `when` selects.
@@ -98,4 +95,15 @@ pub(super) fn written_by_intentions(mission: &Mission) -> BTreeSet<Name> {
         all.extend(Tokens::of(methods).effects(intention, |when| *when != TimeSpecifier::End));
     }
     all
+}
+
+/// The tokens that methods and perception read.
+pub(super) fn read_by_pelea(mission: &Mission) -> BTreeSet<Name> {
+    let layers = &mission.layers;
+    let mut methods = Tokens::of(&layers.methods.model);
+    layers.methods.model.methods.enumerate().for_each(|(_, m)| methods.condition(&m.precondition));
+    let mut perception = Tokens::of(&layers.perception.model);
+    layers.perception.model.axioms.iter().for_each(|a| perception.condition(&a.body));
+    methods.names.append(&mut perception.names);
+    methods.names
 }

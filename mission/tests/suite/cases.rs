@@ -7,7 +7,7 @@
 use std::path::PathBuf;
 
 use expect_test::expect_file;
-use mission::{MemoryFiles, Mission};
+use mission::{MemoryFiles, Mission, SkillOutcomes};
 
 use crate::{disk, tea};
 
@@ -32,6 +32,11 @@ fn apply(case: &str, files: &mut MemoryFiles) {
     }
 }
 
+/// The skills that the rules of these tests name, with outcomes as those of `pelea-agents`.
+pub(crate) fn skills() -> SkillOutcomes {
+    [("say", &[][..]), ("listen", &["misheard"])].into()
+}
+
 /// The findings of loading, or else of the scenario, or else of the checks.
 fn findings(files: &MemoryFiles) -> String {
     let mission = match Mission::load(files, "tea") {
@@ -44,7 +49,7 @@ fn findings(files: &MemoryFiles) -> String {
             Err(errors) => errors.to_string(),
         };
     }
-    mission.check().iter().map(|f| mission.sources.describe(f)).collect()
+    mission.check(&skills()).iter().map(|f| mission.sources.describe(f)).collect()
 }
 
 #[test]
@@ -53,7 +58,7 @@ fn cases() {
     let mut cases: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
     cases.retain(|p| p.extension().is_some_and(|e| e == "case"));
     cases.sort();
-    assert!(cases.len() >= 15);
+    assert!(cases.len() >= 25);
     for path in cases {
         let mut files = tea::files();
         apply(&std::fs::read_to_string(&path).unwrap(), &mut files);

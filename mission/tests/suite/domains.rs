@@ -1,6 +1,6 @@
 //! Every mission under `domains/` loads in every language with every scenario, and its layers agree.
 
-use mission::{Mission, MissionErrors};
+use mission::{Mission, MissionErrors, SkillOutcomes};
 
 use crate::disk::{self, Disk};
 
@@ -39,7 +39,7 @@ fn every_mission_loads_with_its_scenarios() {
 fn no_check_finds_anything() {
     for folder in missions() {
         let mission = load(&folder);
-        let findings = mission.check();
+        let findings = mission.check(&SkillOutcomes::default());
         let text: String =
             mission.warnings.iter().chain(&findings).map(|f| mission.sources.describe(f)).collect();
         assert_eq!(text, "", "{folder}");

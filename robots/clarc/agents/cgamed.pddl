@@ -10,19 +10,19 @@
   (:import clarc)
 
   (:durative-action hear-pause
-    :parameters (?t - test)
+    :parameters (?t - test)    ; waive(failure): the command is awaited again; the agent `health` reports the link
     :condition (and (at start (not (is ?t paused))) (at start (not (is ?t aborted))))
     :effect (at end (is ?t paused))
     :skill (await-command pause))
 
   (:durative-action hear-resume
-    :parameters (?t - test)
+    :parameters (?t - test)    ; waive(failure): the command is awaited again; the agent `health` reports the link
     :condition (over all (is ?t paused))
     :effect (at end (not (is ?t paused)))
     :skill (await-command resume))
 
   (:durative-action hear-abort
-    :parameters (?t - test)
+    :parameters (?t - test)    ; waive(failure): the command is awaited again; the agent `health` reports the link
     :condition (at start (not (is ?t aborted)))
     :effect (and (at end (is ?t aborted)) (at end (not (is ?t paused))))
     :skill (await-command abort))

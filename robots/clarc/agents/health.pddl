@@ -6,13 +6,13 @@
   (:import clarc)
 
   (:durative-action find-broken
-    :parameters (?d - device)
+    :parameters (?d - device)    ; waive(failure): a device that cannot report its faults is asked again
     :condition (over all (not (is ?d broken)))
     :effect (at end (is ?d broken))
     :skill (await-fault ?d))
 
   (:durative-action find-working
-    :parameters (?d - device)
+    :parameters (?d - device)    ; waive(failure): it stays broken, and is tried again
     :condition (over all (is ?d broken))
     :effect (and
       (at end (not (is ?d broken)))
@@ -21,7 +21,7 @@
 
   ; A test that fails is repeated, less and less often.
   (:durative-action clear-doubt
-    :parameters (?d - device)
+    :parameters (?d - device)    ; waive(failure): the doubt stays, and is tested again
     :condition (over all (is ?d doubted))
     :effect (at end (not (is ?d doubted)))
     :skill (test-device ?d))

@@ -11,6 +11,7 @@
   (:durative-action hear
     :parameters (?t - test ?i - item ?q - question)
     :condition (over all (= (label ?t ?i) ?q))
+    ; waive(misheard): an order that was misheard is asked for again
     :results (?o - option)
     :effect (and (at end (was_chosen_in ?o ?i)) (at timeout (was_unanswered_in ?q ?i)))
     :skill (listen ?i)))

@@ -10,6 +10,7 @@
       (at end (was_said_in ?u ?p))
       (at end (assign (label ?t ?p) undefined))
       (at abort (not (is ?r speaking))))
+    ; waive(claimed, unsensed, refused, failure): it is said again until PELEA's deadline
     :skill (say ?p ?u)
     :claims (loudspeaker)
     :priority 50)
@@ -24,4 +25,5 @@
       (at end (assign (question ?t ?i) undefined))
       (at timeout (was_unanswered_in ?q ?i))
       (at timeout (assign (question ?t ?i) undefined)))
+    ; waive(misheard, failure): the question is asked again after the timeout
     :skill (listen ?i ?q)))
