@@ -263,8 +263,14 @@ mod tests {
         let mut hold = Vec::new();
         let mut stuck = || {
             let (release, released) = std::sync::mpsc::channel::<()>();
+            let (begin, begun) = std::sync::mpsc::channel();
             hold.push(release);
-            threads.run("stuck", move || async move { released.recv().is_ok() })
+            let errand = threads.run("stuck", move || async move {
+                let _ = begin.send(());
+                released.recv().is_ok()
+            });
+            // A thread that is stopped before it begins is not stuck.
+            begun.recv().ok().and(errand)
         };
         for count in 0..MOST_ABANDONED {
             assert_eq!(threads.abandoned(), count);
