@@ -170,3 +170,16 @@ fn a_metric_makes_relevant_what_improves_it() {
     improve(&task, &Query::of(&task), &configuration, &budget, &mut note);
     assert_eq!(qualities, [0.0, -1.0, -2.0].map(|value| planner::Number::from_f64(value).unwrap()));
 }
+
+/// An action that multiplies and adds to one number has no result, also where nothing reads the number.
+#[test]
+fn a_product_and_a_sum_conflict_in_a_number_that_nothing_reads() {
+    let task = task(
+        "(define (domain tank) (:requirements :numeric-fluents) (:predicates (done)) (:functions (level))
+           (:action both :parameters () :effect (and (done) (scale-up (level) 1) (increase (level) 1))))",
+        "(define (problem stop) (:domain tank) (:init (= (level) 0)) (:goal (done)))",
+    );
+    let outcome =
+        solve(&task, &Query::of(&task), &SearchConfiguration::default(), &Budget::default()).outcome;
+    assert!(matches!(outcome, Outcome::Unsolvable(_)), "{outcome:?}");
+}

@@ -27,6 +27,8 @@ pub(crate) struct Fluents {
     changed: FxHashSet<FunctionId>,
     /// Functions that some action assigns, so that an undefined fluent may get a value.
     assigned: FxHashSet<FunctionId>,
+    /// Functions that some action multiplies, which conflicts with an addition.
+    scaled: FxHashSet<FunctionId>,
     /// Functions that some action makes undefined.
     undefined: FxHashSet<FunctionId>,
     /// Functions that some condition, effect or metric reads.
@@ -39,6 +41,7 @@ impl Fluents {
             values: FxHashMap::default(),
             changed: FxHashSet::default(),
             assigned: FxHashSet::default(),
+            scaled: FxHashSet::default(),
             undefined: FxHashSet::default(),
             read: FxHashSet::default(),
         };
@@ -78,8 +81,12 @@ impl Fluents {
             EffectKind::When(when, _) => self.condition(when, Origin::Domain)?,
             EffectKind::Assign(operator, application, value) => {
                 self.changed.insert(application.function);
-                if *operator == AssignOperator::Assign {
-                    self.assigned.insert(application.function);
+                match operator {
+                    AssignOperator::Assign => _ = self.assigned.insert(application.function),
+                    AssignOperator::ScaleUp | AssignOperator::ScaleDown => {
+                        self.scaled.insert(application.function);
+                    }
+                    AssignOperator::Increase | AssignOperator::Decrease => {}
                 }
                 match value {
                     AssignedValue::Number(expression) => self.reads(expression, Origin::Domain)?,
@@ -125,11 +132,11 @@ impl Fluents {
         self.assigned.contains(&key.0) || self.values.contains_key(key)
     }
 
-    /// Whether states may have to hold the fluents of this function. If not, an action that changes
-    /// one needs only that it has a value, which the initial state decides.
+    /// Whether states may have to hold the fluents of this function. If not, actions only add to them, and an action
+    /// needs only that they have a value, which the initial state decides.
     pub(crate) fn is_tracked(&self, function: FunctionId) -> bool {
         let among = |set: &FxHashSet<FunctionId>| set.contains(&function);
-        among(&self.read) || among(&self.assigned) || among(&self.undefined)
+        [&self.read, &self.assigned, &self.scaled, &self.undefined].into_iter().any(among)
     }
 
     /// Whether its value is the same in all states.
