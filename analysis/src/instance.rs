@@ -19,7 +19,7 @@ pub struct Instance<'a> {
 impl Instance<'_> {
     /// Whether an object is of one of the types.
     pub fn is_of(&self, object: ObjectId, types: &TypeSet) -> bool {
-        self.problem.objects[object].types.0.iter().any(|&own| self.domain.types.is_in(own, types))
+        self.problem.objects[object].is_of(types, &self.domain.types)
     }
 }
 

@@ -146,9 +146,7 @@ struct Interpreter<'a> {
 impl Interpreter<'_> {
     fn objects(&self, variables: &Variables, slot: VariableId) -> Vec<u32> {
         let types = &self.domain.types;
-        let fits = |o: &ObjectId| {
-            self.problem.objects[*o].types.0.iter().any(|&t| types.is_in(t, &variables[slot].types))
-        };
+        let fits = |o: &ObjectId| self.problem.objects[*o].is_of(&variables[slot].types, types);
         self.problem.objects.ids().filter(fits).map(|o| o.0).collect()
     }
 

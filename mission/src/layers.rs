@@ -4,7 +4,7 @@
 //! objects). Perception, methods and scenarios may name any of them. [`Layers::nodes`] is therefore one more domain: the
 //! vocabulary with all nodes as constants, under the ids that they have in `graph.pddl`.
 
-use pddl::model::{Domain, FunctionId, Idx, ObjectId, PredicateId, Problem, TypeId};
+use pddl::model::{Domain, FunctionId, Idx, ObjectId, PredicateId, Problem, TypeId, TypeSet};
 
 use diagnostics::{Place, SourceId};
 
@@ -83,8 +83,7 @@ impl Layers {
 
     /// Whether a node of the initial graph has a type.
     pub fn is_a(&self, node: ObjectId, ty: TypeId) -> bool {
-        let types = &self.graph.model.objects[node].types;
-        types.0.iter().all(|&t| self.nodes.types.is_subtype(t, ty))
+        self.graph.model.objects[node].is_of(&TypeSet::one(ty), &self.nodes.types)
     }
 
     /// The items, in the order of declaration.

@@ -5,9 +5,9 @@
 
 use crate::number::Number;
 use crate::state::State;
-use crate::universe::{Extent, Universe};
+use crate::universe::Universe;
 use crate::verdict::Violations;
-use pddl::model::{Idx, ObjectId, Term, VariableId, Variables};
+use pddl::model::{Extent, Idx, ObjectId, Term, VariableId, Variables};
 
 /// The values of a schema's variables.
 #[derive(Clone, Debug, Default)]
@@ -111,7 +111,7 @@ pub(crate) fn each_instance(
     visit: &mut dyn FnMut(&mut Binding),
 ) {
     let Some((&first, rest)) = variables.split_first() else { return visit(binding) };
-    for &object in &scene.extent(first).objects {
+    for &object in scene.extent(first).objects() {
         if !scene.state.work.spend(INSTANCE) {
             break;
         }

@@ -259,8 +259,8 @@ impl Scene<'_> {
             .iter()
             .copied()
             .filter(|&v| binding.get(v).is_none())
-            .min_by_key(|&v| self.extent(v).objects.len())?;
-        let tries = self.extent(free).objects.len();
+            .min_by_key(|&v| self.extent(v).objects().len())?;
+        let tries = self.extent(free).objects().len();
         match best {
             Some((size, choice)) if size <= tries.max(1) || matches!(choice, Choice::Join(..)) => {
                 Some(choice)
@@ -296,7 +296,7 @@ impl Scene<'_> {
             },
             Choice::Try(variable) => {
                 let mut flow = ControlFlow::Continue(());
-                for &object in &self.extent(variable).objects {
+                for &object in self.extent(variable).objects() {
                     binding.set(variable, Some(object));
                     flow = self.search(query, done, targets, binding, visit);
                     if flow.is_break() {

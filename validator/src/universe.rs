@@ -1,32 +1,11 @@
-//! The objects of each type.
+//! The domains of all variables, by the definition that `pddl` gives of them.
 //!
 //! There is one extent per type, and one per union of types that some schema uses, computed once
 //! per problem. Invariant: the type set of every evaluated variable has an extent. Membership is
 //! O(1).
 
-use pddl::model::{Domain, Idx, IndexVec, ObjectId, Problem, TypeId, TypeSet, Variables};
+use pddl::model::{Domain, Extent, IndexVec, ObjectId, Problem, TypeId, TypeSet, Variables};
 use rustc_hash::FxHashMap;
-
-/// The objects of a type or union, in the order of their declaration.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Extent {
-    pub(crate) objects: Vec<ObjectId>,
-    members: Vec<bool>,
-}
-
-impl Extent {
-    fn new(domain: &Domain, problem: &Problem, types: &TypeSet) -> Self {
-        let members: Vec<bool> =
-            problem.objects.iter().map(|o| domain.types.is_subset(&o.types, types)).collect();
-        let objects =
-            members.iter().enumerate().filter(|&(_, &m)| m).map(|(i, _)| ObjectId::from_index(i)).collect();
-        Self { objects, members }
-    }
-
-    pub(crate) fn contains(&self, object: ObjectId) -> bool {
-        self.members.get(object.index()).copied().unwrap_or(false)
-    }
-}
 
 /// All extents of a problem.
 #[derive(Clone, Debug)]
@@ -37,8 +16,8 @@ pub(crate) struct Universe {
 
 impl Universe {
     pub(crate) fn new(domain: &Domain, problem: &Problem) -> Self {
-        let types =
-            domain.types.enumerate().map(|(id, _)| Extent::new(domain, problem, &TypeSet::one(id))).collect();
+        let extent = |id| Extent::new(&TypeSet::one(id), &domain.types, &problem.objects);
+        let types = domain.types.enumerate().map(|(id, _)| extent(id)).collect();
         let mut universe = Self { types, unions: FxHashMap::default() };
         for action in &domain.actions {
             universe.index(domain, problem, &action.variables);
@@ -75,7 +54,7 @@ impl Universe {
             if variable.types.0.len() != 1 {
                 self.unions
                     .entry(variable.types.clone())
-                    .or_insert_with(|| Extent::new(domain, problem, &variable.types));
+                    .or_insert_with(|| Extent::new(&variable.types, &domain.types, &problem.objects));
             }
         }
     }

@@ -150,7 +150,7 @@ impl<'d> Reader<'d> {
     fn constants(&mut self) {
         for constant in &self.domain.constants {
             let (name, span) = (constant.name.clone(), constant.span);
-            let &[of] = constant.types.0.as_slice() else {
+            let &[of] = constant.types.declared() else {
                 self.error(span, TokenErrorKind::SeveralTypes { name });
                 continue;
             };

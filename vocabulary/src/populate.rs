@@ -143,12 +143,18 @@ impl Populating<'_> {
     }
 
     fn problem(&mut self, problem: &Problem) {
-        for object in problem.objects.iter().skip(self.tokens.domain.constants.len()) {
-            let (name, span) = (object.name.clone(), object.span);
-            let &[of] = object.types.0.as_slice() else {
+        for (id, object) in problem.objects.enumerate() {
+            let is_constant = self.tokens.domain.constants.get(id).is_some();
+            let name = object.name.clone();
+            // A constant's place is in the vocabulary's text, also if the problem gave it one more type.
+            let span = if is_constant { Span::default() } else { object.span };
+            let &[of] = object.types.declared() else {
                 self.error(span, PopulateErrorKind::SeveralTypes { name });
                 continue;
             };
+            if is_constant {
+                continue;
+            }
             let domain = &self.tokens.domain;
             let found = domain.types.enumerate().find(|(id, _)| *id == of);
             let sort = found.and_then(|(_, declared)| self.tokens.sort(&declared.name));

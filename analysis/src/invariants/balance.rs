@@ -249,8 +249,5 @@ pub fn differ(domain: &Domain, variables: &Variables, a: Term, b: Term, known: &
 
 /// Whether no object can have types of both: no declared type is below both.
 fn apart(domain: &Domain, a: Option<&TypeSet>, b: Option<&TypeSet>) -> bool {
-    let (Some(a), Some(b)) = (a, b) else { return false };
-    let table = &domain.types;
-    let known = !a.is_unknown() && !b.is_unknown();
-    known && table.enumerate().all(|(t, _)| !(table.is_in(t, a) && table.is_in(t, b)))
+    a.zip(b).is_some_and(|(a, b)| !domain.types.overlap(a, b))
 }

@@ -22,7 +22,7 @@ impl Counts {
             TimedChange::Add(fact) => invariant.member(fact.predicate).is_some(),
             _ => false,
         };
-        if problem.timed.iter().any(breaks) || problem.objects.iter().any(|o| o.types.0.len() > 1) {
+        if problem.timed.iter().any(breaks) || problem.objects.iter().any(|o| o.types.are_several()) {
             return None;
         }
         let mut of: FxHashMap<Vec<ObjectId>, u32> = FxHashMap::default();

@@ -70,15 +70,9 @@ impl<'a> World<'a> {
     /// Whether the object belongs to the union.
     pub(crate) fn is_in(&self, object: u32, types: &TypeSet) -> bool {
         let table = &self.domain.types;
-        if types.is_unknown() {
-            return true;
-        }
         match (object as usize).checked_sub(self.named()) {
-            Some(type_) => table.is_in(TypeId::from_index(type_), types),
-            None => {
-                let own = &self.objects()[ObjectId(object)].types;
-                own.is_unknown() || own.0.iter().any(|&t| table.is_in(t, types))
-            }
+            Some(of) => types.is_unknown() || table.is_in(TypeId::from_index(of), types),
+            None => self.objects()[ObjectId(object)].is_of(types, table),
         }
     }
 

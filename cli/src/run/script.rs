@@ -5,7 +5,7 @@
 
 use hal::sim::{By, ClinicianScript, PatientScript, Reply, ReplyRule};
 use mission::{Mission, scenario};
-use pddl::model::{Name, ObjectId};
+use pddl::model::Name;
 use rand_pcg::Pcg64Mcg;
 use rand_pcg::rand_core::{Rng, SeedableRng};
 use std::time::Duration;
@@ -48,8 +48,8 @@ pub(super) fn questions(mission: &Mission) -> Vec<Name> {
     let asked = &layers.vocabulary.model.predicates[layers.tokens.unanswered].variables;
     let Some(asked) = asked.parameters().first() else { return Vec::new() };
     let objects = &layers.graph.model.objects;
-    let of_type = |&id: &ObjectId| asked.types.0.iter().any(|&ty| layers.is_a(id, ty));
-    objects.ids().filter(of_type).map(|id| objects[id].name.clone()).collect()
+    let askable = objects.iter().filter(|object| object.is_of(&asked.types, &layers.nodes.types));
+    askable.map(|object| object.name.clone()).collect()
 }
 
 fn reply(reply: &scenario::Reply, jitter: &mut Jitter) -> Reply {

@@ -100,11 +100,11 @@ fn effects(layers: &Layers, domain: &Domain, action: &DurativeAction) -> Vec<Wri
         };
         let ids = variable.types.0.iter().filter_map(|&t| layers.nodes.types.find(&domain.types[t].name));
         let types = TypeSet(ids.collect());
-        let nodes = layers.nodes.constants.enumerate();
-        nodes
-            .filter(|(_, n)| layers.nodes.types.is_subset(&n.types, &types))
-            .map(|(_, n)| n.name.clone())
-            .collect()
+        if types.is_unknown() {
+            return Vec::new();
+        }
+        let nodes = layers.nodes.constants.iter().filter(|node| node.is_of(&types, &layers.nodes.types));
+        nodes.map(|node| node.name.clone()).collect()
     };
     let mut all = Vec::new();
     for effect in &action.effects {

@@ -38,13 +38,14 @@ fn check_name(
 ) {
     let layers = &mission.layers;
     let types = &layers.nodes.types;
-    let Some(ty) = object.types.0.iter().find_map(|&t| types.find(&domain.types[t].name)) else { return };
-    if layers.graph.model.object(&object.name).is_some_and(|id| layers.is_a(id, ty)) {
-        return;
+    for ty in object.types.declared().iter().filter_map(|&t| types.find(&domain.types[t].name)) {
+        if layers.graph.model.object(&object.name).is_some_and(|id| layers.is_a(id, ty)) {
+            continue;
+        }
+        let place = Place { source, span: object.span };
+        let message = format!("the graph has no node `{}` of type `{}`", object.name, types[ty].name);
+        let nodes = layers.graph.model.objects.ids().filter(|&id| layers.is_a(id, ty));
+        let help = did_you_mean(&object.name, nodes.map(|id| layers.name(id)));
+        findings.push(Finding::error(code, place, message).help_if(help));
     }
-    let place = Place { source, span: object.span };
-    let message = format!("the graph has no node `{}` of type `{}`", object.name, types[ty].name);
-    let nodes = layers.graph.model.objects.ids().filter(|&id| layers.is_a(id, ty));
-    let help = did_you_mean(&object.name, nodes.map(|id| layers.name(id)));
-    findings.push(Finding::error(code, place, message).help_if(help));
 }

@@ -109,8 +109,7 @@ impl Said {
                         let beside = subtask.arguments.iter().any(|t| match t {
                             Term::Object(id) => methods.constants[*id].name == *part,
                             Term::Variable(v) => methods.constant(part).is_some_and(|id| {
-                                let types = &methods.constants[id].types;
-                                methods.types.is_subset(types, &method.variables[*v].types)
+                                methods.constants[id].is_of(&method.variables[*v].types, &methods.types)
                             }),
                         });
                         if beside {

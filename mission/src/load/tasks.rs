@@ -1,7 +1,7 @@
 //! The tasks that the manifest names: what is done without a plan, without progress, without a decision.
 
 use pddl::Span;
-use pddl::model::ObjectId;
+use pddl::model::{ObjectId, TypeSet};
 
 use super::loader::Loader;
 use crate::layers::Layers;
@@ -29,11 +29,12 @@ pub(super) fn resolve(
     };
     let parameters = methods.tasks[task].variables.parameters();
     let fits = |object: ObjectId, parameter: &pddl::model::Variable| {
-        let types = &problem.objects[object].types;
-        types.0.iter().all(|&t| {
-            let name = &layers.domain.model.types[t].name;
-            methods.types.find(name).is_some_and(|t| methods.types.is_in(t, &parameter.types))
-        })
+        // The parameter's types are those of the methods: by their names they are types of the planning domain.
+        let table = &layers.domain.model.types;
+        let takes = |name| methods.types.find(name).is_some_and(|t| methods.types.is_in(t, &parameter.types));
+        let union = table.enumerate().filter(|(_, of)| takes(&of.name)).map(|(id, _)| id);
+        let union = TypeSet(union.collect());
+        !union.is_unknown() && problem.objects[object].is_of(&union, table)
     };
     let mut arguments = Vec::new();
     if text.arguments.is_empty() {

@@ -34,7 +34,7 @@ pub(super) fn argument(
 ) -> Option<ObjectId> {
     let parameter = layers.nodes.predicates[predicate].variables.parameters().get(position);
     let objects = &layers.graph.model.objects;
-    let fits = |id| parameter.is_some_and(|p| layers.nodes.types.is_subset(&objects[id].types, &p.types));
+    let fits = |id| parameter.is_some_and(|p| objects[id].is_of(&p.types, &layers.nodes.types));
     find(reader, layers, text, kind, &fits)
 }
 

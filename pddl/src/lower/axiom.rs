@@ -102,7 +102,7 @@ impl Body<'_> {
         for (slot, parameter) in self.schema.variables.slots.iter_mut().zip(parameters) {
             if slot.types == TypeSet::any() {
                 slot.types = parameter.types.clone();
-            } else if !world.meet(&slot.types, &parameter.types) {
+            } else if !world.types.overlap(&slot.types, &parameter.types) {
                 let kind = DiagnosticKind::NothingInCommon {
                     left: format!("?{}", slot.name),
                     left_type: world.type_text(&slot.types),

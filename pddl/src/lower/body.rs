@@ -127,10 +127,7 @@ impl<'a> Body<'a> {
         index: usize,
         types: &TypeSet,
     ) -> bool {
-        let fits = match term {
-            Term::Object(object) => self.world.fits(object, types),
-            Term::Variable(variable) => self.world.meet(&self.schema.variables[variable].types, types),
-        };
+        let fits = self.term_fits(term, types);
         if !fits {
             let kind = DiagnosticKind::WrongType {
                 name: of.clone(),
@@ -144,24 +141,45 @@ impl<'a> Body<'a> {
         fits
     }
 
-    pub(super) fn term_types(&self, term: Term) -> TypeSet {
+    /// Whether a term can stand where an object of these types is wanted.
+    fn term_fits(&self, term: Term, types: &TypeSet) -> bool {
+        let (objects, table) = (&self.world.objects, &self.world.types);
         match term {
-            Term::Object(object) => self.world.objects[object].types.clone(),
+            Term::Object(object) => objects[object].is_of(types, table),
+            Term::Variable(variable) => table.overlap(&self.schema.variables[variable].types, types),
+        }
+    }
+
+    fn term_types(&self, term: Term) -> TypeSet {
+        match term {
+            Term::Object(object) => self.world.objects[object].types.union(),
             Term::Variable(variable) => self.schema.variables[variable].types.clone(),
         }
     }
 
-    /// Reports two terms, or a fluent and a term, that can never be equal.
+    /// Reports two fluents that can never have the same value.
     pub(super) fn check_common(&mut self, left: (Node<'_>, &TypeSet), right: (Node<'_>, &TypeSet)) {
-        if !self.world.meet(left.1, right.1) {
-            let kind = DiagnosticKind::NothingInCommon {
-                left: left.0.text().to_owned(),
-                left_type: self.world.type_text(left.1),
-                right: right.0.text().to_owned(),
-                right_type: self.world.type_text(right.1),
-            };
-            self.sink.report(left.0.span().to(right.0.span()), kind);
+        if !self.world.types.overlap(left.1, right.1) {
+            self.nothing_in_common(left, right);
         }
+    }
+
+    /// Reports a fluent and a term that can never be its value.
+    pub(super) fn check_value(&mut self, fluent: (Node<'_>, &TypeSet), (node, term): (Node<'_>, Term)) {
+        if !self.term_fits(term, fluent.1) {
+            let found = self.term_types(term);
+            self.nothing_in_common(fluent, (node, &found));
+        }
+    }
+
+    fn nothing_in_common(&mut self, left: (Node<'_>, &TypeSet), right: (Node<'_>, &TypeSet)) {
+        let kind = DiagnosticKind::NothingInCommon {
+            left: left.0.text().to_owned(),
+            left_type: self.world.type_text(left.1),
+            right: right.0.text().to_owned(),
+            right_type: self.world.type_text(right.1),
+        };
+        self.sink.report(left.0.span().to(right.0.span()), kind);
     }
 
     /// `((?x - t …) rest)` of a quantifier: binds the variables and gives them with the rest.

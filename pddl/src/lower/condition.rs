@@ -171,8 +171,7 @@ impl Body<'_> {
             return Some(self.has_no_value(application?, types.clone()));
         }
         let term = self.term(value)?;
-        let value_types = self.term_types(term);
-        self.check_common((fluent, types), (value, &value_types));
+        self.check_value((fluent, types), (value, term));
         Some(ConditionKind::FluentIs(application?, term))
     }
 

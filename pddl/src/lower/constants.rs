@@ -8,7 +8,7 @@ use super::sink::Sink;
 use super::typed_list::{public, typed_list};
 use super::world::World;
 use crate::diagnostic::{DiagnosticKind, Label, SymbolKind};
-use crate::model::{Domain, IndexVec, Name, Object, ObjectId, Requirement, TypeSet};
+use crate::model::{Domain, IndexVec, Name, Object, ObjectId, ObjectTypes, Requirement};
 use crate::occurrence::NameKind;
 use crate::syntax::Node;
 
@@ -41,12 +41,12 @@ pub(crate) fn objects<'t>(
             items.extend(typed_list(sink, part.into_iter()));
         }
         // Consecutive items share their type's node: it is resolved once for all of them.
-        let mut last: Option<(Option<crate::Span>, TypeSet)> = None;
+        let mut last: Option<(Option<crate::Span>, ObjectTypes)> = None;
         for (item, types) in items {
             let at = types.map(Node::span);
             let types = match last.take() {
                 Some((place, set)) if place == at => set,
-                _ => world.type_set(sink, types),
+                _ => ObjectTypes::each_of(world.type_set(sink, types)),
             };
             last = Some((at, types.clone()));
             if item.is_name() {
@@ -58,7 +58,7 @@ pub(crate) fn objects<'t>(
     }
 }
 
-fn declare(world: &mut World, sink: &mut Sink, item: Node<'_>, types: TypeSet, foreign: Foreign<'_>) {
+fn declare(world: &mut World, sink: &mut Sink, item: Node<'_>, types: ObjectTypes, foreign: Foreign<'_>) {
     let name = Name::new(item.text());
     sink.declare(NameKind::Object, item, None);
     let symbol = SymbolKind::Object;
@@ -67,16 +67,14 @@ fn declare(world: &mut World, sink: &mut Sink, item: Node<'_>, types: TypeSet, f
         return;
     };
     let is_foreign = (first.0 as usize) < foreign.count;
-    let same = same_types(&world.objects[first].types, &types);
+    let same = world.objects[first].types == types;
     let import = foreign.imports.iter().find(|d| d.constant(&name).is_some()).map(|d| d.name.clone());
     let kind = match (same, import) {
         (true, _) if is_foreign && foreign.repeatable => return,
         (true, _) => DiagnosticKind::Redundant { symbol, name },
         (false, Some(import)) if is_foreign => DiagnosticKind::ImportConflict { symbol, name, import },
         (false, _) => {
-            let more = types.0.into_iter().filter(|t| !world.objects[first].types.0.contains(t));
-            let more: Vec<_> = more.collect();
-            world.objects[first].types.0.extend(more);
+            world.objects[first].types.extend(types);
             DiagnosticKind::SeveralTypes { name }
         }
     };
@@ -85,11 +83,6 @@ fn declare(world: &mut World, sink: &mut Sink, item: Node<'_>, types: TypeSet, f
     } else {
         sink.report_with(item.span(), kind, world.objects[first].span, Label::First);
     }
-}
-
-/// Whether both unions name the same types.
-pub(super) fn same_types(a: &TypeSet, b: &TypeSet) -> bool {
-    a.0.iter().all(|t| b.0.contains(t)) && b.0.iter().all(|t| a.0.contains(t))
 }
 
 /// The constants, in the order of their ids.

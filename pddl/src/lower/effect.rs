@@ -150,8 +150,7 @@ impl Body<'_> {
             return Some(self.assign_value(application, from, from_types, node.span()));
         }
         let term = self.term(value)?;
-        let value_types = self.term_types(term);
-        self.check_common((target, types), (value, &value_types));
+        self.check_value((target, types), (value, term));
         Some(EffectKind::Assign(operator, application, AssignedValue::Object(term)))
     }
 }

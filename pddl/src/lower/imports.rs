@@ -4,14 +4,16 @@
 //! Symbols of two imports with one name are one symbol if their declarations agree, else an error at the
 //! import's name. A derived predicate of an import is a basic one here, since its axioms are not imported.
 
-use super::constants::same_types;
 use super::header::Header;
 use super::predicates::same_parameters;
 use super::sink::Sink;
 use super::world::World;
 use crate::Span;
 use crate::diagnostic::{DiagnosticKind, SymbolKind};
-use crate::model::{Domain, Function, FunctionValue, Name, Object, Predicate, TypeSet, Variable, Variables};
+use crate::model::{
+    Domain, Function, FunctionValue, Name, Object, ObjectTypes, Predicate, TypeId, TypeSet, Variable,
+    Variables,
+};
 use crate::occurrence::NameKind;
 
 /// The imported domains with the places of their names.
@@ -54,9 +56,9 @@ pub(crate) fn declare(world: &mut World, sink: &mut Sink, imports: &[(&Domain, S
             sink.report(span, DiagnosticKind::ImportConflict { symbol, name: name.clone(), import });
         };
         for object in &domain.constants {
-            let types = map_types(world, domain, &object.types);
+            let types = ObjectTypes::each_of(map_types(world, domain, object.types.declared()));
             match world.object(&object.name) {
-                Some(first) if same_types(&world.objects[first].types, &types) => {}
+                Some(first) if world.objects[first].types == types => {}
                 Some(_) => {
                     let origin = earlier.iter().find(|d| d.constant(&object.name).is_some());
                     conflict(SymbolKind::Object, &object.name, origin);
@@ -84,7 +86,7 @@ pub(crate) fn declare(world: &mut World, sink: &mut Sink, imports: &[(&Domain, S
             let variables = map_variables(world, domain, &function.variables);
             let value = match &function.value {
                 FunctionValue::Number => FunctionValue::Number,
-                FunctionValue::Object(types) => FunctionValue::Object(map_types(world, domain, types)),
+                FunctionValue::Object(types) => FunctionValue::Object(map_types(world, domain, &types.0)),
             };
             match world.function(&function.name).map(|f| &world.functions[f]) {
                 Some(first) if first.value == value && same_parameters(&first.variables, &variables) => {}
@@ -101,8 +103,8 @@ pub(crate) fn declare(world: &mut World, sink: &mut Sink, imports: &[(&Domain, S
     }
 }
 
-fn map_types(world: &World, from: &Domain, types: &TypeSet) -> TypeSet {
-    let here = types.0.iter().filter_map(|&t| world.type_id(&from.types[t].name)).collect();
+fn map_types(world: &World, from: &Domain, types: &[TypeId]) -> TypeSet {
+    let here = types.iter().filter_map(|&t| world.type_id(&from.types[t].name)).collect();
     TypeSet(here)
 }
 
@@ -112,7 +114,7 @@ fn map_variables(world: &World, from: &Domain, variables: &Variables) -> Variabl
         .iter()
         .map(|v| Variable {
             name: v.name.clone(),
-            types: map_types(world, from, &v.types),
+            types: map_types(world, from, &v.types.0),
             span: Span::default(),
         })
         .collect();

@@ -173,8 +173,7 @@ impl Body<'_> {
                 None
             }
             FunctionValue::Object(types) if value.is_name() => self.object(value).map(|object| {
-                let found = self.term_types(Term::Object(object));
-                self.check_common((target, types), (value, &found));
+                self.check_value((target, types), (value, Term::Object(object)));
                 FluentValue::Object(object)
             }),
             FunctionValue::Object(_) => {

@@ -6,7 +6,7 @@ use super::typed_list::{public, without_agent};
 use super::world::World;
 use crate::Span;
 use crate::diagnostic::{DiagnosticKind, Label, SymbolKind};
-use crate::model::{Domain, Name, Predicate, Variables};
+use crate::model::{Domain, Name, Predicate, TypeSet, Variables};
 use crate::occurrence::NameKind;
 use crate::syntax::Node;
 
@@ -54,10 +54,12 @@ pub(super) fn parameters(world: &World, sink: &mut Sink, node: Node<'_>) -> Vari
 /// Whether both have parameters of the same types (their names do not matter).
 pub(super) fn same_parameters(a: &Variables, b: &Variables) -> bool {
     a.parameters == b.parameters
-        && a.parameters()
-            .iter()
-            .zip(b.parameters())
-            .all(|(x, y)| super::constants::same_types(&x.types, &y.types))
+        && a.parameters().iter().zip(b.parameters()).all(|(x, y)| same_types(&x.types, &y.types))
+}
+
+/// Whether both unions name the same types.
+fn same_types(a: &TypeSet, b: &TypeSet) -> bool {
+    a.0.iter().all(|t| b.0.contains(t)) && b.0.iter().all(|t| a.0.contains(t))
 }
 
 /// An earlier declaration of a name.

@@ -74,8 +74,13 @@ impl World {
 
     /// The declarations of a domain that is already a model.
     pub(crate) fn of(domain: &Domain) -> Self {
+        Self::with_objects(domain, &domain.constants)
+    }
+
+    /// The declarations of a domain with the objects of a problem, which include the domain's constants.
+    pub(crate) fn with_objects(domain: &Domain, objects: &IndexVec<ObjectId, Object>) -> Self {
         let mut world = Self::new(domain.requirements.clone(), domain.types.clone());
-        for object in &domain.constants {
+        for object in objects {
             world.add_object(object.clone());
         }
         for predicate in &domain.predicates {
@@ -144,22 +149,6 @@ impl World {
 
     pub(crate) fn task_or_action(&self, name: &str) -> Option<&Signature> {
         self.signature_ids.get(&*fold(name)).map(|&i| &self.signatures[i])
-    }
-
-    /// Whether an object can be an instance of both.
-    pub(crate) fn meet(&self, a: &TypeSet, b: &TypeSet) -> bool {
-        if a.is_unknown() || b.is_unknown() {
-            return true;
-        }
-        let related = |&x: &TypeId, &y: &TypeId| self.types.is_subtype(x, y) || self.types.is_subtype(y, x);
-        a.0.iter().any(|x| b.0.iter().any(|y| related(x, y)))
-            || self.types.enumerate().any(|(t, _)| self.types.is_in(t, a) && self.types.is_in(t, b))
-    }
-
-    /// Whether the object can belong to `types`: its type, or one type of its `either`, does.
-    pub(crate) fn fits(&self, object: ObjectId, types: &TypeSet) -> bool {
-        let own = &self.objects[object].types;
-        own.is_unknown() || types.is_unknown() || own.0.iter().any(|&t| self.types.is_in(t, types))
     }
 
     /// `truck`, or `(either truck plane)`.

@@ -7,8 +7,8 @@
 
 use super::{
     Action, ActionId, CompoundTask, Condition, Constraints, DurativeAction, DurativeActionId, Event, EventId,
-    FunctionId, IndexVec, Invariant, Method, MethodId, Name, ObjectId, PredicateId, Process, ProcessId,
-    Requirements, TaskId, TypeId, TypeSet, TypeTable, Variables,
+    FunctionId, IndexVec, Invariant, Method, MethodId, Name, Object, ObjectId, PredicateId, Process,
+    ProcessId, Requirements, TaskId, TypeId, TypeSet, TypeTable, Variables,
 };
 use crate::Span;
 
@@ -43,17 +43,6 @@ pub struct Function {
     pub variables: Variables,
     /// The kind of its value.
     pub value: FunctionValue,
-    /// Where it was declared.
-    pub span: Span,
-}
-
-/// A constant or object.
-#[derive(Clone, Debug)]
-pub struct Object {
-    /// Its name.
-    pub name: Name,
-    /// Its type (an `either` of several is possible).
-    pub types: TypeSet,
     /// Where it was declared.
     pub span: Span,
 }

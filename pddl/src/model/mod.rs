@@ -22,6 +22,7 @@ mod ids;
 mod index;
 mod invariant;
 mod name;
+mod object;
 mod preference;
 mod problem;
 mod process;
@@ -36,9 +37,7 @@ pub use action::{
 };
 pub use condition::{Atom, Comparison, Condition, ConditionKind};
 pub use constraint::{Constraint, ConstraintKind, Constraints};
-pub use domain::{
-    Axiom, Domain, Function, FunctionValue, Object, Permission, Predicate, TokenPattern, TokenSymbol,
-};
+pub use domain::{Axiom, Domain, Function, FunctionValue, Permission, Predicate, TokenPattern, TokenSymbol};
 pub use effect::{AssignOperator, AssignedValue, Effect, EffectKind};
 pub use expression::{Application, ArithmeticOperator, Expression, ExpressionKind};
 pub use fact::Fact;
@@ -51,6 +50,7 @@ pub use ids::{
 pub use index::{Idx, IndexVec};
 pub use invariant::{Invariant, Word};
 pub use name::Name;
+pub use object::{Extent, Object, ObjectTypes};
 pub use preference::Preference;
 pub use problem::{
     FluentFact, FluentValue, GroundApplication, Metric, Objective, Problem, TimedChange, TimedInitial,

@@ -18,8 +18,8 @@ pub struct Type {
     pub span: Span,
 }
 
-/// A union of types: `(either a b)`, or one type. Up to four are stored inline, since every object of a
-/// problem has such a set.
+/// A union of types behind a variable: `(either a b)`, or one type. What an object is declared with is no union
+/// but [`ObjectTypes`](super::ObjectTypes).
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct TypeSet(pub SmallVec<[TypeId; 4]>);
 
@@ -93,7 +93,7 @@ impl TypeTable {
         self.ancestors[sub].binary_search(&super_).is_ok()
     }
 
-    /// Whether an instance of `sub` belongs to the union.
+    /// Whether every `sub` belongs to the union.
     pub fn is_in(&self, sub: TypeId, union: &TypeSet) -> bool {
         union.0.iter().any(|&t| self.is_subtype(sub, t))
     }
@@ -101,6 +101,16 @@ impl TypeTable {
     /// Whether each member of `sub` belongs to `super_`.
     pub fn is_subset(&self, sub: &TypeSet, super_: &TypeSet) -> bool {
         sub.0.iter().all(|&t| self.is_in(t, super_))
+    }
+
+    /// Whether a declared type is below both unions, so that an object of one type can belong to both. An object
+    /// of several types can belong to any two.
+    pub fn overlap(&self, a: &TypeSet, b: &TypeSet) -> bool {
+        let inside = |a: &TypeSet, b: &TypeSet| a.0.iter().any(|&of| self.is_in(of, b));
+        let is_below_both = |of: TypeId| self.is_in(of, a) && self.is_in(of, b);
+        let is_unknown = a.is_unknown() || b.is_unknown();
+        // Most are nested, which is seen without a look at all types.
+        is_unknown || inside(a, b) || inside(b, a) || self.types.ids().any(is_below_both)
     }
 
     /// The type and all its supertypes, sorted by id.

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::Printer;
 use crate::model::{
     Application, AssignOperator, AssignedValue, Atom, Comparison, Condition, ConditionKind, Effect,
-    EffectKind, Expression, ExpressionKind, Term, TypeSet, VariableId, Variables,
+    EffectKind, Expression, ExpressionKind, Term, TypeId, TypeSet, VariableId, Variables,
 };
 
 /// Words that have another meaning in front of a list than a type of that name.
@@ -66,9 +66,9 @@ impl<'m> Printer<'m> {
         self.applied(v, &domain.functions[of.function].name, &of.arguments);
     }
 
-    pub(super) fn types(&mut self, types: &TypeSet) {
+    pub(super) fn types(&mut self, types: &[TypeId]) {
         let table = &self.domain.types;
-        match types.0.as_slice() {
+        match types {
             [one] => self.push(&table[*one].name),
             many => self.list("(either", many, |p, &t| p.push(&table[t].name)),
         }
@@ -82,7 +82,7 @@ impl<'m> Printer<'m> {
     /// `?x - t`
     pub(super) fn variable(&mut self, v: &Variables, slot: VariableId) {
         let _ = write!(self.out, "?{} - ", v[slot].name);
-        self.types(&v[slot].types);
+        self.types(&v[slot].types.0);
     }
 
     pub(super) fn condition(&mut self, v: &Variables, condition: &Condition) {
@@ -120,7 +120,7 @@ impl<'m> Printer<'m> {
         self.push("(sortof ");
         self.term(v, term);
         self.push(" - ");
-        self.types(types);
+        self.types(&types.0);
         self.push(")");
     }
 

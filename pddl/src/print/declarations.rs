@@ -1,7 +1,7 @@
 //! Types, constants, predicates, functions, permissions.
 
 use super::Printer;
-use crate::model::{FunctionValue, Object, TokenSymbol, TypeSet, TypeTable, Variables};
+use crate::model::{FunctionValue, Object, TokenSymbol, TypeTable, Variables};
 
 impl Printer<'_> {
     pub(super) fn type_section(&mut self) {
@@ -14,7 +14,7 @@ impl Printer<'_> {
             self.push("\n    ");
             self.push(&t.name);
             self.push(" - ");
-            self.types(&TypeSet(t.parents.iter().copied().collect()));
+            self.types(&t.parents);
         }
         self.push(")");
     }
@@ -26,7 +26,7 @@ impl Printer<'_> {
             any = true;
             self.push(&object.name);
             self.push(" - ");
-            self.types(&object.types);
+            self.types(object.types.declared());
         }
         if any {
             self.push(")");
@@ -65,7 +65,7 @@ impl Printer<'_> {
             self.declaration(&function.name, &function.variables);
             if let FunctionValue::Object(types) = &function.value {
                 self.push(" - ");
-                self.types(types);
+                self.types(&types.0);
             }
             self.push(")");
         }

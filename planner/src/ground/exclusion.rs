@@ -43,7 +43,7 @@ impl Exclusions {
     ) -> Result<Self, Interrupted> {
         let Normalised { domain, problem, exogenous, values, .. } = model;
         // Invariants assume that an object has one type.
-        if problem.objects.iter().any(|o| o.types.0.len() > 1) {
+        if problem.objects.iter().any(|o| o.types.are_several()) {
             return Ok(Self::default());
         }
         let happenings: Vec<Happening<'_>> =

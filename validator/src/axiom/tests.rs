@@ -157,7 +157,7 @@ fn by_definition(
                 let parameters: Vec<_> = axiom.variables.parameter_ids().collect();
                 let mut tuples: Vec<Vec<ObjectId>> = vec![Vec::new()];
                 for &parameter in &parameters {
-                    let objects = &universe.extent(&axiom.variables[parameter].types).objects;
+                    let objects = universe.extent(&axiom.variables[parameter].types).objects();
                     let longer = |tuple: &Vec<ObjectId>, &object| [tuple.as_slice(), &[object]].concat();
                     tuples = tuples.iter().flat_map(|t| objects.iter().map(move |o| longer(t, o))).collect();
                 }

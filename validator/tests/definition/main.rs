@@ -16,6 +16,7 @@ mod sample;
 mod sequential;
 mod timed;
 mod timed_naive;
+mod types;
 
 /// So many cases, unless `PROPTEST_CASES` asks for another number.
 fn cases(count: u32) -> proptest::test_runner::Config {

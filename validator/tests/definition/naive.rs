@@ -9,7 +9,8 @@ use pddl::PlanStep;
 use pddl::model::{
     Action, Application, ArithmeticOperator, AssignOperator, AssignedValue, Atom, Comparison, Condition,
     ConditionKind, Constraint, ConstraintKind, Domain, Effect, EffectKind, Expression, ExpressionKind,
-    FluentValue, Idx, Name, ObjectId, PredicateId, Problem, Term, TypeSet, VariableId, Variables,
+    FluentValue, Idx, Name, Object, ObjectId, PredicateId, Problem, Term, TypeId, TypeSet, VariableId,
+    Variables,
 };
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -107,9 +108,17 @@ impl World<'_> {
         state
     }
 
-    fn objects(&self, types: &TypeSet) -> Vec<ObjectId> {
+    /// Whether the type is one of those, or a parent of it is.
+    fn is_below(&self, of: TypeId, types: &TypeSet) -> bool {
+        let parents = &self.domain.types[of].parents;
+        types.0.contains(&of) || parents.iter().any(|&parent| self.is_below(parent, types))
+    }
+
+    /// The objects of which one type is below one of those.
+    pub fn objects(&self, types: &TypeSet) -> Vec<ObjectId> {
+        let is_of = |object: &Object| object.types.declared().iter().any(|&of| self.is_below(of, types));
         let all = self.problem.objects.enumerate();
-        all.filter(|(_, o)| self.domain.types.is_subset(&o.types, types)).map(|(id, _)| id).collect()
+        all.filter(|(_, object)| is_of(object)).map(|(id, _)| id).collect()
     }
 
     /// Every way to give the variables values.
@@ -314,6 +323,32 @@ impl World<'_> {
         state.atoms.retain(|atom| !changes.deletes.contains(atom));
         state.atoms.extend(changes.adds.iter().cloned());
         Some(())
+    }
+
+    /// Every instance of an action: its parameters stand for any object of their types.
+    pub fn instances(&self) -> Vec<PlanStep> {
+        let mut all = Vec::new();
+        for (id, action) in self.domain.actions.enumerate() {
+            let parameters: Vec<VariableId> = action.variables.parameter_ids().collect();
+            for binding in self.bindings(&parameters, &action.variables, &empty(&action.variables, &[])) {
+                let arguments = parameters.iter().map(|p| binding[p.index()].unwrap()).collect();
+                all.push(PlanStep { action: id, arguments, span: pddl::Span::default() });
+            }
+        }
+        all
+    }
+
+    /// The state after a step; `None` if it cannot be taken.
+    pub fn successor(&self, state: &State, step: &PlanStep) -> Option<State> {
+        let action = &self.domain.actions[step.action];
+        let (seen, binding) = (self.closed(state), empty(&action.variables, &step.arguments));
+        let (mut changes, mut after) = (Changes::default(), state.clone());
+        if !self.holds(&action.precondition, &action.variables, &binding, &seen) {
+            return None;
+        }
+        self.collect(&action.effect, &action.variables, &binding, &seen, &mut changes)?;
+        self.apply(&changes, &mut after)?;
+        Some(after)
     }
 
     /// A plan without times.

@@ -1,13 +1,21 @@
 //! Plans of the planner are valid; with a step less, two swapped or an argument changed they are what the definition
 //! says, and the step that fails is the one that it says.
+//!
+//! For random tasks with objects of several types, the definition knows each instance of an action and each state that
+//! can be reached: the planner's instances are among them, and its plans and proofs and the validator's verdicts agree.
 
 use crate::choices::Choices;
-use crate::naive::Fault;
+use crate::naive::{Fault, State, World};
+use crate::sample::Sample;
 use crate::sequential::{compared, steps, task};
 use pddl::model::{Domain, Idx, ObjectId, Problem};
+use pddl::{PlanStep, SequentialPlan};
 use planner::{Budget, GroundOptions, Outcome, Query, SearchConfiguration, ground, solve};
 use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use std::collections::BTreeSet;
 use std::fmt::Write;
+use validator::validate;
 
 const PLAIN: &str = "(define (domain plain) (:requirements :strips :typing)
   (:types place thing) (:predicates (link ?a ?b - place) (here ?p - place) (at ?t - thing ?p - place) (held ?t - thing) (free))
@@ -118,4 +126,96 @@ proptest! {
             }
         }
     }
+}
+
+/// So many steps at most: the definition's fractions must fit into a word.
+const STEPS: usize = 6;
+
+/// What the definition reaches from the initial state in at most so many states; `None` if there are more.
+fn reached(world: &World<'_>, most: usize) -> Option<Vec<(State, Vec<PlanStep>)>> {
+    let mut found = vec![(world.initial(), Vec::new())];
+    let mut next = 0;
+    while let Some((state, steps)) = found.get(next).cloned() {
+        next += 1;
+        for step in world.instances() {
+            if let Some(after) = world.successor(&state, &step)
+                && found.iter().all(|(known, _)| *known != after)
+            {
+                found.push((after, [steps.as_slice(), &[step]].concat()));
+            }
+        }
+        if found.len() > most || found.last().is_some_and(|(_, steps)| steps.len() > STEPS) {
+            return None;
+        }
+    }
+    Some(found)
+}
+
+/// A step as a pair that can be compared.
+fn outline(step: &PlanStep) -> (u32, Vec<ObjectId>) {
+    (step.action.0, step.arguments.clone())
+}
+
+/// What a comparison of a random task said; for the tally below.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Met {
+    Plan,
+    Unsolvable,
+    /// The task is outside of the planner's language or too large for the definition.
+    Nothing,
+}
+
+/// Holds the planner's instances, plan or proof and the validator's verdict against the definition.
+fn planned(sample: &Sample) -> Met {
+    let (domain, problem) = task(&sample.domain(), &sample.problem());
+    let world = World { domain: &domain, problem: &problem };
+    let Ok(grounded) = ground(&domain, &problem, &GroundOptions::default()) else { return Met::Nothing };
+    let instances: BTreeSet<_> = world.instances().iter().map(outline).collect();
+    for operator in grounded.operators().iter() {
+        let instance = (operator.action.0, operator.arguments.to_vec());
+        assert!(instances.contains(&instance), "{instance:?} is not of the right types");
+    }
+    let all = reached(&world, 150);
+    let goal = |(_, steps): &&(State, Vec<PlanStep>)| world.judge(steps).is_ok();
+    let shortest = all.as_ref().and_then(|all| all.iter().find(goal));
+    if let Some((_, steps)) = shortest {
+        let plan = SequentialPlan::new(steps.clone());
+        assert!(validate(&domain, &problem, &plan).is_valid(), "{steps:?} is a plan by the definition");
+    }
+    let budget = Budget { work: Some(20_000), ..Budget::default() };
+    match solve(&grounded, &Query::of(&grounded), &SearchConfiguration::default(), &budget).outcome {
+        Outcome::Solved(plan) => {
+            let names: Vec<_> = plan.operators.iter().map(|&o| grounded.operator_name(o)).collect();
+            let plan = steps(&names.join("\n"), &domain, &problem);
+            assert!(validate(&domain, &problem, &plan).is_valid(), "{names:?} is no plan");
+            assert!(plan.steps.len() > STEPS || compared(&domain, &problem, &plan).is_ok());
+            Met::Plan
+        }
+        Outcome::Unsolvable(_) => {
+            assert!(shortest.is_none(), "{shortest:?} is a plan");
+            Met::Unsolvable
+        }
+        _ => Met::Nothing,
+    }
+}
+
+proptest! {
+    #![proptest_config(crate::cases(300))]
+
+    #[test]
+    fn the_planner_the_validator_and_the_definition_agree(bytes in prop::collection::vec(any::<u8>(), 400)) {
+        planned(&Sample::plannable(&bytes));
+    }
+}
+
+#[test]
+fn random_tasks_have_plans_and_have_none() {
+    let mut runner = proptest::test_runner::TestRunner::deterministic();
+    let bytes = prop::collection::vec(any::<u8>(), 400);
+    let mut kinds = std::collections::BTreeMap::new();
+    for _ in 0..200 {
+        let sample = Sample::plannable(&bytes.new_tree(&mut runner).unwrap().current());
+        *kinds.entry(planned(&sample)).or_insert(0) += 1;
+    }
+    assert!([Met::Plan, Met::Unsolvable].iter().all(|kind| kinds.get(kind) >= Some(&20)), "{kinds:?}");
 }

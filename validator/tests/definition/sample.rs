@@ -1,11 +1,12 @@
 //! Random tasks with plans, as text.
 //!
 //! All of them share one vocabulary, so that conditions and effects can be put together at random and mostly mean
-//! something: two types, predicates of up to two places, two derived ones (one recursive, one that may deny the other),
-//! numeric fluents of which some have no value, and an object fluent. Invariant: nothing is quantified over `object`, so
-//! that objects of another type are irrelevant.
+//! something: types of which some overlap, objects of several types, predicates of up to two places, two derived ones
+//! (one recursive, one that may deny the other), numeric fluents of which some have no value, and object fluents.
+//! Invariant: nothing is quantified over `object`, so that objects of another type are irrelevant.
 
 use crate::choices::Choices;
+use crate::types::{self, BOTH, HIERARCHY, fits};
 use std::fmt::Write;
 
 /// A task and a plan, still in parts.
@@ -47,7 +48,7 @@ pub struct Forms<'c, 'b> {
 impl Forms<'_, '_> {
     /// Something in scope of a type, if there is.
     fn term(&mut self, scope: &[Named], wanted: &str) -> Option<String> {
-        let fitting: Vec<&Named> = scope.iter().filter(|(_, of)| *of == wanted || wanted == "t0").collect();
+        let fitting: Vec<&Named> = scope.iter().filter(|named| fits(named, wanted)).collect();
         (!fitting.is_empty()).then(|| self.choices.of(&fitting).0.clone())
     }
 
@@ -58,17 +59,23 @@ impl Forms<'_, '_> {
 
     /// An atom that actions may change.
     pub fn atom(&mut self, scope: &[Named]) -> String {
-        let atom = match self.choices.below(5) {
+        let atom = match self.choices.below(7) {
             0 => None,
             1 | 2 => self.applied("p1", &["t0"], scope),
             3 => self.applied("p2", &["t0", "t0"], scope),
-            _ => self.applied("p3", &["t1"], scope),
+            4 => self.applied("p3", &["t1"], scope),
+            5 => self.applied("p4", &["t3"], scope),
+            _ => self.applied("p5", &[BOTH], scope),
         };
         atom.unwrap_or_else(|| "(p0)".to_owned())
     }
 
     fn fluent(&mut self, scope: &[Named]) -> String {
-        let fluent = if self.choices.below(2) == 0 { None } else { self.applied("f1", &["t0"], scope) };
+        let fluent = match self.choices.below(5) {
+            0 | 1 => None,
+            2 | 3 => self.applied("f1", &["t0"], scope),
+            _ => self.applied("f2", &["t3"], scope),
+        };
         fluent.unwrap_or_else(|| "(f0)".to_owned())
     }
 
@@ -96,7 +103,7 @@ impl Forms<'_, '_> {
     /// A new variable.
     fn variable(&mut self) -> Named {
         self.variables += 1;
-        (format!("?v{}", self.variables), *self.choices.of(&["t0", "t1"]))
+        (format!("?v{}", self.variables), *self.choices.of(&["t0", "t1", "t3", BOTH, "t0", "t4"]))
     }
 
     pub fn comparison(&mut self, scope: &[Named]) -> String {
@@ -117,10 +124,13 @@ impl Forms<'_, '_> {
                 derived.unwrap_or_else(|| "(d1)".to_owned())
             }
             4 if self.language == Language::Sequential => {
-                let pair = (self.term(scope, "t0"), self.term(scope, "t0"));
-                match (pair, self.choices.below(2)) {
-                    ((Some(a), Some(b)), 0) => format!("(= {a} {b})"),
-                    ((Some(a), Some(b)), _) => format!("(= (g {a}) {b})"),
+                let (form, [of, value]) = *self.choices.of(&[
+                    ("(= A B)", ["t0", "t0"]),
+                    ("(= (g A) B)", ["t0", "t0"]),
+                    ("(= (k A) B)", ["t1", "t3"]),
+                ]);
+                match (self.term(scope, of), self.term(scope, value)) {
+                    (Some(a), Some(b)) => form.replace('A', &a).replace('B', &b),
                     _ => self.atom(scope),
                 }
             }
@@ -154,9 +164,10 @@ impl Forms<'_, '_> {
                 format!("({word} {fluent} {value})")
             }
             3 if self.language == Language::Sequential => {
-                match (self.term(scope, "t0"), self.term(scope, "t0"), self.choices.below(4)) {
-                    (Some(a), Some(b), 0 | 1) => format!("(assign (g {a}) {b})"),
-                    (Some(a), _, 2) => format!("(assign (g {a}) undefined)"),
+                let (name, of, value) = *self.choices.of(&[("g", "t0", "t0"), ("k", "t1", "t3")]);
+                match (self.term(scope, of), self.term(scope, value), self.choices.below(4)) {
+                    (Some(a), Some(b), 0 | 1) => format!("(assign ({name} {a}) {b})"),
+                    (Some(a), _, 2) => format!("(assign ({name} {a}) undefined)"),
                     _ => format!("(scale-up {} {})", self.fluent(scope), self.number()),
                 }
             }
@@ -186,21 +197,29 @@ pub fn typed(names: &[Named]) -> String {
     names.iter().map(|(name, of)| format!("{name} - {of}")).collect::<Vec<_>>().join(" ")
 }
 
-/// Objects: at least one of each type.
+/// Two to four objects, often one of two types.
 pub fn objects(choices: &mut Choices<'_>) -> Vec<Named> {
     let count = 2 + choices.below(3);
-    (0..count).map(|n| (format!("o{n}"), if n == 0 || n == 3 { "t1" } else { "t0" })).collect()
+    let mut of = || *choices.of(&[BOTH, "t1", "t0", BOTH, "t3", "t0", BOTH, "t4"]);
+    (0..count).map(|n| (format!("o{n}"), of())).collect()
 }
 
 /// The values of fluents, some missing, and some atoms.
 pub fn init(choices: &mut Choices<'_>, objects: &[Named], language: Language) -> Vec<String> {
     let mut init = vec![format!("(= (f0) {})", choices.below(4))];
-    for (object, _) in objects {
+    for named @ (object, _) in objects {
+        if fits(named, "t3") && !choices.one_in(6) {
+            init.push(format!("(= (f2 {object}) {})", choices.of(&["0", "1", "2"])));
+        }
         if !choices.one_in(6) {
             init.push(format!("(= (f1 {object}) {})", choices.of(&["0", "1", "2.5", "0.3"])));
         }
         if language == Language::Sequential && choices.below(3) > 0 {
             init.push(format!("(= (g {object}) {})", choices.of(objects).0));
+        }
+        let values: Vec<&Named> = objects.iter().filter(|value| fits(value, "t3")).collect();
+        if language == Language::Sequential && fits(named, "t1") && !values.is_empty() {
+            init.push(format!("(= (k {object}) {})", choices.of(&values).0));
         }
     }
     let mut forms = Forms { choices, language, variables: 0 };
@@ -248,11 +267,21 @@ impl Sample {
         let mut plan = Vec::new();
         for _ in 0..forms.choices.below(8) {
             let index = forms.choices.below(signatures.len());
-            plan.push(step(forms.choices, index, &signatures[index], &objects));
+            plan.extend(step(forms.choices, index, &signatures[index], &objects));
         }
         let metric =
             "(+ (f0) (* 3 (is-violated w0)) (* 7 (is-violated w1)) (* 11 (is-violated w2)))".to_owned();
         Self { derived, actions, objects, init, goal, constraints, metric, plan, strangers: false }
+    }
+
+    /// A task that has nothing but a goal: what the planner is asked.
+    pub fn plannable(bytes: &[u8]) -> Self {
+        let mut sample = Self::sequential(bytes);
+        sample.goal.pop();
+        for action in &mut sample.actions {
+            *action = action.replace("(preference w1 ", "(and ");
+        }
+        Self { constraints: Vec::new(), metric: String::new(), plan: Vec::new(), ..sample }
     }
 
     pub fn domain(&self) -> String {
@@ -262,13 +291,16 @@ impl Sample {
             .to_owned();
         let (types, predicate, function) =
             if self.strangers { ("t2", "(p9 ?x - t2 ?y - t0)", "(f9 ?x - t2)") } else { ("", "", "") };
-        writeln!(text, "(:types t1 - t0 t0 {types} - object)").unwrap();
+        writeln!(text, "(:types {HIERARCHY} t0 {types} - object)").unwrap();
+        writeln!(text, "(:constants {})", types::constants(&self.objects)).unwrap();
         writeln!(
             text,
-            "(:predicates (p0) (p1 ?x - t0) (p2 ?x ?y - t0) (p3 ?x - t1) (d0 ?x - t0) (d1) {predicate})"
+            "(:predicates (p0) (p1 ?x - t0) (p2 ?x ?y - t0) (p3 ?x - t1) (p4 ?x - t3) (p5 ?x - {BOTH}) (d0 ?x - t0) (d1) \
+             {predicate})"
         )
         .unwrap();
-        writeln!(text, "(:functions (f0) (f1 ?x - t0) {function} - number (g ?x - t0) - t0)").unwrap();
+        writeln!(text, "(:functions (f0) (f1 ?x - t0) (f2 ?x - t3) {function} - number (g ?x - t0) - t0 (k ?x - t1) - t3)")
+            .unwrap();
         for part in self.derived.iter().chain(&self.actions) {
             writeln!(text, "{part}").unwrap();
         }
@@ -276,14 +308,16 @@ impl Sample {
     }
 
     pub fn problem(&self) -> String {
+        let (mut constraints, mut metric) = (String::new(), String::new());
+        if !self.metric.is_empty() {
+            constraints = format!("(:constraints (and {}))", self.constraints.join("\n  "));
+            metric = format!("(:metric minimize {})", self.metric);
+        }
         format!(
-            "(define (problem one) (:domain random)\n(:objects {})\n(:init {})\n(:goal (and {}))\n(:constraints (and {}))\n\
-             (:metric minimize {}))",
-            typed(&self.objects),
+            "(define (problem one) (:domain random)\n(:objects {})\n(:init {})\n(:goal (and {}))\n{constraints}\n{metric})",
+            types::objects(&self.objects),
             self.init.join("\n  "),
             self.goal.join("\n  "),
-            self.constraints.join("\n  "),
-            self.metric
         )
     }
 }
@@ -330,11 +364,8 @@ impl Sample {
                 .choices
                 .of(&["0.0", "0.5", "1.0", "1.5", "2.0", "3.0", "1.0005", "0.999", "4.0", "5.5"]);
             let duration = *forms.choices.of(&["1", "2", "0.5", "1.5", "2", "0.5", "3", "0"]);
-            plan.push(if *durative {
-                format!("{start}: {step} [{duration}]")
-            } else {
-                format!("{start}: {step}")
-            });
+            let duration = if *durative { format!(" [{duration}]") } else { String::new() };
+            plan.extend(step.map(|step| format!("{start}: {step}{duration}")));
         }
         let metric =
             "(+ (f0) (* 3 (is-violated w0)) (* 7 (is-violated w1)) (* 11 (is-violated w2)))".to_owned();
@@ -379,14 +410,22 @@ impl Forms<'_, '_> {
     }
 }
 
-/// A step with arguments of the right types.
-pub fn step(choices: &mut Choices<'_>, index: usize, parameters: &[Named], objects: &[Named]) -> String {
+/// A step with arguments of the right types, if there are any.
+pub fn step(
+    choices: &mut Choices<'_>,
+    index: usize,
+    parameters: &[Named],
+    objects: &[Named],
+) -> Option<String> {
     let mut step = format!("(a{index}");
     for (_, of) in parameters {
-        let fitting: Vec<&Named> = objects.iter().filter(|(_, has)| has == of || *of == "t0").collect();
+        let fitting: Vec<&Named> = objects.iter().filter(|object| fits(object, of)).collect();
+        if fitting.is_empty() {
+            return None;
+        }
         write!(step, " {}", choices.of(&fitting).0).unwrap();
     }
-    step + ")"
+    Some(step + ")")
 }
 
 /// Up to `most` constraints, the last one a preference.

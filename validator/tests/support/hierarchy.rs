@@ -49,9 +49,21 @@ struct Network {
     order: Vec<(usize, usize)>,
 }
 
+/// What may stand behind a hyphen: which of the types `a` and `b` it names. A variable stands for an object of any of
+/// them, an object belongs to each of them.
+const TYPES: [(&str, [bool; 2]); 3] =
+    [("(either a b)", [true, true]), ("a", [true, false]), ("b", [false, true])];
+
+fn fits(object: usize, variable: usize) -> bool {
+    let named = |types: usize, of: usize| TYPES[types].1[of];
+    (0..2).any(|of| named(object, of) && named(variable, of))
+}
+
 #[derive(Clone, Debug)]
 struct Method {
     task: usize,
+    /// The types of its two variables.
+    types: [usize; 2],
     precondition: Vec<Literal>,
     network: Network,
     /// Whether its two variables must differ.
@@ -74,6 +86,8 @@ pub(crate) struct Task {
     methods: Vec<Method>,
     root: Network,
     init: BTreeSet<Fact>,
+    /// The types of each object.
+    types: [usize; OBJECTS],
 }
 
 /// A plan that was made by decomposing.
@@ -153,7 +167,9 @@ impl Task {
                 let distinct = chance.below(4) == 0;
                 let most = chance.below(3);
                 let precondition = literals(chance, most, 2);
-                methods.push(Method { task, precondition, network: network(chance, 3), distinct });
+                // Most variables are for every object.
+                let types = [(); 2].map(|()| [0, 0, 0, 1, 2][chance.below(5)]);
+                methods.push(Method { task, types, precondition, network: network(chance, 3), distinct });
             }
         }
         let mut root = network(chance, 3);
@@ -162,14 +178,16 @@ impl Task {
         }
         let facts = (0..PREDICATES).flat_map(|p| (0..OBJECTS).map(move |o| (p, o)));
         let init = facts.filter(|_| chance.below(2) == 0).collect();
-        Self { actions, methods, root, init }
+        let types = [(); OBJECTS].map(|()| chance.below(TYPES.len()));
+        Self { actions, methods, root, init, types }
     }
 
     /// The domain and the problem.
     pub(crate) fn texts(&self) -> (String, String) {
-        let mut domain = "(define (domain d) (:requirements :hierarchy :negative-preconditions :equality)\n\
-                          (:predicates (p0 ?x) (p1 ?x))\n"
-            .to_owned();
+        let mut domain =
+            "(define (domain d) (:requirements :hierarchy :typing :negative-preconditions :equality)\n\
+                          (:types a b - object) (:predicates (p0 ?x) (p1 ?x))\n"
+                .to_owned();
         for task in 0..TASKS {
             writeln!(domain, "(:task t{task} :parameters (?v0))").unwrap();
         }
@@ -177,7 +195,9 @@ impl Task {
             let constraints = if method.distinct { ":constraints (and (not (= ?v0 ?v1)))" } else { "" };
             writeln!(
                 domain,
-                "(:method m{name} :parameters (?v0 ?v1) :task (t{} ?v0) :precondition {} {} {constraints})",
+                "(:method m{name} :parameters (?v0 - {} ?v1 - {}) :task (t{} ?v0) :precondition {} {} {constraints})",
+                TYPES[method.types[0]].0,
+                TYPES[method.types[1]].0,
                 method.task,
                 condition(&method.precondition),
                 network_text(&method.network, "?v"),
@@ -192,8 +212,10 @@ impl Task {
         domain.push(')');
         let init: String = self.init.iter().map(|(p, o)| format!(" (p{p} o{o})")).collect();
         let root = network_text(&self.root, "o");
+        let object = |(number, of): (usize, &usize)| format!(" o{number} - {}", TYPES[*of].0);
+        let objects: String = self.types.iter().enumerate().map(object).collect();
         let problem =
-            format!("(define (problem p) (:domain d) (:objects o0 o1) (:htn {root}) (:init{init}))");
+            format!("(define (problem p) (:domain d) (:objects{objects}) (:htn {root}) (:init{init}))");
         (domain, problem)
     }
 
@@ -250,7 +272,9 @@ impl Task {
         let Item::Node(Head::Task(task), object) = pending[place].item else { return Vec::new() };
         let mut ways = Vec::new();
         for (name, method) in self.methods.iter().enumerate().filter(|(_, method)| method.task == task) {
-            for other in (0..OBJECTS).filter(|&other| !method.distinct || other != object) {
+            let is_of = |object: usize, variable: usize| fits(self.types[object], method.types[variable]);
+            let others = (0..OBJECTS).filter(|&other| is_of(object, 0) && is_of(other, 1));
+            for other in others.filter(|&other| !method.distinct || other != object) {
                 let objects = [object, other];
                 let mut left = pending.to_vec();
                 let gone = left.remove(place);

@@ -2,7 +2,7 @@
 
 use diagnostics::SourceId;
 use pddl::NameKind;
-use pddl::model::{Domain, FunctionValue, TypeSet, TypeTable, Variables};
+use pddl::model::{Domain, FunctionValue, TypeId, TypeSet, TypeTable, Variables};
 use project::Project;
 
 use crate::context::Context;
@@ -16,13 +16,13 @@ pub(crate) struct Applied<'p> {
 
 impl Applied<'_> {
     pub(crate) fn type_text(&self, types: &TypeSet) -> String {
-        type_text(self.types, types)
+        type_text(self.types, &types.0)
     }
 }
 
 /// `truck`, or `(either truck plane)`.
-pub(crate) fn type_text(table: &TypeTable, types: &TypeSet) -> String {
-    match types.0.as_slice() {
+pub(crate) fn type_text(table: &TypeTable, types: &[TypeId]) -> String {
+    match types {
         [] => "object".to_owned(),
         [one] => table[*one].name.to_string(),
         many => {
@@ -81,14 +81,4 @@ pub(crate) fn yields<'p>(domain: &'p Domain, name: &str) -> Option<&'p TypeSet> 
         FunctionValue::Number => None,
         FunctionValue::Object(types) => Some(types),
     }
-}
-
-/// Whether an object can be of both types; an unknown type matches any.
-pub(crate) fn meet(table: &TypeTable, a: &TypeSet, b: &TypeSet) -> bool {
-    let inside = |x: &TypeSet, y: &TypeSet| x.0.iter().any(|&t| table.is_in(t, y));
-    a.is_unknown()
-        || b.is_unknown()
-        || inside(a, b)
-        || inside(b, a)
-        || table.enumerate().any(|(t, _)| table.is_in(t, a) && table.is_in(t, b))
 }

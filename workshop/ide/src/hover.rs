@@ -146,7 +146,7 @@ fn hierarchy(project: &Project, file: SourceId, domain: &Domain, entity: &Entity
             let problem = project.problem_of(file).and_then(|problem| project.problem(problem));
             let own = problem.and_then(|problem| Some(&problem.objects[problem.object(name)?]));
             let object = own.or_else(|| Some(&domain.constants[domain.constant(name)?]));
-            object.map_or_else(Vec::new, |o| o.types.0.iter().map(|&t| chain(domain, t)).collect())
+            object.map_or_else(Vec::new, |o| o.types.declared().iter().map(|&t| chain(domain, t)).collect())
         }
         _ => Vec::new(),
     }

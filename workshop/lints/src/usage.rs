@@ -3,7 +3,7 @@
 use pddl::model::{
     ActionId, Domain, DurativeActionId, Fact, FluentFact, FluentValue, FunctionId, FunctionValue, Idx,
     IndexVec, ObjectId, PredicateId, Problem, SubtaskHead, TaskId, Term, TimedChange, TokenSymbol, TypeId,
-    TypeSet, Variables,
+    Variables,
 };
 
 use crate::schema::{Schema, network};
@@ -87,7 +87,7 @@ impl Usage {
         for function in &domain.functions {
             usage.variables(&function.variables);
             if let FunctionValue::Object(types) = &function.value {
-                usage.type_set(types);
+                usage.types(&types.0);
             }
         }
         walk::constraints(&domain.constraints, &mut |part| usage.asked(part));
@@ -96,7 +96,7 @@ impl Usage {
             walk::invariant(invariant, &mut |part| usage.asked(part));
             usage.variables(&invariant.variables);
         }
-        domain.constants.iter().for_each(|constant| usage.type_set(&constant.types));
+        domain.constants.iter().for_each(|constant| usage.types(constant.types.declared()));
         domain.tasks.iter().for_each(|task| usage.variables(&task.variables));
         for pattern in domain.permissions.iter().flat_map(|permission| &permission.tokens) {
             match pattern.symbol {
@@ -190,11 +190,11 @@ impl Usage {
     }
 
     fn variables(&mut self, variables: &Variables) {
-        variables.slots.iter().for_each(|variable| self.type_set(&variable.types));
+        variables.slots.iter().for_each(|variable| self.types(&variable.types.0));
     }
 
-    fn type_set(&mut self, types: &TypeSet) {
-        types.0.iter().for_each(|&id| self.types[id] = true);
+    fn types(&mut self, types: &[TypeId]) {
+        types.iter().for_each(|&id| self.types[id] = true);
     }
 
     /// Whether the object is named; false for an id that came later.

@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use pddl::model::{Domain, Name, ObjectId, TypeId, TypeSet};
+use pddl::model::{Domain, Name, Object, ObjectId, TypeId, TypeSet};
 
 use super::mentions;
 use crate::layers::Layers;
@@ -19,22 +19,23 @@ pub(in crate::check) struct ClassId(u32);
 pub(in crate::check) struct Classes {
     /// By class: its nodes, in the order of declaration.
     nodes: Vec<Vec<Name>>,
-    types: Vec<TypeSet>,
+    /// By class: the node that stands for all of it.
+    first: Vec<ObjectId>,
     of: BTreeMap<Name, ClassId>,
 }
 
 impl Classes {
     pub(super) fn new(layers: &Layers) -> Self {
         let named = named(layers);
-        let mut classes = Self { nodes: Vec::new(), types: Vec::new(), of: BTreeMap::new() };
+        let mut classes = Self { nodes: Vec::new(), first: Vec::new(), of: BTreeMap::new() };
         let mut anonymous: BTreeMap<Vec<TypeId>, ClassId> = BTreeMap::new();
-        for (_, node) in layers.nodes.constants.enumerate() {
-            let mut key = node.types.0.to_vec();
+        for (id, node) in layers.nodes.constants.enumerate() {
+            let mut key = node.types.declared().to_vec();
             key.sort_unstable();
             let known = anonymous.get(&key).filter(|_| !named.contains(&node.name));
             let class = known.copied().unwrap_or_else(|| {
                 classes.nodes.push(Vec::new());
-                classes.types.push(node.types.clone());
+                classes.first.push(id);
                 ClassId(u32::try_from(classes.nodes.len() - 1).expect("a graph has fewer nodes"))
             });
             if !named.contains(&node.name) {
@@ -68,7 +69,8 @@ impl Classes {
 
     /// The names of its types.
     pub(in crate::check) fn type_names<'l>(&self, class: ClassId, layers: &'l Layers) -> Vec<&'l str> {
-        self.types[class.0 as usize].0.iter().map(|&t| layers.nodes.types[t].name.as_str()).collect()
+        let types = self.first(class, layers).types.declared();
+        types.iter().map(|&t| layers.nodes.types[t].name.as_str()).collect()
     }
 
     /// Whether all its nodes are of these types of `domain`.
@@ -81,7 +83,12 @@ impl Classes {
     ) -> bool {
         let table = &layers.nodes.types;
         let ids = types.0.iter().filter_map(|&t| table.find(&domain.types[t].name));
-        table.is_subset(&self.types[class.0 as usize], &TypeSet(ids.collect()))
+        let union = TypeSet(ids.collect());
+        !union.is_unknown() && self.first(class, layers).is_of(&union, table)
+    }
+
+    fn first<'l>(&self, class: ClassId, layers: &'l Layers) -> &'l Object {
+        &layers.nodes.constants[self.first[class.0 as usize]]
     }
 
     /// The classes of these types of `domain`.

@@ -49,7 +49,7 @@ pub(super) fn read(reader: &mut Reader<'_>, layers: &Layers, text: &Text) -> Opt
             unknown(reader, mention, "the planning problem has no object", known);
             return None;
         };
-        if !domain.types.is_subset(&problem.objects[object].types, &parameter.types) {
+        if !problem.objects[object].is_of(&parameter.types, &domain.types) {
             let message = format!("`{}` does not fit `?{}` of `{}`", mention.name, parameter.name, head.name);
             reader.error("E0907", mention.span, message);
             return None;

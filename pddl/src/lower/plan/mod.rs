@@ -46,10 +46,8 @@ pub(crate) fn plan(
 }
 
 fn whole(sink: Sink, source: &Source, tree: &Tree<'_>, domain: &Domain, problem: &Problem) -> Lowered<Plan> {
-    let mut world = World::of(domain);
-    for object in problem.objects.iter().skip(domain.constants.len()) {
-        world.add_object(object.clone());
-    }
+    // A constant has the types that the problem gives it as well.
+    let world = World::with_objects(domain, &problem.objects);
     let knows_time = !domain.durative_actions.is_empty()
         || !problem.timed.is_empty()
         || !domain.processes.is_empty()

@@ -27,7 +27,7 @@ pub(super) fn expand(
             continue;
         }
         let count =
-            |total: usize, v: &VariableId| total.saturating_mul(schema.slots[v.0 as usize].objects.len());
+            |total: usize, v: &VariableId| total.saturating_mul(schema.slots[v.0 as usize].objects().len());
         if !work.guard.allows(effect.quantified.iter().fold(1, count)) {
             break;
         }

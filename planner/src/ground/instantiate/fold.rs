@@ -7,15 +7,15 @@
 
 use super::folded::{Comparison, Connective, Ground, fold_parts};
 use super::numbers::Numbers;
-use crate::ground::binding::resolve;
+use crate::ground::binding::{object, resolve};
 use crate::ground::exclusion::{Exclusions, Marks};
 use crate::ground::literal::{Lit, consistent};
 use crate::ground::memory::Guard;
-use crate::ground::normalise::{Fluents, Formula, Key, Literal, Range};
+use crate::ground::normalise::{Fluents, Formula, Key, Literal};
 use crate::ids::id32;
 use crate::task::AtomTable;
 use budget::Meter;
-use pddl::model::VariableId;
+use pddl::model::{Extent, ObjectId, VariableId};
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
 
@@ -53,7 +53,7 @@ impl<'a> Instantiator<'a> {
         self.next
     }
 
-    pub(crate) fn fold(&self, formula: &Formula, slots: &[Arc<Range>], binding: &mut [u32]) -> Ground {
+    pub(crate) fn fold(&self, formula: &Formula, slots: &[Arc<Extent>], binding: &mut [u32]) -> Ground {
         match formula {
             Formula::And(parts) if parts.iter().all(Formula::is_flat) => {
                 let mut literals = Vec::with_capacity(parts.len());
@@ -75,8 +75,8 @@ impl<'a> Instantiator<'a> {
             Formula::Exists(vs, inner) => self.quantified(vs, inner, slots, binding, false),
             Formula::Forall(vs, inner) => self.quantified(vs, inner, slots, binding, true),
             Formula::Literal(literal) => self.literal(literal, binding),
-            Formula::OneOf { positive, term, range } => {
-                if range.contains(resolve(*term, binding)) == *positive {
+            Formula::OneOf { positive, term, extent } => {
+                if extent.contains(object(*term, binding)) == *positive {
                     Ground::True
                 } else {
                     Ground::False
@@ -119,7 +119,7 @@ impl<'a> Instantiator<'a> {
         &self,
         variables: &[VariableId],
         inner: &Formula,
-        slots: &[Arc<Range>],
+        slots: &[Arc<Extent>],
         binding: &mut [u32],
         universal: bool,
     ) -> Ground {
@@ -127,9 +127,9 @@ impl<'a> Instantiator<'a> {
             return self.fold(inner, slots, binding);
         };
         let slot = first.0 as usize;
-        let objects = || slots[slot].objects.iter().take_while(|_| self.guard.look());
-        let each = |&object: &u32, b: &mut [u32]| {
-            b[slot] = object;
+        let objects = || slots[slot].objects().iter().take_while(|_| self.guard.look());
+        let each = |object: &ObjectId, b: &mut [u32]| {
+            b[slot] = object.0;
             self.quantified(rest, inner, slots, b, universal)
         };
         if universal {

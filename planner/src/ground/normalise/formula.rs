@@ -10,11 +10,11 @@
 //!
 //! Source: Helmert, "Concise finite-domain representations", AIJ 2009, §4.
 
-use super::universe::{Range, Universe};
+use super::universe::Universe;
 use crate::ground::error::{Feature, GroundError, Origin};
 use crate::number::Relation;
 use pddl::model::{
-    Comparison, Condition, ConditionKind, Expression, ExpressionKind, PredicateId, Term, VariableId,
+    Comparison, Condition, ConditionKind, Expression, ExpressionKind, Extent, PredicateId, Term, VariableId,
 };
 use std::sync::Arc;
 
@@ -43,7 +43,7 @@ pub(crate) enum Formula {
     OneOf {
         positive: bool,
         term: Term,
-        range: Arc<Range>,
+        extent: Arc<Extent>,
     },
     /// The relation of `left - right` to 0. An undefined value is in no relation, so the negation
     /// of a comparison is another relation and not its complement.
@@ -113,7 +113,7 @@ impl Formula {
             }),
             (&ConditionKind::Same(left, right), _) => Self::Same { positive, left, right },
             (ConditionKind::HasType(term, types), _) => {
-                Self::OneOf { positive, term: *term, range: universe.range(types) }
+                Self::OneOf { positive, term: *term, extent: universe.extent(types) }
             }
             (ConditionKind::Compare(comparison, left, right), _) => {
                 let (relation, swapped) = relation(*comparison, positive);

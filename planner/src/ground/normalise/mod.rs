@@ -16,12 +16,12 @@ pub(crate) use cost::{CostModel, Measure, NoCost, metric_span};
 pub(crate) use fluents::{Fluents, Key, STEPS};
 pub(crate) use formula::{Formula, Literal};
 pub(crate) use schema::{NumericEffects, Product, Schema, SchemaEffect};
-pub(crate) use universe::{Range, Universe};
+pub(crate) use universe::Universe;
 pub(crate) use values::compile;
 
 use super::error::{GroundError, Origin};
 use crate::task::ValuePredicates;
-use pddl::model::{Domain, EffectKind, Idx, PredicateId, Problem};
+use pddl::model::{Domain, EffectKind, Extent, Idx, PredicateId, Problem};
 use std::sync::Arc;
 
 /// A model without object fluents, in normal form.
@@ -39,7 +39,7 @@ pub(crate) struct Normalised<'m> {
     /// Actions in their order, then the rules of axioms.
     pub(crate) schemas: Vec<Schema>,
     pub(crate) goal: Formula,
-    pub(crate) goal_slots: Vec<Arc<Range>>,
+    pub(crate) goal_slots: Vec<Arc<Extent>>,
 }
 
 /// Normalises a model without object fluents. `additive`: whether to try a sum of operator costs.

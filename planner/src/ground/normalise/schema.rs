@@ -3,12 +3,12 @@
 use super::cost::{CostModel, CostTerm};
 use super::fluents::Fluents;
 use super::formula::Formula;
-use super::universe::{Range, Universe};
+use super::universe::Universe;
 use crate::ground::error::{GroundError, Origin};
 use crate::ground::memory;
 use pddl::model::{
     Action, ActionId, Application, AssignOperator, AssignedValue, Axiom, Domain, Effect, EffectKind,
-    Expression, Name, PredicateId, Term, VariableId,
+    Expression, Extent, Name, PredicateId, Term, VariableId,
 };
 use std::sync::Arc;
 
@@ -61,7 +61,7 @@ pub(crate) enum Product {
 #[derive(Clone, Debug)]
 pub(crate) struct Schema {
     pub(crate) name: Name,
-    pub(crate) slots: Vec<Arc<Range>>,
+    pub(crate) slots: Vec<Arc<Extent>>,
     pub(crate) parameters: usize,
     /// Existential variables at the top level of the condition.
     pub(crate) hoisted: Vec<VariableId>,

@@ -1,8 +1,7 @@
 //! Tests on bound variables.
 
-use crate::ground::normalise::Range;
 use crate::number::Relation;
-use pddl::model::{Expression, ExpressionKind, PredicateId, Term};
+use pddl::model::{Expression, ExpressionKind, Extent, PredicateId, Term};
 use std::sync::Arc;
 
 /// A test on bound variables.
@@ -17,7 +16,7 @@ pub(crate) enum Filter {
     OneOf {
         positive: bool,
         term: Term,
-        range: Arc<Range>,
+        extent: Arc<Extent>,
     },
     /// A static atom that must not hold.
     Absent {

@@ -15,14 +15,14 @@ use super::filter::Filter;
 use super::indices::Indices;
 use super::plan::{JoinPlan, Statistics, Step, plan};
 use super::rule::{Rule, rules};
-use crate::ground::binding::resolve;
+use crate::ground::binding::{object, resolve};
 use crate::ground::error::{Failure, GroundError};
 use crate::ground::memory;
 use crate::ground::normalise::{Fluents, Normalised, Schema};
 use crate::ids::id32;
 use crate::task::AtomTable;
 use budget::{Interrupted, Meter};
-use pddl::model::Term;
+use pddl::model::{ObjectId, Term};
 
 /// The bindings found for one schema: parameters, then hoisted variables, `width` a row.
 #[derive(Clone, Debug, Default)]
@@ -138,7 +138,7 @@ impl Join<'_, '_> {
                         let slot = &mut binding[v.0 as usize];
                         if *slot == u32::MAX {
                             *slot = object;
-                            if !self.rule.slots[v.0 as usize].contains(object) {
+                            if !self.rule.slots[v.0 as usize].contains(ObjectId(object)) {
                                 return Ok(());
                             }
                         } else if *slot != object {
@@ -165,8 +165,8 @@ impl Join<'_, '_> {
                     Filter::Same { positive, left, right } => {
                         (resolve(*left, binding) == resolve(*right, binding)) == *positive
                     }
-                    Filter::OneOf { positive, term, range } => {
-                        range.contains(resolve(*term, binding)) == *positive
+                    Filter::OneOf { positive, term, extent } => {
+                        extent.contains(object(*term, binding)) == *positive
                     }
                     Filter::Absent { predicate, arguments } => self
                         .out
@@ -192,8 +192,8 @@ impl Join<'_, '_> {
                 }
             }
             Step::Enumerate { slot } => {
-                for &object in &rule.slots[*slot].objects {
-                    binding[*slot] = object;
+                for object in rule.slots[*slot].objects() {
+                    binding[*slot] = object.0;
                     self.step(at + 1, binding)?;
                 }
                 Ok(())
@@ -209,7 +209,7 @@ impl Join<'_, '_> {
                     }
                     let row = self.out.table.row(candidate);
                     for &(position, slot) in assign {
-                        if !rule.slots[slot].contains(row[position]) {
+                        if !rule.slots[slot].contains(ObjectId(row[position])) {
                             continue 'rows;
                         }
                         binding[slot] = row[position];

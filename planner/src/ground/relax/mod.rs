@@ -17,7 +17,7 @@ use super::normalise::{Normalised, Universe};
 use crate::ids::id32;
 use crate::task::AtomTable;
 use budget::{Interrupted, Meter};
-use pddl::model::{Domain, Fact, Idx, PredicateId};
+use pddl::model::{Domain, Fact, Idx, ObjectId, PredicateId};
 
 /// The reachable atoms and instances.
 pub(crate) struct Reached {
@@ -62,9 +62,9 @@ fn add_all_instances(
     meter: &Meter<'_>,
 ) -> Result<(), Failure> {
     let declared = &domain.predicates[predicate];
-    let ranges = universe.slots(&declared.variables);
-    let ranges: Vec<&[u32]> =
-        ranges[..declared.variables.parameters].iter().map(|r| r.objects.as_slice()).collect();
+    let extents = universe.slots(&declared.variables);
+    let ranges: Vec<&[ObjectId]> =
+        extents[..declared.variables.parameters].iter().map(|extent| extent.objects()).collect();
     if ranges.iter().any(|r| r.is_empty()) {
         return Ok(());
     }
@@ -72,7 +72,7 @@ fn add_all_instances(
     let mut odometer = vec![0_usize; ranges.len()];
     loop {
         meter.spend(128)?;
-        table.insert(predicate, odometer.iter().zip(&ranges).map(|(&i, r)| r[i]));
+        table.insert(predicate, odometer.iter().zip(&ranges).map(|(&i, r)| r[i].0));
         let instances = table.len() - before;
         if meter.hold(instances * memory::atom(ranges.len())) == Err(Interrupted::Memory) {
             return Err(GroundError::Limit { schema: declared.name.clone(), instances }.into());

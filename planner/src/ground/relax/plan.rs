@@ -74,7 +74,7 @@ impl<'a> Statistics<'a> {
 /// The number of values of each slot, as far as types and static atoms restrict them.
 #[expect(clippy::cast_precision_loss, reason = "an estimate")]
 fn widths(rule: &Rule, is_static: &[bool], statistics: &mut Statistics<'_>) -> Vec<f64> {
-    let mut widths: Vec<f64> = rule.slots.iter().map(|r| r.objects.len() as f64).collect();
+    let mut widths: Vec<f64> = rule.slots.iter().map(|r| r.objects().len() as f64).collect();
     for atom in rule.body.iter().filter(|a| is_static[a.predicate.0 as usize]) {
         for (position, term) in atom.arguments.iter().enumerate() {
             if let Term::Variable(v) = term {

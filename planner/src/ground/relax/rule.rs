@@ -1,8 +1,8 @@
 //! Rules of reachability: the body to join, and the heads that follow.
 
 use super::filter::Filter;
-use crate::ground::normalise::{Fluents, Formula, Literal, Product, Range, Schema};
-use pddl::model::{Idx, PredicateId, Term, VariableId};
+use crate::ground::normalise::{Fluents, Formula, Literal, Product, Schema};
+use pddl::model::{Extent, Idx, PredicateId, Term, VariableId};
 use std::sync::Arc;
 
 /// A positive atom of a body.
@@ -16,7 +16,7 @@ pub(crate) struct BodyAtom {
 #[derive(Clone, Debug)]
 pub(crate) struct Rule {
     pub(crate) schema: usize,
-    pub(crate) slots: Vec<Arc<Range>>,
+    pub(crate) slots: Vec<Arc<Extent>>,
     /// The variables that must be bound.
     pub(crate) variables: Vec<VariableId>,
     pub(crate) body: Vec<BodyAtom>,
@@ -58,9 +58,9 @@ impl Rule {
                 &Formula::Same { positive, left, right } => {
                     self.filters.push(Filter::Same { positive, left, right });
                 }
-                Formula::OneOf { positive, term, range } => {
-                    let (positive, term, range) = (*positive, *term, range.clone());
-                    self.filters.push(Filter::OneOf { positive, term, range });
+                Formula::OneOf { positive, term, extent } => {
+                    let (positive, term, extent) = (*positive, *term, extent.clone());
+                    self.filters.push(Filter::OneOf { positive, term, extent });
                 }
                 Formula::Compare { relation, left, right }
                     if fluents.is_static(left) && fluents.is_static(right) =>

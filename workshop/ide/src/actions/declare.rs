@@ -1,7 +1,7 @@
 //! Declares undeclared names, with types inferred from their uses.
 
 use diagnostics::SourceId;
-use pddl::model::TypeSet;
+use pddl::model::ObjectTypes;
 use pddl::syntax::{self, Node, Tree};
 use pddl::{NameKind, Span, SymbolKind};
 use project::{FileKind, Project};
@@ -87,8 +87,8 @@ fn object_type(project: &Project, file: SourceId, argument: Node<'_>) -> String 
     let Some(domain) = domain(project, file) else { return "object".to_owned() };
     let problem = project.problem_of(file).and_then(|problem| project.problem(problem));
     let own = problem.and_then(|problem| Some(&problem.objects[problem.object(&name)?].types));
-    let types: Option<&TypeSet> = own.or_else(|| Some(&domain.constants[domain.constant(&name)?].types));
-    types.map_or_else(|| "object".to_owned(), |types| type_text(&domain.types, types))
+    let types: Option<&ObjectTypes> = own.or_else(|| Some(&domain.constants[domain.constant(&name)?].types));
+    types.map_or_else(|| "object".to_owned(), |types| type_text(&domain.types, types.declared()))
 }
 
 /// The type that an argument at `span` must have.

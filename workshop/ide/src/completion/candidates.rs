@@ -8,7 +8,7 @@ use super::expected::{Expected, Form};
 use super::item::{Completion, CompletionKind};
 use super::snippets::{self, Snippet};
 use crate::Position;
-use crate::applied::{applied, domain, meet, type_text, yields};
+use crate::applied::{applied, domain, type_text, yields};
 use crate::context::{After, Context, DOMAIN_SECTIONS, PROBLEM_SECTIONS};
 use crate::entity::occurrences;
 use crate::words::meaning;
@@ -228,7 +228,7 @@ impl<'a> Candidates<'a> {
         let parameters = variables.parameters();
         let shown: Vec<String> = parameters
             .iter()
-            .map(|p| format!(" ?{} - {}", p.name, type_text(&domain.types, &p.types)))
+            .map(|p| format!(" ?{} - {}", p.name, type_text(&domain.types, &p.types.0)))
             .collect();
         let detail = format!("({name}{})", shown.concat());
         let places: Vec<String> =
@@ -270,7 +270,7 @@ impl<'a> Candidates<'a> {
             let ids = types.iter().map(|t| domain.types.find(&t.to_ascii_lowercase()));
             // An undeclared type matches any.
             let own = TypeSet(ids.collect::<Option<_>>().unwrap_or_default());
-            if meet(&domain.types, &own, wanted) {
+            if domain.types.overlap(&own, wanted) {
                 let exact = own.is_unknown() || domain.types.is_subset(&own, wanted);
                 let rank = VARIABLE + u32::from(!exact);
                 let detail = format!("- {}", types.join(" "));
@@ -281,11 +281,8 @@ impl<'a> Candidates<'a> {
             self.project.problem_of(self.at.source).and_then(|problem| self.project.problem(problem));
         let objects = problem.map_or(&domain.constants, |problem| &problem.objects);
         for object in objects {
-            let fits = object.types.is_unknown()
-                || object.types.0.iter().any(|&t| domain.types.is_in(t, wanted))
-                || wanted.is_unknown();
-            if fits {
-                let detail = format!("- {}", type_text(&domain.types, &object.types));
+            if object.is_of(wanted, &domain.types) {
+                let detail = format!("- {}", type_text(&domain.types, object.types.declared()));
                 self.push(CompletionKind::Name(NameKind::Object), &object.name, Some(detail), OBJECT);
             }
         }

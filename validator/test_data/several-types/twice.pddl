@@ -1,0 +1,4 @@
+(define (problem twice) (:domain amphibious)
+  (:objects duck - car duck - boat home bank isle - place)
+  (:init (at duck home) (road home bank) (river bank isle) (= (fuel duck) 1))
+  (:goal (and (at duck isle) (ready))))
