@@ -13,6 +13,7 @@
     (away ?p - person)                ; allow(never-true-predicate): out of view for so long that calling does not help
     (wants-help ?p - person)          ; allow(never-true-predicate)
     (impaired ?p - person)            ; allow(never-true-predicate): the robot cannot see, or cannot talk with, the person
+    (calling ?p - person)             ; allow(never-true-predicate): somebody asked for help, and nobody has come
     (clinician-needed ?p - person)    ; allow(never-true-predicate): two items are without an answer
     (paused ?p - person)              ; allow(never-true-predicate)
     (aborted ?p - person)
@@ -131,6 +132,12 @@
     :precondition (and (clinician-needed ?p) (not (wants-help ?p)) (not (impaired ?p))
                        (not (paused ?p)) (not (aborted ?p)))
     :effect (not (clinician-needed ?p)))
+
+  ; Nobody who asked for help is left alone: at the end, the robot waits for whoever was called.
+  (:action await-attendance
+    :parameters (?p - person)
+    :precondition (and (calling ?p) (reported ?p) (not (wants-help ?p)) (not (aborted ?p)))
+    :effect (not (calling ?p)))
 
   (:action await-resumption
     :parameters (?p - person)

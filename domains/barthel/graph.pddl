@@ -10,7 +10,7 @@
     option-1 option-2 option-3 option-4 - option
     greeting explanation introduction all-options moving-on farewell please-touch - remark
     first-question second-question - question
-    sit-down stay-calm help-is-coming - summons)
+    sit-down stay-calm help-is-coming no-connection - summons)
   (:init
     (is_in barthel opening)
     (precedes option-1 option-2) (precedes option-2 option-3) (precedes option-3 option-4)

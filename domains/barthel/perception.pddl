@@ -33,6 +33,8 @@
           (and (or (is_needed_for ?c repair) (is_called_for ?c repair))
                (or (and (unusable microphone) (or (unusable touch) (unusable screen)))
                    (and (unusable speaker) (unusable screen)))))))
+  (:derived (calling ?p - person)
+    (exists (?c - clinician) (or (is_needed_for ?c assistance) (is_called_for ?c assistance))))
   (:derived (wants-help ?p - person)
     (asks ?p help))
   (:derived (clinician-needed ?p - person)

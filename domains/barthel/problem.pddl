@@ -18,4 +18,4 @@
     (next transfers mobility)
     (next mobility stairs)
     (next stairs closing))
-  (:goal (and (reported person) (not (wants-help person)))))
+  (:goal (and (reported person) (not (wants-help person)) (not (calling person)))))

@@ -39,7 +39,7 @@
     (was_said_in ?u - utterance ?p - part)
     (was_shown_in ?u - utterance ?p - part)
     (was_told_in ?u - utterance ?p - part)         ; said or shown, and nothing of it was still to come
-    (was_sensed_in ?u - utterance ?p - part)       ; said or shown, and a sensor noticed it
+    (was_sensed_in ?u - utterance ?p - part)       ; said, and the microphone heard it: so it works, too
     (refuses ?d - device ?p - part)                ; rejected what it was to say or show, and works
     ; the people: a patient takes the test, others may be there
     (is_with ?p - person ?r - robot)
@@ -83,7 +83,7 @@
   (:writes panel
     (is _ showing) (is_not _ showing) (finish _ showing)
     (is screen broken) (is screen doubted) (is touch broken)
-    view was_shown_in was_told_in was_sensed_in refuses
+    view was_shown_in was_told_in refuses
     can waiting got was_chosen_in was_unanswered_in
     (asks _ help))
   (:writes person-agent is_with has_left rt (is tracker broken))

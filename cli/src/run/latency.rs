@@ -27,7 +27,9 @@ impl FromStr for Range {
     fn from_str(text: &str) -> Result<Self, String> {
         let seconds = |text: &str| {
             let number: f64 = text.parse().map_err(|_| "not a number of seconds".to_owned())?;
-            Duration::try_from_secs_f64(number).map_err(|error| error.to_string())
+            let longest = Duration::from_hours(24);
+            let seconds = Duration::try_from_secs_f64(number).map_err(|error| error.to_string())?;
+            if seconds <= longest { Ok(seconds) } else { Err("more than a day".to_owned()) }
         };
         let (least, most) = text.split_once("..").unwrap_or((text, text));
         let range = Self { least: seconds(least)?, most: seconds(most)? };

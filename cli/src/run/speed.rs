@@ -12,6 +12,9 @@ use tokio::sync::mpsc::{Receiver, channel};
 /// The real time between two ticks of the metronome.
 const TICK: Duration = Duration::from_millis(5);
 
+/// The longest step of the simulated clock.
+const STEP: Duration = Duration::from_millis(50);
+
 /// How fast time passes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Speed {
@@ -35,7 +38,13 @@ impl Speed {
         }
         let mut ticks = metronome();
         while ticks.recv().await.is_some() {
-            tokio::time::advance(TICK.mul_f64(factor)).await;
+            // In small steps, so that what is due within a tick happens at its time.
+            let mut left = TICK.mul_f64(factor);
+            while !left.is_zero() {
+                let step = left.min(STEP);
+                tokio::time::advance(step).await;
+                left -= step;
+            }
         }
         std::future::pending().await
     }
@@ -61,9 +70,9 @@ impl FromStr for Speed {
         if text == "max" {
             return Ok(Self::Max);
         }
-        let wrong = || "a positive number such as 1, 0.5 or 20, or `max`".to_owned();
+        let wrong = || "a positive number such as 1, 0.5 or 20 up to 1000, or `max`".to_owned();
         let factor: f64 = text.parse().map_err(|_| wrong())?;
-        if factor.is_finite() && (1e-3..=1e6).contains(&factor) {
+        if factor.is_finite() && (1e-3..=1e3).contains(&factor) {
             Ok(Self::Factor(factor))
         } else {
             Err(wrong())

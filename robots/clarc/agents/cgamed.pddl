@@ -35,32 +35,14 @@
       (at start (not (is_called_for ?c assistance))))
     :effect (at start (is_needed_for ?c assistance)))
 
+  ; A call is under way until a clinician has attended to it, however long that takes; `call-urgently`
+  ; calls whoever else can come, beside it.
   (:durative-action call
     :parameters (?c - clinician ?n - need)
-    :duration (<= ?duration 120)
     :condition (and
       (at start (is_needed_for ?c ?n))
       (at start (not (is_called_for ?c ?n)))
-      (at start (not (is_overdue_for ?c ?n))))
-    :effect (and
-      (at start (is_called_for ?c ?n))
-      (at end (not (is_needed_for ?c ?n)))
-      (at end (not (is_called_for ?c ?n)))
-      (at end (forall (?p - person) (not (asks ?p help))))
-      (at end (attended ?c ?n))
-      (at timeout (not (is_called_for ?c ?n)))
-      (at timeout (is_needed_for ?c ?n))
-      (at timeout (is_overdue_for ?c ?n))
-      (at failure (not (is_called_for ?c ?n)))
-      (at failure (is_needed_for ?c ?n)))
-    :skill (call-clinician ?n))
-
-  (:durative-action call-urgently
-    :parameters (?c - clinician ?n - need)
-    :duration (<= ?duration 120)
-    :condition (and
-      (at start (is_overdue_for ?c ?n))
-      (at start (not (is_called_for ?c ?n))))
+      (over all (is_called_for ?c ?n)))
     :effect (and
       (at start (is_called_for ?c ?n))
       (at end (not (is_needed_for ?c ?n)))
@@ -68,8 +50,30 @@
       (at end (not (is_overdue_for ?c ?n)))
       (at end (forall (?p - person) (not (asks ?p help))))
       (at end (attended ?c ?n))
-      (at timeout (not (is_called_for ?c ?n)))
-      (at failure (not (is_called_for ?c ?n))))
+      (at failure (not (is_called_for ?c ?n)))
+      (at failure (is_needed_for ?c ?n)))
+    :skill (call-clinician ?n))
+
+  (:durative-action find-overdue
+    :parameters (?c - clinician ?n - need)
+    :duration (<= ?duration 120)
+    :condition (and
+      (at start (not (is_overdue_for ?c ?n)))
+      (over all (is_called_for ?c ?n)))
+    :effect (at timeout (is_overdue_for ?c ?n))
+    :skill (wait))
+
+  (:durative-action call-urgently
+    :parameters (?c - clinician ?n - need)
+    :condition (and
+      (at start (is_overdue_for ?c ?n))
+      (over all (is_called_for ?c ?n)))
+    :effect (and
+      (at end (not (is_needed_for ?c ?n)))
+      (at end (not (is_called_for ?c ?n)))
+      (at end (not (is_overdue_for ?c ?n)))
+      (at end (forall (?p - person) (not (asks ?p help))))
+      (at end (attended ?c ?n)))
     :skill (call-clinician ?n urgent))
 
   ; A robot that has been blind, or that a person cannot reach or hear, for five seconds.
@@ -104,11 +108,12 @@
     :effect (at timeout (not (attended ?c repair)))
     :skill (wait))
 
+  ; What is due is delivered, whatever becomes of who wanted it.
   (:durative-action deliver
     :parameters (?d - document ?c - clinician)
-    :condition (over all (is_due_to ?d ?c))
+    :condition (at start (is_due_to ?d ?c))
     :effect (and
       (at end (not (is_due_to ?d ?c)))
       (at end (was_delivered_to ?d ?c))
-      (at failure (is console broken)))
+      (at failure (is_due_to ?d ?c)))
     :skill (deliver ?d)))

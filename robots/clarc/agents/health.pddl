@@ -22,7 +22,7 @@
   ; A test that fails is repeated, less and less often.
   (:durative-action clear-doubt
     :parameters (?d - device)    ; waive(failure): the doubt stays, and is tested again
-    :condition (over all (is ?d doubted))
+    :condition (and (over all (is ?d doubted)) (over all (not (is ?d broken))))
     :effect (at end (not (is ?d doubted)))
     :skill (test-device ?d))
 

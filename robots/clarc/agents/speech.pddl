@@ -137,6 +137,24 @@
       (at failure (is microphone broken)))
     :skill (listen ?i ?q))
 
+  ; A question that an interruption has closed is still being asked: it is listened for again.
+  (:durative-action listen-again
+    :parameters (?r - robot ?p - person ?t - test ?i - item ?a - answer ?q - question)
+    :condition (and
+      (at start (not (is microphone broken)))
+      (at start (not (is microphone doubted)))
+      (at start (is_in ?t ?i))
+      (at start (= (question ?t ?i) ?q))
+      (at start (is ?p patient))
+      (at start (is_with ?p ?r))
+      (at start (not (is ?t paused)))
+      (at start (not (is ?t aborted)))
+      (at start (not (can ?p ?a)))
+      (at start (not (waiting ?p ?a)))
+      (at start (not (got ?p ?a)))
+      (at start (not (was_unanswered_in ?q ?i))))
+    :effect (at start (can ?p ?a)))
+
   ; A request is heard wherever the person is: a voice needs no view.
   (:durative-action hear-request
     :parameters (?p - person ?q - request)
