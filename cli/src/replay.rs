@@ -9,7 +9,7 @@ use crate::disk::show;
 use crate::exit::Exit;
 use crate::render;
 use crate::run::Terminal;
-use crate::turns::{self, Heading, Recorded};
+use crate::turns::{self, Heading, Record, Recorded};
 use clap::Args;
 use dsr::{Played, Recording, Replay, Snapshot, Time, Version};
 use executive::{Decision, Effect, Event, NoPlan, Occurrence, Request, RequestId, Wheel, decide};
@@ -68,7 +68,11 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     };
     let (assembly, findings) = assemble(&mission);
     let Some(assembly) = assembly else { return show(&mission.sources, &findings, console) };
-    let replayed = turns::read(&arguments.journal).map_err(ReplayError::from).and_then(|(heading, turns)| {
+    let replayed = turns::read(&arguments.journal).map_err(ReplayError::from).and_then(|record| {
+        let Record { heading, turns, whole } = record;
+        if !whole {
+            console.note("the record has no end: the run was cut off, or still goes on");
+        }
         let changed = Heading::new(&mission, heading.horizon, heading.pulse).changed(&heading);
         if !changed.is_empty() {
             console.note(&format!("the texts of the mission have changed since: {}", changed.join(", ")));

@@ -1,6 +1,7 @@
 //! The file of PELEA's turns, beside a journal: written by `run`, read by `replay`.
 //!
-//! A line each: first the run's own settings and the checksum of every text of the mission, then the turns.
+//! A line each: first the run's own settings and the checksum of every text of the mission, then the turns with their
+//! numbers, and at the end of an orderly run how many there were. A turn that is missing is noticed.
 
 use crate::outlet::Outlet;
 use executive::{Occurrence, Turn};
@@ -66,33 +67,59 @@ fn checksum(text: &str) -> u32 {
 }
 
 /// The writing end.
-pub(crate) struct Turns(Outlet);
+pub(crate) struct Turns {
+    out: Outlet,
+    count: u64,
+}
 
 impl Turns {
     /// Begins the file in the folder of a journal.
     pub(crate) fn begin(folder: &Path, heading: &Heading) -> io::Result<Self> {
         let file = File::create(folder.join(NAME))?;
-        let mut turns = Self(Outlet::new(file, |lost| format!(r#"{{"lost":{lost}}}"#)));
+        let mut turns = Self { out: Outlet::new(file, |lost| format!(r#"{{"lost":{lost}}}"#)), count: 0 };
         turns.line(heading);
         Ok(turns)
     }
 
     /// Adds a turn.
     pub(crate) fn note(&mut self, turn: &Turn<'_>) {
-        self.line(turn);
+        #[derive(Serialize)]
+        struct Line<'a> {
+            turn: u64,
+            now: u64,
+            event: &'a Occurrence,
+            effects: &'a [executive::Effect],
+        }
+        self.count += 1;
+        self.line(&Line { turn: self.count, now: turn.now, event: &turn.event, effects: turn.effects });
     }
 
     fn line(&mut self, line: &impl Serialize) {
         if let Ok(text) = serde_json::to_string(line) {
             // An outlet takes every line; a disk that fails is the journal's to report.
-            let _ = writeln!(self.0, "{text}");
+            let _ = writeln!(self.out, "{text}");
         }
     }
+}
+
+impl Drop for Turns {
+    fn drop(&mut self) {
+        let count = self.count;
+        self.line(&End { end: count });
+    }
+}
+
+/// The last line of a whole record.
+#[derive(Serialize, Deserialize)]
+struct End {
+    /// How many turns there were.
+    end: u64,
 }
 
 /// A turn as it was recorded.
 #[derive(Debug, Deserialize)]
 pub(crate) struct Recorded {
+    turn: u64,
     pub(crate) now: u64,
     pub(crate) event: Occurrence,
     /// The effects, as they were written.
@@ -106,23 +133,41 @@ pub(crate) enum TurnsError {
     Io(#[from] io::Error),
     #[error("line {line} of `{NAME}` is no turn: {error}")]
     Line { line: usize, error: serde_json::Error },
+    #[error("turns of the run are missing in `{NAME}` after turn {after}")]
+    Gap { after: u64 },
     #[error("`{NAME}` is empty")]
     Empty,
 }
 
-/// Reads the file: its heading, and its turns up to a last line that a crash has cut short.
-pub(crate) fn read(folder: &Path) -> Result<(Heading, Vec<Recorded>), TurnsError> {
+/// The record of a run.
+#[derive(Debug)]
+pub(crate) struct Record {
+    pub(crate) heading: Heading,
+    pub(crate) turns: Vec<Recorded>,
+    /// Whether it has its end: the run was not cut off.
+    pub(crate) whole: bool,
+}
+
+/// Reads the file, up to a last line that a crash has cut short.
+pub(crate) fn read(folder: &Path) -> Result<Record, TurnsError> {
     let file = BufReader::new(File::open(folder.join(NAME))?);
     let lines = file.lines().collect::<Result<Vec<_>, _>>()?;
     let (heading, rest) = lines.split_first().ok_or(TurnsError::Empty)?;
     let heading = serde_json::from_str(heading).map_err(|error| TurnsError::Line { line: 1, error })?;
-    let mut turns = Vec::with_capacity(rest.len());
+    let mut turns: Vec<Recorded> = Vec::with_capacity(rest.len());
     for (at, line) in rest.iter().enumerate() {
-        match serde_json::from_str(line) {
-            Ok(turn) => turns.push(turn),
+        let after = turns.len() as u64;
+        if let Ok(End { end }) = serde_json::from_str(line) {
+            let whole = end == after;
+            return if whole { Ok(Record { heading, turns, whole }) } else { Err(TurnsError::Gap { after }) };
+        }
+        match serde_json::from_str::<Recorded>(line) {
+            Ok(turn) if turn.turn == after + 1 => turns.push(turn),
+            Ok(_) => return Err(TurnsError::Gap { after }),
+            Err(_) if line.starts_with("{\"lost\":") => return Err(TurnsError::Gap { after }),
             Err(error) if error.is_eof() && at + 1 == rest.len() => break,
             Err(error) => return Err(TurnsError::Line { line: at + 2, error }),
         }
     }
-    Ok((heading, turns))
+    Ok(Record { heading, turns, whole: false })
 }

@@ -68,14 +68,28 @@ fn a_journal_without_turns_and_a_line_that_is_none_are_named() {
     let journal = record(folder.path(), "figure-8", "0");
     let turns = journal.join("turns.jsonl");
     let text = fs::read_to_string(&turns).unwrap();
-    fs::write(&turns, text.replacen("{\"now\":", "now", 1)).unwrap();
+    fs::write(&turns, text.replacen("{\"turn\":", "turn", 1)).unwrap();
     let at = journal.display().to_string();
     let (exit, _, err) = pelea(&["replay", &barthel(), &at]);
     assert_eq!(exit, Exit::Unreadable);
     assert!(err.contains("line 2 of `turns.jsonl` is no turn"), "{err}");
     // A crash cuts the last line short: what is before it is replayed.
-    fs::write(&turns, &text[..text.len() - 20]).unwrap();
-    assert_eq!(pelea(&["replay", &barthel(), &at]).0, Exit::Yes);
+    fs::write(&turns, &text[..text.len() - 40]).unwrap();
+    let (exit, _, err) = pelea(&["replay", &barthel(), &at]);
+    assert_eq!(
+        (exit, err.as_str()),
+        (Exit::Yes, "the record has no end: the run was cut off, or still goes on\n")
+    );
+    // A turn that is missing is no equal run.
+    let gap: String = text
+        .lines()
+        .enumerate()
+        .filter(|(at, _)| *at != 50)
+        .fold(String::new(), |all, (_, line)| all + line + "\n");
+    fs::write(&turns, gap).unwrap();
+    let (exit, _, err) = pelea(&["replay", &barthel(), &at]);
+    assert_eq!(exit, Exit::Unreadable);
+    assert!(err.contains("missing in `turns.jsonl` after turn 49"), "{err}");
     fs::remove_file(&turns).unwrap();
     let (exit, _, err) = pelea(&["replay", &barthel(), &at]);
     assert_eq!(exit, Exit::Unreadable);

@@ -106,6 +106,7 @@ impl Play {
                     biased;
                     Some(entry) = entries.recv() => teller.tell(&entry),
                     () = guard.alerted() => guard.look().into_iter().for_each(|b| story.alarm(b)),
+                    () = story.alerted() => story.catch_up(),
                     ending = &mut pelea => break ending,
                     never = &mut agents => match never {},
                     () = &mut directed => {}

@@ -13,6 +13,7 @@ use safety::Broken;
 use serde::Serialize;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
+use tokio::sync::Notify;
 use tokio::sync::mpsc::UnboundedSender;
 
 /// An entry: its time, its version, its event.
@@ -67,7 +68,10 @@ pub(super) struct Commit {
 
 /// A shared writer. A clone writes to the same story.
 #[derive(Clone)]
-pub(super) struct Story(Arc<Mutex<Telling>>);
+pub(super) struct Story {
+    telling: Arc<Mutex<Telling>>,
+    news: Arc<Notify>,
+}
 
 struct Telling {
     graph: Graph,
@@ -79,13 +83,21 @@ struct Telling {
 impl Story {
     /// A story of a graph from now on.
     pub(super) fn new(graph: &Graph, reader: UnboundedSender<Entry>) -> Self {
-        let subscription = graph.subscribe_to(interest(graph));
-        Self(Arc::new(Mutex::new(Telling { graph: graph.clone(), subscription, reader })))
+        let (news, subscription) = (Arc::new(Notify::new()), graph.subscribe_to(interest(graph)));
+        let wake = Arc::clone(&news);
+        subscription.on_wake(move || wake.notify_one());
+        let telling = Telling { graph: graph.clone(), subscription, reader };
+        Self { telling: Arc::new(Mutex::new(telling)), news }
+    }
+
+    /// Waits for commits, so that no more of them pile up than the graph keeps.
+    pub(super) async fn alerted(&self) {
+        self.news.notified().await;
     }
 
     /// Adds an entry, after the graph's earlier commits.
     pub(super) fn tell(&self, time: f64, what: What) {
-        let mut telling = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut telling = self.telling.lock().unwrap_or_else(PoisonError::into_inner);
         telling.catch_up();
         let version = telling.graph.snapshot().version().0;
         let _ = telling.reader.send(Entry { time, version, what });
@@ -93,7 +105,7 @@ impl Story {
 
     /// Adds a broken invariant, with the version and the time that broke it.
     pub(super) fn alarm(&self, broken: Broken) {
-        let mut telling = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut telling = self.telling.lock().unwrap_or_else(PoisonError::into_inner);
         telling.catch_up();
         let (time, version) = (seconds(Duration::from_nanos(broken.time.0)), broken.version.0);
         let _ = telling.reader.send(Entry { time, version, what: What::Safety(Alarm::Broken(broken)) });
@@ -101,7 +113,7 @@ impl Story {
 
     /// Adds the graph's commits so far.
     pub(super) fn catch_up(&self) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).catch_up();
+        self.telling.lock().unwrap_or_else(PoisonError::into_inner).catch_up();
     }
 }
 
