@@ -64,7 +64,7 @@
     :skill (wait))
 
   (:durative-action call-urgently
-    :parameters (?c - clinician ?n - need)
+    :parameters (?c - clinician ?n - need)    ; waive(failure): the first call stands, this one is repeated
     :condition (and
       (at start (is_overdue_for ?c ?n))
       (over all (is_called_for ?c ?n)))
