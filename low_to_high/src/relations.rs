@@ -18,6 +18,12 @@ pub(crate) fn agrees(tuple: &[NodeId], partial: &[Option<NodeId>]) -> bool {
     tuple.iter().zip(partial).all(|(node, fixed)| fixed.is_none_or(|fixed| fixed == *node))
 }
 
+/// The nodes that are fixed before the first slot that is not. Tuples are sorted, so those that begin with them are a
+/// range.
+fn prefix(fixed: &[Option<NodeId>]) -> Tuple {
+    fixed.iter().map_while(|node| *node).collect()
+}
+
 /// All derived facts.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Relations {
@@ -41,19 +47,20 @@ impl Relations {
         predicate: PredicateId,
         fixed: &'a [Option<NodeId>],
     ) -> impl Iterator<Item = &'a Tuple> {
-        // The tuples are sorted by the first argument, so a fixed one is a range.
-        let first = fixed.first().copied().flatten();
-        let start: Tuple = first.into_iter().collect();
+        let prefix = prefix(fixed);
         self.support[predicate.index()]
-            .range(start..)
+            .range(prefix.clone()..)
             .map(|(tuple, _)| tuple)
-            .take_while(move |tuple| first.is_none() || tuple.first().copied() == first)
+            .take_while(move |tuple| tuple.starts_with(&prefix))
             .filter(|tuple| agrees(tuple, fixed))
     }
 
     /// The heads of an axiom that have the fixed nodes.
     pub(crate) fn heads(&self, axiom: usize, fixed: &[Option<NodeId>]) -> Vec<Tuple> {
-        self.by_axiom[axiom].iter().filter(|tuple| agrees(tuple, fixed)).cloned().collect()
+        let prefix = prefix(fixed);
+        let heads = self.by_axiom[axiom].range(prefix.clone()..);
+        let heads = heads.take_while(|tuple| tuple.starts_with(&prefix));
+        heads.filter(|tuple| agrees(tuple, fixed)).cloned().collect()
     }
 
     /// Whether the axiom gives the tuple.

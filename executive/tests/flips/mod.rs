@@ -113,7 +113,7 @@ fn compare(model: &Arc<Model>, plan: &[OperatorId], most: usize) -> Sweep {
         facts: facts.len(),
         derived: task.axioms().iter().map(|rule| rule.head).collect::<BTreeSet<_>>().len(),
         conditional: operators().filter(|o| !o.conditional.is_empty()).count(),
-        numeric: operators().filter(|o| o.changes_numbers()).count(),
+        numeric: operators().filter(planner::Operator::changes_numbers).count(),
         exact_from: monitor.exact_from(),
         ..Sweep::default()
     };

@@ -131,7 +131,7 @@ impl<'a> Step<'a> {
             return Some(circuit.literal(fact, wanted));
         };
         let simple = |conditions: &[LiteralsRef<'_>]| conditions.iter().all(|c| c.is_empty());
-        if !self.grows && !(simple(adds) && simple(deletes)) {
+        if !(self.grows || simple(adds) && simple(deletes)) {
             return None;
         }
         let fires = |circuit: &mut Circuit, conditions: &[LiteralsRef<'_>], wanted: bool| {

@@ -6,6 +6,7 @@ use crate::ids::{FactId, OperatorId};
 use crate::number::Number;
 use crate::test_support::Grounded;
 use crate::{State, Task, random_numbers, random_tests};
+use pddl::model::Idx;
 use proptest::prelude::*;
 use proptest::sample::Index;
 
@@ -45,7 +46,7 @@ fn events() -> impl Strategy<Value = Vec<Event>> {
 
 /// Follows the events, and compares each suffix after each of them.
 fn check(task: &Task, plan: &[Index], events: &[Event]) -> Result<(), TestCaseError> {
-    if task.operators().is_empty() || task.facts().len() == 0 {
+    if task.operators().is_empty() || task.facts().is_empty() {
         return Ok(());
     }
     let all: Vec<OperatorId> = task.operators().ids().collect();
@@ -56,7 +57,8 @@ fn check(task: &Task, plan: &[Index], events: &[Event]) -> Result<(), TestCaseEr
         let applicable = task.applicable(&state);
         let next = step.filter(|_| !applicable.is_empty()).map(|i| *i.get(&applicable));
         state = next.and_then(|step| task.successor(&state, step)).unwrap_or(state);
-        let facts: Vec<FactId> = flips.iter().map(|i| FactId(i.index(task.facts().len()) as u32)).collect();
+        let facts: Vec<FactId> =
+            flips.iter().map(|i| FactId::from_index(i.index(task.facts().len()))).collect();
         let flipped: Vec<_> = facts.into_iter().map(|fact| (fact, !state.contains(fact))).collect();
         task.change(&mut state, flipped);
         let known: Vec<_> = task.numbers(&state).map(|(application, _)| application.clone()).collect();
@@ -103,8 +105,8 @@ proptest! {
     fn a_changed_state_is_the_state_of_its_facts(random in random_tests::random_task(), events in events()) {
         let task = Grounded::new(random.text()).task;
         let mut state = task.initial_state().clone();
-        for (flips, ..) in events.iter().filter(|_| task.facts().len() > 0) {
-            let facts = flips.iter().map(|i| FactId(i.index(task.facts().len()) as u32));
+        for (flips, ..) in events.iter().filter(|_| !task.facts().is_empty()) {
+            let facts = flips.iter().map(|i| FactId::from_index(i.index(task.facts().len())));
             let flipped: Vec<_> = facts.map(|fact| (fact, !state.contains(fact))).collect();
             task.change(&mut state, flipped);
             prop_assert_eq!(&task.state(state.facts()), &state);
