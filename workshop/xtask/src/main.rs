@@ -33,6 +33,8 @@ const HELP: &str = "cargo xtask COMMAND
   loom   how the graph's readers and writers meet, in every interleaving of a few threads
   soak [SECONDS]
          8 writers, 8 readers and what stalls on one graph, 10 s; ends with an error if an update was lost
+  mutants MISSION [--sample N] [--seed S] [--fresh] [--list]
+         changes a token of a mission's texts at a time, and lists what no check, test or scenario notices
   record draws docs/figure-8.svg, the README's picture, from a run
 ";
 
@@ -46,6 +48,7 @@ fn main() -> ExitCode {
         "fuzz" => fuzz::fuzz(&arguments.collect::<Vec<_>>()),
         "loom" => loom(),
         "soak" => soak(&arguments.collect::<Vec<_>>()),
+        "mutants" => mutants(&arguments.collect::<Vec<_>>()),
         "record" => record::record(),
         "ci" => test().and_then(|()| lint()).and_then(|()| tidy()),
         _ => {
@@ -79,6 +82,12 @@ fn loom() -> Result<(), Failure> {
 
 fn soak(arguments: &[String]) -> Result<(), Failure> {
     let mut command = vec!["run", "--release", "-p", "pelea-dsr", "--example", "soak", "--"];
+    command.extend(arguments.iter().map(String::as_str));
+    cargo::run(&command)
+}
+
+fn mutants(arguments: &[String]) -> Result<(), Failure> {
+    let mut command = vec!["run", "--release", "-p", "pelea-tests", "--bin", "mutants", "--"];
     command.extend(arguments.iter().map(String::as_str));
     cargo::run(&command)
 }
