@@ -10,7 +10,7 @@ use std::fs;
 use std::hint::black_box;
 use std::path::Path;
 
-use agents::{Agent, Runtime, compile, skills};
+use agents::{Action, Agent, Runtime, compile, skills};
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
 use dsr::{AgentId, Deltas, Event, Graph, Isometry3, Mentions, Subscription, Time, Transaction};
 use pddl::model::{Domain, TimeSpecifier};
@@ -132,17 +132,30 @@ struct Patterns {
 impl Patterns {
     fn new(crowd: &Crowd) -> Self {
         let runtime = Runtime::new(crowd.agent().into());
-        Self { subscription: crowd.graph.subscribe_to(runtime.agent().interest()), runtime }
+        let subscription = crowd.graph.subscribe_to(runtime.agent().interest());
+        let mut patterns = Self { subscription, runtime };
+        // What Speech begins by itself has begun before the crowd moves.
+        while let Some(action) = patterns.next_action(&crowd.graph) {
+            if let Action::Commit(transaction) = action {
+                let result = crowd.graph.commit(&transaction, Time(0));
+                patterns.runtime.committed(result.as_ref(), Time(0));
+            }
+        }
+        patterns
+    }
+
+    fn next_action(&mut self, graph: &Graph) -> Option<Action> {
+        while let Some(news) = self.subscription.try_recv() {
+            self.runtime.changed(&news);
+        }
+        self.runtime.next_action(&graph.snapshot(), Time(1))
     }
 }
 
 impl Listener for Patterns {
     fn react(&mut self, graph: &Graph) {
         // The shell asks only after it was woken, which these commits do not do; here it asks every time.
-        while let Some(news) = self.subscription.try_recv() {
-            self.runtime.changed(&news);
-        }
-        assert!(self.runtime.next_action(&graph.snapshot(), Time(1)).is_none());
+        assert!(self.next_action(graph).is_none());
     }
 }
 

@@ -14,7 +14,8 @@
 //! Invariant: a rule begins at most twice for a binding within an instant. A rule that another one stopped may begin once
 //! more at once, so that of the two it is the one that achieves nothing that rests first.
 //!
-//! Cost: one entry for each binding that began in this instant or had no success lately.
+//! Cost: one entry for each binding that began in this instant or had no success lately; they are looked through only when
+//! one of them is due.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -35,7 +36,11 @@ const LONGEST: Duration = Duration::from_secs(30);
 
 /// The attempts of rules that had no success lately.
 #[derive(Debug, Default)]
-pub(super) struct Patience(BTreeMap<Key, Attempts>);
+pub(super) struct Patience {
+    attempts: BTreeMap<Key, Attempts>,
+    /// Before this time no rest is over and nothing can be forgotten.
+    due: Option<Time>,
+}
 
 #[derive(Debug)]
 struct Attempts {
@@ -58,6 +63,12 @@ struct Fruitless {
 impl Attempts {
     const NONE: Self = Self { began: None, again: false, fruitless: None };
 
+    /// When its rest is over, or else when it can be forgotten.
+    fn due(&self) -> Option<Time> {
+        let forgotten = |last: Fruitless| if last.over { after(last.until, last.rest) } else { last.until };
+        self.fruitless.map(forgotten).or_else(|| self.began.map(|began| after(began, INSTANT)))
+    }
+
     /// Whether an attempt that began then follows on the last one without a pause.
     fn in_a_row(&self, began: Time) -> Option<Fruitless> {
         self.fruitless.filter(|last| began <= after(last.until, last.rest))
@@ -67,20 +78,21 @@ impl Attempts {
 impl Patience {
     /// Whether the rule rests for this binding.
     pub(super) fn rests(&self, key: &Key) -> bool {
-        self.0.get(key).and_then(|attempts| attempts.fruitless).is_some_and(|last| !last.over)
+        self.attempts.get(key).and_then(|attempts| attempts.fruitless).is_some_and(|last| !last.over)
     }
 
     /// The rule begins. Returns whether it did so in the same instant before, or at the first moment after a rest.
     pub(super) fn begins(&mut self, key: &Key, now: Time) -> bool {
-        let attempts = self.0.entry(key.clone()).or_insert(Attempts::NONE);
+        let attempts = self.attempts.entry(key.clone()).or_insert(Attempts::NONE);
         attempts.again = attempts.began.is_some_and(|before| now <= after(before, INSTANT));
         attempts.began = Some(now);
+        self.due = earlier(self.due, attempts.due());
         attempts.again || attempts.fruitless.is_some_and(|last| now <= after(last.until, INSTANT))
     }
 
     /// Another one stopped the rule, which had begun at `began`. Returns the rest that this costs.
     pub(super) fn stopped(&mut self, key: &Key, began: Time, now: Time) -> Option<Duration> {
-        let again = self.0.get(key).is_some_and(|attempts| attempts.again);
+        let again = self.attempts.get(key).is_some_and(|attempts| attempts.again);
         (again && now <= after(began, INSTANT)).then(|| self.fruitless(key, began, now))
     }
 
@@ -89,33 +101,46 @@ impl Patience {
         if failed || now <= after(began, INSTANT) {
             return Some(self.fruitless(key, began, now));
         }
-        self.0.remove(key);
+        self.attempts.remove(key);
         None
     }
 
     /// An attempt that began then led to nothing. Returns the rest.
     pub(super) fn fruitless(&mut self, key: &Key, began: Time, now: Time) -> Duration {
-        let attempts = self.0.entry(key.clone()).or_insert(Attempts::NONE);
+        let attempts = self.attempts.entry(key.clone()).or_insert(Attempts::NONE);
         let last = attempts.in_a_row(began);
         let rest = last.map_or(FIRST, |last| LONGEST.min(last.rest * 2));
         let in_a_row = last.map_or(1, |last| last.in_a_row.saturating_add(1));
         attempts.fruitless = Some(Fruitless { in_a_row, rest, until: after(now, rest), over: false });
+        self.due = earlier(self.due, attempts.due());
         rest
     }
 
     /// The rules with a rest that is over now. Forgets what no longer matters for bindings that do not run.
     pub(super) fn awake(&mut self, now: Time, runs: impl Fn(&Key) -> bool) -> Vec<RuleId> {
         let mut awake = Vec::new();
-        self.0.retain(|key, attempts| {
-            if let Some(last) = &mut attempts.fruitless {
-                if !last.over && last.until <= now {
-                    last.over = true;
-                    awake.push(key.0);
-                }
-                return now <= after(last.until, last.rest) || runs(key);
+        if self.due.is_none_or(|due| now < due) {
+            return awake;
+        }
+        let mut due = None;
+        self.attempts.retain(|key, attempts| {
+            if let Some(last) = &mut attempts.fruitless
+                && !last.over
+                && last.until <= now
+            {
+                last.over = true;
+                awake.push(key.0);
             }
-            attempts.began.is_some_and(|began| now <= after(began, INSTANT))
+            let stays = match attempts.fruitless {
+                Some(last) => now <= after(last.until, last.rest) || runs(key),
+                None => attempts.began.is_some_and(|began| now <= after(began, INSTANT)),
+            };
+            if stays {
+                due = earlier(due, attempts.due());
+            }
+            stays
         });
+        self.due = due;
         awake
     }
 
@@ -126,7 +151,7 @@ impl Patience {
 
     /// Who rests, after how many fruitless attempts, and until when.
     pub(super) fn resting(&self) -> impl Iterator<Item = (&Key, u32, Time)> {
-        let all = self.0.iter().filter_map(|(key, attempts)| Some((key, attempts.fruitless?)));
+        let all = self.attempts.iter().filter_map(|(key, attempts)| Some((key, attempts.fruitless?)));
         all.filter(|(_, last)| !last.over).map(|(key, last)| (key, last.in_a_row, last.until))
     }
 }
@@ -134,4 +159,8 @@ impl Patience {
 /// A time and a duration after it.
 pub(super) fn after(now: Time, duration: Duration) -> Time {
     Time(now.0.saturating_add(u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX)))
+}
+
+fn earlier(one: Option<Time>, other: Option<Time>) -> Option<Time> {
+    one.into_iter().chain(other).min()
 }
