@@ -3,7 +3,8 @@
 //! Problem: a domain alone has no objects. Idea: beside its constants, one abstract object per type
 //! stands for all that a problem may declare of exactly that type. Mapping every object to its
 //! abstract one keeps all positive facts, so whatever the abstract world cannot reach, no problem
-//! can. Invariant: objects are numbered as in the problem, abstract ones come after them; a type
+//! can, unless it has objects of several types: they have no abstract one, because one of all types would reach
+//! whatever types keep apart. A caller that knows the problems must not rely on it where they have such objects. Invariant: objects are numbered as in the problem, abstract ones come after them; a type
 //! whose objects the analysis does not know better is over-approximated, never left out.
 
 use std::cell::RefCell;

@@ -55,6 +55,9 @@ impl<'a> Linter<'a> {
 
     /// The findings in a problem. Those in the domain are kept for [`Linter::finish`].
     pub fn problem(&mut self, problem: File<'_, Problem>) -> Vec<Linted> {
+        if problem.model.objects.iter().any(|object| object.types.are_several()) {
+            self.domain.types_are_combined.set(true);
+        }
         let view = ProblemView::new(&self.domain, problem.source, problem.model, code_of);
         let mut found = Findings::default();
         for lint in all().filter(|l| l.level <= self.level) {

@@ -1,6 +1,6 @@
 //! The domain and the problem as lints see them. What several lints need is computed once, when the first one asks.
 
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
 
 use pddl::model::{Domain, Problem};
 use pddl::syntax::{self, Tree};
@@ -18,6 +18,8 @@ pub(crate) struct DomainView<'a> {
     pub(crate) source: &'a Source,
     pub(crate) domain: &'a Domain,
     pub(crate) allows: Allows,
+    /// Whether an object of a problem belongs to several types. The analysis of a domain alone does not know such objects.
+    pub(crate) types_are_combined: Cell<bool>,
     tree: OnceCell<Tree<'a>>,
     usage: OnceCell<Usage>,
     analysis: OnceCell<Analysis<'a>>,
@@ -27,7 +29,7 @@ impl<'a> DomainView<'a> {
     pub(crate) fn new(source: &'a Source, domain: &'a Domain, known: KnownLint) -> Self {
         let allows = Allows::of(source, known);
         let (tree, usage, analysis) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
-        Self { source, domain, allows, tree, usage, analysis }
+        Self { source, domain, allows, types_are_combined: Cell::new(false), tree, usage, analysis }
     }
 
     /// The syntax tree, for lints about how something is written.

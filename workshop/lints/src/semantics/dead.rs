@@ -22,13 +22,15 @@ pub(crate) struct Verdict {
 
 /// What no problem of the domain can do.
 pub(crate) fn in_domain(view: &DomainView<'_>, verdict: &Verdict, found: &mut Findings) {
-    report(view.analysis(), &view.wording(), verdict, &|dead| dead.root_cause == RootCause::Domain, found);
+    let own = |dead: &Dead| dead.root_cause == RootCause::Domain && !view.types_are_combined.get();
+    report(view.analysis(), &view.wording(), verdict, &own, found);
 }
 
 /// What this problem cannot do although the domain could.
 pub(crate) fn in_problem(view: &ProblemView<'_, '_>, verdict: &Verdict, found: &mut Findings) {
     let always = &view.domain.analysis().never.silent;
-    let own = |dead: &Dead| dead.root_cause == RootCause::Domain && !always.contains(&dead.origin);
+    let is_always = |dead: &Dead| !view.domain.types_are_combined.get() && always.contains(&dead.origin);
+    let own = |dead: &Dead| dead.root_cause == RootCause::Domain && !is_always(dead);
     report(view.analysis(), &view.wording(), verdict, &own, found);
 }
 
