@@ -38,10 +38,10 @@ use tracing::{debug, error};
 
 use self::access::{Access, Grant, access};
 pub use self::instance::InstanceId;
-use self::instance::{Instance, Phase};
+use self::instance::{Instance, Key, Phase};
 use self::matching::Matching;
 use self::patience::{Patience, after};
-use crate::rules::{Agent, Concern, Parameters, RuleId};
+use crate::rules::{Agent, Concern, RuleId};
 use crate::skill::{Call, Ended, Outcome, Skill};
 
 /// What the shell must do.
@@ -73,9 +73,6 @@ pub struct Rest {
     /// Until when.
     pub until: Time,
 }
-
-/// A rule for a binding of its parameters.
-type Key = (RuleId, Parameters);
 
 /// The purpose of the commit that the shell was asked for.
 enum Pending {

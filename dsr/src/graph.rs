@@ -15,12 +15,12 @@ use std::sync::{Arc, Weak};
 use smallvec::SmallVec;
 
 use crate::delta::Delta;
+use crate::epochs::Epochs;
 use crate::export::{self, Export, RestoreError};
 use crate::id::{AgentId, Epoch, ReflexId, Time, Version};
 use crate::interest::Interest;
 use crate::journal::feed::{Feed, Rest};
 use crate::left_right::{LeftRight, Twin};
-use crate::liveness::Epochs;
 use crate::past::Past;
 use crate::pattern::Pattern;
 use crate::replay::{self, ReplayError};

@@ -50,6 +50,7 @@ mod block;
 mod chain;
 mod delta;
 mod diff;
+mod epochs;
 mod export;
 mod graph;
 mod id;

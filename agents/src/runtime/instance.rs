@@ -2,7 +2,11 @@
 
 use dsr::{ReflexId, Time};
 
+use crate::rules::{Parameters, RuleId};
 use crate::skill::{Ended, Outcome};
+
+/// A rule for a binding of its parameters.
+pub(super) type Key = (RuleId, Parameters);
 
 /// A running rule. Ids are never given out twice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -22,7 +22,7 @@ use std::time::Duration;
 
 use dsr::Time;
 
-use super::Key;
+use super::instance::Key;
 use crate::rules::RuleId;
 
 /// What is shorter took no time. On a real clock a loop of two agents takes some 20 µs, and no device answers sooner.

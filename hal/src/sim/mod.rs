@@ -16,6 +16,7 @@ mod behaviour;
 mod clinic;
 mod ear;
 mod event;
+mod gate;
 mod health;
 mod loudspeaker;
 mod presence;

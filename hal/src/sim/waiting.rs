@@ -10,7 +10,8 @@ use std::task::{Context, Poll};
 
 use tokio::time::{Instant, Sleep, sleep_until};
 
-use super::behaviour::{Behaviour, Gate, LATE};
+use super::behaviour::Behaviour;
+use super::gate::{Gate, LATE};
 use super::room::SimRoom;
 use super::state::State;
 use crate::{Device, DeviceError, Operation};
