@@ -9,20 +9,19 @@
 //! stopped for a while (SIGSTOP) finds all its agents alive.
 
 use std::convert::Infallible;
-use std::fmt;
 use std::future::poll_fn;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::task::Poll;
 use std::time::Duration;
 
-use dsr::{AgentId, Edit, Epoch, LabelId};
-use tokio::sync::Notify;
+use dsr::{AgentId, Edit, Epoch};
 use tokio::time::{Instant, sleep};
 use tracing::{Instrument, debug_span, error, info};
 
+use super::Environment;
+use super::drive::drive;
+use super::pulse::{Absence, Gone, Pulse};
 use super::work::{Caught, Housing, Launcher, MOST_ABANDONED, Threads};
-use super::{Environment, drive};
 use crate::rules::Agent;
 
 /// How often a loop on a thread of its own is asked to turn.
@@ -33,67 +32,6 @@ const MISSED: u32 = 8;
 const FIRST: Duration = Duration::from_secs(1);
 /// The longest pause. An agent that lived for longer begins again after the first one.
 const LONGEST: Duration = Duration::from_secs(30);
-
-/// The token by which the graph says that an agent is absent: `(LABEL agent STATE)`, as `(is speech absent)`.
-#[derive(Debug, Clone)]
-pub struct Absence {
-    /// The label.
-    pub label: LabelId,
-    /// The name of the node at its end.
-    pub state: Arc<str>,
-}
-
-/// Why a life ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Gone {
-    /// Its loop panicked.
-    Panicked,
-    /// Its loop no longer turned.
-    Hung,
-    /// Somebody else declared it dead, or attended it.
-    Fenced,
-    /// There was no thread for it.
-    NoThread,
-}
-
-impl fmt::Display for Gone {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Panicked => "it panicked",
-            Self::Hung => "it no longer turned",
-            Self::Fenced => "it was declared dead",
-            Self::NoThread => "there was no thread for it",
-        })
-    }
-}
-
-/// Lets a watchdog see whether a loop turns.
-#[derive(Debug, Default)]
-pub(super) struct Pulse {
-    asked: AtomicU64,
-    answered: AtomicU64,
-    wake: Arc<Notify>,
-}
-
-impl Pulse {
-    /// What wakes the loop.
-    pub(super) fn wake(&self) -> &Arc<Notify> {
-        &self.wake
-    }
-
-    /// The loop turns.
-    pub(super) fn beat(&self) {
-        self.answered.store(self.asked.load(Ordering::Acquire), Ordering::Release);
-    }
-
-    /// Asks the loop to turn. Returns whether it has turned since it was asked last.
-    fn ask(&self) -> bool {
-        let answered = self.answered.load(Ordering::Acquire) == self.asked.load(Ordering::Acquire);
-        self.asked.fetch_add(1, Ordering::AcqRel);
-        self.wake.notify_one();
-        answered
-    }
-}
 
 /// Runs agents side by side until it is dropped, which stops all devices and expires all agents. Where they work
 /// together, they take their turns in the order given.

@@ -11,7 +11,6 @@ pub use self::step::Step;
 use super::GraphCondition;
 use super::names::{self, node};
 use super::patient::By;
-use super::read::Triggers;
 use crate::layers::Layers;
 use crate::manifest::{Mention, symbols};
 use diagnostics::Finding;
@@ -180,6 +179,15 @@ const ACTS: [&str; 16] = [
     "recover",
     "flip",
 ];
+
+/// Whether each disruption must have a trigger.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Triggers {
+    /// In a scenario.
+    Required,
+    /// In a library: without a trigger it happens at the campaign's instant.
+    OrInstant,
+}
 
 /// Reads a `[[disruption]]`.
 pub(super) fn read(

@@ -8,7 +8,8 @@ use std::sync::Arc;
 
 use pddl::Source;
 
-use super::read::{self, Triggers};
+use super::disruption::Triggers;
+use super::read;
 use super::{Clinician, Disruption, Patient, Scenario, Trigger};
 use super::{disruption, patient};
 use crate::errors::MissionErrors;

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use pddl::Source;
 
+use super::disruption::Triggers;
 use super::{Clinician, Scenario, disruption, expect, patient};
 use crate::errors::MissionErrors;
 use crate::files::{Files, join, stem};
@@ -79,15 +80,6 @@ fn read_root(
         expect,
         source: Arc::clone(source),
     })
-}
-
-/// Whether each disruption must have a trigger.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Triggers {
-    /// In a scenario.
-    Required,
-    /// In a library: without a trigger it happens at the campaign's instant.
-    OrInstant,
 }
 
 /// Reads `[clinician]`.
