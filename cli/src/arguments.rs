@@ -2,7 +2,9 @@
 
 use crate::console::{Console, Form};
 use crate::exit::Exit;
-use crate::{check, dsr as graphs, explain, fmt, lsp, plan, replay, run as mission, test, validate};
+use crate::{
+    campaign, check, dsr as graphs, explain, fmt, lsp, plan, replay, run as mission, test, validate,
+};
 use clap::{Parser, Subcommand};
 use std::ffi::OsString;
 
@@ -28,6 +30,8 @@ enum Command {
     Run(mission::Arguments),
     /// Repeat the decisions of a recorded run, and show why each was made
     Replay(replay::Arguments),
+    /// Disturb a mission in every known way at every instant, and check its invariants
+    Campaign(campaign::Arguments),
     /// Find a plan
     Plan(plan::Arguments),
     /// Validate plans
@@ -71,6 +75,7 @@ where
     }
     match arguments.command {
         Command::Run(arguments) => mission::run(&arguments, console),
+        Command::Campaign(arguments) => campaign::run(&arguments, console),
         Command::Replay(arguments) => replay::run(&arguments, console),
         Command::Plan(arguments) => plan::run(&arguments, console),
         Command::Validate(arguments) => validate::run(&arguments, console),

@@ -13,7 +13,7 @@ use crate::exit::Exit;
 use crate::render;
 use agents::{Agent, skills};
 use diagnostics::{Finding, Place, SourceId};
-use dsr::{AgentId, Graph, Time};
+use dsr::{AgentId, Graph, Interest, Time};
 use executive::{Bounds, Model, Policy, Step, Wheel};
 use high_to_low::Methods;
 use low_to_high::Perception;
@@ -29,14 +29,50 @@ use vocabulary::Tokens;
 
 /// A mission that is ready to run.
 pub(crate) struct Assembly {
-    pub(crate) vocabulary: Tokens,
+    pub(crate) vocabulary: Arc<Tokens>,
     pub(crate) graph: Graph,
     pub(crate) agents: Vec<Arc<Agent>>,
-    pub(crate) wheel: Wheel,
+    /// What every wheel of the mission is made from.
+    parts: Parts,
     /// The agent that PELEA writes as.
     pub(crate) writer: AgentId,
     /// What a run must satisfy.
     pub(crate) invariants: Arc<Invariants>,
+}
+
+/// What a wheel is made from.
+#[derive(Clone)]
+struct Parts {
+    model: Arc<Model>,
+    perception: Arc<Perception>,
+    methods: Arc<Methods>,
+    policy: Policy,
+}
+
+impl Assembly {
+    /// A wheel that has not turned yet.
+    pub(crate) fn wheel(&self) -> Wheel {
+        let Parts { model, perception, methods, policy } = self.parts.clone();
+        Wheel::new(model, perception, methods, policy)
+    }
+
+    /// The same mission on a graph of its own, which begins like this one is now.
+    pub(crate) fn again(&self) -> Self {
+        Self {
+            vocabulary: Arc::clone(&self.vocabulary),
+            graph: Graph::from_snapshot(&self.graph.snapshot()),
+            agents: self.agents.clone(),
+            parts: self.parts.clone(),
+            writer: self.writer,
+            invariants: Arc::clone(&self.invariants),
+        }
+    }
+
+    /// What PELEA and each agent see of the graph.
+    pub(crate) fn interests(&self) -> Vec<Interest> {
+        let agents = self.agents.iter().map(|agent| agent.interest());
+        std::iter::once(self.wheel().interest(self.writer)).chain(agents).collect()
+    }
 }
 
 /// Why a mission cannot be loaded.
@@ -146,9 +182,11 @@ fn put_together(mission: &Mission, findings: &mut Vec<Finding>) -> Option<Assemb
         findings.push(nobody_to_write_as(mission, &graph));
         return None;
     };
-    let wheel = Wheel::new(Arc::new(model), Arc::new(perception), Arc::new(methods), policy(mission));
+    let (model, perception, methods) = (Arc::new(model), Arc::new(perception), Arc::new(methods));
+    let parts = Parts { model, perception, methods, policy: policy(mission) };
     let invariants = Arc::new(invariants);
-    Some(Assembly { vocabulary, graph, agents, wheel, writer, invariants })
+    let vocabulary = Arc::new(vocabulary);
+    Some(Assembly { vocabulary, graph, agents, parts, writer, invariants })
 }
 
 /// The agent that PELEA writes as.

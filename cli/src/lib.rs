@@ -15,7 +15,7 @@
 //! assert!(String::from_utf8(err).unwrap().contains("no/such/file.pddl"));
 //! ```
 //!
-//! Members: `arguments` (the tree of commands); `run`, `plan`, `validate`, `check`, `test`, `fmt`,
+//! Members: `arguments` (the tree of commands); `run`, `campaign`, `plan`, `validate`, `check`, `test`, `fmt`,
 //! `dsr`, `lsp`, `explain` (one command each); `task` (a domain with its problem, read from files);
 //! `assemble` (builds a mission from its folder); `scenario`; `pool` (work on all cores); `files`;
 //! `nearby` (the contents of folders); `disk` (mission folders); `memory`; `clock`; `render`
@@ -23,6 +23,7 @@
 
 mod arguments;
 mod assemble;
+mod campaign;
 mod check;
 mod clock;
 mod console;

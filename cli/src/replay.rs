@@ -77,7 +77,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         if !changed.is_empty() {
             console.note(&format!("the texts of the mission have changed since: {}", changed.join(", ")));
         }
-        let wheel = heading.horizon.iter().fold(assembly.wheel, |wheel, horizon| {
+        let wheel = heading.horizon.iter().fold(assembly.wheel(), |wheel, horizon| {
             wheel.until(Time(u64::try_from(horizon.as_nanos()).unwrap_or(u64::MAX)))
         });
         let wheel = heading.pulse.iter().fold(wheel, |wheel, pulse| wheel.with_pulse(*pulse));

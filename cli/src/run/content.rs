@@ -10,9 +10,9 @@ use std::time::Duration;
 
 /// A mission in one of its languages.
 #[derive(Clone)]
-pub(super) struct Content {
-    pub(super) mission: Arc<Mission>,
-    pub(super) language: String,
+pub(crate) struct Content {
+    pub(crate) mission: Arc<Mission>,
+    pub(crate) language: String,
 }
 
 impl Content {

@@ -16,7 +16,7 @@ const TICK: Duration = Duration::from_millis(1);
 
 /// The shortest and the longest time of a decision, as on the command line: `0.5`, `0.1..3`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Range {
+pub(crate) struct Range {
     least: Duration,
     most: Duration,
 }
@@ -39,25 +39,25 @@ impl FromStr for Range {
 
 /// The times of a run's decisions, one after the other.
 #[derive(Clone, Debug)]
-pub(super) struct Latency {
+pub(crate) struct Latency {
     range: Range,
     random: Pcg64Mcg,
 }
 
 impl Latency {
-    pub(super) fn new(range: Range, seed: u64) -> Self {
+    pub(crate) fn new(range: Range, seed: u64) -> Self {
         Self { range, random: Pcg64Mcg::seed_from_u64(seed) }
     }
 
     /// The same on a simulated clock.
-    pub(super) fn simulated(mut self) -> Self {
+    pub(crate) fn simulated(mut self) -> Self {
         let Range { least, most } = &mut self.range;
         (*least, *most) = ((*least).max(TICK), (*most).max(TICK));
         self
     }
 
     /// The time of the next decision, to the millisecond.
-    pub(super) fn next(&mut self) -> Duration {
+    pub(crate) fn next(&mut self) -> Duration {
         let Range { least, most } = self.range;
         let millis = u64::try_from((most - least).as_millis()).unwrap_or(u64::MAX - 1);
         if millis == 0 { least } else { least + Duration::from_millis(self.random.next_u64() % (millis + 1)) }

@@ -4,6 +4,7 @@
 //! order is that of the versions. The story includes edges, and the values of functions of two
 //! nodes; it omits other commits.
 
+use super::perform::Audience;
 use dsr::{
     Change, Graph, Holder, HolderType, Interest, Kind, LabelId, Mentions, Snapshot, Subscription, Value,
 };
@@ -104,7 +105,7 @@ impl Story {
     }
 
     /// Adds a broken invariant, with the version and the time that broke it.
-    pub(super) fn alarm(&self, broken: Broken) {
+    fn broken(&self, broken: Broken) {
         let mut telling = self.telling.lock().unwrap_or_else(PoisonError::into_inner);
         telling.catch_up();
         let (time, version) = (seconds(Duration::from_nanos(broken.time.0)), broken.version.0);
@@ -114,6 +115,24 @@ impl Story {
     /// Adds the graph's commits so far.
     pub(super) fn catch_up(&self) {
         self.telling.lock().unwrap_or_else(PoisonError::into_inner).catch_up();
+    }
+}
+
+impl Audience for Story {
+    fn room(&self, at: Duration, event: &RoomEvent) {
+        self.tell(seconds(at), What::Room(event.clone()));
+    }
+
+    fn pelea(&self, at: Duration, narration: Narration) {
+        self.tell(seconds(at), What::Pelea(narration));
+    }
+
+    fn alarm(&self, broken: Broken) {
+        self.broken(broken);
+    }
+
+    fn ended(&self) {
+        self.catch_up();
     }
 }
 
