@@ -62,3 +62,10 @@ impl Stopwatch {
         (self.0.elapsed().as_secs_f64() * 1e6).round() / 1e3
     }
 }
+
+/// Seconds, rounded to milliseconds: precise enough for people, and short in JSON.
+pub(crate) fn seconds(time: Duration) -> f64 {
+    #[expect(clippy::cast_precision_loss, reason = "2^53 ms are longer than any mission")]
+    let millis = time.as_millis() as f64;
+    millis / 1000.0
+}

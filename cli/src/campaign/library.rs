@@ -1,11 +1,11 @@
 //! The library of disruptions of a mission: what its folder and its robot's folder have.
 
-use super::stock::Stock;
 use crate::console::Console;
 use crate::disk::{Disk, show};
 use crate::exit::Exit;
 use crate::render;
 use diagnostics::nearest;
+use mission::Mission;
 use mission::scenario::Disturbance as File;
 use toml::{Table, Value};
 
@@ -26,11 +26,12 @@ pub(super) struct Disturbance {
 
 /// The disruptions of a mission; if some are `wanted`, only those.
 pub(super) fn read(
-    stock: &Stock,
+    mission: &Mission,
+    base: &Table,
     wanted: &[String],
     console: &mut Console<'_>,
 ) -> Result<Vec<Disturbance>, Exit> {
-    let library = match stock.mission().library(&Disk) {
+    let library = match mission.library(&Disk) {
         Ok(library) => library,
         Err(errors) => return Err(show(&errors.sources, &errors.findings, console)),
     };
@@ -44,7 +45,7 @@ pub(super) fn read(
     }
     let library = library.into_iter().filter(|d| wanted.is_empty() || wanted.contains(&d.name));
     let disturbance = |file: File| {
-        let template = scenario(stock.base(), &file, &Value::String(PLACE.to_owned())).to_string();
+        let template = scenario(base, &file, &Value::String(PLACE.to_owned())).to_string();
         let template = template.replace(&format!("\"{PLACE}\""), PLACE);
         Disturbance { name: file.name.clone(), title: file.title.clone(), template, file }
     };

@@ -109,7 +109,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         Ok(stock) => stock,
         Err(exit) => return exit,
     };
-    let library = match library::read(&stock, &arguments.only, console) {
+    let library = match library::read(stock.mission(), stock.base(), &arguments.only, console) {
         Ok(library) => library,
         Err(exit) => return exit,
     };

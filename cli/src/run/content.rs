@@ -1,6 +1,6 @@
 //! The mission's texts and its report, for the agents.
 
-use crate::run::story::seconds;
+use crate::clock::seconds;
 use agents::{Reporter, Words};
 use dsr::Snapshot;
 use mission::Mission;

@@ -5,6 +5,7 @@
 //! nodes; it omits other commits.
 
 use super::perform::Audience;
+use crate::clock::seconds;
 use dsr::{
     Change, Graph, Holder, HolderType, Interest, Kind, LabelId, Mentions, Snapshot, Subscription, Value,
 };
@@ -204,11 +205,4 @@ fn commit(delta: &dsr::Delta, after: &Snapshot) -> Commit {
     }
     let writer = vocabulary.agent_name(delta.writer).map_or_else(String::new, ToString::to_string);
     Commit { writer, now, no_longer, reflex: !delta.reflexes.is_empty(), edges }
-}
-
-/// Seconds, rounded to milliseconds: precise enough for people, and short in JSON.
-pub(super) fn seconds(time: Duration) -> f64 {
-    #[expect(clippy::cast_precision_loss, reason = "2^53 ms are longer than any mission")]
-    let millis = time.as_millis() as f64;
-    millis / 1000.0
 }

@@ -2,8 +2,9 @@
 
 use super::content::Content;
 use super::judge::{Breakage, Record, Repairs};
-use super::story::{Entry, seconds};
+use super::story::Entry;
 use super::terminal::Terminal;
+use crate::clock::seconds;
 use crate::console::{Console, Form};
 use crate::exit::Exit;
 use crate::files;

@@ -5,7 +5,8 @@
 //! width, and the others are truncated to one row. In a pipe every line is complete, so that it can
 //! be searched.
 
-use super::story::{Alarm, Commit, Entry, What, seconds};
+use super::story::{Alarm, Commit, Entry, What};
+use crate::clock::seconds;
 use executive::{Ending, Figures, Narration, Repair};
 use hal::sim::RoomEvent;
 use planner::Way;
