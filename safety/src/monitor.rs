@@ -71,7 +71,7 @@ impl Monitor {
             let formula = &self.invariants.formulas[index];
             let at = At { formula, facts: &self.facts, now: self.now };
             let residue = at.progress(&self.instances[index][&environment]);
-            broken.extend(self.settle(index, environment, residue, (self.now, Cause::Change)));
+            broken.extend(self.settle(index, &environment, residue, (self.now, Cause::Change)));
         }
         if nodes {
             broken.extend(self.begin());
@@ -150,7 +150,7 @@ impl Monitor {
                 if !self.instances[index].contains_key(&environment) {
                     let at = At { formula, facts: &self.facts, now: self.now };
                     let residue = at.begin(formula.root, &environment);
-                    broken.extend(self.settle(index, environment, residue, (self.now, Cause::Change)));
+                    broken.extend(self.settle(index, &environment, residue, (self.now, Cause::Change)));
                 }
             }
         }
@@ -172,7 +172,7 @@ impl Monitor {
             let formula = &self.invariants.formulas[index];
             let at = At { formula, facts: &self.facts, now: self.now };
             let residue = at.elapse(&self.instances[index][&environment], moment.saturating_add(1));
-            broken.extend(self.settle(index, environment, residue, (moment, Cause::Time)));
+            broken.extend(self.settle(index, &environment, residue, (moment, Cause::Time)));
         }
         broken
     }
@@ -181,7 +181,7 @@ impl Monitor {
     fn settle(
         &mut self,
         index: usize,
-        environment: Environment,
+        environment: &Environment,
         residue: Residue,
         (moment, by): (Moment, Cause),
     ) -> Option<Broken> {
@@ -192,10 +192,10 @@ impl Monitor {
         let formula = &self.invariants.formulas[index];
         let is_quiet = formula.trigger.is_some_and(|trigger| {
             let key: Key = environment.iter().take(formula.parameters).flatten().copied().collect();
-            residue == quiet(formula, &environment) && !self.facts.holds(trigger, &key)
+            residue == quiet(formula, environment) && !self.facts.holds(trigger, &key)
         });
         if is_quiet {
-            self.instances[index].remove(&environment);
+            self.instances[index].remove(environment);
         } else {
             *entry = residue;
         }
@@ -208,7 +208,7 @@ impl Monitor {
             }
         }
         let how = (self.version, Time(moment), by);
-        is_broken.then(|| Broken::new(&self.invariants.formulas[index], &self.facts, &environment, how))
+        is_broken.then(|| Broken::new(&self.invariants.formulas[index], &self.facts, environment, how))
     }
 }
 

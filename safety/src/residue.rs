@@ -255,7 +255,7 @@ fn all(parts: impl IntoIterator<Item = Residue>) -> Residue {
         }
     }
     // The earlier of two deadlines implies the later one.
-    gather(open, Residue::True, Residue::All, |first, second| first.min(second))
+    gather(open, Residue::True, Residue::All, Ord::min)
 }
 
 fn any(parts: impl IntoIterator<Item = Residue>) -> Residue {
@@ -268,7 +268,7 @@ fn any(parts: impl IntoIterator<Item = Residue>) -> Residue {
             other => open.push(other),
         }
     }
-    gather(open, Residue::False, Residue::Any, |first, second| first.max(second))
+    gather(open, Residue::False, Residue::Any, Ord::max)
 }
 
 /// A set of parts, without duplicates, in which an operator that waits for a state occurs with one deadline.

@@ -13,6 +13,7 @@ use safety::{Broken, Invariants, Monitor};
 use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::Arc;
+use std::time::Duration;
 use vocabulary::Tokens;
 
 const WARD: &str = "(define (domain ward) (:requirements :typing :vocabulary)
@@ -52,7 +53,7 @@ impl Ward {
         let mut broken = look(&mut monitor, &mut subscription);
         for line in trace.lines().filter(|line| !line.trim().is_empty()) {
             let (seconds, what) = line.trim().split_once(' ').unwrap();
-            let time = Time(std::time::Duration::from_secs_f64(seconds.parse().unwrap()).as_nanos() as u64);
+            let time = Time(Duration::from_secs_f64(seconds.parse().unwrap()).as_nanos().try_into().unwrap());
             if what == "end" {
                 broken.extend(monitor.ended(time));
                 return broken;

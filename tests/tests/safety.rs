@@ -68,8 +68,8 @@ fn a_robot_that_hears_a_call_for_help_and_calls_nobody_is_reported() {
     let mission = mutated(
         "nobody-called",
         file,
-        "(at start (is_called_for ?c ?n))",
-        "(at start (is_needed_for ?c ?n))",
+        "(at start (asks ?p help))",
+        "(at start (asks ?p help)) (at start (is_called_for ?c repair))",
     );
     let said = play(&mission, "help");
     assert_eq!(said.exit, Exit::No);

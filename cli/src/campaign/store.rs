@@ -24,7 +24,7 @@ enum Line {
         instants: Vec<Instant>,
     },
     /// The next line of stories.
-    Line {
+    Story {
         text: String,
     },
     Run(Run),
@@ -49,7 +49,7 @@ pub(super) fn read(path: &Path) -> io::Result<Kept> {
             Line::Campaign { fingerprint, instants, .. } => {
                 (kept.fingerprint, kept.instants) = (fingerprint, instants);
             }
-            Line::Line { text } => kept.lines.push(text),
+            Line::Story { text } => kept.lines.push(text),
             Line::Run(run) => kept.runs.push(run),
         }
     }
@@ -79,7 +79,7 @@ impl Store {
         let (fingerprint, instants) = (kept.fingerprint, kept.instants.clone());
         store.put(&Line::Campaign { mission: mission.to_owned(), fingerprint, instants })?;
         for text in &kept.lines {
-            store.put(&Line::Line { text: text.clone() })?;
+            store.put(&Line::Story { text: text.clone() })?;
         }
         store.lines = kept.lines.len();
         for run in &kept.runs {
@@ -91,7 +91,7 @@ impl Store {
     /// Adds a run, and the lines of its story that are new.
     pub(super) fn add(&mut self, run: &Run, lines: &Lines) -> io::Result<()> {
         for text in lines.since(self.lines) {
-            self.put(&Line::Line { text })?;
+            self.put(&Line::Story { text })?;
             self.lines += 1;
         }
         self.put(&Line::Run(run.clone()))?;

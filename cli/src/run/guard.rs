@@ -37,7 +37,7 @@ impl Guard {
         let late = async {
             match self.monitor.deadline() {
                 Some(Time(deadline)) => {
-                    sleep_until(self.epoch + Duration::from_nanos(deadline) + AFTER).await
+                    sleep_until(self.epoch + Duration::from_nanos(deadline) + AFTER).await;
                 }
                 None => pending().await,
             }

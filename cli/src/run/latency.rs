@@ -27,7 +27,7 @@ impl FromStr for Range {
     fn from_str(text: &str) -> Result<Self, String> {
         let seconds = |text: &str| {
             let number: f64 = text.parse().map_err(|_| "not a number of seconds".to_owned())?;
-            let longest = Duration::from_hours(24);
+            let longest = Duration::from_secs(24 * 60 * 60);
             let seconds = Duration::try_from_secs_f64(number).map_err(|error| error.to_string())?;
             if seconds <= longest { Ok(seconds) } else { Err("more than a day".to_owned()) }
         };

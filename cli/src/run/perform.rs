@@ -132,7 +132,7 @@ pub(crate) async fn perform(
 
 async fn forever(work: impl Future<Output = ()>) {
     work.await;
-    pending().await
+    pending::<()>().await;
 }
 
 /// The simulated room of the scenario.

@@ -34,7 +34,7 @@ impl Speed {
     pub(super) async fn pass_time(self) {
         let Self::Factor(factor) = self else { return std::future::pending().await };
         if !self.is_simulated() {
-            return std::future::pending().await;
+            std::future::pending::<()>().await;
         }
         let mut ticks = metronome();
         while ticks.recv().await.is_some() {
@@ -46,7 +46,7 @@ impl Speed {
                 left -= step;
             }
         }
-        std::future::pending().await
+        std::future::pending::<()>().await;
     }
 }
 

@@ -7,7 +7,7 @@
 //! - `analysis::intervals` bounds the numbers.
 //! - Facts of one mutex group exclude each other.
 //! - If the search visited every state, `space` visits them once more. It reports the goals that
-//! never held, the pairs that never held together, and the state with the most goals.
+//!   never held, the pairs that never held together, and the state with the most goals.
 //! - `bans` reports an excluded operator only if it would otherwise be applicable.
 //!
 //! Invariant: an explanation claims only proven facts and leaves out the rest. Cost: bounded for

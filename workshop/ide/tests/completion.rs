@@ -104,15 +104,15 @@ fn definitions_and_sections() {
         "SECTION",
         "(:$0",
         &expect![[r#"
-        snippet: :action :constants :constraints :derived :durative-action :event :functions :import :method :predicates :process :requirements :task :types :writes
-    "#]],
+            snippet: :action :constants :constraints :derived :durative-action :event :functions :import :invariant :method :predicates :process :requirements :task :types :writes
+        "#]],
     );
     check(
         "SECTION",
         "$0",
         &expect![[r#"
-        snippet: :action :constants :constraints :derived :durative-action :event :functions :import :method :predicates :process :requirements :task :types :writes
-    "#]],
+            snippet: :action :constants :constraints :derived :durative-action :event :functions :import :invariant :method :predicates :process :requirements :task :types :writes
+        "#]],
     );
     check(
         "SECTION",
@@ -132,7 +132,7 @@ fn definitions_and_sections() {
         "SECTION",
         "(:requirements :ty$0)",
         &expect![[r#"
-            word: :action-costs :adl :agent-rules :conditional-effects :constraints :continuous-effects :derived-predicates :disjunctive-preconditions :duration-inequalities :durative-actions :equality :existential-preconditions :factored-privacy :fluents :goal-utilities :hierarchy :method-preconditions :multi-agent :negative-preconditions :numeric-fluents :object-fluents :preferences :quantified-preconditions :strips :time :timed-initial-fluents :timed-initial-literals :typing :unfactored-privacy :universal-preconditions :vocabulary
+            word: :action-costs :adl :agent-rules :conditional-effects :constraints :continuous-effects :derived-predicates :disjunctive-preconditions :duration-inequalities :durative-actions :equality :existential-preconditions :factored-privacy :fluents :goal-utilities :hierarchy :invariants :method-preconditions :multi-agent :negative-preconditions :numeric-fluents :object-fluents :preferences :quantified-preconditions :strips :time :timed-initial-fluents :timed-initial-literals :typing :unfactored-privacy :universal-preconditions :vocabulary
         "#]],
     );
     check(
