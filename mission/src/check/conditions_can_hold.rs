@@ -1,6 +1,6 @@
 //! C0402: a condition on a token that never holds.
 //!
-//! **What** Each token in a condition of a rule, a method, an intention or perception may hold for some binding: it holds
+//! **What** Each token in a condition of a rule, a method, an intention, perception or an invariant may hold for some binding: it holds
 //! initially, or something that may happen writes it.
 //! **Why** Such a condition is always false, or always true under a `not`. Its author meant another token.
 //! **Example** `(not (is speaker paused))`: only a test is ever paused.
@@ -8,7 +8,7 @@
 use std::collections::BTreeSet;
 
 use pddl::Span;
-use pddl::model::{Condition, ConditionKind, Domain, Variables};
+use pddl::model::{Condition, ConditionKind, Constraint, ConstraintKind, Domain, Variables};
 
 use super::context::Context;
 use super::nearest::one_line;
@@ -35,6 +35,40 @@ pub(super) fn check(context: &Context<'_>, findings: &mut Vec<Finding>) {
     let perception = &layers.perception;
     for axiom in &perception.model.axioms {
         one(context, perception.source, &perception.model, &axiom.variables, &axiom.body, findings);
+    }
+    for layer in &layers.safety {
+        for invariant in &layer.model.invariants {
+            of_constraint(&invariant.constraint, &mut |condition| {
+                one(context, layer.source, &layer.model, &invariant.variables, condition, findings);
+            });
+        }
+    }
+}
+
+/// Visits the conditions of a constraint.
+fn of_constraint(constraint: &Constraint, visit: &mut impl FnMut(&Condition)) {
+    match &constraint.kind {
+        ConstraintKind::Holds(condition) => visit(condition),
+        ConstraintKind::And(parts) | ConstraintKind::Or(parts) => {
+            parts.iter().for_each(|part| of_constraint(part, visit));
+        }
+        ConstraintKind::Not(part)
+        | ConstraintKind::Exists(_, part)
+        | ConstraintKind::Forall(_, part)
+        | ConstraintKind::AtEnd(part)
+        | ConstraintKind::Always(part)
+        | ConstraintKind::Sometime(part)
+        | ConstraintKind::Within(_, part)
+        | ConstraintKind::AtMostOnce(part)
+        | ConstraintKind::HoldDuring(_, _, part)
+        | ConstraintKind::HoldAfter(_, part) => of_constraint(part, visit),
+        ConstraintKind::Imply(first, second)
+        | ConstraintKind::SometimeAfter(first, second)
+        | ConstraintKind::SometimeBefore(first, second)
+        | ConstraintKind::AlwaysWithin(_, first, second) => {
+            of_constraint(first, visit);
+            of_constraint(second, visit);
+        }
     }
 }
 

@@ -19,6 +19,7 @@ mod outcomes_are_handled;
 mod perception_is_written;
 mod preemptions_rest;
 mod rules_can_start;
+mod rules_come_to_rest;
 mod tasks_of_actions;
 mod tokens;
 
@@ -33,7 +34,7 @@ use diagnostics::{Finding, Sources};
 type Check = fn(&Context<'_>, &mut Vec<Finding>);
 
 /// All checks, by code.
-const ALL: [Check; 12] = [
+const ALL: [Check; 13] = [
     tasks_of_actions::check,
     effects_are_sensed::check,
     intentions_are_heard::check,
@@ -46,6 +47,7 @@ const ALL: [Check; 12] = [
     claims_are_ordered::check,
     preemptions_rest::check,
     outcomes_are_handled::check,
+    rules_come_to_rest::check,
 ];
 
 impl Mission {

@@ -65,6 +65,7 @@
     :duration (<= ?duration 60)
     :condition (and
       (at start (not (is ?r speaking)))
+      (at start (not (refuses speaker ?i)))
       (over all (not (is speaker broken)))
       (over all (is_in ?t ?i))
       (over all (= (label ?t ?i) ?u)))

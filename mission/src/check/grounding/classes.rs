@@ -105,7 +105,10 @@ fn named(layers: &Layers) -> BTreeSet<Name> {
         named.insert(domain.constants[id].name.clone());
     };
     let agents = layers.agents.iter().map(|agent| &agent.model);
-    for domain in agents.chain([&layers.methods.model, &layers.perception.model, &layers.domain.model]) {
+    let safety = layers.safety.iter().map(|layer| &layer.model);
+    for domain in
+        agents.chain(safety).chain([&layers.methods.model, &layers.perception.model, &layers.domain.model])
+    {
         mentions::objects(domain, &mut |id| add(domain, id));
     }
     let vocabulary = &layers.vocabulary.model;

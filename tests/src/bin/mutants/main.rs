@@ -144,12 +144,13 @@ fn one(subject: &Subject, id: usize, folder: &Path, expected: &Path) -> Result<(
 const SURVIVES: &str = "survives";
 
 /// Judges a mutant in another process, and ends it when it takes too long.
-fn judge_apart(mission: &str, id: usize, folder: &Path, expected: &Path) -> Result<String, Failure> {
+fn judge_apart(mission: &Path, id: usize, folder: &Path, expected: &Path) -> Result<String, Failure> {
     if folder.exists() {
         fs::remove_dir_all(folder)?;
     }
     let mut child = Command::new(std::env::current_exe()?)
-        .args([mission, "--one", &id.to_string(), "--folder"])
+        .arg(mission)
+        .args(["--one", &id.to_string(), "--folder"])
         .arg(folder)
         .arg("--expected")
         .arg(expected)
@@ -174,7 +175,7 @@ fn judge_apart(mission: &str, id: usize, folder: &Path, expected: &Path) -> Resu
 }
 
 /// Judges a sample of all mutants and prints the figures.
-fn campaign(subject: &Subject, mission: &str, sample: usize, seed: u64, fresh: bool) -> Result<(), Failure> {
+fn campaign(subject: &Subject, sample: usize, seed: u64, fresh: bool) -> Result<(), Failure> {
     let folder = Path::new("target/mutants").join(format!("{:016x}", subject.fingerprint()));
     fs::create_dir_all(&folder)?;
     let folder = folder.canonicalize()?;
@@ -188,10 +189,12 @@ fn campaign(subject: &Subject, mission: &str, sample: usize, seed: u64, fresh: b
         .filter_map(|line| line.split_once('\t'))
         .filter_map(|(id, by)| Some((id.parse().ok()?, by.to_owned())))
         .collect();
-    let original = folder.join("original");
-    subject.copy(&original, None)?;
+    // The mission may be edited meanwhile, which would renumber its mutants.
+    let copied = folder.join("original");
+    subject.copy(&copied, None)?;
+    let original = copied.join(&subject.mission);
     let expected = folder.join("expected.tsv");
-    fs::write(&expected, baseline(&original.join(&subject.mission))?.write())?;
+    fs::write(&expected, baseline(&original)?.write())?;
 
     let chosen = chosen(subject.mutants.len(), sample, seed);
     let open: Vec<usize> = chosen.iter().copied().filter(|id| !known.contains_key(id)).collect();
@@ -200,7 +203,7 @@ fn campaign(subject: &Subject, mission: &str, sample: usize, seed: u64, fresh: b
     let work = |worker: usize| -> Result<(), Failure> {
         let slot = folder.join(format!("slot-{worker}"));
         while let Some(&id) = open.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let by = judge_apart(mission, id, &slot, &expected)?;
+            let by = judge_apart(&original, id, &slot, &expected)?;
             let mut file = file.lock().map_err(|_| "another worker panicked")?;
             writeln!(file, "{id}\t{by}")?;
             verdicts.lock().map_err(|_| "another worker panicked")?.insert(id, by);
@@ -280,5 +283,5 @@ fn start() -> Result<(), Failure> {
     }
     let sample = value("--sample").map_or(Ok(usize::MAX), |n| n.parse())?;
     let seed: u64 = value("--seed").map_or(Ok(1), |n| n.parse())?;
-    campaign(&subject, mission, sample, seed, arguments.iter().any(|a| a == "--fresh"))
+    campaign(&subject, sample, seed, arguments.iter().any(|a| a == "--fresh"))
 }

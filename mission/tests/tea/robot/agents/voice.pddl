@@ -4,7 +4,8 @@
   (:durative-action say
     :parameters (?r - robot ?t - test ?p - part ?u - utterance)
     :condition (over all (= (label ?t ?p) ?u))
-    :effect (and (at start (is ?r speaking)) (at end (not (is ?r speaking))) (at end (was_said_in ?u ?p)))
+    :effect (and (at start (is ?r speaking)) (at end (not (is ?r speaking))) (at end (was_said_in ?u ?p))
+      (at end (assign (label ?t ?p) undefined)) (at abort (not (is ?r speaking))))
     :skill (say ?p ?u)
     :claims (loudspeaker)
     :priority 50)
@@ -13,5 +14,6 @@
     :condition (over all (= (label ?t ?i) ?q))
     ; waive(misheard): an order that was misheard is asked for again
     :results (?o - option)
-    :effect (and (at end (was_chosen_in ?o ?i)) (at timeout (was_unanswered_in ?q ?i)))
+    :effect (and (at end (was_chosen_in ?o ?i)) (at timeout (was_unanswered_in ?q ?i))
+      (at end (assign (label ?t ?i) undefined)))
     :skill (listen ?i)))
