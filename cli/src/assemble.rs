@@ -14,7 +14,7 @@ use crate::render;
 use agents::{Agent, skills};
 use diagnostics::{Finding, Place, SourceId};
 use dsr::{AgentId, Graph, Interest, Time};
-use executive::{Bounds, Model, Policy, Step, Wheel};
+use executive::{Bounds, Model, Policy, Sensed, Step, Wheel};
 use high_to_low::Methods;
 use low_to_high::Perception;
 use mission::{Mission, MissionErrors, MissionTask, SkillOutcomes};
@@ -161,7 +161,11 @@ fn put_together(mission: &Mission, findings: &mut Vec<Finding>) -> Option<Assemb
     let methods = Methods::new(&layers.methods.model, &vocabulary).map_err(|errors| {
         findings.extend(errors.iter().map(|e| finding("E1005", layers.methods.source, e.span(), e)));
     });
-    let model = Model::new(layers.domain.model.clone(), layers.problem.model.clone(), &perceived(mission));
+    let predicates = perceived(mission);
+    let numbers = perception.iter().flat_map(Perception::numbers);
+    let numbers: Vec<_> = numbers.map(|(name, value)| (name.clone(), value)).collect();
+    let sensed = Sensed { predicates: &predicates, numbers: &numbers };
+    let model = Model::new(layers.domain.model.clone(), layers.problem.model.clone(), sensed);
     let model = model.map_err(|error| {
         findings.push(finding("E1006", layers.problem.source, layers.problem.model.goal_span, &error));
     });

@@ -48,7 +48,7 @@ mod wheel;
 mod wording;
 
 pub use decision_support::{Decision, Figures, Repair, Request, RequestId, decide};
-pub use model::{Model, ModelError, Step};
+pub use model::{Changes, Model, ModelError, Sensed, Step};
 pub use monitoring::{BrokenLiteral, Deviation, Monitor};
 pub use narration::Narration;
 pub use outcome::{Ending, NoPlan, StepFailure, Stuck, Trouble, Unsolvable};

@@ -1,14 +1,14 @@
 //! The high-level model: the names of the planner's facts and operators.
 //!
 //! Problem: LowToHigh speaks of `(introduced feeding)`, the planner of fact 17. Idea: ground the domain
-//! once, at the start, and keep the map. Predicates that perception derives are exogenous, so that
-//! grounding keeps every value that they can take and no replan grounds again; all other predicates
-//! are as in the problem. Cost: one hash look-up per fact that changes, and a copy of the state's bits.
+//! once, at the start, and keep the map. Predicates and numbers that perception derives are exogenous, so that
+//! grounding keeps every value that they can take and no replan grounds again; all others are as in the
+//! problem. Cost: one hash look-up per fact or number that changes, and a copy of the state's bits.
 
-use indexmap::IndexSet;
-use low_to_high::{Change, Fact};
+use indexmap::{IndexMap, IndexSet};
+use low_to_high::{Change, Fact, Fluent};
 use pddl::model::{Domain, FluentFact, FluentValue, GroundApplication, Name, ObjectId, PredicateId, Problem};
-use planner::{FactId, GroundAtom, GroundError, GroundOptions, OperatorId, State, Task, ground};
+use planner::{FactId, GroundAtom, GroundError, GroundOptions, Number, OperatorId, State, Task, ground};
 use rustc_hash::FxHashMap;
 
 /// The grounded task with its names.
@@ -20,8 +20,42 @@ pub struct Model {
     predicates: FxHashMap<Name, PredicateId>,
     objects: FxHashMap<Name, ObjectId>,
     exogenous: IndexSet<PredicateId>,
+    /// The sensed fluents on which plans depend, with their value while the graph says nothing of them.
+    numbers: IndexMap<Fluent, (GroundApplication, Option<Number>)>,
     /// Facts of the initial state that are not perceived, sorted.
     given: Vec<FactId>,
+}
+
+/// What perception derives of the planner's domain.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sensed<'s> {
+    /// The predicates.
+    pub predicates: &'s [Name],
+    /// The functions, with the value of a fluent of which the graph says nothing.
+    pub numbers: &'s [(Name, Option<f64>)],
+}
+
+/// Predicates, and no numbers.
+impl<'s, T: AsRef<[Name]>> From<&'s T> for Sensed<'s> {
+    fn from(predicates: &'s T) -> Self {
+        Self { predicates: predicates.as_ref(), numbers: &[] }
+    }
+}
+
+/// How what is perceived changed a state.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Changes {
+    /// The facts on which plans depend that changed, with their new truth; without derived ones.
+    pub facts: Vec<(FactId, bool)>,
+    /// Whether a number on which plans depend changed.
+    pub numbers: bool,
+}
+
+impl Changes {
+    /// Whether the state is as it was.
+    pub fn is_empty(&self) -> bool {
+        self.facts.is_empty() && !self.numbers
+    }
 }
 
 /// Why there is no model.
@@ -42,14 +76,25 @@ pub struct Step {
 }
 
 impl Model {
-    /// Grounds `problem`; `perceived` are the predicates that perception derives.
+    /// Grounds `problem`.
     ///
     /// # Errors
     /// If the planner cannot ground the domain.
-    pub fn new(domain: Domain, problem: Problem, perceived: &[Name]) -> Result<Self, ModelError> {
-        let exogenous: IndexSet<_> = perceived.iter().filter_map(|name| domain.predicate(name)).collect();
+    pub fn new<'s>(
+        domain: Domain,
+        problem: Problem,
+        sensed: impl Into<Sensed<'s>>,
+    ) -> Result<Self, ModelError> {
+        let sensed = sensed.into();
+        let exogenous: IndexSet<_> =
+            sensed.predicates.iter().filter_map(|name| domain.predicate(name)).collect();
         let volatile: Vec<_> = exogenous.iter().copied().collect();
-        let options = GroundOptions { exogenous: &volatile, ..GroundOptions::default() };
+        let functions: Vec<_> = sensed.numbers.iter().filter_map(|(name, _)| domain.function(name)).collect();
+        let options = GroundOptions {
+            exogenous: &volatile,
+            exogenous_functions: &functions,
+            ..GroundOptions::default()
+        };
         let task = ground(&domain, &problem, &options)?;
         let predicates = domain.predicates.enumerate().map(|(id, p)| (p.name.clone(), id)).collect();
         let objects = problem.objects.enumerate().map(|(id, o)| (o.name.clone(), id)).collect();
@@ -62,7 +107,15 @@ impl Model {
                 atom.is_none_or(|atom| !exogenous.contains(&atom.predicate))
             })
             .collect();
-        Ok(Self { domain, problem, task, predicates, objects, exogenous, given })
+        let numbers = task.numbers(task.initial_state()).filter_map(|(application, _)| {
+            let name = &domain.functions[application.function].name;
+            let (function, default) = sensed.numbers.iter().find(|(other, _)| other == name)?;
+            let objects = application.arguments.iter().map(|&o| problem.objects[o].name.clone());
+            let fluent = Fluent { function: function.clone(), arguments: objects.collect() };
+            Some((fluent, (application.clone(), default.and_then(Number::from_f64))))
+        });
+        let numbers = numbers.collect();
+        Ok(Self { domain, problem, task, predicates, objects, exogenous, numbers, given })
     }
 
     /// The grounded task.
@@ -87,26 +140,53 @@ impl Model {
         self.task.fact(predicate, &arguments?)
     }
 
-    /// The state in which exactly these of the perceivable facts hold.
+    /// The state in which exactly these of the perceivable facts hold, and nothing is known of the sensed numbers.
     pub fn state<'f>(&self, perceived: impl IntoIterator<Item = &'f Fact>) -> State {
         let seen = perceived.into_iter().filter_map(|fact| self.fact(fact));
-        self.task.state(self.given.iter().copied().chain(seen))
+        let state = self.task.state(self.given.iter().copied().chain(seen));
+        if self.numbers.is_empty() {
+            return state;
+        }
+        self.task.with_numbers(&state, self.numbers.values().map(|(fluent, default)| (fluent, *default)))
     }
 
-    /// Turns the state of what was perceived before `change` into that of what is perceived now. Returns the facts
-    /// on which plans depend that changed, without derived ones.
-    pub fn update(&self, state: &mut State, change: &Change) -> Vec<(FactId, bool)> {
+    /// The state with these sensed numbers; others stay as they are.
+    pub fn with_numbers<'f>(
+        &self,
+        state: State,
+        numbers: impl IntoIterator<Item = (&'f Fluent, Option<f64>)>,
+    ) -> State {
+        let known = numbers.into_iter().filter_map(|(fluent, value)| {
+            let (application, _) = self.numbers.get(fluent)?;
+            Some((application, value.and_then(Number::from_f64)))
+        });
+        let known: Vec<_> = known.collect();
+        if known.is_empty() { state } else { self.task.with_numbers(&state, known) }
+    }
+
+    /// Turns the state of what was perceived before `change` into that of what is perceived now.
+    pub fn update(&self, state: &mut State, change: &Change) -> Changes {
         let known = |fact: &Fact| self.fact(fact).filter(|fact| self.given.binary_search(fact).is_err());
         let gone = change.disappeared.iter().filter_map(|fact| Some((known(fact)?, false)));
         let come = change.appeared.iter().filter_map(|fact| Some((known(fact)?, true)));
-        let changes: Vec<_> = gone.chain(come).collect();
-        self.task.change(state, changes.iter().copied());
-        changes
+        let facts: Vec<_> = gone.chain(come).collect();
+        self.task.change(state, facts.iter().copied());
+        let numbers = change.numbers.iter().any(|(fluent, _)| self.numbers.contains_key(fluent));
+        if numbers {
+            let values = change.numbers.iter().map(|(fluent, value)| (fluent, *value));
+            *state = self.with_numbers(state.clone(), values);
+        }
+        Changes { facts, numbers }
     }
 
     /// The name of a planner's fact; `None` for an auxiliary fact of grounding.
     pub fn name(&self, fact: FactId) -> Option<Fact> {
         self.task.facts()[fact].atom.as_ref().map(|atom| self.atom(atom))
+    }
+
+    /// A comparison of numbers as PDDL writes it; `None` for a fact that is none.
+    pub fn comparison(&self, fact: FactId) -> Option<String> {
+        self.task.facts()[fact].compares.then(|| self.task.fact_name(fact))
     }
 
     /// The name of a ground atom.

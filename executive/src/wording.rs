@@ -126,9 +126,10 @@ impl Serialize for Ending {
 
 impl Display for BrokenLiteral {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        match &self.fact {
-            Some(fact) => write!(f, "{fact}")?,
-            None => f.write_str("a condition")?,
+        match (&self.fact, &self.comparison) {
+            (Some(fact), _) => write!(f, "{fact}")?,
+            (None, Some(comparison)) => f.write_str(comparison)?,
+            (None, None) => f.write_str("a condition")?,
         }
         f.write_str(if self.expected { " no longer holds" } else { " holds" })?;
         if !self.seen.is_empty() {

@@ -36,20 +36,23 @@
 //! assert_eq!(seen.explain(&commit.snapshot, &change.appeared[0]), ["ann is with clarc"]);
 //! ```
 //!
-//! Map, from the ground up: `fact` → `axiom`, `strata`, `perception` (the file, compiled) → `relations` (the derived
+//! Map, from the ground up: `fact` → `axiom`, `strata`, `perception_error`, `measure`, `perception` (the file, compiled) → `relations` (the derived
 //! facts), `query` (matching a body) → `touched` (the heads that a delta can change) → `low_to_high` → `explain`.
 
 mod axiom;
 mod explain;
 mod fact;
 mod low_to_high;
+mod measure;
 mod perception;
+mod perception_error;
 mod query;
 mod relations;
 mod strata;
 mod touched;
 
 pub use explain::Explanation;
-pub use fact::{Change, Fact};
+pub use fact::{Change, Fact, Fluent};
 pub use low_to_high::LowToHigh;
-pub use perception::{Perception, PerceptionError, PerceptionErrorKind, Role};
+pub use perception::{Perception, Role};
+pub use perception_error::{PerceptionError, PerceptionErrorKind};

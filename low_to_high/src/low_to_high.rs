@@ -14,7 +14,8 @@ use pddl::model::{Name, PredicateId, VariableId};
 use rustc_hash::FxHashMap;
 
 use crate::axiom::Axiom;
-use crate::fact::{Change, Fact};
+use crate::fact::{Change, Fact, Fluent};
+use crate::measure::{Measure, Measured};
 use crate::perception::{Perception, Role};
 use crate::query::{Environment, Query};
 use crate::relations::{Partial, Relations, Tuple};
@@ -29,6 +30,8 @@ pub struct LowToHigh {
     /// The names of the nodes in the last snapshot, because facts have names as arguments.
     names: FxHashMap<NodeId, Name>,
     facts: BTreeSet<Fact>,
+    /// The sensed numbers that have a value other than that of a fluent of which the graph says nothing.
+    numbers: BTreeMap<Fluent, f64>,
 }
 
 /// Whether each tuple held before its component was derived again.
@@ -39,13 +42,19 @@ impl LowToHigh {
     pub fn new(perception: Arc<Perception>, snapshot: &Snapshot) -> Self {
         let relations = Relations::new(perception.axioms.len(), perception.predicates.len());
         let names = snapshot.nodes().map(|node| (node.id, Name::new(node.name()))).collect();
-        let mut new = Self { perception, relations, names, facts: BTreeSet::new() };
+        let mut new = Self { perception, relations, names, facts: BTreeSet::new(), numbers: BTreeMap::new() };
         let perception = Arc::clone(&new.perception);
         let mut before = Before::new();
         for component in &perception.components {
             new.derive_component(component, snapshot, &mut before);
         }
         new.publish(&before);
+        for (at, measure) in perception.measures.iter().enumerate() {
+            let tuples = measure.all(snapshot).into_iter().chain(new.counted(measure, &before));
+            for tuple in tuples.collect::<BTreeSet<_>>() {
+                new.measure(at, &tuple, snapshot);
+            }
+        }
         new
     }
 
@@ -69,7 +78,13 @@ impl LowToHigh {
                 }
             }
         }
-        let change = self.publish(&all);
+        let mut change = self.publish(&all);
+        for (at, measure) in perception.measures.iter().enumerate() {
+            let touched = measure.touched(delta, &|id| self.names.get(&id).cloned());
+            let tuples: BTreeSet<Tuple> = touched.into_iter().chain(self.counted(measure, &all)).collect();
+            change.numbers.extend(tuples.iter().filter_map(|tuple| self.measure(at, tuple, snapshot)));
+        }
+        change.numbers.sort_by(|(a, _), (b, _)| a.cmp(b));
         for change in &delta.changes {
             if let dsr::Change::NodeRemoved { node, .. } = change {
                 self.names.remove(node);
@@ -83,6 +98,31 @@ impl LowToHigh {
         self.facts.iter()
     }
 
+    /// The sensed numbers, sorted; a fluent that is not listed has the value of [`Perception::numbers`].
+    pub fn numbers(&self) -> impl Iterator<Item = (&Fluent, f64)> {
+        self.numbers.iter().map(|(fluent, value)| (fluent, *value))
+    }
+
+    /// The fluents of a count of which a counted fact changed.
+    fn counted(&self, measure: &Measure, changed: &Before) -> Vec<Tuple> {
+        let Measured::Count(predicate) = measure.value else { return Vec::new() };
+        let own = changed.keys().filter(|(id, _)| *id == predicate);
+        own.map(|(_, tuple)| tuple[..measure.arity].to_vec()).collect()
+    }
+
+    /// Takes the value of a fluent anew; it with its value if that changed.
+    fn measure(&mut self, at: usize, tuple: &Tuple, snapshot: &Snapshot) -> Option<(Fluent, Option<f64>)> {
+        let perception = Arc::clone(&self.perception);
+        let measure = &perception.measures[at];
+        let fluent = Fluent { function: measure.name.clone(), arguments: self.names_of(tuple) };
+        let (value, default) = (measure.value(tuple, snapshot, &self.relations), measure.default());
+        let before = match value.filter(|_| value != default) {
+            Some(value) => self.numbers.insert(fluent.clone(), value),
+            None => self.numbers.remove(&fluent),
+        };
+        (before.or(default) != value).then_some((fluent, value))
+    }
+
     /// All derived facts, auxiliary ones included, sorted by declaration and arguments.
     pub fn derived(&self) -> impl Iterator<Item = Fact> + '_ {
         let predicates = self.perception.predicates.enumerate();
@@ -90,11 +130,13 @@ impl LowToHigh {
     }
 
     fn fact(&self, predicate: PredicateId, tuple: &[NodeId]) -> Fact {
+        let predicate = self.perception.predicates[predicate].name.clone();
+        Fact { predicate, arguments: self.names_of(tuple) }
+    }
+
+    fn names_of(&self, tuple: &[NodeId]) -> Vec<Name> {
         let name = |id: &NodeId| self.names.get(id).cloned().unwrap_or_else(|| Name::new(&id.to_string()));
-        Fact {
-            predicate: self.perception.predicates[predicate].name.clone(),
-            arguments: tuple.iter().map(name).collect(),
-        }
+        tuple.iter().map(name).collect()
     }
 
     /// Updates the planner's facts from the tuples that may have changed.

@@ -7,41 +7,13 @@ use std::sync::Arc;
 
 use dsr::{Mentions, Vocabulary};
 use pddl::Span;
-use pddl::model::{Domain, IndexVec, Name, PredicateId};
-use vocabulary::{Conjunction, LinkErrorKind, Literal, Located, MAX_ALTERNATIVES, Tokens};
+use pddl::model::{self, Domain, IndexVec, Name, PredicateId, Variables};
+use vocabulary::{Conjunction, Literal, Located, Tokens};
 
 use crate::axiom::{Axiom, Token};
+use crate::measure::{self, Measure, Measured};
+use crate::perception_error::{MAX_LITERALS, PerceptionError, PerceptionErrorKind};
 use crate::strata::{Component, components};
-
-/// The most literals of one alternative: matching keeps them as bits.
-const MAX_LITERALS: usize = 64;
-
-/// Why an axiom cannot be evaluated.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[expect(missing_docs, reason = "the fields are the names that the variant is about")]
-pub enum PerceptionErrorKind {
-    /// Agents write tokens; an axiom cannot derive one.
-    #[error("`{name}` is a token: agents write it, so that no axiom may derive it")]
-    DerivesToken { name: Name },
-    /// No agent writes it and no axiom derives it.
-    #[error("`{name}` is neither a token of vocabulary `{vocabulary}` nor derived here: it never holds")]
-    NeverHolds { name: Name, vocabulary: Name },
-    /// It depends on its own absence.
-    #[error("`{head}` depends on the absence of `{denied}`, which depends on `{head}`")]
-    NotStratified { head: Name, denied: Name },
-    /// Too many disjunctions.
-    #[error("`{name}` has more than {MAX_ALTERNATIVES} alternatives")]
-    TooManyAlternatives { name: Name },
-    /// Too long.
-    #[error("an alternative of `{name}` has more than {MAX_LITERALS} literals")]
-    TooLong { name: Name },
-    /// A part of it cannot be compiled.
-    #[error(transparent)]
-    Link(#[from] LinkErrorKind),
-}
-
-/// An axiom that cannot be evaluated.
-pub type PerceptionError = Located<PerceptionErrorKind>;
 
 /// Who reads a derived predicate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -70,6 +42,7 @@ pub struct Perception {
     pub(crate) axioms: Vec<Axiom>,
     /// Each component comes after those on which it depends.
     pub(crate) components: Vec<Component>,
+    pub(crate) measures: Vec<Measure>,
 }
 
 impl Perception {
@@ -92,34 +65,71 @@ impl Perception {
                 axioms: Vec::new(),
             })
             .collect();
-        for axiom in &domain.axioms {
-            let name = predicates[axiom.predicate].name.clone();
-            if tokens.is_token(&name) {
-                errors.push(Located::new(axiom.span, PerceptionErrorKind::DerivesToken { name }));
-                continue;
-            }
-            let formula = link
-                .scope(&axiom.variables)
-                .and_then(|scope| Ok((link.formula(&scope, [&axiom.body])?, scope)));
+        let mut compile = |id: PredicateId,
+                           name: &Name,
+                           variables: &Variables,
+                           body: &model::Condition,
+                           span| {
+            let formula = link.scope(variables).and_then(|scope| Ok((link.formula(&scope, [body])?, scope)));
             let (formula, scope) = match formula {
                 Ok(done) => done,
                 Err(more) => {
                     errors.extend(more.into_iter().map(|error| Located::new(error.span, error.kind.into())));
-                    continue;
+                    return None;
                 }
             };
-            let Some(body) = formula.disjuncts(&scope) else {
-                errors.push(Located::new(axiom.span, PerceptionErrorKind::TooManyAlternatives { name }));
-                continue;
+            let kind = match formula.disjuncts(&scope) {
+                None => PerceptionErrorKind::TooManyAlternatives { name: name.clone() },
+                Some(body) if body.iter().any(too_long) => {
+                    PerceptionErrorKind::TooLong { name: name.clone() }
+                }
+                Some(body) => {
+                    spans.push(span);
+                    axioms.push(Axiom::new(id, scope, body));
+                    return Some(axioms.len() - 1);
+                }
             };
-            if body.iter().any(too_long) {
-                errors.push(Located::new(axiom.span, PerceptionErrorKind::TooLong { name }));
+            errors.push(Located::new(span, kind));
+            None
+        };
+        let mut derives_token = Vec::new();
+        for axiom in &domain.axioms {
+            let name = predicates[axiom.predicate].name.clone();
+            if tokens.is_token(&name) {
+                derives_token.push(Located::new(axiom.span, PerceptionErrorKind::DerivesToken { name }));
                 continue;
             }
-            predicates[axiom.predicate].axioms.push(axioms.len());
-            spans.push(axiom.span);
-            axioms.push(Axiom::new(axiom.predicate, scope, body));
+            let position = compile(axiom.predicate, &name, &axiom.variables, &axiom.body, axiom.span);
+            predicates[axiom.predicate].axioms.extend(position);
         }
+        let mut measures: Vec<Measure> = Vec::new();
+        let mut unmeasured = Vec::new();
+        for function in &domain.derived_functions {
+            let name = domain.functions[function.function].name.clone();
+            let value = match measure::counted(function) {
+                Some((variables, condition)) => {
+                    let (role, axioms) = (Role::Auxiliary, Vec::new());
+                    let id = predicates.push(Derived { name: name.clone(), role, axioms });
+                    let position = compile(id, &name, &variables, condition, function.span);
+                    predicates[id].axioms.extend(position);
+                    Ok(Measured::Count(id))
+                }
+                None => measure::read(domain, tokens, function),
+            };
+            if measures.iter().any(|other| other.name == name) {
+                let kind = PerceptionErrorKind::MeasuredTwice { name };
+                unmeasured.push(Located::new(function.span, kind));
+                continue;
+            }
+            match value {
+                Ok(value) => {
+                    measures.push(Measure { name, arity: function.variables.parameters, value });
+                }
+                Err(more) => unmeasured.extend(more),
+            }
+        }
+        errors.append(&mut derives_token);
+        errors.append(&mut unmeasured);
         let derived = |id: PredicateId| domain.axioms.iter().any(|axiom| axiom.predicate == id);
         for axiom in &axioms {
             for part in &axiom.body {
@@ -137,13 +147,18 @@ impl Perception {
             errors.dedup();
             return Err(errors);
         }
-        Ok(Self { vocabulary: Arc::clone(tokens.vocabulary()), predicates, axioms, components })
+        Ok(Self { vocabulary: Arc::clone(tokens.vocabulary()), predicates, axioms, components, measures })
     }
 
     /// The derived predicates, in the order of their declaration.
     pub fn derived(&self) -> impl Iterator<Item = (&Name, Role)> {
         let derived = self.predicates.iter().filter(|predicate| !predicate.axioms.is_empty());
         derived.map(|predicate| (&predicate.name, predicate.role))
+    }
+
+    /// The functions whose values are sensed, with the value of a fluent of which the graph says nothing.
+    pub fn numbers(&self) -> impl Iterator<Item = (&Name, Option<f64>)> {
+        self.measures.iter().map(|measure| (&measure.name, measure.default()))
     }
 
     /// The tokens that the axioms read, and the nodes of all types, since facts speak in names. A delta that touches
@@ -157,6 +172,11 @@ impl Perception {
                 Token::Attribute(attribute) => mentions.add_attribute(attribute),
                 Token::Transforms => mentions.add_transforms(),
                 Token::Predicate(_) => {}
+            }
+        }
+        for measure in &self.measures {
+            if let Measured::Attribute { attribute, .. } = measure.value {
+                mentions.add_attribute(attribute);
             }
         }
         mentions

@@ -55,6 +55,13 @@ impl Relations {
             .filter(|tuple| agrees(tuple, fixed))
     }
 
+    /// How many tuples of a predicate begin with these nodes.
+    pub(crate) fn beginning_with(&self, predicate: PredicateId, prefix: &[NodeId]) -> f64 {
+        let from = self.support[predicate.index()].range(prefix.to_vec()..);
+        let count = from.take_while(|(tuple, _)| tuple.starts_with(prefix)).count();
+        f64::from(u32::try_from(count).unwrap_or(u32::MAX))
+    }
+
     /// The heads of an axiom that have the fixed nodes.
     pub(crate) fn heads(&self, axiom: usize, fixed: &[Option<NodeId>]) -> Vec<Tuple> {
         let prefix = prefix(fixed);

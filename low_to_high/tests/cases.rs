@@ -56,6 +56,9 @@ fn case(text: &str) -> Result<String, String> {
         assert_eq!(seen.facts().any(|known| *known == fact), !auxiliary(&fact));
         assert!(matches!(seen.why(&snapshot, &fact), Explanation::Holds(_)), "{fact} is derived");
     }
+    for (fluent, value) in seen.numbers() {
+        let _ = writeln!(out, "{fluent} = {value}");
+    }
     for question in sources.iter().filter_map(|(name, _)| name.strip_prefix("ask ")) {
         let mut words = question.trim_matches(['(', ')']).split_whitespace().map(Name::new);
         let predicate = words.next().expect("a question names a predicate");

@@ -4,10 +4,11 @@
 #[expect(dead_code, reason = "only the sources are needed here")]
 mod case_file;
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use dsr::{AgentId, Edit, Graph, HolderRef, Isometry3, NewValue, NodeRef, Snapshot, Time};
-use low_to_high::{Fact, LowToHigh, Perception};
+use low_to_high::{Fact, Fluent, LowToHigh, Perception};
 use pddl::{parse_domain, parse_problem};
 use proptest::prelude::*;
 use vocabulary::{FunctionToken, Tokens};
@@ -147,6 +148,7 @@ proptest! {
             // A refused transaction (a removed node named again) changes nothing.
             let Ok(done) = world.graph.edit(AgentId::DSR, Time(0), |tx| { tx.extend(edits); }) else { continue };
             let before: Vec<Fact> = seen.facts().cloned().collect();
+            let numbers = seen.clone();
             let change = seen.update(&done.snapshot, &done.delta);
             let scratch = LowToHigh::new(Arc::clone(&world.perception), &done.snapshot);
             prop_assert_eq!(seen.derived().collect::<Vec<_>>(), scratch.derived().collect::<Vec<_>>());
@@ -156,6 +158,17 @@ proptest! {
             let disappeared: Vec<_> = before.iter().filter(|f| !after.contains(f)).cloned().collect();
             prop_assert_eq!(change.appeared, appeared);
             prop_assert_eq!(change.disappeared, disappeared);
+            prop_assert_eq!(seen.numbers().collect::<Vec<_>>(), scratch.numbers().collect::<Vec<_>>());
+            let default: BTreeMap<_, _> = world.perception.numbers().collect();
+            let value = |of: &LowToHigh, fluent: &Fluent| {
+                let known = of.numbers().find(|(other, _)| *other == fluent).map(|(_, value)| value);
+                known.or(default[&fluent.function])
+            };
+            let fluents = numbers.numbers().chain(seen.numbers()).map(|(fluent, _)| fluent);
+            let changed = fluents.collect::<BTreeSet<_>>().into_iter();
+            let changed = changed.filter(|f| value(&numbers, f) != value(&seen, f));
+            let changed: Vec<_> = changed.map(|f| (f.clone(), value(&seen, f))).collect();
+            prop_assert_eq!(change.numbers, changed);
             for fact in &after {
                 prop_assert!(!matches!(seen.why(&done.snapshot, fact), low_to_high::Explanation::NotPerceived));
             }

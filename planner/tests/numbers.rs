@@ -183,3 +183,37 @@ fn a_product_and_a_sum_conflict_in_a_number_that_nothing_reads() {
         solve(&task, &Query::of(&task), &SearchConfiguration::default(), &Budget::default()).outcome;
     assert!(matches!(outcome, Outcome::Unsolvable(_)), "{outcome:?}");
 }
+
+/// A number that is sensed is never a constant: no plan from the first state, one from another.
+#[test]
+fn a_sensed_number_may_have_any_value_or_none() {
+    let domain = "(define (domain ask) (:requirements :numeric-fluents) (:predicates (done))
+        (:functions (asked) (loudness))
+        (:action ask :parameters () :precondition (and (< (asked) 2) (>= (loudness) 0.3)) :effect (done)))";
+    let problem = "(define (problem p) (:domain ask) (:init (= (asked) 2)) (:goal (done)))";
+    let domain = pddl::parse_domain(&pddl::Source::new("domain", domain), &[]).model.unwrap();
+    let problem = pddl::parse_problem(&pddl::Source::new("problem", problem), &domain).model.unwrap();
+    let functions: Vec<_> = domain.functions.ids().collect();
+    let options = GroundOptions { exogenous_functions: &functions, ..GroundOptions::default() };
+    let task = ground(&domain, &problem, &options).unwrap();
+    let number = |of: &str| {
+        task.numbers(task.initial_state()).find(|(a, _)| &*domain.functions[a.function].name == of)
+    };
+    let (asked, loudness) = (number("asked").unwrap().0.clone(), number("loudness").unwrap().0.clone());
+    let solvable = |values: [Option<f64>; 2]| {
+        let values = values.map(|value| value.and_then(planner::Number::from_f64));
+        let state = task.with_numbers(task.initial_state(), [(&asked, values[0]), (&loudness, values[1])]);
+        let query = Query { state: &state, ..Query::of(&task) };
+        match solve(&task, &query, &SearchConfiguration::default(), &Budget::default()).outcome {
+            Outcome::Solved(_) => true,
+            Outcome::Unsolvable(_) => false,
+            other => panic!("{other:?}"),
+        }
+    };
+    assert!(!solvable([Some(2.0), Some(0.3)]));
+    assert!(solvable([Some(0.0), Some(0.7)]));
+    assert!(solvable([Some(1.0), Some(0.333_333)]));
+    assert!(!solvable([Some(1.0), Some(0.2)]));
+    assert!(!solvable([Some(1.0), None]));
+    assert!(!solvable([None, Some(0.5)]));
+}

@@ -3,12 +3,13 @@
 //! Each domain has ids of its own, so a schema is linked by name, once, when it is compiled. Nodes are looked up by name
 //! in each snapshot, because tests and worlds bring objects of their own.
 
+use dsr::AttributeId;
 use pddl::model::{self, Domain, VariableId, Variables};
 
 use crate::condition::Condition;
 use crate::effect::Effect;
 use crate::expectation;
-use crate::formula::Formula;
+use crate::formula::{Formula, Holder};
 use crate::link_error::{LinkError, LinkErrorKind};
 use crate::located::Located;
 use crate::lower_effect;
@@ -83,6 +84,18 @@ impl Link<'_> {
         conditions: impl IntoIterator<Item = &'c model::Condition>,
     ) -> Result<Formula, Vec<LinkError>> {
         self.translate(scope, conditions, Derived::Allowed)
+    }
+
+    /// The attribute of a node or an edge that an application names.
+    pub fn attribute(
+        &self,
+        scope: &Scope,
+        application: &model::Application,
+    ) -> Result<(Holder, AttributeId), Vec<LinkError>> {
+        let mut translator = Translator::new(self.tokens, self.domain, scope, Derived::Refused);
+        let found = translator.attribute(application);
+        translator.finish(())?;
+        Ok(found.expect("an application that is no attribute was reported"))
     }
 
     /// Compiles some effects to edits of the graph.

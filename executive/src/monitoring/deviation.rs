@@ -7,9 +7,12 @@ use low_to_high::Fact;
 /// One literal of a kernel that does not hold.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct BrokenLiteral {
-    /// The fact; `None` for an auxiliary fact of grounding.
+    /// The fact; `None` for a comparison of numbers and for an auxiliary fact of grounding.
     #[serde(serialize_with = "as_text")]
     pub fact: Option<Fact>,
+    /// The comparison of numbers as PDDL writes it, if it is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub comparison: Option<String>,
     /// The truth value that the plan needs.
     pub expected: bool,
     /// The first step that needs it; `None` if the goal does.

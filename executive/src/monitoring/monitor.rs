@@ -86,6 +86,7 @@ impl Monitor {
         let plan = self.plan();
         BrokenLiteral {
             fact: model.name(fact),
+            comparison: model.comparison(fact),
             expected: positive,
             needed_by: plan[current..].iter().find(needs).map(|&o| model.step(o)),
             given_by: plan[..current].iter().rfind(gives).map(|&o| model.step(o)),

@@ -1,10 +1,10 @@
 //! What the wheel has seen of the graph: the last version, its predicates, the planner's state.
 
-use crate::Model;
+use crate::model::{Changes, Model};
 use crate::monitoring::Deviation;
 use dsr::{Delta, Snapshot, Time};
 use low_to_high::{LowToHigh, Perception};
-use planner::{FactId, State};
+use planner::State;
 use std::sync::Arc;
 
 pub(super) struct Sight {
@@ -19,18 +19,13 @@ impl Sight {
     /// The first look, or a new one after commits were missed.
     pub(super) fn new(perception: &Arc<Perception>, model: &Model, snapshot: Snapshot, now: Time) -> Self {
         let low_to_high = LowToHigh::new(perception.clone(), &snapshot);
-        let state = model.state(low_to_high.facts());
+        let numbers = low_to_high.numbers().map(|(fluent, value)| (fluent, Some(value)));
+        let state = model.with_numbers(model.state(low_to_high.facts()), numbers);
         Self { snapshot, low_to_high, state, since: now }
     }
 
-    /// Follows a commit: the facts of the state that changed, with their new truth.
-    pub(super) fn follow(
-        &mut self,
-        model: &Model,
-        snapshot: Snapshot,
-        delta: &Delta,
-        now: Time,
-    ) -> Vec<(FactId, bool)> {
+    /// Follows a commit: how the state changed.
+    pub(super) fn follow(&mut self, model: &Model, snapshot: Snapshot, delta: &Delta, now: Time) -> Changes {
         let change = self.low_to_high.update(&snapshot, delta);
         self.snapshot = snapshot;
         let changes = model.update(&mut self.state, &change);
@@ -41,11 +36,13 @@ impl Sight {
     }
 
     /// How its state differs from the one before.
-    pub(super) fn differences(&self, before: &Self) -> Vec<(FactId, bool)> {
+    pub(super) fn differences(&self, before: &Self) -> Changes {
         let (before, after) = (&before.state, &self.state);
         let gone = before.facts().into_iter().filter(|&f| !after.contains(f)).map(|f| (f, false));
         let come = after.facts().into_iter().filter(|&f| !before.contains(f)).map(|f| (f, true));
-        gone.chain(come).collect()
+        let facts: Vec<_> = gone.chain(come).collect();
+        let numbers = facts.is_empty() && before != after;
+        Changes { facts, numbers }
     }
 
     /// Adds the tokens of the graph to each reason.

@@ -5,6 +5,7 @@ use super::errand::Purpose;
 use super::event::{Effect, Event};
 use super::sight::Sight;
 use super::state::{Hand, Wheel};
+use crate::model::Changes;
 use crate::narration::Narration;
 use crate::outcome::{Ending, StepFailure, Trouble};
 use dsr::{Delta, Snapshot, Time, TransactionError};
@@ -89,14 +90,14 @@ impl Wheel {
         self.advance(effects);
     }
 
-    fn changed(&mut self, changes: &[(planner::FactId, bool)]) {
+    fn changed(&mut self, changes: &Changes) {
         if changes.is_empty() {
             return;
         }
         if let (Hand::Plan(course), Some(sight)) = (&mut self.hand, &self.sight) {
             course.monitor.observe(self.model.task(), &sight.state);
         }
-        let became_true = changes.iter().filter(|(_, now)| *now).map(|&(fact, _)| fact);
+        let became_true = changes.facts.iter().filter(|(_, now)| *now).map(|&(fact, _)| fact);
         if self.patience.became_true(became_true) {
             self.failures.progressed();
         }

@@ -28,7 +28,7 @@
     (score ?i - item) - number))
 ;;; planning
 (define (domain planning)
-  (:requirements :typing)
+  (:requirements :typing :fluents)
   (:types person part - object item - part)
   (:predicates
     (present ?p - person)
@@ -42,7 +42,8 @@
     (good ?i - item)
     (telling ?i - part)
     (alone)
-    (needed ?p - person)))
+    (needed ?p - person))
+  (:functions (points ?i - item) (best ?i - item) (told-in ?i - item) (companions)))
 ;;; problem
 (define (problem world)
   (:domain words)
@@ -65,6 +66,7 @@
   (:requirements :adl :fluents :derived-predicates)
   (:import words planning)
   (:types toy - object)
+  (:constants feeding - item)
   (:predicates (odd ?i - part) (even ?i - part))
   (:functions (price ?i - item) - number)
   (:derived (is_with ?p - person ?r - robot) (< (distance ?p ?r) 1))
@@ -77,4 +79,10 @@
     (and (or (answered ?i) (good ?i)) (or (answered ?i) (done ?i)) (or (good ?i) (done ?i))
          (or (answered ?i) (introduced ?i)) (or (good ?i) (introduced ?i)) (or (done ?i) (introduced ?i))
          (or (answered ?i) (telling ?i)) (or (good ?i) (telling ?i)) (or (done ?i) (telling ?i))
-         (or (introduced ?i) (telling ?i)))))
+         (or (introduced ?i) (telling ?i))))
+  (:derived (points ?i - item) (+ (score ?i) 1))
+  (:derived (points ?i - item) (price ?i))
+  (:derived (best ?i - item) (score feeding))
+  (:derived (told-in ?i - item) (count (?o - item) (next ?i ?o)))
+  (:derived (companions) (count (?t - toy) (and)))
+  (:derived (companions) (count (?i - item) (odd ?i))))

@@ -28,7 +28,7 @@
     (score ?i - item) - number))
 ;;; planning
 (define (domain planning)
-  (:requirements :typing)
+  (:requirements :typing :fluents)
   (:types person part - object item - part)
   (:predicates
     (present ?p - person)
@@ -42,7 +42,11 @@
     (good ?i - item)
     (telling ?i - part)
     (alone)
-    (needed ?p - person)))
+    (needed ?p - person))
+  (:functions
+    (points ?i - item)
+    (told-in ?i - item)
+    (companions)))
 ;;; problem
 (define (problem world)
   (:domain words)
@@ -86,7 +90,10 @@
   (:derived (telling ?i - part) (exists (?t - test ?u - utterance) (= (label ?t ?i) ?u)))
   (:derived (alone) (not (exists (?p ?q - person) (and (not (= ?p ?q)) (present ?p) (present ?q)))))
   (:derived (needed ?p - person)
-    (and (present ?p) (not (exists (?c - clinician) (attended ?c paused))))))
+    (and (present ?p) (not (exists (?c - clinician) (attended ?c paused)))))
+  (:derived (points ?i - item) (score ?i))
+  (:derived (told-in ?i - item) (count (?o - option) (and (offers ?i ?o) (told ?o ?i))))
+  (:derived (companions) (count (?p - person ?r - robot) (is_with ?p ?r))))
 ;;; ask (present ann)
 ;;; ask (present bob)
 ;;; ask (near bob)

@@ -8,7 +8,7 @@
 use std::collections::BTreeSet;
 
 use pddl::Span;
-use pddl::model::{Condition, ConditionKind, Constraint, ConstraintKind, Domain, Variables};
+use pddl::model::{Condition, ConditionKind, Constraint, ConstraintKind, DerivedValue, Domain, Variables};
 
 use super::context::Context;
 use super::nearest::one_line;
@@ -35,6 +35,11 @@ pub(super) fn check(context: &Context<'_>, findings: &mut Vec<Finding>) {
     let perception = &layers.perception;
     for axiom in &perception.model.axioms {
         one(context, perception.source, &perception.model, &axiom.variables, &axiom.body, findings);
+    }
+    for function in &perception.model.derived_functions {
+        if let DerivedValue::Count(_, condition) = &function.value {
+            one(context, perception.source, &perception.model, &function.variables, condition, findings);
+        }
     }
     for layer in &layers.safety {
         for invariant in &layer.model.invariants {

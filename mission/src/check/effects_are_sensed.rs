@@ -1,9 +1,9 @@
 //! C0201–C0203: an effect that perception cannot see.
 //!
 //! **What** `perception.pddl` derives every predicate that an action of the plan changes, and some run may bring about
-//! each fact that the action adds. A number that an action changes is read by the metric only.
+//! each fact that the action adds. It derives every number that an action changes, unless the metric alone reads it.
 //! **Why** Effects are sensed, not asserted: without an axiom the executive waits for the effect until its deadline, every
-//! time. No sensor reports a number of the plan; only costs, which no condition reads, need none.
+//! time. Only costs, which no condition reads, need no sensor.
 //! **Example** `:effect (greeted ?p)` with no `(:derived (greeted ?p - person) …)`.
 
 use std::collections::BTreeSet;
@@ -18,8 +18,10 @@ use diagnostics::{Finding, Place};
 pub(super) fn check(context: &Context<'_>, findings: &mut Vec<Finding>) {
     let layers = &context.mission.layers;
     let (domain, perception) = (&layers.domain, &layers.perception.model);
-    let derived: BTreeSet<_> =
+    let mut derived: BTreeSet<_> =
         perception.axioms.iter().map(|a| perception.predicates[a.predicate].name.clone()).collect();
+    let numbers = perception.derived_functions.iter();
+    derived.extend(numbers.map(|f| perception.functions[f.function].name.clone()));
     let costs = costs(context);
     for (_, action) in domain.model.actions.enumerate() {
         let mut changed = Tokens::of(&domain.model);
@@ -27,8 +29,11 @@ pub(super) fn check(context: &Context<'_>, findings: &mut Vec<Finding>) {
         let place = Place { source: domain.source, span: action.effect.span };
         for name in changed.names.difference(&derived).filter(|name| !costs.contains(*name)) {
             if domain.model.function(name).is_some() {
-                let message = format!("`{}` changes `{name}`, which no sensor reports", action.name);
-                let help = "the numbers of a plan are its costs: only the metric may read them";
+                let message = format!("`{}` changes `{name}`, which perception does not derive", action.name);
+                let help = format!(
+                    "add (:derived ({name} …) …) to the perception: an attribute, or a count; only what the metric \
+                     alone reads needs no sensor"
+                );
                 findings.push(Finding::error("C0202", place, message).help(help));
                 continue;
             }

@@ -25,16 +25,23 @@ pub(super) fn check(context: &Context<'_>, findings: &mut Vec<Finding>) {
     // An initial fact of the planning problem holds for ever unless perception derives its predicate.
     let (domain, problem) = (&layers.domain.model, &layers.problem.model);
     written.extend(problem.init.iter().map(|f| domain.predicates[f.predicate].name.clone()));
-    for axiom in axioms {
+    let of_axioms = axioms.iter().map(|axiom| {
         let mut looked_at = Tokens::of(&perception.model);
         looked_at.condition(&axiom.body);
+        (&perception.model.predicates[axiom.predicate].name, axiom.span, looked_at)
+    });
+    let of_functions = perception.model.derived_functions.iter().map(|function| {
+        let mut looked_at = Tokens::of(&perception.model);
+        looked_at.derived(function);
+        (&perception.model.functions[function.function].name, function.span, looked_at)
+    });
+    for (head, span, looked_at) in of_axioms.chain(of_functions) {
         for name in looked_at.names.difference(&written) {
             // Numbers between frames are computed from poses.
             if nodes.function(name).is_some() {
                 continue;
             }
-            let head = &perception.model.predicates[axiom.predicate].name;
-            let place = Place { source: perception.source, span: axiom.span };
+            let place = Place { source: perception.source, span };
             let message = format!("`{head}` depends on `{name}`, which is never written");
             findings.push(Finding::warning("C0401", place, message));
         }

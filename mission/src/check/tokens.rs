@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use pddl::model::{
-    Application, AssignedValue, Atom, Condition, ConditionKind, Domain, DurativeAction, Effect, EffectKind,
-    Expression, ExpressionKind, Name, TimeSpecifier,
+    Application, AssignedValue, Atom, Condition, ConditionKind, DerivedFunction, DerivedValue, Domain,
+    DurativeAction, Effect, EffectKind, Expression, ExpressionKind, Name, TimeSpecifier,
 };
 
 use crate::mission::Mission;
@@ -56,6 +56,14 @@ impl<'d> Tokens<'d> {
         });
     }
 
+    /// Adds the tokens that a derived function is computed from.
+    pub(super) fn derived(&mut self, function: &DerivedFunction) {
+        match &function.value {
+            DerivedValue::Expression(expression) => self.expression(expression),
+            DerivedValue::Count(_, condition) => self.condition(condition),
+        }
+    }
+
     /// Adds the tokens that the effect writes, but not those that its guards read.
     pub(super) fn effect(&mut self, effect: &Effect) {
         effect.each(&mut |part| match &part.kind {
@@ -104,6 +112,7 @@ pub(super) fn read_by_pelea(mission: &Mission) -> BTreeSet<Name> {
     layers.methods.model.methods.enumerate().for_each(|(_, m)| methods.condition(&m.precondition));
     let mut perception = Tokens::of(&layers.perception.model);
     layers.perception.model.axioms.iter().for_each(|a| perception.condition(&a.body));
+    layers.perception.model.derived_functions.iter().for_each(|f| perception.derived(f));
     methods.names.append(&mut perception.names);
     methods.names
 }

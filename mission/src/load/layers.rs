@@ -33,8 +33,9 @@ pub(super) fn read(loader: &mut Loader<'_>, from: SourceId, manifest: &Manifest)
     let methods = parse(loader, &paths.methods, here, |s| pddl::parse_domain(s, &[&nodes]));
     let safety = safety(loader, from, manifest, &seen, &nodes);
     let domain = domain?;
-    let perception =
-        parse(loader, &paths.perception, here, |s| pddl::parse_domain(s, &[&nodes, &domain.model]));
+    let perception = parse_with(loader, &paths.perception, here, Feature::DerivedFunctions, |s| {
+        pddl::parse_domain(s, &[&nodes, &domain.model])
+    });
     let tokens = tokens(loader, from, manifest, &nodes);
     Some(Layers {
         vocabulary,

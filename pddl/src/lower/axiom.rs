@@ -9,7 +9,7 @@ use super::sink::Sink;
 use super::typed_list::typed_list;
 use super::world::World;
 use crate::diagnostic::{DiagnosticKind, SymbolKind};
-use crate::model::{Axiom, Condition, ConditionKind, PredicateId, TypeSet};
+use crate::model::{Axiom, Condition, ConditionKind, Predicate, PredicateId, TypeSet};
 use crate::occurrence::NameKind;
 use crate::syntax::Node;
 
@@ -51,7 +51,7 @@ pub(crate) fn implication(world: &World, sink: &mut Sink, section: Node<'_>) -> 
     }
     body.schema.bind_typed(world, body.sink, parameters);
     body.schema.variables.parameters = body.schema.variables.slots.len();
-    body.head_fits(head, id);
+    body.head_fits(head, &of_predicate(world, id));
     let bound = body.schema.bind_typed(world, body.sink, others);
     let mut condition = body.guard(&keys, ":context", section);
     if !bound.is_empty() {
@@ -70,10 +70,15 @@ pub(crate) fn axiom(world: &World, sink: &mut Sink, section: Node<'_>) -> Option
     let faults = body.sink.count();
     body.schema.parameters(world, body.sink, head.children().skip(1));
     if body.sink.count() == faults {
-        body.head_fits(head, id);
+        body.head_fits(head, &of_predicate(world, id));
     }
     let condition = body.condition(condition);
     Some(Axiom { predicate: id, variables: body.schema.variables, body: condition, span: section.span() })
+}
+
+fn of_predicate(world: &World, id: PredicateId) -> Applied<'_> {
+    let Predicate { name, variables, .. } = &world.predicates[id];
+    Applied { symbol: SymbolKind::Predicate, name, parameters: variables.parameters() }
 }
 
 impl Body<'_> {
@@ -91,15 +96,12 @@ impl Body<'_> {
         Some(id)
     }
 
-    /// Compares the schema's parameters with those of the predicate, and takes missing types from there.
-    fn head_fits(&mut self, head: Node<'_>, id: PredicateId) {
+    /// Compares the schema's parameters with those of the derived symbol, and takes missing types from there.
+    pub(super) fn head_fits(&mut self, head: Node<'_>, of: &Applied<'_>) {
         let world = self.world;
-        let predicate = &world.predicates[id];
-        let parameters = predicate.variables.parameters();
         let found = self.schema.variables.parameters;
-        let of = Applied { symbol: SymbolKind::Predicate, name: &predicate.name, parameters };
-        self.count_fits(head, &of, found);
-        for (slot, parameter) in self.schema.variables.slots.iter_mut().zip(parameters) {
+        self.count_fits(head, of, found);
+        for (slot, parameter) in self.schema.variables.slots.iter_mut().zip(of.parameters) {
             if slot.types == TypeSet::any() {
                 slot.types = parameter.types.clone();
             } else if !world.types.overlap(&slot.types, &parameter.types) {

@@ -9,6 +9,7 @@ use super::axiom::{axiom, derived_predicate, implication, implied_predicate};
 use super::body::Body;
 use super::constants::{Foreign, objects};
 use super::constraint::constraints;
+use super::derived_function::{derived_function, derives_function};
 use super::durative::durative_action;
 use super::functions::functions;
 use super::header::{Header, header};
@@ -119,7 +120,11 @@ fn read(sink: &mut Sink, header: &Header<'_>, given: &[&Domain]) -> Domain {
     distinct(sink, SymbolKind::Process, &processes, |p: &Process| (&p.name, p.name_span));
     distinct(sink, SymbolKind::Event, &events, |e: &Event| (&e.name, e.name_span));
     let constraints = constraints(&world, sink, header.all(":constraints"), header.all(":constraint"));
-    let mut axioms: Vec<_> = header.all(":derived").filter_map(|s| axiom(&world, sink, s)).collect();
+    let (of_functions, of_predicates): (Vec<_>, Vec<_>) =
+        header.all(":derived").partition(|section| derives_function(&world, *section));
+    let mut axioms: Vec<_> = of_predicates.into_iter().filter_map(|s| axiom(&world, sink, s)).collect();
+    let derived_functions =
+        of_functions.into_iter().filter_map(|s| derived_function(&world, sink, s)).collect();
     axioms.extend(header.all(":axiom").filter_map(|s| implication(&world, sink, s)));
     for section in header.all(":tasks") {
         for task in htn::tasks(&world, sink, section) {
@@ -166,6 +171,7 @@ fn read(sink: &mut Sink, header: &Header<'_>, given: &[&Domain]) -> Domain {
         processes,
         events,
         axioms,
+        derived_functions,
         constraints,
         invariants,
         tasks,

@@ -13,6 +13,7 @@ mod condition;
 mod constants;
 mod constraint;
 mod continuous;
+mod derived_function;
 mod domain;
 mod durative;
 mod effect;

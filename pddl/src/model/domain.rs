@@ -7,8 +7,8 @@
 
 use super::{
     Action, ActionId, CompoundTask, Condition, Constraints, DurativeAction, DurativeActionId, Event, EventId,
-    FunctionId, IndexVec, Invariant, Method, MethodId, Name, Object, ObjectId, PredicateId, Process,
-    ProcessId, Requirements, TaskId, TypeId, TypeSet, TypeTable, Variables,
+    Expression, FunctionId, IndexVec, Invariant, Method, MethodId, Name, Object, ObjectId, PredicateId,
+    Process, ProcessId, Requirements, TaskId, TypeId, TypeSet, TypeTable, VariableId, Variables,
 };
 use crate::Span;
 
@@ -58,6 +58,28 @@ pub struct Axiom {
     pub body: Condition,
     /// The whole definition.
     pub span: Span,
+}
+
+/// `(:derived (f ?x) value)`: a numeric fluent that is computed from the state.
+#[derive(Clone, Debug)]
+pub struct DerivedFunction {
+    /// The function; its arguments are the parameters, in order.
+    pub function: FunctionId,
+    /// Parameters and bound variables.
+    pub variables: Variables,
+    /// Its value.
+    pub value: DerivedValue,
+    /// The whole definition.
+    pub span: Span,
+}
+
+/// The value of a derived function.
+#[derive(Clone, Debug)]
+pub enum DerivedValue {
+    /// A numeric expression.
+    Expression(Expression),
+    /// `(count (?y - t) condition)`: how many bindings of these slots satisfy the condition.
+    Count(Vec<VariableId>, Condition),
 }
 
 /// The symbol of a token.
@@ -120,6 +142,8 @@ pub struct Domain {
     pub events: IndexVec<EventId, Event>,
     /// Its axioms.
     pub axioms: Vec<Axiom>,
+    /// Its numeric fluents that are computed from the state.
+    pub derived_functions: Vec<DerivedFunction>,
     /// Its constraints on every plan.
     pub constraints: Constraints,
     /// What every run must satisfy, whatever is planned (requirement `:invariants`).

@@ -32,6 +32,8 @@ pub enum Feature {
     ConditionsAcrossTimes,
     /// `(at end (<= ?duration …))`
     DurationAtEnd,
+    /// `(:derived (f ?x) (g ?x))` of a function.
+    DerivedFunctions,
     /// `(truck ?x)`, `(sortof ?x - truck)`
     TypePredicates,
     /// `:constraints` of a method or of a problem's task network.
@@ -50,6 +52,7 @@ impl std::fmt::Display for Feature {
             Self::ContinuousEffects => "continuous effects (`#t`)",
             Self::ConditionsAcrossTimes => "conditional effects across times",
             Self::DurationAtEnd => "duration constraints at the end",
+            Self::DerivedFunctions => "derived functions",
             Self::TypePredicates => "types as predicates",
             Self::NetworkConstraints => "constraints of task networks",
         })
@@ -77,6 +80,7 @@ impl Domain {
             uses.effect(&event.effect);
         }
         self.axioms.iter().for_each(|axiom| uses.condition(&axiom.body));
+        uses.first(Feature::DerivedFunctions, self.derived_functions.iter().map(|f| f.span));
         for method in &self.methods {
             uses.condition(&method.precondition);
             uses.network(&method.network);

@@ -37,7 +37,10 @@ pub use action::{
 };
 pub use condition::{Atom, Comparison, Condition, ConditionKind};
 pub use constraint::{Constraint, ConstraintKind, Constraints};
-pub use domain::{Axiom, Domain, Function, FunctionValue, Permission, Predicate, TokenPattern, TokenSymbol};
+pub use domain::{
+    Axiom, DerivedFunction, DerivedValue, Domain, Function, FunctionValue, Permission, Predicate,
+    TokenPattern, TokenSymbol,
+};
 pub use effect::{AssignOperator, AssignedValue, Effect, EffectKind};
 pub use expression::{Application, ArithmeticOperator, Expression, ExpressionKind};
 pub use fact::Fact;

@@ -32,6 +32,9 @@ impl<'m> Printer<'m> {
         for axiom in &domain.axioms {
             self.axiom(axiom);
         }
+        for function in &domain.derived_functions {
+            self.derived_function(function);
+        }
         for action in &domain.actions {
             self.action(action);
         }

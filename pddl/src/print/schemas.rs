@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use super::Printer;
 use crate::model::{
-    Action, Axiom, ContinuousEffect, Direction, DurativeAction, Event, Given, Process, Rule, TimeSpecifier,
-    TimedCondition, TimedEffect, Variables,
+    Action, Axiom, ContinuousEffect, DerivedFunction, DerivedValue, Direction, DurativeAction, Event, Given,
+    Process, Rule, TimeSpecifier, TimedCondition, TimedEffect, Variables,
 };
 
 impl<'m> Printer<'m> {
@@ -35,6 +35,28 @@ impl<'m> Printer<'m> {
         }
         self.push(")\n    ");
         self.condition(v, &axiom.body);
+        self.push(")");
+    }
+
+    pub(super) fn derived_function(&mut self, function: &DerivedFunction) {
+        let v = &function.variables;
+        self.push("\n  (:derived (");
+        self.push(&self.domain.functions[function.function].name);
+        for slot in v.parameter_ids() {
+            self.push(" ");
+            self.variable(v, slot);
+        }
+        self.push(")\n    ");
+        match &function.value {
+            DerivedValue::Expression(value) => self.expression(v, value),
+            DerivedValue::Count(slots, condition) => {
+                self.push("(count ");
+                self.bound(v, slots.iter().copied());
+                self.push(" ");
+                self.condition(v, condition);
+                self.push(")");
+            }
+        }
         self.push(")");
     }
 

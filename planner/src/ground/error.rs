@@ -2,7 +2,7 @@
 
 use budget::{Budget, Interrupted};
 use pddl::Span;
-use pddl::model::{Name, PredicateId};
+use pddl::model::{FunctionId, Name, PredicateId};
 
 /// The options of grounding.
 #[derive(Clone, Copy, Debug, Default)]
@@ -11,6 +11,9 @@ pub struct GroundOptions<'a> {
     /// fact that is never treated as constant and never pruned. A plan can thus start in any
     /// observed state without grounding again.
     pub exogenous: &'a [PredicateId],
+    /// Functions whose numbers an outside event may change. Each fluent that something reads may have
+    /// any value, or none, in an observed state ([`Task::with_numbers`](crate::Task::with_numbers)).
+    pub exogenous_functions: &'a [FunctionId],
     /// The limits of grounding. A unit of work takes about a nanosecond. The bytes are an estimate
     /// of the memory for atoms and instances; without a limit, they are limited by what 32-bit
     /// numbers can count.

@@ -36,8 +36,8 @@ use crate::task::{Task, ValuePredicates};
 use budget::Meter;
 use error::Failure;
 use exclusion::Exclusions;
-use normalise::{Normalised, metric_span, normalise};
-use pddl::model::{Domain, PredicateId, Problem};
+use normalise::{Normalised, Outside, metric_span, normalise};
+use pddl::model::{Domain, Problem};
 use std::cmp::Reverse;
 
 /// Grounds `problem` of `domain`.
@@ -45,14 +45,15 @@ use std::cmp::Reverse;
 /// # Errors
 /// An unsupported feature, an exceeded limit of `options`, or an interruption.
 pub fn ground(domain: &Domain, problem: &Problem, options: &GroundOptions<'_>) -> Result<Task, GroundError> {
-    metered(domain, problem, options.exogenous, &Meter::new(memory::limited(options.budget)))
+    let outside = Outside { predicates: options.exogenous, functions: options.exogenous_functions };
+    metered(domain, problem, outside, &Meter::new(memory::limited(options.budget)))
 }
 
 /// The same, with a meter that the caller can read.
 fn metered(
     domain: &Domain,
     problem: &Problem,
-    exogenous: &[PredicateId],
+    outside: Outside<'_>,
     meter: &Meter<'_>,
 ) -> Result<Task, GroundError> {
     support::refuse(domain, problem)?;
@@ -62,7 +63,7 @@ fn metered(
         None => (domain, problem, ValuePredicates::none(domain)),
     };
     let through = |additive| {
-        let model = normalise(domain, problem, exogenous, values.clone(), additive)?;
+        let model = normalise(domain, problem, outside, values.clone(), additive)?;
         stages(&model, meter)
     };
     match through(true) {
@@ -101,7 +102,7 @@ fn stages(model: &Normalised<'_>, meter: &Meter<'_>) -> Result<Task, Failure> {
 
 #[cfg(test)]
 mod tests {
-    use super::metered;
+    use super::{Outside, metered};
     use budget::{Budget, INTERVAL, Meter};
     use std::sync::OnceLock;
     use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
@@ -132,7 +133,7 @@ mod tests {
         };
         let meter = Meter::new(Budget { interrupted: &interrupted, ..Budget::default() });
         meter_cell.set(&meter).expect("it is empty");
-        let task = metered(&domain, &problem, &[], &meter).unwrap();
+        let task = metered(&domain, &problem, Outside::default(), &meter).unwrap();
         assert!(task.operators().len() > 9_000);
         interrupted();
         let widest = widest.load(Relaxed);

@@ -101,7 +101,16 @@ pub(crate) fn prune(
     };
     let derived = marked(raw.atoms, (statics..raw.atoms).filter(|&a| is_derived(a)));
     let is_exogenous = |a: u32| a < known && model.exogenous.contains(&table.predicate(a));
-    let exogenous = &marked(raw.atoms, (statics..raw.atoms).filter(|&a| is_exogenous(a)));
+    // A comparison of a number that an outside event changes may hold, and not hold, in any state.
+    let is_sensed = |comparison: &Comparison<u32>| {
+        let mut sensed = false;
+        comparison.expression.each_fluent(&mut |&fluent| {
+            sensed |= model.fluents.is_sensed(raw.numbers.keys[fluent as usize].0);
+        });
+        sensed
+    };
+    let sensed = raw.numbers.atoms.iter().filter(|(_, c)| is_sensed(c)).map(|(atom, _)| *atom);
+    let exogenous = &marked(raw.atoms, (statics..raw.atoms).filter(|&a| is_exogenous(a)).chain(sensed));
     let reached = reachable(raw, &holds, &derived, exogenous, meter)?;
     let n = raw.atoms as usize;
     let mut pruned = Pruned {

@@ -5,7 +5,7 @@
 //! which is computed again whenever an operator changes a number that it reads. All other code
 //! reads only bits. Invariant: in every state that a task creates, the bit of a comparison is
 //! correct, and numbers are exact. If the values of all effects stay multiples of one fraction, a
-//! number is a multiple in one word; otherwise it is a ratio in two words. If the result of a step
+//! number is a multiple in one word; otherwise, or if numbers come from outside, it is a ratio in two words. If the result of a step
 //! does not fit, the caller gets an error, and a search that therefore drops a state proves
 //! nothing. Cost: per operator, the changed numbers and the comparisons that read them.
 
@@ -20,6 +20,8 @@ use rustc_hash::FxHashMap;
 pub(crate) struct Fluent {
     pub(crate) application: GroundApplication,
     pub(crate) initial: Option<Number>,
+    /// Whether an outside event may give it any value.
+    pub(crate) sensed: bool,
 }
 
 /// A fact that is defined by a comparison of numbers.
@@ -384,6 +386,9 @@ fn common_multiple(a: i128, b: i128) -> Option<i128> {
 
 /// The common denominator of all numbers, if there is one.
 fn common_scale<'u>(fluents: &[Fluent], updates: impl Iterator<Item = &'u Update> + Clone) -> Option<i64> {
+    if fluents.iter().any(|fluent| fluent.sensed) {
+        return None;
+    }
     let add = |scale: i128, number: Number| {
         common_multiple(scale, number.denominator()).filter(|&s| s <= LARGEST_SCALE)
     };

@@ -1,8 +1,8 @@
 //! The constants that a domain's conditions, effects and networks mention.
 
 use pddl::model::{
-    AssignedValue, Condition, ConditionKind, Domain, Effect, EffectKind, Expression, ExpressionKind,
-    ObjectId, Term, VariableId,
+    AssignedValue, Condition, ConditionKind, DerivedValue, Domain, Effect, EffectKind, Expression,
+    ExpressionKind, ObjectId, Term, VariableId,
 };
 
 /// Visits each constant that a schema of the domain mentions.
@@ -23,6 +23,12 @@ pub(super) fn objects(domain: &Domain, visit: &mut impl FnMut(ObjectId)) {
         action.effects.iter().for_each(|e| of_effect(&e.effect, &mut terms));
     }
     domain.axioms.iter().for_each(|axiom| of_condition(&axiom.body, &mut terms));
+    for function in &domain.derived_functions {
+        match &function.value {
+            DerivedValue::Expression(value) => of_expression(value, &mut terms),
+            DerivedValue::Count(_, condition) => of_condition(condition, &mut terms),
+        }
+    }
     for (_, method) in domain.methods.enumerate() {
         of_condition(&method.precondition, &mut terms);
         terms(&method.task_arguments);

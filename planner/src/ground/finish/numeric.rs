@@ -38,7 +38,8 @@ impl Chosen {
             let is_steps = key.0 == STEPS;
             let initial = if is_steps { Some(Number::ZERO) } else { fluents.initial(key) };
             steps = steps.or(is_steps.then_some(id));
-            chosen.fluents.push(Fluent { application, initial });
+            let sensed = fluents.is_sensed(key.0);
+            chosen.fluents.push(Fluent { application, initial, sensed });
         }
         if let Some((objective, expression)) = &raw.metric {
             let expression = chosen.expression(expression);

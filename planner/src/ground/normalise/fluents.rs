@@ -31,14 +31,21 @@ pub(crate) struct Fluents {
     scaled: FxHashSet<FunctionId>,
     /// Functions that some action makes undefined.
     undefined: FxHashSet<FunctionId>,
+    /// Functions that outside events change: to any value, or to none.
+    sensed: FxHashSet<FunctionId>,
     /// Functions that some condition, effect or metric reads.
     read: FxHashSet<FunctionId>,
 }
 
 impl Fluents {
-    pub(crate) fn new(domain: &Domain, problem: &Problem) -> Result<Self, GroundError> {
+    pub(crate) fn new(
+        domain: &Domain,
+        problem: &Problem,
+        sensed: &[FunctionId],
+    ) -> Result<Self, GroundError> {
         let mut fluents = Self {
             values: FxHashMap::default(),
+            sensed: sensed.iter().copied().collect(),
             changed: FxHashSet::default(),
             assigned: FxHashSet::default(),
             scaled: FxHashSet::default(),
@@ -119,24 +126,29 @@ impl Fluents {
     }
 
     pub(crate) fn changes(&self, function: FunctionId) -> bool {
-        self.changed.contains(&function)
+        self.changed.contains(&function) || self.is_sensed(function)
+    }
+
+    /// Whether outside events change it.
+    pub(crate) fn is_sensed(&self, function: FunctionId) -> bool {
+        self.sensed.contains(&function)
     }
 
     /// Whether a fluent may have no value in some state.
     pub(crate) fn may_be_undefined(&self, key: &Key) -> bool {
-        self.undefined.contains(&key.0) || !self.values.contains_key(key)
+        self.undefined.contains(&key.0) || self.is_sensed(key.0) || !self.values.contains_key(key)
     }
 
     /// Whether a fluent has a value in some state.
     pub(crate) fn may_be_defined(&self, key: &Key) -> bool {
-        self.assigned.contains(&key.0) || self.values.contains_key(key)
+        self.assigned.contains(&key.0) || self.is_sensed(key.0) || self.values.contains_key(key)
     }
 
     /// Whether states may have to hold the fluents of this function. If not, actions only add to them, and an action
     /// needs only that they have a value, which the initial state decides.
     pub(crate) fn is_tracked(&self, function: FunctionId) -> bool {
         let among = |set: &FxHashSet<FunctionId>| set.contains(&function);
-        [&self.read, &self.assigned, &self.scaled, &self.undefined].into_iter().any(among)
+        [&self.read, &self.assigned, &self.scaled, &self.undefined, &self.sensed].into_iter().any(among)
     }
 
     /// Whether its value is the same in all states.

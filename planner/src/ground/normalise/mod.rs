@@ -21,8 +21,15 @@ pub(crate) use values::compile;
 
 use super::error::{GroundError, Origin};
 use crate::task::ValuePredicates;
-use pddl::model::{Domain, EffectKind, Extent, Idx, PredicateId, Problem};
+use pddl::model::{Domain, EffectKind, Extent, FunctionId, Idx, PredicateId, Problem};
 use std::sync::Arc;
+
+/// What outside events change.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Outside<'m> {
+    pub(crate) predicates: &'m [PredicateId],
+    pub(crate) functions: &'m [FunctionId],
+}
 
 /// A model without object fluents, in normal form.
 pub(crate) struct Normalised<'m> {
@@ -46,11 +53,12 @@ pub(crate) struct Normalised<'m> {
 pub(crate) fn normalise<'m>(
     domain: &'m Domain,
     problem: &'m Problem,
-    exogenous: &'m [PredicateId],
+    outside: Outside<'m>,
     values: ValuePredicates,
     additive: bool,
 ) -> Result<Normalised<'m>, GroundError> {
-    let mut fluents = Fluents::new(domain, problem)?;
+    let exogenous = outside.predicates;
+    let mut fluents = Fluents::new(domain, problem, outside.functions)?;
     let costs = CostModel::new(domain, problem, &fluents, additive);
     if let Measure::Value(metric) = &costs.measure {
         fluents.reads(&metric.expression, Origin::Problem)?;

@@ -1,0 +1,12 @@
+; a number that is computed has a value, the parameters of its function, and no condition as its value
+(define (domain counters)
+  (:requirements :adl :fluents :derived-predicates)
+  (:types item question)
+  (:predicates (asked-in ?q - question ?i - item))
+  (:functions (asked ?i - item) - number (of ?i - item) - question)
+  (:derived (asked ?i - question) (count (?q - question) (asked-in ?q ?i)))
+  (:derived (asked ?i - item ?q - question) 3)
+  (:derived (asked ?i - item) (asked-in ?i ?i))
+  (:derived (asked ?i - item) (count (?q - question)))
+  (:derived (of ?i - item) 3)
+  (:derived (asks ?i - item) 3))
