@@ -36,7 +36,21 @@ pub struct Shell<Tell, Latency, Record> {
     pub latency: Latency,
     /// Receives every turn.
     pub record: Record,
+    /// Whether decisions give way to everything else that works, as on a clock that does not wait for them.
+    pub gives_way: bool,
 }
+
+/// Lowers the priority of this thread, and of the threads that a search starts from it.
+#[cfg(target_os = "linux")]
+fn give_way() {
+    // Here priorities are those of threads, and no process means the calling thread.
+    if let Err(error) = rustix::process::setpriority_process(None, 10) {
+        tracing::warn!(%error, "decisions are made at the priority of the agents");
+    }
+}
+
+#[cfg(not(target_os = "linux"))]
+fn give_way() {}
 
 /// A decision on its way.
 struct Planning {
@@ -114,7 +128,13 @@ where
         let latency = Some((self.latency)(id)).filter(|latency| !latency.is_zero());
         let not_before = latency.map(|latency| Instant::now() + latency);
         let cancelled = cancellation.clone();
-        let answer = spawn_blocking(move || decide(&model, &request, &cancelled));
+        let gives_way = self.gives_way;
+        let answer = spawn_blocking(move || {
+            if gives_way {
+                give_way();
+            }
+            decide(&model, &request, &cancelled)
+        });
         Planning { id, cancellation, answer, not_before }
     }
 

@@ -105,7 +105,7 @@ pub(crate) async fn perform(
     };
     // The end of the run is the graph as it is then; that the agents go afterwards is no part of it.
     let (ending, snapshot) = {
-        let seat = Seat { graph: graph.clone(), writer, epoch };
+        let seat = Seat { graph: graph.clone(), writer, epoch, gives_way: housing == Housing::Apart };
         let pelea = pelea(seat, wheel, audience.clone(), steps, (latency, turns));
         let agents = agents::run_all(agents, environment);
         let directed = forever(director::direct(cues, stage));
@@ -160,11 +160,12 @@ struct Seat {
     graph: Graph,
     writer: AgentId,
     epoch: Instant,
+    gives_way: bool,
 }
 
 /// PELEA on the real graph.
 async fn pelea(
-    Seat { graph, writer, epoch }: Seat,
+    Seat { graph, writer, epoch, gives_way }: Seat,
     wheel: Wheel,
     audience: impl Audience,
     steps: broadcast::Sender<Step>,
@@ -183,7 +184,7 @@ async fn pelea(
             turns.note(turn);
         }
     };
-    Shell { graph, writer, epoch, tell, latency, record }.run(wheel).await
+    Shell { graph, writer, epoch, tell, latency, record, gives_way }.run(wheel).await
 }
 
 fn time(after: Duration) -> dsr::Time {

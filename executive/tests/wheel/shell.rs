@@ -60,6 +60,7 @@ fn run<F: Future<Output = ()>>(latency: Duration, happens: impl FnOnce(Room) -> 
             tell,
             latency: move |_| latency,
             record: |_: &executive::Turn<'_>| {},
+            gives_way: false,
         };
         let wheel = wheel.with_pulse(Duration::from_secs(1));
         let (ending, ()) = tokio::join!(shell.run(wheel), happens(room.clone()));
