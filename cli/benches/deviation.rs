@@ -94,12 +94,12 @@ fn report(title: &str, runs: usize, folder: &TempDir) {
         (0..runs).flat_map(|number| run(folder, &format!("{title} {number}"))).collect();
     assert!(!times.is_empty(), "the person was never lost");
     times.sort_unstable();
-    let at = |share: f64| times[((times.len() - 1) as f64 * share) as usize];
-    let (half, most, last) = (at(0.5), at(0.99), at(1.0));
+    let at = |percent: usize| times[(times.len() - 1) * percent / 100];
+    let (half, most, last) = (at(50), at(99), at(100));
     println!(
         "{title}, {} deviations: p50 {half:?}, p90 {:?}, p99 {most:?}, most {last:?}",
         times.len(),
-        at(0.9)
+        at(90)
     );
 }
 
