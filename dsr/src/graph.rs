@@ -19,7 +19,7 @@ use crate::epochs::Epochs;
 use crate::export::{self, Export, RestoreError};
 use crate::id::{AgentId, Epoch, ReflexId, Time, Version};
 use crate::interest::Interest;
-use crate::journal::feed::{Feed, Rest};
+use crate::journal::feed::{Entry, Feed, Present, Rest};
 use crate::left_right::{LeftRight, Twin};
 use crate::past::Past;
 use crate::pattern::Pattern;
@@ -29,7 +29,7 @@ use crate::snapshot::Snapshot;
 use crate::state::State;
 use crate::subscription::{Committed, Deltas, Mailbox, Matches, Queue, Subscription, Wake};
 use crate::transaction::commit::{transact, warm};
-use crate::transaction::reflexes::Registry;
+use crate::transaction::reflexes::{Guard, Registry};
 use crate::transaction::{Edit, Transaction, TransactionError};
 use crate::vocabulary::Vocabulary;
 
@@ -68,6 +68,21 @@ struct Writers {
     epochs: Epochs,
 }
 
+impl Writers {
+    /// Hands a commit to the journals.
+    fn record(&mut self, transaction: &Transaction, guards: &[ReflexId], delta: &Arc<Delta>) {
+        if self.feeds.is_empty() {
+            return;
+        }
+        let registered = guards.iter().filter_map(|id| self.reflexes.guard(*id)).collect();
+        let dismissed = transaction.dismissed.clone();
+        let entry = Entry { delta: Arc::clone(delta), registered, dismissed };
+        if !entry.is_empty() {
+            self.feeds.retain(|feed| feed.push(&entry));
+        }
+    }
+}
+
 impl Twin for State {
     type Change = Arc<Delta>;
 
@@ -85,7 +100,8 @@ impl Drop for Shared {
         let mut writing = self.states.write();
         let present = writing.present();
         let writers = writing.own();
-        writers.feeds.iter().for_each(|feed| feed.close(&present));
+        let reflexes = writers.reflexes.clone();
+        writers.feeds.iter().for_each(|feed| feed.close(&present, &reflexes));
         let wakes: Vec<_> = writers.queues.queues().filter_map(|queue| queue.close()).collect();
         drop(writing);
         wakes.into_iter().for_each(Wake::call);
@@ -98,10 +114,11 @@ pub(crate) struct Observed(Weak<Shared>);
 
 impl Observed {
     /// Empties the feed, and takes the state right after its content, so that no commit falls between the two.
-    pub(crate) fn restart(&self, feed: &Feed) -> Option<(Rest, Snapshot)> {
+    pub(crate) fn restart(&self, feed: &Feed) -> Option<(Rest, Present)> {
         let shared = self.0.upgrade()?;
-        let writing = shared.states.write();
-        let found = (feed.restart(), Snapshot::new(writing.present()));
+        let mut writing = shared.states.write();
+        let snapshot = Snapshot::new(writing.present());
+        let found = (feed.restart(), Present { snapshot, reflexes: writing.own().reflexes.clone() });
         drop(writing);
         Some(found)
     }
@@ -110,12 +127,12 @@ impl Observed {
 impl Graph {
     /// A graph with the nodes that stand for the vocabulary's agents and resources, at version 0.
     pub fn new(vocabulary: Arc<Vocabulary>) -> Self {
-        Self::with(State::new(vocabulary))
+        Self::with(State::new(vocabulary), Registry::default())
     }
 
     /// The graph of an export.
     pub fn restore(vocabulary: Arc<Vocabulary>, export: &Export) -> Result<Self, RestoreError> {
-        Ok(Self::with(export::restore(vocabulary, export)?))
+        Ok(Self::with(export::restore(vocabulary, export)?, Registry::default()))
     }
 
     /// The graph of an export and the deltas published after it.
@@ -128,15 +145,15 @@ impl Graph {
         for delta in deltas {
             replay::apply(&mut state, delta)?;
         }
-        Ok(Self::with(state))
+        Ok(Self::with(state, Registry::default()))
     }
 
-    fn with(state: State) -> Self {
+    fn with(state: State, reflexes: Registry) -> Self {
         let vocabulary = Arc::clone(&state.vocabulary);
         let version = state.version;
         let writers = Writers {
             version,
-            reflexes: Registry::default(),
+            reflexes,
             queues: Routes::default(),
             feeds: Vec::new(),
             epochs: Epochs::default(),
@@ -203,11 +220,11 @@ impl Graph {
         let owners = owners(&writing.own().reflexes, &delta);
         writing.own().reflexes = outcome.reflexes;
         writing.own().epochs.follow(transaction);
+        writing.own().record(transaction, &outcome.guards, &delta);
         let snapshot = Snapshot::new(state);
         if changed {
             let writers = writing.own();
             writers.version = delta.version;
-            writers.feeds.retain(|feed| feed.push(&delta));
             forgotten = self.shared.past.push(&snapshot);
             if !writers.queues.is_empty() {
                 let committed = Committed { delta: Arc::clone(&delta), snapshot: snapshot.clone() };
@@ -318,10 +335,11 @@ impl Graph {
     }
 
     /// Sends every commit from now on to a feed. Returns the present state, with which the feed begins.
-    pub(crate) fn attach(&self, feed: &Arc<Feed>) -> Snapshot {
+    pub(crate) fn attach(&self, feed: &Arc<Feed>) -> Present {
         let mut writing = self.shared.states.write();
         writing.own().feeds.push(Arc::clone(feed));
-        Snapshot::new(writing.present())
+        let snapshot = Snapshot::new(writing.present());
+        Present { snapshot, reflexes: writing.own().reflexes.clone() }
     }
 
     pub(crate) fn observed(&self) -> Observed {
@@ -330,7 +348,12 @@ impl Graph {
 
     /// A new graph that continues from a snapshot. Reflexes stay with the old graph.
     pub fn from_snapshot(snapshot: &Snapshot) -> Self {
-        Self::with(snapshot.state().clone())
+        Self::with(snapshot.state().clone(), Registry::default())
+    }
+
+    /// A graph that continues from a snapshot, with the reflexes of a journal.
+    pub(crate) fn resumed(snapshot: &Snapshot, guards: impl IntoIterator<Item = Guard>) -> Self {
+        Self::with(snapshot.state().clone(), Registry::restore(guards))
     }
 }
 

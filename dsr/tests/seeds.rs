@@ -37,14 +37,16 @@ fn the_first_seed_is_a_journal_of_today() {
     assert!(recording.last().0.0 >= 6 && std::fs::read(&path).unwrap() == story::segment());
 }
 
-/// A journal from before gaps were recorded, with several commits in a frame.
+/// Journals from before gaps were recorded, with several commits in a frame, and from before reflexes were.
 #[test]
-fn a_journal_of_the_format_before_is_read() {
-    let recording = dsr::Recording::open(seeds("journal").join("format-2.dsr")).unwrap();
+fn journals_of_formats_before_are_read() {
     let today = dsr::Recording::open(seeds("journal").join("world.dsr")).unwrap();
-    assert_eq!(recording.damage(), &[]);
-    let last = |recording: &dsr::Recording| recording.at(recording.last().0).unwrap().export();
-    assert_eq!(last(&recording), last(&today));
+    for older in ["format-2.dsr", "format-3.dsr"] {
+        let recording = dsr::Recording::open(seeds("journal").join(older)).unwrap();
+        assert_eq!(recording.damage(), &[]);
+        let last = |recording: &dsr::Recording| recording.at(recording.last().0).unwrap().export();
+        assert_eq!(last(&recording), last(&today));
+    }
 }
 
 proptest::proptest! {

@@ -10,10 +10,41 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use crate::delta::{Change, Delta};
-use crate::id::Version;
+use crate::id::{ReflexId, Version};
 use crate::pose::{Covariance, Pose};
 use crate::snapshot::Snapshot;
 use crate::state::State;
+use crate::transaction::reflexes::{Guard, Registry};
+
+/// A commit as a journal keeps it. One that only registers or dismisses reflexes has the version before it and an empty
+/// delta.
+#[derive(Debug, Clone)]
+pub(crate) struct Entry {
+    pub(crate) delta: Arc<Delta>,
+    /// The reflexes that it registered and that have not fired in it.
+    pub(crate) registered: Vec<Guard>,
+    /// Those that it dismissed.
+    pub(crate) dismissed: Vec<ReflexId>,
+}
+
+impl Entry {
+    /// Whether there is nothing to keep of it.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.is_silent() && self.registered.is_empty() && self.dismissed.is_empty()
+    }
+
+    /// Whether it made no version.
+    pub(super) fn is_silent(&self) -> bool {
+        self.delta.changes.is_empty() && self.delta.reflexes.is_empty()
+    }
+}
+
+/// A whole state, and the reflexes that are registered in it.
+#[derive(Debug, Clone)]
+pub(crate) struct Present {
+    pub(crate) snapshot: Snapshot,
+    pub(crate) reflexes: Registry,
+}
 
 /// The queue between the commits and the thread.
 #[derive(Debug)]
@@ -29,7 +60,7 @@ pub(crate) struct Feed {
 
 #[derive(Debug, Default)]
 struct Waiting {
-    deltas: Vec<Arc<Delta>>,
+    entries: Vec<Entry>,
     bytes: usize,
     /// The bytes of the last group handed out; the thread holds it until the disk has it, and then returns.
     held: usize,
@@ -47,7 +78,7 @@ struct Waiting {
 #[derive(Debug, Clone)]
 enum End {
     /// The graph was dropped; this was its last state.
-    Graph(Snapshot),
+    Graph(Present),
     /// The journal is closed, or has failed.
     Journal,
 }
@@ -66,7 +97,7 @@ pub(super) struct Progress {
 /// Work for the thread.
 #[derive(Debug, Default)]
 pub(super) struct Work {
-    pub(super) deltas: Vec<Arc<Delta>>,
+    pub(super) entries: Vec<Entry>,
     /// Commits were dropped: begin again with a whole state.
     pub(super) overflowed: bool,
     /// A caller waits for this version to be synced.
@@ -77,7 +108,7 @@ pub(super) struct Work {
 /// What was waiting when the thread began again.
 #[derive(Debug)]
 pub(crate) struct Rest {
-    pub(super) deltas: Vec<Arc<Delta>>,
+    pub(super) entries: Vec<Entry>,
     /// Whether commits were dropped between these and the present state; this may have happened since the thread's last
     /// look.
     pub(super) overflowed: bool,
@@ -87,13 +118,18 @@ pub(crate) struct Rest {
 #[derive(Debug)]
 pub(super) struct Last {
     /// The last state of a graph that was dropped.
-    pub(super) state: Option<Snapshot>,
+    pub(super) state: Option<Present>,
 }
 
-/// The approximate size of a delta in memory, without texts.
-fn size(delta: &Delta) -> usize {
+/// The approximate size of a commit in memory, without texts.
+fn size(Entry { delta, registered, dismissed }: &Entry) -> usize {
+    let written: usize = registered.iter().map(|guard| size_of_val(&*guard.on_break)).sum();
     let covariances = delta.changes.iter().flat_map(poses).filter(|pose| pose.covariance.is_some()).count();
-    size_of::<Delta>()
+    size_of::<Entry>()
+        + size_of::<Delta>()
+        + size_of_val(&**registered)
+        + size_of_val(&**dismissed)
+        + written
         + size_of_val(&*delta.changes)
         + size_of_val(&*delta.reflexes)
         + covariances * size_of::<Covariance>()
@@ -127,17 +163,17 @@ impl Feed {
     }
 
     /// Accepts a commit. Called under the commit lock; false if the journal has ended.
-    pub(crate) fn push(&self, delta: &Arc<Delta>) -> bool {
+    pub(crate) fn push(&self, entry: &Entry) -> bool {
         let mut waiting = self.lock();
         if waiting.end.is_some() {
             return false;
         }
-        let bytes = waiting.bytes + size(delta);
+        let bytes = waiting.bytes + size(entry);
         if waiting.overflowed || bytes.saturating_add(waiting.held) > self.limit {
             waiting.overflowed = true;
         } else {
             waiting.bytes = bytes;
-            waiting.deltas.push(Arc::clone(delta));
+            waiting.entries.push(entry.clone());
         }
         if std::mem::take(&mut waiting.asleep) {
             drop(waiting);
@@ -147,9 +183,11 @@ impl Feed {
     }
 
     /// Ends the feed because the graph is dropped.
-    pub(crate) fn close(&self, state: &Arc<State>) {
+    pub(crate) fn close(&self, state: &Arc<State>, reflexes: &Registry) {
         let mut waiting = self.lock();
-        waiting.end.get_or_insert_with(|| End::Graph(Snapshot::new(Arc::clone(state))));
+        waiting.end.get_or_insert_with(|| {
+            End::Graph(Present { snapshot: Snapshot::new(Arc::clone(state)), reflexes: reflexes.clone() })
+        });
         self.came.notify_one();
     }
 
@@ -160,12 +198,12 @@ impl Feed {
     }
 
     /// Waits for work, at most until `until`. The previous group counts as written.
-    pub(super) fn take(&self, until: Option<Instant>, spare: Vec<Arc<Delta>>) -> Work {
+    pub(super) fn take(&self, until: Option<Instant>, spare: Vec<Entry>) -> Work {
         let mut waiting = self.lock();
         waiting.held = 0;
         let idle = |w: &Waiting| {
             let wanted = w.wanted > w.done.durable && w.done.written > w.done.durable;
-            w.deltas.is_empty() && !w.overflowed && w.end.is_none() && !wanted
+            w.entries.is_empty() && !w.overflowed && w.end.is_none() && !wanted
         };
         while idle(&waiting) {
             waiting.asleep = true;
@@ -182,7 +220,7 @@ impl Feed {
         waiting.asleep = false;
         waiting.held = std::mem::take(&mut waiting.bytes);
         Work {
-            deltas: std::mem::replace(&mut waiting.deltas, spare),
+            entries: std::mem::replace(&mut waiting.entries, spare),
             overflowed: waiting.overflowed,
             wanted: waiting.wanted,
             last: waiting.end.as_ref().map(|end| Last {
@@ -196,7 +234,7 @@ impl Feed {
         let mut waiting = self.lock();
         waiting.held = std::mem::take(&mut waiting.bytes);
         Rest {
-            deltas: std::mem::take(&mut waiting.deltas),
+            entries: std::mem::take(&mut waiting.entries),
             overflowed: std::mem::take(&mut waiting.overflowed),
         }
     }
@@ -246,21 +284,21 @@ mod tests {
             }
         };
         // Room for four commits of one change.
-        let feed = Arc::new(Feed::new(4 * (size_of::<Delta>() + size_of::<Change>())));
+        let feed = Arc::new(Feed::new(4 * (size_of::<Entry>() + size_of::<Delta>() + size_of::<Change>())));
         graph.attach(&feed);
         add(3);
         let work = feed.take(None, Vec::new());
-        assert_eq!((work.deltas.len(), work.overflowed), (3, false));
+        assert_eq!((work.entries.len(), work.overflowed), (3, false));
         add(1);
         let work = feed.take(None, Vec::new());
-        assert_eq!((work.deltas.len(), work.overflowed), (1, false));
+        assert_eq!((work.entries.len(), work.overflowed), (1, false));
         add(5);
         let work = feed.take(None, Vec::new());
-        assert_eq!((work.deltas.len(), work.overflowed), (3, true));
-        assert_eq!(feed.restart().deltas.len(), 0);
+        assert_eq!((work.entries.len(), work.overflowed), (3, true));
+        assert_eq!(feed.restart().entries.len(), 0);
         add(4);
         let rest = feed.restart();
-        assert_eq!((rest.deltas.len(), rest.overflowed), (4, false));
+        assert_eq!((rest.entries.len(), rest.overflowed), (4, false));
         add(1);
         assert!(feed.take(None, Vec::new()).overflowed);
     }
@@ -273,7 +311,8 @@ mod tests {
             let (parent, child, time) = (NodeId(0), NodeId(1), Time(1));
             let change = Change::TransformSampled { parent, child, time, old: Some(new.clone()), new };
             let (version, writer) = (Version(1), AgentId::DSR);
-            size(&Delta { version, time, writer, changes: vec![change], reflexes: Vec::new() })
+            let delta = Delta { version, time, writer, changes: vec![change], reflexes: Vec::new() };
+            size(&Entry { delta: Arc::new(delta), registered: Vec::new(), dismissed: Vec::new() })
         };
         let covariance = Covariance::new(Matrix6::identity()).unwrap();
         assert_eq!(sampled(Some(covariance)), sampled(None) + 2 * size_of::<[f64; 36]>());

@@ -35,16 +35,19 @@ pub(super) enum Kind {
     State,
     /// A delta. Older journals have several in one frame, which follow each other.
     Deltas,
+    /// What a commit does to the registered reflexes, then its delta, which is empty if it made no version.
+    Guarded,
 }
 
 impl Kind {
-    const ALL: [Self; 3] = [Self::Start, Self::State, Self::Deltas];
+    const ALL: [Self; 4] = [Self::Start, Self::State, Self::Deltas, Self::Guarded];
 
     fn number(self) -> u32 {
         match self {
             Self::Start => 0,
             Self::State => 1,
             Self::Deltas => 2,
+            Self::Guarded => 3,
         }
     }
 }

@@ -4,19 +4,22 @@
 //! bytes and one state; each delta is decoded once.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::slice;
 use std::sync::Arc;
 
 use super::error::RecordingError;
 use super::frame::Kind;
-use super::record::{self, Gathered};
+use super::record::{self, Gathered, Guards};
 use super::segment::Segment;
 use crate::delta::Delta;
 use crate::export;
-use crate::id::{Time, Version};
+use crate::graph::Graph;
+use crate::id::{ReflexId, Time, Version};
 use crate::replay;
 use crate::snapshot::Snapshot;
 use crate::state::State;
+use crate::transaction::reflexes::Guard;
 
 /// A step of a replay.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,6 +46,10 @@ pub struct Replay<'r> {
     /// The unread bytes of the present frame.
     rest: std::ops::Range<usize>,
     state: Arc<State>,
+    /// The registered reflexes.
+    guards: BTreeMap<ReflexId, Guard>,
+    /// What the next commit does to them.
+    next: Guards,
 }
 
 impl<'r> Replay<'r> {
@@ -60,11 +67,21 @@ impl<'r> Replay<'r> {
             frame += 1;
         }
         let offset = found.frames.get(1).map_or(0, |frame| frame.offset);
-        let export = gathered.whole().ok_or_else(changed)?;
+        let (export, guards) = gathered.whole().ok_or_else(changed)?;
+        let guards = guards.into_iter().map(|guard| (guard.id, guard)).collect();
         let state = export::restore(Arc::clone(&found.vocabulary), &export).map_err(|error| {
             RecordingError::Misfit { segment: found.name.clone(), offset, error: error.into() }
         })?;
-        Ok(Self { segments, segment, bytes, frame, rest: 0..0, state: Arc::new(state) })
+        Ok(Self {
+            segments,
+            segment,
+            bytes,
+            frame,
+            rest: 0..0,
+            state: Arc::new(state),
+            guards,
+            next: Guards::default(),
+        })
     }
 
     /// The present version.
@@ -77,15 +94,33 @@ impl<'r> Replay<'r> {
         Snapshot::new(Arc::clone(&self.state))
     }
 
+    /// A graph that continues from the present state, with the reflexes that were registered in it: each fires when its
+    /// owner expires.
+    pub(super) fn resume(&self) -> Graph {
+        Graph::resumed(&self.snapshot(), self.guards.values().cloned())
+    }
+
     /// Goes to the next frame after the end of the present one. Returns whether the segment has another delta.
-    fn fill(&mut self) -> bool {
-        let frames = self.segments.get(self.segment).map_or(&[][..], |s| &s.frames);
+    fn fill(&mut self) -> Result<bool, RecordingError> {
+        let Some(segment) = self.segments.get(self.segment) else { return Ok(false) };
         while self.rest.is_empty() {
-            let Some(frame) = frames.get(self.frame) else { return false };
+            let Some(frame) = segment.frames.get(self.frame) else { return Ok(false) };
             self.rest = frame.content();
             self.frame += 1;
+            let bytes = self.bytes.get(self.rest.clone()).unwrap_or(&[]);
+            let changed = |_| RecordingError::Changed { segment: segment.name.clone() };
+            let (next, after) = record::guards(frame.kind, bytes).map_err(changed)?;
+            self.rest.start = self.rest.end - after.len();
+            self.next = next;
         }
-        true
+        Ok(true)
+    }
+
+    /// The reflexes after the next commit.
+    fn follow(&mut self, delta: &Delta) {
+        let (registered, dismissed) = std::mem::take(&mut self.next);
+        dismissed.iter().chain(&delta.reflexes).for_each(|id| _ = self.guards.remove(id));
+        self.guards.extend(registered.into_iter().map(|guard| (guard.id, guard)));
     }
 
     /// Replays up to a version, or to the next recorded one after it. Returns false at the end of the recording.
@@ -99,16 +134,31 @@ impl<'r> Replay<'r> {
         Ok(true)
     }
 
+    /// Takes in the commits behind the present version that made no version of their own; the reader has checked that
+    /// they change nothing.
+    pub(super) fn settle(&mut self) -> Result<(), RecordingError> {
+        while self.fill()? {
+            let (delta, next) = self.delta()?;
+            if delta.version != self.version() {
+                break;
+            }
+            self.rest.start = next;
+            self.follow(&delta);
+        }
+        Ok(())
+    }
+
     /// The newest version in a frame of this segment with this time or an earlier one.
     pub(super) fn newest(&self, frame: usize, time: Time) -> Result<Option<Version>, RecordingError> {
         let Some(segment) = self.segments.get(self.segment) else { return Ok(None) };
         let Some(frame) = segment.frames.get(frame) else { return Ok(None) };
-        if frame.kind != Kind::Deltas {
+        if frame.kind == Kind::State {
             return Ok((segment.first.1 <= time).then_some(segment.first.0));
         }
-        let (mut rest, mut newest) = (self.bytes.get(frame.content()).unwrap_or(&[]), None);
+        let changed = |_| RecordingError::Changed { segment: segment.name.clone() };
+        let bytes = self.bytes.get(frame.content()).unwrap_or(&[]);
+        let ((_, mut rest), mut newest) = (record::guards(frame.kind, bytes).map_err(changed)?, None);
         while !rest.is_empty() {
-            let changed = |_| RecordingError::Changed { segment: segment.name.clone() };
             let (delta, after) = record::delta(rest).map_err(changed)?;
             if delta.time <= time {
                 newest = Some(delta.version);
@@ -127,9 +177,14 @@ impl<'r> Replay<'r> {
     }
 
     fn step(&mut self) -> Result<Option<Played>, RecordingError> {
-        // A journal that ends without a commit leaves a segment that begins and ends where the previous one ended;
-        // there may be any number of these.
-        while !self.fill() {
+        let (delta, offset) = loop {
+            self.settle()?;
+            if !self.rest.is_empty() {
+                let (delta, next) = self.delta()?;
+                break (delta, std::mem::replace(&mut self.rest.start, next));
+            }
+            // A journal that ends without a commit leaves a segment that begins and ends where the previous one ended;
+            // there may be any number of these.
             let from = self.version();
             if self.segment + 1 >= self.segments.len() {
                 return Ok(None);
@@ -139,10 +194,8 @@ impl<'r> Replay<'r> {
             if from != to {
                 return Ok(Some(Played::Jump { from, to }));
             }
-        }
-        let (delta, next) = self.delta()?;
-        let offset = self.rest.start;
-        self.rest.start = next;
+        };
+        self.follow(&delta);
         match replay::apply(Arc::make_mut(&mut self.state), &delta) {
             Ok(()) => Ok(Some(Played::Commit(delta))),
             Err(error) => {

@@ -251,12 +251,17 @@ impl Place {
                 self.whole = record::ends(payload, is_first).ok()?;
                 Some(self.first?.1)
             }
-            Kind::Deltas if self.whole => {
+            Kind::Deltas | Kind::Guarded if self.whole => {
                 let (mut version, mut time) = self.last?;
                 let mut earliest = None;
-                let mut rest = payload;
+                let (_, mut rest) = record::guards(frame.kind, payload).ok()?;
                 while !rest.is_empty() {
                     let (delta, after) = record::delta(rest).ok()?;
+                    // A commit that only registers or dismisses reflexes makes no version.
+                    let is_silent = frame.kind == Kind::Guarded && delta.version == version;
+                    if is_silent && delta.changes.is_empty() && delta.reflexes.is_empty() {
+                        return after.is_empty().then_some(time);
+                    }
                     if Some(delta.version.0) != version.0.checked_add(1) {
                         return None;
                     }

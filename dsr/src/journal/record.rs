@@ -7,19 +7,22 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use super::feed::{Entry, Present};
+use super::frame::Kind;
 use crate::delta::Delta;
 use crate::export::{
     Export, ExportedAttribute, ExportedEdge, ExportedNode, ExportedSample, ExportedTransform,
 };
-use crate::id::{NodeId, Time, Version};
+use crate::id::{NodeId, ReflexId, Time, Version};
 use crate::pose::Covariance;
-use crate::snapshot::Snapshot;
+use crate::transaction::reflexes::Guard;
 use crate::vocabulary::Vocabulary;
 
-/// The number of the format. A segment with another number is rejected, except for [`OLDER`].
-const FORMAT: u32 = 3;
-/// A format that does not record gaps: [`Follows::Directly`] may be [`Follows::AfterGap`].
-const OLDER: u32 = 2;
+/// The number of the format. A segment with another number is rejected, except from [`OLDEST`] on; before 4, no
+/// reflexes were recorded.
+const FORMAT: u32 = 4;
+/// The oldest format that can be read. It does not record gaps: [`Follows::Directly`] may be [`Follows::AfterGap`].
+const OLDEST: u32 = 2;
 
 /// What precedes a segment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -40,6 +43,7 @@ enum Part {
     Edge(Arc<str>, Arc<str>, Arc<str>, Version, Vec<ExportedAttribute>),
     Transform(Arc<str>, Arc<str>, Placed, Version, Vec<(Time, Placed)>),
     End,
+    Guard(Guard),
 }
 
 /// Translation, rotation and covariance.
@@ -62,18 +66,37 @@ pub(super) fn put_start(follows: Follows, vocabulary: &Vocabulary, bytes: &mut V
     put(&(FORMAT, follows, vocabulary), bytes);
 }
 
-pub(super) fn put_delta(delta: &Delta, bytes: &mut Vec<u8>) {
-    put(delta, bytes);
+/// Writes a commit. Returns the kind of frame that it belongs in.
+pub(super) fn put_commit(Entry { delta, registered, dismissed }: &Entry, bytes: &mut Vec<u8>) -> Kind {
+    let kind = if registered.is_empty() && dismissed.is_empty() {
+        Kind::Deltas
+    } else {
+        put(&(registered, dismissed), bytes);
+        Kind::Guarded
+    };
+    put(&**delta, bytes);
+    kind
 }
+
+/// What a commit did to the registered reflexes, and the bytes of its delta.
+pub(super) fn guards(kind: Kind, bytes: &[u8]) -> Result<(Guards, &[u8]), Malformed> {
+    match kind {
+        Kind::Guarded => postcard::take_from_bytes(bytes).map_err(|_| Malformed::Bytes),
+        _ => Ok((Guards::default(), bytes)),
+    }
+}
+
+/// The reflexes that a commit registered, and those that it dismissed.
+pub(super) type Guards = (Vec<Guard>, Vec<ReflexId>);
 
 /// What precedes the segment, and the bytes of the vocabulary.
 pub(super) fn start(payload: &[u8]) -> Result<(Follows, &[u8]), Malformed> {
     let (format, rest) = postcard::take_from_bytes::<u32>(payload).map_err(|_| Malformed::Bytes)?;
-    if ![OLDER, FORMAT].contains(&format) {
+    if !(OLDEST..=FORMAT).contains(&format) {
         return Err(Malformed::Format(format));
     }
     let (follows, vocabulary) = postcard::take_from_bytes(rest).map_err(|_| Malformed::Bytes)?;
-    let knows = format == FORMAT || follows == Follows::Nothing;
+    let knows = format > OLDEST || follows == Follows::Nothing;
     Ok((if knows { follows } else { Follows::AfterGap }, vocabulary))
 }
 
@@ -83,7 +106,7 @@ pub(super) fn vocabulary(bytes: &[u8]) -> Result<Vocabulary, Malformed> {
 
 /// Writes the state part by part. `full` is called after each and may take the bytes.
 pub(super) fn put_state<E>(
-    snapshot: &Snapshot,
+    Present { snapshot, reflexes }: &Present,
     bytes: &mut Vec<u8>,
     mut full: impl FnMut(&mut Vec<u8>) -> Result<(), E>,
 ) -> Result<(), E> {
@@ -102,6 +125,10 @@ pub(super) fn put_state<E>(
         put(&Part::Transform(t.parent, t.child, placed, t.since, samples.collect()), bytes);
         full(bytes)?;
     }
+    for guard in reflexes.guards() {
+        put(&Part::Guard(guard), bytes);
+        full(bytes)?;
+    }
     put(&Part::End, bytes);
     Ok(())
 }
@@ -110,6 +137,7 @@ pub(super) fn put_state<E>(
 #[derive(Debug, Default)]
 pub(super) struct Gathered {
     export: Option<Export>,
+    guards: Vec<Guard>,
     ended: bool,
 }
 
@@ -154,15 +182,16 @@ impl Gathered {
                     samples: samples.collect(),
                 });
             }
+            (Part::Guard(guard), Some(_)) => self.guards.push(guard),
             (Part::End, Some(_)) => self.ended = true,
             _ => return None,
         }
         Some(())
     }
 
-    /// The state, if it is complete.
-    pub(super) fn whole(self) -> Option<Export> {
-        self.export.filter(|_| self.ended)
+    /// The state and its reflexes, if it is complete.
+    pub(super) fn whole(self) -> Option<(Export, Vec<Guard>)> {
+        self.export.filter(|_| self.ended).map(|export| (export, self.guards))
     }
 }
 

@@ -128,14 +128,7 @@ impl Recording {
 
     /// The state at a version.
     pub fn at(&self, version: Version) -> Result<Snapshot, RecordingError> {
-        let segment = self.find(version)?;
-        let (before, next) = (self.segments[segment].last.0, self.segments.get(segment + 1));
-        if let (true, Some(next)) = (before < version, next) {
-            return Err(RecordingError::NotRecorded { asked: version, before, next: next.first.0 });
-        }
-        let mut replay = Replay::new(&self.segments, segment)?;
-        replay.advance(version)?;
-        Ok(replay.snapshot())
+        Ok(self.replayed(version)?.snapshot())
     }
 
     /// The state at the newest version whose commit has this time or an earlier one. Committers give the times, which
@@ -166,9 +159,29 @@ impl Recording {
         Ok(replay)
     }
 
-    /// A graph that continues from the newest version.
+    /// A graph that continues from the newest version, with the reflexes that were registered in it: each fires when
+    /// its owner expires.
     pub fn resume(&self) -> Result<Graph, RecordingError> {
-        Ok(Graph::from_snapshot(&self.at(self.last().0)?))
+        self.resume_at(self.last().0)
+    }
+
+    /// A graph that continues from a version, with the reflexes that were registered in it.
+    pub fn resume_at(&self, version: Version) -> Result<Graph, RecordingError> {
+        let mut replay = self.replayed(version)?;
+        replay.settle()?;
+        Ok(replay.resume())
+    }
+
+    /// A replay that stands at this version.
+    fn replayed(&self, version: Version) -> Result<Replay<'_>, RecordingError> {
+        let segment = self.find(version)?;
+        let (before, next) = (self.segments[segment].last.0, self.segments.get(segment + 1));
+        if let (true, Some(next)) = (before < version, next) {
+            return Err(RecordingError::NotRecorded { asked: version, before, next: next.first.0 });
+        }
+        let mut replay = Replay::new(&self.segments, segment)?;
+        replay.advance(version)?;
+        Ok(replay)
     }
 
     /// The last segment that begins at this version or before it, if the recording reaches it.

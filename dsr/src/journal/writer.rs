@@ -4,14 +4,12 @@ use std::io;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::feed::{Feed, Last, Progress, Work};
+use super::feed::{Entry, Feed, Last, Present, Progress, Work};
 use super::frame::{self, Kind};
 use super::record::{self, Follows};
 use super::settings::{Durability, Settings};
 use super::store::Store;
-use crate::delta::Delta;
 use crate::graph::Observed;
-use crate::snapshot::Snapshot;
 
 /// Bytes after which a frame of a state is closed, and after which frames are appended.
 const FRAME: usize = 1 << 20;
@@ -78,23 +76,23 @@ impl<S: Store> Writer<S> {
     }
 
     /// Writes until the graph or the journal is dropped, or the store fails.
-    pub(super) fn run(mut self, first: Snapshot) {
+    pub(super) fn run(mut self, first: Present) {
         if let Err(error) = self.work(first) {
             self.progress.error = Some(Arc::new(error));
         }
         self.ended = true;
     }
 
-    fn work(&mut self, first: Snapshot) -> io::Result<()> {
+    fn work(&mut self, first: Present) -> io::Result<()> {
         self.begin(&first, Follows::Nothing)?;
         drop(first);
         self.feed.report(&self.progress);
         let mut spare = Vec::new();
         loop {
-            let Work { mut deltas, overflowed, wanted, last } = self.feed.take(self.due, spare);
-            self.deltas(&deltas)?;
-            deltas.clear();
-            spare = deltas;
+            let Work { mut entries, overflowed, wanted, last } = self.feed.take(self.due, spare);
+            self.commits(&entries)?;
+            entries.clear();
+            spare = entries;
             if let Some(last) = last {
                 return self.finish(overflowed, last);
             }
@@ -112,7 +110,7 @@ impl<S: Store> Writer<S> {
     /// Begins a segment with the present state, after writing the deltas that lead to it.
     fn rotate(&mut self) -> io::Result<()> {
         let Some((rest, state)) = self.graph.restart(&self.feed) else { return Ok(()) };
-        self.deltas(&rest.deltas)?;
+        self.commits(&rest.entries)?;
         let follows = if rest.overflowed || self.broken { Follows::AfterGap } else { Follows::Directly };
         self.progress.gaps += u64::from(follows == Follows::AfterGap);
         self.begin(&state, follows)
@@ -129,7 +127,7 @@ impl<S: Store> Writer<S> {
         self.sync()
     }
 
-    fn begin(&mut self, state: &Snapshot, follows: Follows) -> io::Result<()> {
+    fn begin(&mut self, state: &Present, follows: Follows) -> io::Result<()> {
         self.sync()?;
         self.store.begin(self.segment.begun)?;
         self.broken = false;
@@ -137,14 +135,14 @@ impl<S: Store> Writer<S> {
         let mut buffer = std::mem::take(&mut self.buffer);
         buffer.clear();
         frame::open(&mut buffer);
-        record::put_start(follows, state.vocabulary(), &mut buffer);
+        record::put_start(follows, state.snapshot.vocabulary(), &mut buffer);
         self.frame(Kind::Start, &mut buffer)?;
         record::put_state(state, &mut buffer, |buffer| {
             if buffer.len() >= FRAME { self.frame(Kind::State, buffer) } else { Ok(()) }
         })?;
         self.frame(Kind::State, &mut buffer)?;
         self.buffer = buffer;
-        self.progress.written = state.version();
+        self.progress.written = state.snapshot.version();
         self.sync()?;
         match self.settings.segments {
             Some(kept) => self.store.keep(kept),
@@ -152,31 +150,33 @@ impl<S: Store> Writer<S> {
         }
     }
 
-    fn deltas(&mut self, deltas: &[Arc<Delta>]) -> io::Result<()> {
+    fn commits(&mut self, entries: &[Entry]) -> io::Result<()> {
         let mut buffer = std::mem::take(&mut self.buffer);
         buffer.clear();
-        for delta in deltas {
-            // A state that was taken while a delta waited already includes it.
-            if delta.version <= self.progress.written {
+        for entry in entries {
+            // A state that was taken while a commit waited already includes it. One that made no version may come twice:
+            // it then registers or dismisses what it has before.
+            let (version, written) = (entry.delta.version, self.progress.written);
+            if version < written || (version == written && !entry.is_silent()) {
                 continue;
             }
             let start = frame::open(&mut buffer);
-            record::put_delta(delta, &mut buffer);
+            let kind = record::put_commit(entry, &mut buffer);
             self.broken |= buffer.len() - start - frame::HEADER > self.longest;
             if self.broken {
                 buffer.truncate(start);
                 break;
             }
             // A frame of its own: damage takes no other commit with it.
-            frame::close(&mut buffer, start, Kind::Deltas, self.segment.synced);
-            self.progress.written = delta.version;
+            frame::close(&mut buffer, start, kind, self.segment.synced);
+            self.progress.written = version;
             if buffer.len() >= FRAME {
                 self.append_deltas(&mut buffer)?;
             }
         }
         self.append_deltas(&mut buffer)?;
         self.buffer = buffer;
-        if self.due.is_none() && self.progress.durable < self.progress.written {
+        if self.due.is_none() && self.segment.synced < self.segment.bytes {
             self.due = match self.settings.durability {
                 Durability::Each => Some(Instant::now()),
                 // `None` means never: the time is beyond what `Instant` can hold.

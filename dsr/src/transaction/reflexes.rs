@@ -8,6 +8,8 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 use super::apply::apply;
 use super::edit::Edit;
 use super::error::TransactionError;
@@ -36,7 +38,44 @@ pub(crate) struct Registry {
     live: Arc<BTreeMap<ReflexId, Arc<Registered>>>,
 }
 
+/// What outlives the process of a registered reflex: whose it is, and what it writes when its owner expires.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Guard {
+    pub(crate) id: ReflexId,
+    pub(crate) owner: AgentId,
+    pub(crate) on_break: Vec<Edit>,
+}
+
 impl Registry {
+    /// The registered reflexes as a journal keeps them.
+    pub(crate) fn guards(&self) -> impl Iterator<Item = Guard> + '_ {
+        self.live.keys().filter_map(|id| self.guard(*id))
+    }
+
+    /// A reflex as a journal keeps it, if it is registered.
+    pub(crate) fn guard(&self, id: ReflexId) -> Option<Guard> {
+        let Reflex { owner, on_break, .. } = &self.live.get(&id)?.reflex;
+        Some(Guard { id, owner: *owner, on_break: on_break.clone() })
+    }
+
+    /// Reflexes from a journal. Their conditions ended with their process: each fires when its owner expires, and its
+    /// leases return then like all others.
+    pub(crate) fn restore(guards: impl IntoIterator<Item = Guard>) -> Self {
+        let mut registry = Self::default();
+        let live = Arc::make_mut(&mut registry.live);
+        // What no registration would have accepted is no reflex.
+        let claims =
+            |edit: &Edit| matches!(edit, Edit::Claim { .. } | Edit::Await { .. } | Edit::Expire { .. });
+        let accepted = guards.into_iter().filter(|guard| !guard.on_break.iter().any(claims));
+        for Guard { id, owner, on_break } in accepted {
+            registry.next = registry.next.max(id.0.saturating_add(1));
+            let reflex = Reflex { owner, keep: Vec::new(), on_break, leases: Vec::new() };
+            let registered = Registered { reflex, leases: Vec::new(), mentions: Mentions::default() };
+            live.insert(id, Arc::new(registered));
+        }
+        registry
+    }
+
     /// The agent whose reflex it is, if it is registered.
     pub(crate) fn owner(&self, id: ReflexId) -> Option<AgentId> {
         self.live.get(&id).map(|registered| registered.reflex.owner)

@@ -24,6 +24,7 @@ use serde::de::DeserializeOwned;
 const START: u32 = 0;
 const STATE: u32 = 1;
 const DELTAS: u32 = 2;
+const GUARDED: u32 = 3;
 /// Bytes of a frame's header.
 const HEADER: usize = 28;
 const SECOND: u64 = 1_000_000_000;
@@ -106,7 +107,10 @@ pub(crate) fn check(bytes: &[u8]) {
     let read = match first % 8 {
         // The first byte of a segment is 5 in this count.
         5 => read(bytes.to_vec()),
-        0 => read([segment(), &frame(DELTAS, rest)].concat()),
+        0 => {
+            let _ = read([segment(), &frame(GUARDED, rest)].concat());
+            read([segment(), &frame(DELTAS, rest)].concat())
+        }
         1 => read([frame(START, &world.start), frame(STATE, rest)].concat()),
         2 => read([&frame(START, rest), &segment()[HEADER + world.start.len()..]].concat()),
         _ => {

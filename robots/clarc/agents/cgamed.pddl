@@ -36,12 +36,12 @@
     :effect (at start (is_needed_for ?c assistance)))
 
   ; A call is under way until a clinician has attended to it, however long that takes; `call-urgently`
-  ; calls whoever else can come, beside it.
+  ; calls whoever else can come, beside it. One that stands while nobody makes it, because the robot was
+  ; started again, is made again.
   (:durative-action call
     :parameters (?c - clinician ?n - need)
     :condition (and
-      (at start (is_needed_for ?c ?n))
-      (at start (not (is_called_for ?c ?n)))
+      (at start (or (is_needed_for ?c ?n) (is_called_for ?c ?n)))
       (over all (is_called_for ?c ?n)))
     :effect (and
       (at start (is_called_for ?c ?n))
