@@ -116,7 +116,7 @@ fn live(graph: &Graph, agent: Arc<Agent>, loudspeaker: Loudspeaker) -> tokio::sy
     let mut devices = room.devices();
     devices.speech_out = Arc::new(loudspeaker);
     let words = Arc::new(OneSentence);
-    let equipment = Equipment { devices, words: words.clone(), reporter: words };
+    let equipment = Equipment { devices, words: words.clone(), reporter: words, run: "run".into() };
     let graph = graph.clone();
     let (stop, stopped) = tokio::sync::oneshot::channel::<()>();
     spawn(move || {

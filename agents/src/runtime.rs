@@ -412,6 +412,7 @@ impl Runtime {
                 .map(|argument| rule.argument(argument, &commit.snapshot, &key.1))
                 .collect(),
             snapshot: commit.snapshot.clone(),
+            since: rule.since(&commit.snapshot, &key.1).unwrap_or(commit.version),
         };
         self.actions.push_back(Action::Launch { instance, skill: Arc::clone(skill), call });
         self.instances.insert(key, Instance::begin(instance, guard, now, deadline));

@@ -40,7 +40,12 @@ pub struct TokioClock {
 impl TokioClock {
     /// Time 0 is now.
     pub fn start() -> Self {
-        Self { started: Instant::now() }
+        Self::since(Instant::now())
+    }
+
+    /// Time 0 is this instant.
+    pub fn since(started: Instant) -> Self {
+        Self { started }
     }
 }
 

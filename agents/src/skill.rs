@@ -15,7 +15,7 @@ use std::ops::RangeInclusive;
 use std::pin::Pin;
 use std::sync::Arc;
 
-use dsr::{Isometry3, Snapshot};
+use dsr::{Isometry3, Snapshot, Version};
 use hal::{DeviceError, Devices, Evidence};
 
 use crate::words::{Reporter, Words};
@@ -165,12 +165,19 @@ pub struct Call {
     pub arguments: Vec<Arc<str>>,
     /// The graph right after the rule's effects at start.
     pub snapshot: Snapshot,
+    /// Since when the rule has been due for this binding: the same when it begins again after a restart.
+    pub since: Version,
 }
 
 impl Call {
     /// An argument; empty where the rule gives none.
     pub fn argument(&self, at: usize) -> &str {
         self.arguments.get(at).map_or("", |name| name)
+    }
+
+    /// An identity for the other side of a device, to which the same thing may come twice.
+    pub fn id(&self, equipment: &Equipment) -> String {
+        format!("{}:{}:{}", equipment.run, self.arguments.join("-"), self.since.0)
     }
 }
 
@@ -183,6 +190,8 @@ pub struct Equipment {
     pub words: Arc<dyn Words>,
     /// The documents to deliver.
     pub reporter: Arc<dyn Reporter>,
+    /// The name of the run, which stays the same over restarts.
+    pub run: Arc<str>,
 }
 
 /// A skill at work. Dropping it stops the device at once.

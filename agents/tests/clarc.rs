@@ -106,7 +106,12 @@ impl Session {
     /// Runs the agents while `director` acts.
     async fn play(&self, director: impl Future<Output = ()>) {
         let words = Arc::new(AnyWords(self.graph.snapshot()));
-        let equipment = Equipment { devices: self.room.devices(), words: words.clone(), reporter: words };
+        let equipment = Equipment {
+            devices: self.room.devices(),
+            words: words.clone(),
+            reporter: words,
+            run: "run".into(),
+        };
         let environment = Environment {
             graph: self.graph.clone(),
             equipment,

@@ -102,7 +102,8 @@ impl Stage {
         let lab = Lab::new();
         let room = SimRoom::new(PatientScript::default(), ClinicianScript::default());
         let words = Arc::new(NoWords);
-        let equipment = Equipment { devices: room.devices(), words: words.clone(), reporter: words };
+        let equipment =
+            Equipment { devices: room.devices(), words: words.clone(), reporter: words, run: "run".into() };
         let (release, released) = channel();
         let fault = AtomicU8::new(0);
         let clock = Arc::new(Faulty { inner: TokioClock::start(), fault, release: Mutex::new(released) });

@@ -49,7 +49,8 @@ async fn play<F: Future<Output = ()>>(
     let room = SimRoom::new(PatientScript::default(), ClinicianScript::default());
     let deltas = lab.graph.subscribe_deltas();
     let words = Arc::new(LabWords);
-    let equipment = Equipment { devices: room.devices(), words: words.clone(), reporter: words };
+    let equipment =
+        Equipment { devices: room.devices(), words: words.clone(), reporter: words, run: "run".into() };
     let environment = Environment {
         graph: lab.graph.clone(),
         equipment,

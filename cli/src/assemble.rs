@@ -13,7 +13,7 @@ use crate::exit::Exit;
 use crate::render;
 use agents::{Agent, skills};
 use diagnostics::{Finding, Place, SourceId};
-use dsr::{AgentId, Graph, Interest, Time};
+use dsr::{AgentId, Graph, Interest, LabelId, Time};
 use executive::{Bounds, Model, Policy, Sensed, Step, Wheel};
 use high_to_low::Methods;
 use low_to_high::Perception;
@@ -38,6 +38,8 @@ pub(crate) struct Assembly {
     pub(crate) writer: AgentId,
     /// What a run must satisfy.
     pub(crate) invariants: Arc<Invariants>,
+    /// The labels of what must outlive the process.
+    pub(crate) lasting: Vec<LabelId>,
 }
 
 /// What a wheel is made from.
@@ -65,7 +67,13 @@ impl Assembly {
             parts: self.parts.clone(),
             writer: self.writer,
             invariants: Arc::clone(&self.invariants),
+            lasting: self.lasting.clone(),
         }
+    }
+
+    /// The same mission on a graph that goes on.
+    pub(crate) fn on(self, graph: Graph) -> Self {
+        Self { graph, ..self }
     }
 
     /// What PELEA and each agent see of the graph.
@@ -190,7 +198,9 @@ fn put_together(mission: &Mission, findings: &mut Vec<Finding>) -> Option<Assemb
     let parts = Parts { model, perception, methods, policy: policy(mission) };
     let invariants = Arc::new(invariants);
     let vocabulary = Arc::new(vocabulary);
-    Some(Assembly { vocabulary, graph, agents, parts, writer, invariants })
+    let labels = mission.manifest.report.lasting();
+    let lasting = labels.filter_map(|mention| graph.vocabulary().label(&mention.name)).collect();
+    Some(Assembly { vocabulary, graph, agents, parts, writer, invariants, lasting })
 }
 
 /// The agent that PELEA writes as.

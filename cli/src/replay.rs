@@ -3,16 +3,18 @@
 //! The journal has every version of the graph, and the file beside it every turn of PELEA. The wheel is a pure function,
 //! so the same mission gives the same effects; the first that differs is reported.
 
-use crate::assemble::{assemble, load};
+use crate::assemble::{Assembly, assemble, load};
 use crate::console::{Console, Form};
 use crate::disk::show;
+use crate::dsr::Moment;
 use crate::exit::Exit;
 use crate::render;
 use crate::run::Terminal;
-use crate::turns::{self, Heading, Record, Recorded};
+use crate::turns::{self, Heading, Life, Recorded};
 use clap::Args;
 use dsr::{Played, Recording, Replay, Snapshot, Time, Version};
 use executive::{Decision, Effect, Event, NoPlan, Occurrence, Request, RequestId, Wheel, decide};
+use mission::Mission;
 use serde::Serialize;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -24,9 +26,9 @@ pub(crate) struct Arguments {
     mission: PathBuf,
     /// The journal of the run
     journal: PathBuf,
-    /// Stop after the turns on this version of the graph, and show all that was decided on it
-    #[arg(long, value_name = "VERSION")]
-    at: Option<u64>,
+    /// Stop after the turns on this version of the graph, or of this time, and show all that was decided on it
+    #[arg(long, value_name = "VERSION|TIMEs")]
+    at: Option<Moment>,
     /// Also show how each step was executed
     #[arg(long)]
     verbose: bool,
@@ -68,23 +70,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     };
     let (assembly, findings) = assemble(&mission);
     let Some(assembly) = assembly else { return show(&mission.sources, &findings, console) };
-    let replayed = turns::read(&arguments.journal).map_err(ReplayError::from).and_then(|record| {
-        let Record { heading, turns, whole } = record;
-        if !whole {
-            console.note("the record has no end: the run was cut off, or still goes on");
-        }
-        let changed = Heading::new(&mission, heading.horizon, heading.pulse).changed(&heading);
-        if !changed.is_empty() {
-            console.note(&format!("the texts of the mission have changed since: {}", changed.join(", ")));
-        }
-        let wheel = heading.horizon.iter().fold(assembly.wheel(), |wheel, horizon| {
-            wheel.until(Time(u64::try_from(horizon.as_nanos()).unwrap_or(u64::MAX)))
-        });
-        let wheel = heading.pulse.iter().fold(wheel, |wheel, pulse| wheel.with_pulse(*pulse));
-        let recording = Recording::open(&arguments.journal)?;
-        let mut again = Again::new(wheel, &recording)?;
-        again.all(&turns, arguments, console)
-    });
+    let replayed = again(arguments, &mission, &assembly, console);
     match replayed {
         Ok(exit) => exit,
         Err(error) => {
@@ -92,6 +78,49 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
             Exit::Unreadable
         }
     }
+}
+
+fn again(
+    arguments: &Arguments,
+    mission: &Mission,
+    assembly: &Assembly,
+    console: &mut Console<'_>,
+) -> Result<Exit, ReplayError> {
+    let mut lives = turns::read(&arguments.journal)?;
+    let recording = Recording::open(&arguments.journal)?;
+    if let Some(life) = lives.last_mut() {
+        if !life.whole {
+            console.note("the record has no end: the run was cut off, or still goes on");
+        }
+        let lost = life.end_at(recording.last().0);
+        if lost > 0 {
+            console.note(&format!("{lost} turns were on versions that the journal has not"));
+        }
+        let changed = Heading::new(mission, None, None).changed(&life.heading);
+        if !changed.is_empty() {
+            console.note(&format!("the texts of the mission have changed since: {}", changed.join(", ")));
+        }
+    }
+    let at = arguments.at.map(|at| stop(at, &recording, &lives, console)).transpose()?;
+    let mut again = Again { replay: recording.replay()?, wheel: assembly.wheel(), requests: Vec::new() };
+    again.all(&lives, assembly, (at, arguments.verbose), console)
+}
+
+/// The version on which a replay is to stop: one that PELEA was handed.
+fn stop(
+    at: Moment,
+    recording: &Recording,
+    lives: &[Life],
+    console: &mut Console<'_>,
+) -> Result<Version, ReplayError> {
+    let asked = at.of(recording)?.version();
+    let handed = lives.iter().flat_map(|life| &life.turns).filter_map(|turn| turn.event.version());
+    let found = handed.clone().filter(|version| *version <= asked).max();
+    let found = found.or(handed.min()).ok_or(turns::TurnsError::Empty)?;
+    if found != asked {
+        console.note(&format!("PELEA was not handed version {}; this is version {}", asked.0, found.0));
+    }
+    Ok(found)
 }
 
 /// The wheel, turning again.
@@ -102,35 +131,49 @@ struct Again<'r> {
     requests: Vec<Request>,
 }
 
-impl<'r> Again<'r> {
-    fn new(wheel: Wheel, recording: &'r Recording) -> Result<Self, ReplayError> {
-        Ok(Self { wheel, replay: recording.replay()?, requests: Vec::new() })
+impl Again<'_> {
+    /// The next life begins: with another wheel, and nothing that the one before had asked.
+    fn begin(&mut self, life: &Life, assembly: &Assembly) {
+        let Heading { horizon, pulse, .. } = &life.heading;
+        let wheel = horizon.iter().fold(assembly.wheel(), |wheel, horizon| {
+            wheel.until(Time(u64::try_from(horizon.as_nanos()).unwrap_or(u64::MAX)))
+        });
+        self.wheel = pulse.iter().fold(wheel, |wheel, pulse| wheel.with_pulse(*pulse));
+        self.requests.clear();
     }
 
     fn all(
         &mut self,
-        turns: &[Recorded],
-        arguments: &Arguments,
+        lives: &[Life],
+        assembly: &Assembly,
+        (at, verbose): (Option<Version>, bool),
         console: &mut Console<'_>,
     ) -> Result<Exit, ReplayError> {
-        let mut terminal = Terminal::new(console.result_colour(), console.result_width(), arguments.verbose);
-        for (count, turn) in turns.iter().enumerate() {
+        let mut terminal = Terminal::new(console.result_colour(), console.result_width(), verbose);
+        let turns: Vec<_> = lives
+            .iter()
+            .flat_map(|life| life.turns.iter().enumerate().map(move |turn| (life, turn)))
+            .collect();
+        for (count, &(life, (number, turn))) in turns.iter().enumerate() {
+            if number == 0 {
+                self.begin(life, assembly);
+                if let (Some(from), Form::Text) = (life.heading.from, console.form()) {
+                    console.result(&format!("goes on from version {from}, after a restart"));
+                }
+            }
             let event = self.event(&turn.event)?;
             let effects = self.wheel.step(event, Time(turn.now));
             let version = self.replay.version();
-            let next = turns[count + 1..].iter().find_map(|turn| turn.event.version());
-            let at = arguments.at.is_some_and(|at| version == Version(at));
+            let next = turns.get(count + 1).map(|(_, (_, turn))| turn.event.version());
             // The turns on a version last until PELEA is handed a later one.
-            let over = arguments.at.is_some_and(|at| next.is_some_and(|next| next > Version(at)))
-                && turns.get(count + 1).is_some_and(|turn| turn.event.version().is_some());
+            let over = at.is_some_and(|at| next.flatten().is_some_and(|next| next > at));
             let replayed = serde_json::to_string(&effects).unwrap_or_default();
             tell(&effects, turn.now, console, &mut terminal);
-            if at || (arguments.at.is_none() && console.form() == Form::Json) {
+            if at == Some(version) || (at.is_none() && console.form() == Form::Json) {
                 shown(turn, &effects, version, console);
             }
             let equal = replayed == turn.effects.get();
-            let last = over || count + 1 == turns.len();
-            if !equal || last {
+            if !equal || over || next.is_none() {
                 let text = |text: &str| (!equal).then(|| text.to_owned());
                 let summary = Summary {
                     turns: count + 1,

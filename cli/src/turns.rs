@@ -1,9 +1,12 @@
 //! The file of PELEA's turns, beside a journal: written by `run`, read by `replay`.
 //!
 //! A line each: first the run's own settings and the checksum of every text of the mission, then the turns with their
-//! numbers, and at the end of an orderly run how many there were. A turn that is missing is noticed.
+//! numbers, and at the end of an orderly run how many there were. A turn that is missing is noticed. A run that goes on
+//! after a restart adds another such part, a *life*. What the life before had turned on versions that the crash took from
+//! the journal never happened, and is left out.
 
 use crate::outlet::Outlet;
+use dsr::Version;
 use executive::{Occurrence, Turn};
 use mission::Mission;
 use serde::{Deserialize, Serialize};
@@ -26,6 +29,12 @@ pub(crate) struct Heading {
     pub(crate) horizon: Option<Duration>,
     /// How often PELEA turns at least.
     pub(crate) pulse: Option<Duration>,
+    /// The name of the run, the same in all its lives.
+    #[serde(default)]
+    pub(crate) run: String,
+    /// The version from which it went on after a restart.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) from: Option<u64>,
 }
 
 impl Heading {
@@ -38,7 +47,18 @@ impl Heading {
             .find_map(|name| name.strip_suffix("mission.toml"));
         let folder = manifest.unwrap_or_default();
         let text = |source: &diagnostics::Source| (file_name(source.name(), folder), checksum(source.text()));
-        Self { texts: mission.sources.iter().map(|(_, source)| text(source)).collect(), horizon, pulse }
+        let texts = mission.sources.iter().map(|(_, source)| text(source)).collect();
+        Self { texts, horizon, pulse, run: String::new(), from: None }
+    }
+
+    /// For a run of this name.
+    pub(crate) fn of(self, run: String) -> Self {
+        Self { run, ..self }
+    }
+
+    /// For a run that goes on from a version.
+    pub(crate) fn from(self, version: Version) -> Self {
+        Self { from: Some(version.0), ..self }
     }
 
     /// The texts that are not those of the other run.
@@ -76,6 +96,19 @@ impl Turns {
     /// Begins the file in the folder of a journal.
     pub(crate) fn begin(folder: &Path, heading: &Heading) -> io::Result<Self> {
         let file = File::create(folder.join(NAME))?;
+        let mut turns = Self { out: Outlet::new(file, |lost| format!(r#"{{"lost":{lost}}}"#)), count: 0 };
+        turns.line(heading);
+        Ok(turns)
+    }
+
+    /// Goes on with the file of an earlier life.
+    pub(crate) fn go_on(folder: &Path, heading: &Heading) -> io::Result<Self> {
+        let path = folder.join(NAME);
+        let torn = std::fs::read(&path)?.last().is_some_and(|last| *last != b'\n');
+        let mut file = File::options().append(true).open(path)?;
+        if torn {
+            file.write_all(b"\n")?;
+        }
         let mut turns = Self { out: Outlet::new(file, |lost| format!(r#"{{"lost":{lost}}}"#)), count: 0 };
         turns.line(heading);
         Ok(turns)
@@ -139,35 +172,69 @@ pub(crate) enum TurnsError {
     Empty,
 }
 
-/// The record of a run.
+/// One life of a run: from its start, or from a restart, to its end or to a crash.
 #[derive(Debug)]
-pub(crate) struct Record {
+pub(crate) struct Life {
     pub(crate) heading: Heading,
     pub(crate) turns: Vec<Recorded>,
     /// Whether it has its end: the run was not cut off.
     pub(crate) whole: bool,
 }
 
-/// Reads the file, up to a last line that a crash has cut short.
-pub(crate) fn read(folder: &Path) -> Result<Record, TurnsError> {
+impl Life {
+    fn new(heading: Heading) -> Self {
+        Self { heading, turns: Vec::new(), whole: false }
+    }
+
+    /// Leaves out what it turned on versions behind the last one that outlived it. How many turns these were.
+    pub(crate) fn end_at(&mut self, last: Version) -> usize {
+        let beyond = |turn: &Recorded| turn.event.version().is_some_and(|version| version > last);
+        let kept = self.turns.iter().position(beyond).unwrap_or(self.turns.len());
+        self.turns.drain(kept..).count()
+    }
+}
+
+/// Reads the file: the lives of the run, up to a last line that a crash has cut short.
+pub(crate) fn read(folder: &Path) -> Result<Vec<Life>, TurnsError> {
     let file = BufReader::new(File::open(folder.join(NAME))?);
     let lines = file.lines().collect::<Result<Vec<_>, _>>()?;
-    let (heading, rest) = lines.split_first().ok_or(TurnsError::Empty)?;
-    let heading = serde_json::from_str(heading).map_err(|error| TurnsError::Line { line: 1, error })?;
-    let mut turns: Vec<Recorded> = Vec::with_capacity(rest.len());
-    for (at, line) in rest.iter().enumerate() {
-        let after = turns.len() as u64;
-        if let Ok(End { end }) = serde_json::from_str(line) {
-            let whole = end == after;
-            return if whole { Ok(Record { heading, turns, whole }) } else { Err(TurnsError::Gap { after }) };
-        }
-        match serde_json::from_str::<Recorded>(line) {
-            Ok(turn) if turn.turn == after + 1 => turns.push(turn),
-            Ok(_) => return Err(TurnsError::Gap { after }),
-            Err(_) if line.starts_with("{\"lost\":") => return Err(TurnsError::Gap { after }),
-            Err(error) if error.is_eof() && at + 1 == rest.len() => break,
-            Err(error) => return Err(TurnsError::Line { line: at + 2, error }),
+    let mut lives: Vec<Life> = Vec::new();
+    for (at, line) in lines.iter().enumerate() {
+        let heading = serde_json::from_str::<Heading>(line);
+        match (lives.last_mut(), heading) {
+            (before, Ok(heading)) => {
+                if let (Some(life), Some(from)) = (before, heading.from) {
+                    life.end_at(Version(from));
+                }
+                lives.push(Life::new(heading));
+            }
+            (None, Err(error)) => return Err(TurnsError::Line { line: 1, error }),
+            (Some(life), Err(_)) => {
+                // The end of a life is the end of the file, or stands before the heading of the next.
+                let is_last =
+                    lines.get(at + 1).is_none_or(|next| serde_json::from_str::<Heading>(next).is_ok());
+                life.take(line, at + 1, is_last)?;
+            }
         }
     }
-    Ok(Record { heading, turns, whole: false })
+    if lives.is_empty() { Err(TurnsError::Empty) } else { Ok(lives) }
+}
+
+impl Life {
+    /// Takes in a line after its heading.
+    fn take(&mut self, line: &str, number: usize, is_last: bool) -> Result<(), TurnsError> {
+        let after = self.turns.len() as u64;
+        if let Ok(End { end }) = serde_json::from_str(line) {
+            self.whole = end == after;
+            return if self.whole { Ok(()) } else { Err(TurnsError::Gap { after }) };
+        }
+        match serde_json::from_str::<Recorded>(line) {
+            Ok(turn) if turn.turn == after + 1 => self.turns.push(turn),
+            Ok(_) => return Err(TurnsError::Gap { after }),
+            Err(_) if line.starts_with("{\"lost\":") => return Err(TurnsError::Gap { after }),
+            Err(error) if error.is_eof() && is_last => {}
+            Err(error) => return Err(TurnsError::Line { line: number, error }),
+        }
+        Ok(())
+    }
 }

@@ -20,7 +20,7 @@ use crate::export::{self, Export, RestoreError};
 use crate::id::{AgentId, Epoch, ReflexId, Time, Version};
 use crate::interest::Interest;
 use crate::journal::feed::{Entry, Feed, Present, Rest};
-use crate::left_right::{LeftRight, Twin};
+use crate::left_right::{LeftRight, Twin, Writing};
 use crate::past::Past;
 use crate::pattern::Pattern;
 use crate::replay::{self, ReplayError};
@@ -172,6 +172,11 @@ impl Graph {
         Arc::clone(&self.shared.vocabulary)
     }
 
+    /// Whether both are handles on the same graph.
+    pub fn is(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.shared, &other.shared)
+    }
+
     /// The present state. Never waits.
     pub fn snapshot(&self) -> Snapshot {
         Snapshot::new(self.shared.states.read())
@@ -195,10 +200,6 @@ impl Graph {
 
     /// Applies a transaction, as a whole or not at all.
     pub fn commit(&self, transaction: &Transaction, time: Time) -> Result<Commit, TransactionError> {
-        let (mut wakes, mut forgotten) = (Vec::new(), None);
-        // If a subscriber is dropped meanwhile, this holds the last reference to its queue. The queue has a callback
-        // and states, which must not be dropped under the lock.
-        let mut queues = SmallVec::<[Arc<Queue>; 8]>::new();
         let mut writing = self.shared.states.write();
         writing.own().epochs.admit(transaction, &self.shared.vocabulary)?;
         transaction.stale_at(writing.own().version)?;
@@ -214,32 +215,59 @@ impl Graph {
             }
         };
         let delta = Arc::new(outcome.delta);
-        let changed = !(delta.changes.is_empty() && delta.reflexes.is_empty());
-        let short = delta.changes.len() <= LONG;
-        let (state, before) = writing.publish(short.then(|| Arc::clone(&delta)));
         let owners = owners(&writing.own().reflexes, &delta);
         writing.own().reflexes = outcome.reflexes;
         writing.own().epochs.follow(transaction);
         writing.own().record(transaction, &outcome.guards, &delta);
+        let snapshot = self.publish(writing, &delta, &owners);
+        Ok(Commit { version: delta.version, delta, snapshot, guards: outcome.guards })
+    }
+
+    /// Takes a commit over from a recording, as a version of its own, with all its subscribers. Reflexes and journals
+    /// stay as they are.
+    pub(crate) fn follow(&self, delta: Delta) -> Result<(), ReplayError> {
+        let mut writing = self.shared.states.write();
+        if let Err(error) = replay::apply(writing.next(), &delta) {
+            writing.leave();
+            return Err(error);
+        }
+        self.publish(writing, &Arc::new(delta), &[]);
+        Ok(())
+    }
+
+    /// Lets readers and subscribers see the next state.
+    fn publish(
+        &self,
+        mut writing: Writing<'_, State, Writers>,
+        delta: &Arc<Delta>,
+        owners: &[AgentId],
+    ) -> Snapshot {
+        let (mut wakes, mut forgotten) = (Vec::new(), None);
+        // If a subscriber is dropped meanwhile, this holds the last reference to its queue. The queue has a callback
+        // and states, which must not be dropped under the lock.
+        let mut queues = SmallVec::<[Arc<Queue>; 8]>::new();
+        let changed = !(delta.changes.is_empty() && delta.reflexes.is_empty());
+        let short = delta.changes.len() <= LONG;
+        let (state, before) = writing.publish(short.then(|| Arc::clone(delta)));
         let snapshot = Snapshot::new(state);
         if changed {
             let writers = writing.own();
             writers.version = delta.version;
             forgotten = self.shared.past.push(&snapshot);
             if !writers.queues.is_empty() {
-                let committed = Committed { delta: Arc::clone(&delta), snapshot: snapshot.clone() };
+                let committed = Committed { delta: Arc::clone(delta), snapshot: snapshot.clone() };
                 let tell = |queue: Arc<Queue>| {
                     wakes.extend(queue.push(&committed));
                     queues.push(queue);
                 };
-                writers.queues.concerned(&delta, snapshot.state(), &owners, tell);
+                writers.queues.concerned(delta, snapshot.state(), owners, tell);
             }
         }
         drop(writing);
         wakes.into_iter().for_each(Wake::call);
         // Freeing may take a while, so it happens after the lock is released and subscribers are woken.
         drop((before, forgotten, queues));
-        Ok(Commit { version: delta.version, delta, snapshot, guards: outcome.guards })
+        snapshot
     }
 
     /// Writes and commits a transaction.
@@ -354,6 +382,11 @@ impl Graph {
     /// A graph that continues from a snapshot, with the reflexes of a journal.
     pub(crate) fn resumed(snapshot: &Snapshot, guards: impl IntoIterator<Item = Guard>) -> Self {
         Self::with(snapshot.state().clone(), Registry::restore(guards))
+    }
+
+    /// Replaces the registered reflexes by those of a journal.
+    pub(crate) fn take_over(&self, guards: impl IntoIterator<Item = Guard>) {
+        self.shared.states.write().own().reflexes = Registry::restore(guards);
     }
 }
 

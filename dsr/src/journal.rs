@@ -79,6 +79,12 @@ impl Journal {
         told(self.feed.wait(version))
     }
 
+    /// [`Journal::wait`] for other threads, and after the end of the journal: then it no longer waits.
+    pub fn waiter(&self) -> impl Fn(Version) + Send + Sync + use<> {
+        let feed = Arc::clone(&self.feed);
+        move |version| _ = feed.wait(version)
+    }
+
     /// Writes and syncs what was committed before, and ends the journal.
     pub fn close(mut self) -> Result<Progress, JournalError> {
         self.end();

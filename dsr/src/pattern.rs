@@ -12,8 +12,9 @@
 //!
 //! From the ground up: `term`, `source` (as written) → `slot`, `plan` (the join order), `clue`, `seed`, `measure`,
 //! `part` (what compiling works out) → `compiled` → `check` (compiles) → `builder`, `text` (two ways to write one) →
-//! `fixed`, `held`, `rigid`, `negated`, `slice` (what a delta may change), `route` → `matcher`.
+//! `fixed`, `held`, `rigid`, `negated`, `slice` (what a delta may change), `route` → `matcher` → `age`.
 
+mod age;
 mod builder;
 mod check;
 mod clue;

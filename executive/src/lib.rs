@@ -34,10 +34,12 @@
 //! | `outcome` | why there is no plan, why a step failed, how the mission ended |
 //! | `narration` | the story: every decision with its reason |
 //! | `record` | a turn of the wheel as data, to be taken again |
+//! | `lasting` | what waits for the disk, and outlives the process |
 //! | `shell` | where the pure wheel meets graph, clock and threads |
 //! | `wording` | outcomes and reasons as sentences |
 
 mod decision_support;
+mod lasting;
 mod model;
 mod monitoring;
 mod narration;
@@ -48,6 +50,7 @@ mod wheel;
 mod wording;
 
 pub use decision_support::{Decision, Figures, Repair, Request, RequestId, decide};
+pub use lasting::Lasting;
 pub use model::{Changes, Model, ModelError, Sensed, Step};
 pub use monitoring::{BrokenLiteral, Deviation, Monitor};
 pub use narration::Narration;

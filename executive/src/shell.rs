@@ -4,16 +4,23 @@
 //! its own, sets the timer, and passes the story on. On a paused clock, time stands still while the planner's thread
 //! works, so a simulated run is the same every time; how long a decision takes there is an argument.
 //!
+//! Its intentions are guarded: with each write the shell registers the reflex that takes back all that PELEA intends, which
+//! fires when PELEA expires, also after the end of the process ([`Graph::expire`], [`dsr::Recording`]). What must outlive
+//! the process ([`Lasting`]) is not taken back, and reaches the wheel once it is on disk.
+//!
 //! Invariant: what was committed before a timer rang is handed in before the timer is, at the time at which the queue was
 //! last found empty.
 
 use crate::decision_support::{Decision, Request, RequestId, decide};
+use crate::lasting::{Hold, Lasting};
 use crate::narration::Narration;
 use crate::outcome::{Ending, NoPlan};
 use crate::record::{Occurrence, Turn};
 use crate::wheel::{Effect, Event, Wheel};
 use budget::Cancellation;
-use dsr::{AgentId, Graph, Subscription, Time, Transaction};
+use dsr::{
+    AgentId, Edit, Graph, Reflex, ReflexId, Subscription, Time, Transaction, TransactionError, Version,
+};
 use std::collections::VecDeque;
 use std::future::pending;
 use std::sync::Arc;
@@ -38,6 +45,8 @@ pub struct Shell<Tell, Latency, Record> {
     pub record: Record,
     /// Whether decisions give way to everything else that works, as on a clock that does not wait for them.
     pub gives_way: bool,
+    /// What must outlive the process.
+    pub lasting: Lasting,
 }
 
 /// Lowers the priority of this thread, and of the threads that a search starts from it.
@@ -78,15 +87,24 @@ where
         let mut alarm: Option<Instant> = None;
         let mut planning: Option<Planning> = None;
         let mut now = self.now();
+        let mut guard = None;
+        let mut hold = None;
+        let mut durable = Version::default();
         loop {
             while let Some(event) = events.pop_front() {
+                if let Some(version) = self.lasting.awaits(&event).filter(|version| *version > durable) {
+                    events.push_front(event);
+                    hold = Some(self.lasting.hold(version));
+                    durable = version;
+                    break;
+                }
                 let occurrence = Occurrence::from(&event);
                 let effects = wheel.step(event, now);
                 (self.record)(&Turn::new(now, occurrence, &effects));
                 for effect in effects {
                     match effect {
                         Effect::Write(edits) => {
-                            let answer = self.write(edits);
+                            let answer = self.write(edits, &wheel, &mut guard);
                             now = self.now();
                             take_in(&mut graph, &mut events);
                             events.push_back(answer);
@@ -106,11 +124,12 @@ where
             let event = tokio::select! {
                 biased;
                 () = news.notified() => None,
-                decided = join(&mut planning) => {
+                () = held(&mut hold) => None,
+                decided = join(&mut planning), if hold.is_none() => {
                     planning = None;
                     Some(decided)
                 }
-                () = ring(alarm) => {
+                () = ring(alarm), if hold.is_none() => {
                     alarm = None;
                     Some(Event::Woke)
                 }
@@ -138,11 +157,31 @@ where
         Planning { id, cancellation, answer, not_before }
     }
 
-    fn write(&self, edits: Vec<dsr::Edit>) -> Event {
+    /// Commits a write with the reflex that guards it, which replaces the last one.
+    fn write(&self, edits: Vec<Edit>, wheel: &Wheel, guard: &mut Option<ReflexId>) -> Event {
         let mut transaction = Transaction::new(self.writer);
         transaction.extend(edits);
-        match self.graph.commit(&transaction, self.now()) {
-            Ok(_) => Event::Written,
+        let unguarded = transaction.clone();
+        guard.iter().for_each(|before| _ = transaction.dismiss(*before));
+        let on_break: Vec<_> =
+            wheel.withdrawal().into_iter().filter(|edit| !self.lasting.is_about(edit)).collect();
+        if !on_break.is_empty() {
+            let owner = self.writer;
+            transaction.guard(Reflex { owner, keep: Vec::new(), on_break, leases: Vec::new() });
+        }
+        let committed = match self.graph.commit(&transaction, self.now()) {
+            // Somebody declared PELEA dead, or it may not take back what it may write: the mission goes on all the same.
+            Err(TransactionError::ReflexGone { .. } | TransactionError::ReflexRefused { .. }) => {
+                tracing::warn!("the intentions of the executive are not guarded");
+                self.graph.commit(&unguarded, self.now())
+            }
+            committed => committed,
+        };
+        match committed {
+            Ok(commit) => {
+                *guard = commit.guards.first().copied();
+                Event::Written
+            }
             Err(error) => {
                 tracing::warn!(%error, "the graph refused a write of the executive");
                 Event::Refused(error)
@@ -178,6 +217,15 @@ async fn join(planning: &mut Option<Planning>) -> Event {
     // A panic in the planner is a bug of ours; the mission must not hang on it.
     let decision = answer.await.unwrap_or(Decision::NoPlan(NoPlan::Stopped));
     Event::Decided(*id, decision)
+}
+
+/// Until what was waited for is on disk.
+async fn held(hold: &mut Option<Hold>) {
+    match hold {
+        Some(waiting) => waiting.await,
+        None => pending().await,
+    }
+    *hold = None;
 }
 
 async fn ring(alarm: Option<Instant>) {

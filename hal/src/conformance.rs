@@ -300,12 +300,12 @@ async fn a_command_is_taken_once(rig: &dyn Rig) -> Result<(), Violation> {
 async fn a_call_is_attended(rig: &dyn Rig) -> Result<(), Violation> {
     let clinic = rig.devices().clinic;
     rig.stimulate(Stimulus::ClinicianComes);
-    ends(rig, "call", clinic.call("company", Urgency::Normal)).await
+    ends(rig, "call", clinic.call("1", "company", Urgency::Normal)).await
 }
 
 async fn a_report_is_acknowledged(rig: &dyn Rig) -> Result<(), Violation> {
     let report = serde_json::json!({ "fruit": "bananas" });
-    ends(rig, "deliver", rig.devices().clinic.deliver(&report)).await
+    ends(rig, "deliver", rig.devices().clinic.deliver("1", &report)).await
 }
 
 async fn an_unplugged_device_fails_and_recovers(rig: &dyn Rig) -> Result<(), Violation> {
@@ -337,7 +337,7 @@ async fn unplugging_fails_operations_under_way(rig: &dyn Rig) -> Result<(), Viol
             Err(_) => return Err(Violation::Stuck { operation, after: rig.patience() }),
         }
     }
-    ends(rig, "deliver", devices.clinic.deliver(&report)).await
+    ends(rig, "deliver", devices.clinic.deliver("1", &report)).await
 }
 
 async fn a_fault_is_noticed_and_a_recovery(rig: &dyn Rig) -> Result<(), Violation> {

@@ -219,16 +219,16 @@ async fn the_clinician_fetches_the_person() {
     let observed = std::sync::Arc::new(std::sync::Mutex::new(0));
     let count = observed.clone();
     room.observe(move |_| *count.lock().unwrap() += 1);
-    room.devices().clinic.call("absence", Urgency::Normal).await.unwrap();
+    room.devices().clinic.call("1", "absence", Urgency::Normal).await.unwrap();
     assert!(room.person_in_view());
     assert_eq!(*observed.lock().unwrap(), room.moments().len());
     check(
         &room,
         &expect![[r#"
-        0.0 {"event":"clinician_called","need":"absence"}
-        20.0 {"event":"clinician_arrives","need":"absence"}
-        20.0 {"event":"person_returns"}
-        25.0 {"event":"clinician_goes","need":"absence"}
-    "#]],
+            0.0 {"event":"clinician_called","id":"1","need":"absence"}
+            20.0 {"event":"clinician_arrives","need":"absence"}
+            20.0 {"event":"person_returns"}
+            25.0 {"event":"clinician_goes","need":"absence"}
+        "#]],
     );
 }

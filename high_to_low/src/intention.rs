@@ -129,6 +129,25 @@ impl Activity {
         Standing::Failed(reason)
     }
 
+    /// What takes back the tokens that it has added, if nothing more can be decided about them: PELEA is gone. An
+    /// intention that awaits nothing was achieved when it was written.
+    pub(crate) fn withdrawal(&self, methods: &Methods, edits: &mut Vec<Edit>) {
+        let State::Written { edits: written, .. } = &self.state else { return };
+        if methods.intentions[self.intention].expects.is_always() {
+            return;
+        }
+        edits.extend(written.iter().filter_map(|edit| match edit {
+            Edit::AddEdge { from, label, to }
+            | Edit::SetAttribute { holder: HolderRef::Edge { from, label, to }, .. } => {
+                Some(Edit::RemoveEdge { from: from.clone(), label: *label, to: to.clone() })
+            }
+            Edit::SetAttribute { holder: holder @ HolderRef::Node(_), attribute, .. } => {
+                Some(Edit::ClearAttribute { holder: holder.clone(), attribute: *attribute })
+            }
+            _ => None,
+        }));
+    }
+
     /// Takes back the tokens that it has added, if they are still as it wrote them. It does not restore the tokens that
     /// it has removed: they were true once, and need not be true now.
     pub(crate) fn withdraw(&self, snapshot: &Snapshot, edits: &mut Vec<Edit>) {

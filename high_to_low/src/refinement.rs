@@ -88,6 +88,14 @@ impl Refinement {
         Step { edits, events, status }
     }
 
+    /// The edits that take back what its running intentions have written, whatever the graph is by then: what is left
+    /// to do if PELEA is gone.
+    pub fn withdrawal(&self, methods: &Methods) -> Vec<Edit> {
+        let mut edits = Vec::new();
+        self.root.withdrawal(methods, &mut edits);
+        edits
+    }
+
     /// Cancels the refinement. Returns the edits that take back what its running intentions have written.
     pub fn cancel(&mut self, snapshot: &Snapshot) -> Vec<Edit> {
         let mut edits = Vec::new();
@@ -236,6 +244,16 @@ impl Goal {
     fn withdraw(&mut self, snapshot: &Snapshot, edits: &mut Vec<Edit>) {
         if let Some(expansion) = &mut self.expansion {
             expansion.withdraw(snapshot, edits);
+        }
+    }
+
+    fn withdrawal(&self, methods: &Methods, edits: &mut Vec<Edit>) {
+        for child in self.expansion.iter().flat_map(|expansion| &expansion.children) {
+            match child {
+                Child::Task(goal) => goal.withdrawal(methods, edits),
+                Child::Intention(activity) => activity.withdrawal(methods, edits),
+                Child::NotYet | Child::Done => {}
+            }
         }
     }
 }

@@ -95,6 +95,15 @@ pub struct ReportTokens {
     pub sensed: Option<Mention>,
     /// Attribute of the pair (item, option): the score of the option.
     pub score: Mention,
+    /// Further labels whose tokens must outlive the process: calls and deliveries.
+    pub lasting: Vec<Mention>,
+}
+
+impl ReportTokens {
+    /// Every label whose tokens must outlive the process: what the report is made of, and what the mission adds.
+    pub fn lasting(&self) -> impl Iterator<Item = &Mention> {
+        [&self.answer, &self.unanswered].into_iter().chain(&self.sensed).chain(&self.lasting)
+    }
 }
 
 /// The types that have words in every language.
@@ -244,6 +253,7 @@ fn report(reader: &mut Reader<'_>, mut table: Table<'_>) -> Option<ReportTokens>
     let unanswered = required_mention(reader, &mut table, "unanswered");
     let sensed = table.text(reader, "sensed").map(|text| mention(&text));
     let score = required_mention(reader, &mut table, "score");
+    let lasting = table.texts(reader, "lasting").unwrap_or_default().iter().map(mention).collect();
     table.finish(reader);
     Some(ReportTokens {
         document: document?,
@@ -253,6 +263,7 @@ fn report(reader: &mut Reader<'_>, mut table: Table<'_>) -> Option<ReportTokens>
         unanswered: unanswered?,
         sensed,
         score: score?,
+        lasting,
     })
 }
 

@@ -1,5 +1,7 @@
 //! What tests across crates share: running `pelea` in this process and reading what it said.
 
+pub mod crashes;
+
 use cli::{Console, Exit};
 use std::path::{Path, PathBuf};
 

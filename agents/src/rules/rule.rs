@@ -18,7 +18,7 @@ use std::fmt;
 use std::sync::Arc;
 use std::time::Duration;
 
-use dsr::{AgentId, Edit, Mentions, NodeId, Pattern, Priority, Reflex, ResourceId, Snapshot};
+use dsr::{AgentId, Edit, Mentions, NodeId, Pattern, Priority, Reflex, ResourceId, Snapshot, Version};
 use pddl::model::{Name, VariableId, Variables};
 use vocabulary::{Binding, Condition, Effect, EffectError};
 
@@ -100,6 +100,12 @@ impl Rule {
     /// Whether the condition before holds for this binding.
     pub(crate) fn may_start(&self, snapshot: &Snapshot, parameters: &Parameters) -> bool {
         self.trigger.holds(snapshot, &self.binding(parameters))
+    }
+
+    /// Since when the condition before holds for this binding: the oldest of its alternatives that hold.
+    pub(crate) fn since(&self, snapshot: &Snapshot, parameters: &Parameters) -> Option<Version> {
+        let keep = self.trigger.keep(&self.binding(parameters));
+        keep.any.iter().filter_map(|bound| bound.pattern.since(snapshot, &bound.binding)).min()
     }
 
     /// Whether the condition over all holds for this binding.

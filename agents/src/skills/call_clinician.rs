@@ -15,6 +15,7 @@ impl Skill for CallClinician {
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {
         let device = equipment.devices.clinic.clone();
         let urgency = if call.arguments.len() > 1 { Urgency::Urgent } else { Urgency::Normal };
-        Box::pin(async move { Ended::of(device.call(call.argument(0), urgency).await, |()| Vec::new()) })
+        let id = call.id(equipment);
+        Box::pin(async move { Ended::of(device.call(&id, call.argument(0), urgency).await, |()| Vec::new()) })
     }
 }

@@ -11,13 +11,13 @@ impl Skill for Deliver {
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {
         let report = equipment.reporter.report(call.argument(0), &call.snapshot);
-        let device = equipment.devices.clinic.clone();
+        let (device, id) = (equipment.devices.clinic.clone(), call.id(equipment));
         Box::pin(async move {
             let Some(report) = report else {
                 tracing::warn!(?call.arguments, "no such document");
                 return Ended::otherwise(Outcome::FAILURE);
             };
-            Ended::of(device.deliver(&report).await, |()| Vec::new())
+            Ended::of(device.deliver(&id, &report).await, |()| Vec::new())
         })
     }
 }

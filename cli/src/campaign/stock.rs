@@ -12,7 +12,7 @@ use crate::clock::Seconds;
 use crate::console::Console;
 use crate::disk::show;
 use crate::exit::Exit;
-use crate::run::{Audience, Content, Latency, Narrator, Performed, Production, latency, perform};
+use crate::run::{Audience, Content, Kept, Latency, Narrator, Performed, Production, latency, perform};
 use crate::scenario::{self, Staged};
 use agents::Housing;
 use executive::{Ending, Narration};
@@ -147,6 +147,8 @@ impl Stock {
     fn perform(&self, assembly: Assembly, staged: Staged, seed: u64, diary: Diary) -> Performed {
         let Staged { scenario, cues, .. } = staged;
         let production = Production {
+            kept: Kept { run: "campaign".to_owned(), ..Kept::default() },
+            past: None,
             content: self.content.clone(),
             scenario: Some(&scenario),
             cues,

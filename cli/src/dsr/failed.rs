@@ -12,6 +12,10 @@ use std::path::Path;
 pub(crate) struct Failed(pub(super) Exit, pub(super) String);
 
 impl Failed {
+    pub(crate) fn new(exit: Exit, message: String) -> Self {
+        Self(exit, message)
+    }
+
     pub(crate) fn show(self, console: &mut Console<'_>) -> Exit {
         render::error(self.1, console);
         self.0

@@ -10,7 +10,7 @@ use std::str::FromStr;
 
 /// A moment of a run: `12` is a version, `3.5s` a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Moment {
+pub(crate) enum Moment {
     Version(Version),
     Time(Time),
 }
@@ -31,7 +31,7 @@ impl FromStr for Moment {
 
 impl Moment {
     /// The state at this moment.
-    pub(super) fn of(self, recording: &Recording) -> Result<Snapshot, RecordingError> {
+    pub(crate) fn of(self, recording: &Recording) -> Result<Snapshot, RecordingError> {
         match self {
             Self::Version(version) => recording.at(version),
             Self::Time(time) => recording.at_time(time),
@@ -45,7 +45,7 @@ pub(super) fn state(recording: &Recording, at: Option<Moment>) -> Result<Snapsho
 }
 
 /// Reads a journal and reports its unreadable parts.
-pub(super) fn open(path: &Path, console: &mut Console<'_>) -> Result<(Recording, Exit), Failed> {
+pub(crate) fn open(path: &Path, console: &mut Console<'_>) -> Result<(Recording, Exit), Failed> {
     let recording = match Recording::open(path) {
         Err(RecordingError::Empty) => {
             let message = format!("cannot read `{}`: it holds no state of a journal", path.display());

@@ -13,7 +13,8 @@ mod journal;
 mod show;
 mod world;
 
-pub(crate) use journal::begin;
+pub(crate) use failed::Failed;
+pub(crate) use journal::{Moment, begin, open};
 
 use crate::console::Console;
 use crate::exit::Exit;

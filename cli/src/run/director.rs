@@ -4,6 +4,7 @@
 //! director waits `after` seconds and applies the disruption to the room. The room does not know
 //! the scenario.
 
+use super::room::{Happened, RoomLog};
 use crate::scenario::{Cue, Watch};
 use dsr::{AgentId, Graph, Time};
 use executive::Step;
@@ -12,6 +13,7 @@ use hal::Device;
 use hal::sim::{Behaviour, By, SimRoom};
 use mission::scenario::{self, Act, Trigger};
 use pddl::model::Name;
+use std::collections::BTreeMap;
 use std::future::pending;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
@@ -25,14 +27,43 @@ pub(super) struct Stage {
     pub(super) graph: Graph,
     pub(super) room: SimRoom,
     pub(super) epoch: Instant,
+    pub(super) log: RoomLog,
+    /// What happened before a restart.
+    pub(super) happened: Arc<Happened>,
 }
 
 /// Runs until every disruption was applied. Its receivers must exist before the first step starts.
 pub(super) async fn direct(cues: Vec<(Cue, broadcast::Receiver<Step>)>, stage: Stage) {
-    join_all(cues.into_iter().map(|(cue, steps)| follow(cue, steps, &stage))).await;
+    ask_on(&cues.iter().map(|(cue, _)| cue).collect::<Vec<_>>(), &stage);
+    let cues = cues.into_iter().enumerate();
+    join_all(cues.map(|(number, (cue, steps))| follow(number, cue, steps, &stage))).await;
 }
 
-async fn follow(cue: Cue, steps: broadcast::Receiver<Step>, stage: &Stage) {
+/// Who asked for something before a restart, and was not heard, goes on asking.
+fn ask_on(cues: &[&Cue], stage: &Stage) {
+    let begun = stage.happened.begun().filter_map(|number| cues.get(number)).map(|cue| &cue.disruption.act);
+    let mut asked: BTreeMap<&str, Vec<&Act>> = BTreeMap::new();
+    for act in begun {
+        if let Act::Ask { request, .. } = act {
+            asked.entry(request).or_default().push(act);
+        }
+    }
+    for (request, acts) in asked {
+        acts.into_iter().skip(stage.happened.taken(request)).for_each(|act| carry_out(act, stage));
+    }
+}
+
+async fn follow(number: usize, cue: Cue, steps: broadcast::Receiver<Step>, stage: &Stage) {
+    if let Some((at, over)) = stage.happened.began(number) {
+        return match over {
+            true => (),
+            false => last(number, &cue.disruption.act, stage.epoch + at, stage).await,
+        };
+    }
+    let begin = move |stage: &Stage, act: &Act| {
+        stage.log.began(number, stage.epoch.elapsed());
+        carry_out(act, stage);
+    };
     match &cue.disruption.trigger {
         Trigger::At(time) => sleep_until(stage.epoch + *time).await,
         Trigger::When { occurrence, .. } => {
@@ -41,8 +72,8 @@ async fn follow(cue: Cue, steps: broadcast::Receiver<Step>, stage: &Stage) {
         }
         Trigger::Version(version) if cue.disruption.after.is_zero() => {
             let (act, staged) = (cue.disruption.act.clone(), stage.clone());
-            reaches(*version, &stage.graph, move || carry_out(&act, &staged)).await;
-            return last(&cue.disruption.act, stage).await;
+            reaches(*version, &stage.graph, move || begin(&staged, &act)).await;
+            return last(number, &cue.disruption.act, Instant::now(), stage).await;
         }
         Trigger::Version(version) => reaches(*version, &stage.graph, || ()).await,
         // A campaign has replaced it.
@@ -51,14 +82,15 @@ async fn follow(cue: Cue, steps: broadcast::Receiver<Step>, stage: &Stage) {
     }
     sleep(cue.disruption.after).await;
     let act = &cue.disruption.act;
-    carry_out(act, stage);
-    last(act, stage).await;
+    begin(stage, act);
+    last(number, act, Instant::now(), stage).await;
 }
 
 /// Ends a fault that does not last for ever.
-async fn last(act: &Act, stage: &Stage) {
+async fn last(number: usize, act: &Act, began: Instant, stage: &Stage) {
     if let Act::Disturb { device, lasts: Some(lasts), .. } = act {
-        sleep(*lasts).await;
+        sleep_until(began + *lasts).await;
+        stage.log.over(number, stage.epoch.elapsed());
         stage.room.recover(hardware(*device));
     }
 }

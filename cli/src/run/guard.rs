@@ -32,6 +32,20 @@ impl Guard {
         Self { monitor, subscription, news, epoch }
     }
 
+    /// The same monitor, for a graph that goes on: the time of its commits is counted from another instant.
+    pub(super) fn since(self, epoch: Instant) -> Self {
+        Self { epoch, ..self }
+    }
+
+    /// Takes in a version of the past. Returns what it broke.
+    pub(super) fn follow(&mut self) -> Vec<Broken> {
+        let mut broken = Vec::new();
+        while let Some(news) = self.subscription.try_recv() {
+            broken.extend(self.monitor.changed(&news));
+        }
+        broken
+    }
+
     /// Waits until there may be something to [look](Self::look) at.
     pub(super) async fn alerted(&self) {
         let late = async {
@@ -51,10 +65,7 @@ impl Guard {
 
     /// What was broken since the last look.
     pub(super) fn look(&mut self) -> Vec<Broken> {
-        let mut broken = Vec::new();
-        while let Some(news) = self.subscription.try_recv() {
-            broken.extend(self.monitor.changed(&news));
-        }
+        let mut broken = self.follow();
         broken.extend(self.monitor.passed(self.now()));
         broken
     }

@@ -11,11 +11,14 @@
 mod content;
 mod director;
 mod guard;
+mod journal;
 mod judge;
 pub(crate) mod latency;
 mod narrate;
+mod past;
 mod perform;
 mod play;
+mod room;
 mod script;
 mod speed;
 mod story;
@@ -29,13 +32,14 @@ use crate::disk::show;
 use crate::exit::Exit;
 use crate::render;
 use crate::scenario;
-use crate::turns::{Heading, Turns};
+use crate::turns::Heading;
 use clap::Args;
 pub(crate) use content::Content;
 use dsr::Journal;
+use journal::Opened;
 pub(crate) use latency::Latency;
 pub(crate) use narrate::Narrator;
-pub(crate) use perform::{Audience, Performed, Production, perform};
+pub(crate) use perform::{Audience, Kept, Performed, Production, perform};
 use play::Play;
 use speed::Speed;
 use std::path::PathBuf;
@@ -67,6 +71,12 @@ pub(crate) struct Arguments {
     /// Write every version of the graph to a journal in this folder, for `pelea dsr`
     #[arg(long, value_name = "FOLDER")]
     journal: Option<PathBuf>,
+    /// Go on with the run in this folder, which was interrupted, and with its journal
+    #[arg(long, value_name = "FOLDER", conflicts_with = "journal")]
+    resume: Option<PathBuf>,
+    /// Go on although texts of the mission have changed since
+    #[arg(long, requires = "resume")]
+    changed_texts: bool,
     /// End the run after this time, whatever happens; four hours in simulated time, and never in real time, by default
     #[arg(long, value_name = "SECONDS")]
     horizon: Option<Seconds>,
@@ -76,6 +86,14 @@ pub(crate) struct Arguments {
     /// Also show how each step is executed
     #[arg(long)]
     verbose: bool,
+}
+
+/// The name of a run, by which the other side of a device tells its calls and reports from those of other runs. A
+/// simulation has the same one each time.
+fn name(mission: &mission::Mission, arguments: &Arguments, simulated: bool) -> String {
+    let started = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default();
+    let distinct = if simulated { u128::from(arguments.seed) } else { started.as_nanos() };
+    format!("{}-{distinct}", mission.manifest.name)
 }
 
 /// The end of a simulated run in which nobody ever comes.
@@ -116,27 +134,26 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         console.complain("error: the system gives no threads or timers\n");
         return Exit::Limit;
     };
-    let begun = arguments.journal.as_deref().map(|folder| crate::dsr::begin(folder, &assembly.graph));
-    let journal = match begun.transpose() {
-        Ok(journal) => journal,
-        Err(failed) => return failed.show(console),
-    };
     let horizon = arguments.horizon.map(Seconds::duration);
     let of_scenario = staged.as_ref().and_then(|staged| staged.scenario.horizon);
     let horizon = horizon.or(of_scenario).or_else(|| simulated.then_some(HORIZON));
     let pulse = (!simulated).then_some(PULSE);
-    let heading = Heading::new(&mission, horizon, pulse);
-    let turns = match arguments.journal.as_deref().map(|folder| Turns::begin(folder, &heading)).transpose() {
-        Ok(turns) => turns,
-        Err(error) => {
-            render::error(format!("cannot record the turns beside the journal: {error}"), console);
-            return Exit::Unwritable;
-        }
+    let heading = Heading::new(&mission, horizon, pulse).of(name(&mission, arguments, simulated));
+    let opened = match (&arguments.journal, &arguments.resume) {
+        (Some(folder), _) => journal::begin(folder, assembly, &heading),
+        (None, Some(folder)) => journal::go_on(folder, assembly, heading, arguments.changed_texts, console),
+        (None, None) => Ok(Opened::nowhere(assembly, heading.run)),
+    };
+    let Opened { assembly, journal, turns, past, kept } = match opened {
+        Ok(opened) => opened,
+        Err(failed) => return failed.show(console),
     };
     let latency = Latency::new(arguments.planning_latency.unwrap_or_default(), arguments.seed);
     let play = Play {
         horizon,
         turns,
+        past,
+        kept,
         latency: if simulated { latency.simulated() } else { latency },
         speed: arguments.speed,
         pulse,

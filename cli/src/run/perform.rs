@@ -6,13 +6,15 @@
 use super::content::Content;
 use super::guard::Guard;
 use super::latency::Latency;
+use super::past::Past;
+use super::room::RoomLog;
 use super::{director, script};
 use crate::assemble::Assembly;
 use crate::scenario::Cue;
 use crate::turns::Turns;
 use agents::Housing;
-use dsr::{AgentId, Graph, Snapshot, TypeId};
-use executive::{Ending, Narration, Shell, Step, Turn, Wheel};
+use dsr::{AgentId, Graph, Snapshot, TypeId, Version};
+use executive::{Ending, Lasting, Narration, Shell, Step, Turn, Wheel};
 use hal::sim::{ClinicianScript, PatientScript, RoomEvent, SimRoom};
 use mission::scenario::Scenario;
 use safety::Broken;
@@ -55,6 +57,21 @@ pub(crate) struct Production<'a> {
     pub(crate) turns: Option<Turns>,
     /// Where the agents live.
     pub(crate) housing: Housing,
+    /// What is kept on disk.
+    pub(crate) kept: Kept,
+    /// What was before a restart.
+    pub(crate) past: Option<Past>,
+}
+
+/// What a run keeps on disk beside its turns.
+#[derive(Default)]
+pub(crate) struct Kept {
+    /// Waits until a version of the graph is on disk; `None` without a journal.
+    pub(crate) disk: Option<Arc<dyn Fn(Version) + Send + Sync>>,
+    /// What happens in the room.
+    pub(crate) room: RoomLog,
+    /// The name of the run.
+    pub(crate) run: String,
 }
 
 /// What came of it.
@@ -76,21 +93,38 @@ pub(crate) async fn perform(
     first: impl Future<Output = ()>,
     last: impl Future<Output = Ending>,
 ) -> Performed {
-    let Production { content, scenario, cues, seed, horizon, latency, pulse, turns, housing } = production;
+    let Production { content, scenario, cues, seed, horizon, latency, pulse, turns, housing, kept, past } =
+        production;
     let wheel = assembly.wheel();
-    let Assembly { graph, agents, writer, invariants, .. } = assembly;
+    let Assembly { graph, agents, writer, invariants, lasting, .. } = assembly;
     let wheel = horizon.iter().fold(wheel, |wheel, horizon| wheel.until(time(*horizon)));
     let wheel = pulse.iter().fold(wheel, |wheel, pulse| wheel.with_pulse(*pulse));
-    let epoch = Instant::now();
-    let room = room(&content, scenario, seed);
-    let mut guard = Guard::new(&invariants, &graph, epoch);
-    let observer = audience.clone();
-    room.observe(move |moment| observer.room(moment.at, &moment.event));
+    let Past { elapsed, guard, broken, happened } = past.unwrap_or_default();
+    // A clock that began less than that long ago cannot name its own past; then the run's time begins anew.
+    let epoch = Instant::now().checked_sub(elapsed).unwrap_or_else(Instant::now);
+    let room = room(&content, scenario, seed, epoch);
+    room.go_on_after(&happened.moments);
+    let mut guard = match guard {
+        Some(guard) => guard.since(epoch),
+        None => Guard::new(&invariants, &graph, epoch),
+    };
+    broken.into_iter().for_each(|broken| audience.alarm(broken));
+    let (observer, log) = (audience.clone(), kept.room.clone());
+    room.observe(move |moment| {
+        log.moment(moment);
+        observer.room(moment.at, &moment.event);
+    });
 
     let (steps, _) = broadcast::channel(64);
     // Each disruption must receive the steps of the plan before the first one starts.
     let cues = cues.into_iter().map(|cue| (cue, steps.subscribe())).collect();
-    let stage = director::Stage { graph: graph.clone(), room: room.clone(), epoch };
+    let stage = director::Stage {
+        graph: graph.clone(),
+        room: room.clone(),
+        epoch,
+        log: kept.room,
+        happened: Arc::new(happened),
+    };
     let content = Arc::new(content);
     let environment = agents::Environment {
         graph: graph.clone(),
@@ -98,14 +132,17 @@ pub(crate) async fn perform(
             devices: room.devices(),
             words: content.clone(),
             reporter: content.clone(),
+            run: kept.run.into(),
         },
-        clock: Arc::new(agents::TokioClock::start()),
+        clock: Arc::new(agents::TokioClock::since(epoch)),
         housing,
         absence: absence(&graph),
     };
     // The end of the run is the graph as it is then; that the agents go afterwards is no part of it.
     let (ending, snapshot) = {
-        let seat = Seat { graph: graph.clone(), writer, epoch, gives_way: housing == Housing::Apart };
+        let lasting = Lasting { labels: lasting, disk: kept.disk };
+        let seat =
+            Seat { graph: graph.clone(), writer, epoch, gives_way: housing == Housing::Apart, lasting };
         let pelea = pelea(seat, wheel, audience.clone(), steps, (latency, turns));
         let agents = agents::run_all(agents, environment);
         let directed = forever(director::direct(cues, stage));
@@ -136,13 +173,14 @@ async fn forever(work: impl Future<Output = ()>) {
 }
 
 /// The simulated room of the scenario.
-fn room(content: &Content, scenario: Option<&Scenario>, seed: u64) -> SimRoom {
+fn room(content: &Content, scenario: Option<&Scenario>, seed: u64, started: Instant) -> SimRoom {
     match scenario {
-        Some(scenario) => SimRoom::new(
+        Some(scenario) => SimRoom::since(
+            started,
             script::patient(&content.mission, &scenario.patient, seed),
             script::clinician(&scenario.clinician),
         ),
-        None => SimRoom::new(PatientScript::default(), ClinicianScript::default()),
+        None => SimRoom::since(started, PatientScript::default(), ClinicianScript::default()),
     }
 }
 
@@ -161,11 +199,12 @@ struct Seat {
     writer: AgentId,
     epoch: Instant,
     gives_way: bool,
+    lasting: Lasting,
 }
 
 /// PELEA on the real graph.
 async fn pelea(
-    Seat { graph, writer, epoch, gives_way }: Seat,
+    Seat { graph, writer, epoch, gives_way, lasting }: Seat,
     wheel: Wheel,
     audience: impl Audience,
     steps: broadcast::Sender<Step>,
@@ -184,7 +223,7 @@ async fn pelea(
             turns.note(turn);
         }
     };
-    Shell { graph, writer, epoch, tell, latency, record, gives_way }.run(wheel).await
+    Shell { graph, writer, epoch, tell, latency, record, gives_way, lasting }.run(wheel).await
 }
 
 fn time(after: Duration) -> dsr::Time {

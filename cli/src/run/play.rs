@@ -2,7 +2,8 @@
 
 use super::content::Content;
 use super::latency::Latency;
-use super::perform::{Performed, Production, perform};
+use super::past::Past;
+use super::perform::{Kept, Performed, Production, perform};
 use super::speed::Speed;
 use super::story::Story;
 use super::teller::Teller;
@@ -30,6 +31,10 @@ pub(super) struct Play {
     pub(super) latency: Latency,
     /// Where every turn of PELEA is recorded, if anywhere.
     pub(super) turns: Option<Turns>,
+    /// What was before a restart.
+    pub(super) past: Option<Past>,
+    /// What is kept on disk.
+    pub(super) kept: Kept,
     /// How fast time passes.
     pub(super) speed: Speed,
     /// How often PELEA must turn on a clock that does not wait for it.
@@ -47,6 +52,8 @@ impl Play {
         let (reader, mut entries) = mpsc::unbounded_channel();
         let story = Story::new(&assembly.graph, reader);
         let cues = self.staged.as_mut().map(|staged| std::mem::take(&mut staged.cues)).unwrap_or_default();
+        let past = self.past.take();
+        let goes_on = past.as_ref().map(Past::elapsed);
         let production = Production {
             content: self.content.clone(),
             scenario: self.staged.as_ref().map(|staged| &staged.scenario),
@@ -56,11 +63,16 @@ impl Play {
             latency: self.latency.clone(),
             pulse: self.pulse,
             turns: self.turns.take(),
+            kept: std::mem::take(&mut self.kept),
+            past,
             // Simulated time passes in this task alone: everything takes its turn here, and gives the same bytes.
             housing: if self.speed.is_simulated() { Housing::Together } else { Housing::Apart },
         };
         let mut teller = Teller::new(&self.content, self.staged.as_ref(), self.verbose, console);
         teller.heading();
+        if let Some(elapsed) = goes_on {
+            teller.goes_on(elapsed, assembly.graph.snapshot().version());
+        }
         let speed = self.speed;
         let Performed { ending, snapshot, elapsed } = {
             let tell = async {

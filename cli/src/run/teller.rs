@@ -9,7 +9,7 @@ use crate::console::{Console, Form};
 use crate::exit::Exit;
 use crate::files;
 use crate::scenario::Staged;
-use dsr::Snapshot;
+use dsr::{Snapshot, Version};
 use executive::Ending;
 use mission::scenario::Scenario;
 use serde::Serialize;
@@ -39,6 +39,7 @@ pub(super) struct Teller<'m, 'c, 'o> {
     console: &'c mut Console<'o>,
     terminal: Terminal,
     record: Record<'m>,
+    resumed: bool,
 }
 
 impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
@@ -49,7 +50,7 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
         console: &'c mut Console<'o>,
     ) -> Self {
         let terminal = Terminal::new(console.result_colour(), console.result_width(), verbose);
-        Self { content, staged, console, terminal, record: Record::new(&content.mission) }
+        Self { content, staged, console, terminal, record: Record::new(&content.mission), resumed: false }
     }
 
     /// The mission and the scenario.
@@ -57,6 +58,21 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
         let title = &self.content.mission.manifest.title;
         let scenario = self.staged.map_or("a person who answers", |s| &s.scenario.title);
         self.console.result(&format!("{title} · {scenario}"));
+    }
+
+    /// The run goes on after the end of its program.
+    pub(super) fn goes_on(&mut self, elapsed: Duration, version: Version) {
+        #[derive(Serialize)]
+        #[serde(tag = "kind", rename = "resumed")]
+        struct Resumed {
+            time: f64,
+            version: u64,
+        }
+        self.resumed = true;
+        let time = seconds(elapsed);
+        self.console
+            .result(&format!("goes on at {time:.2} s, version {}: everybody begins again", version.0));
+        self.console.record(&Resumed { time, version: version.0 });
     }
 
     /// One entry.
@@ -82,8 +98,10 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
         report_file: Option<&Path>,
     ) -> Exit {
         let report = self.content.report(snapshot);
-        // A run that was cut short could not meet all that was expected of it.
-        let judged = self.staged.filter(|_| *ending != Ending::Interrupted);
+        // A run that was cut short could not meet all that was expected of it; of one that went on, the story has only
+        // the last part.
+        let is_whole = *ending != Ending::Interrupted && !self.resumed;
+        let judged = self.staged.filter(|_| is_whole);
         let violations = judged.map_or_else(Vec::new, |staged| {
             let judged = self.record.judge(staged, ending, self.content, snapshot);
             judged.iter().map(|v| format!("{}: {v}", place(&staged.scenario, v.span()))).collect()

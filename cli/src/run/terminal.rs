@@ -134,7 +134,7 @@ impl Terminal {
             E::PersonLeaves => (Tone::Trouble, "room", "the person leaves view".to_owned()),
             E::PersonLeavesRoom => (Tone::Trouble, "room", "the person leaves the room".to_owned()),
             E::PersonReturns => (Tone::Person, "room", "the person is in view again".to_owned()),
-            E::ClinicianCalled { need, urgent } => {
+            E::ClinicianCalled { need, urgent, .. } => {
                 let urgently = if *urgent { " urgently" } else { "" };
                 (Tone::Plan, "room", format!("the clinician is called{urgently}: {need}"))
             }

@@ -100,6 +100,11 @@ impl<'r> Replay<'r> {
         Graph::resumed(&self.snapshot(), self.guards.values().cloned())
     }
 
+    /// Gives a graph at the present state the reflexes that were registered in it.
+    pub(super) fn hand_over(&self, graph: &Graph) {
+        graph.take_over(self.guards.values().cloned());
+    }
+
     /// Goes to the next frame after the end of the present one. Returns whether the segment has another delta.
     fn fill(&mut self) -> Result<bool, RecordingError> {
         let Some(segment) = self.segments.get(self.segment) else { return Ok(false) };

@@ -19,7 +19,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::error::{Damage, RecordingError};
-use super::playback::Replay;
+use super::playback::{Played, Replay};
 use super::reader::Reader;
 use super::segment::{Segment, Source};
 use super::store::{self, Stage};
@@ -170,6 +170,35 @@ impl Recording {
         let mut replay = self.replayed(version)?;
         replay.settle()?;
         Ok(replay.resume())
+    }
+
+    /// A graph that goes through the recorded versions again, from the oldest to `until`, and continues from there as
+    /// [`Recording::resume_at`] does. `each` is called at the first version and after each one, so it can subscribe and
+    /// follow the whole history. After a gap it is called with another graph, at the version after the gap.
+    pub fn relive(&self, until: Version, mut each: impl FnMut(&Graph)) -> Result<Graph, RecordingError> {
+        self.find(until)?;
+        let mut replay = self.replay()?;
+        let mut graph = Graph::from_snapshot(&replay.snapshot());
+        each(&graph);
+        while replay.version() < until {
+            match replay.next().transpose()? {
+                Some(Played::Commit(delta)) => {
+                    let misfit =
+                        |error| RecordingError::Misfit { segment: "the history".into(), offset: 0, error };
+                    graph.follow(delta).map_err(misfit)?;
+                }
+                Some(Played::Jump { .. }) => graph = Graph::from_snapshot(&replay.snapshot()),
+                None => break,
+            }
+            each(&graph);
+        }
+        if replay.version() != until {
+            let (first, last) = (self.first().0, self.last().0);
+            return Err(RecordingError::NoVersion { asked: until, first, last });
+        }
+        replay.settle()?;
+        replay.hand_over(&graph);
+        Ok(graph)
     }
 
     /// A replay that stands at this version.

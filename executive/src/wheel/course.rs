@@ -5,7 +5,7 @@ use super::event::Effect;
 use crate::Model;
 use crate::monitoring::Monitor;
 use crate::narration::Narration;
-use dsr::{Snapshot, Time};
+use dsr::{Edit, Snapshot, Time};
 use high_to_low::{Methods, Moment, Refinement, Status};
 use planner::{OperatorId, State, Task};
 
@@ -124,6 +124,11 @@ impl Course {
         if let Some(mut refinement) = self.refinement.take() {
             write(refinement.cancel(snapshot), effects);
         }
+    }
+
+    /// What takes back the intentions of the current step if PELEA is gone.
+    pub(super) fn withdrawal(&self, methods: &Methods) -> Vec<Edit> {
+        self.refinement.as_ref().map(|refinement| refinement.withdrawal(methods)).unwrap_or_default()
     }
 
     /// Goes on with the current step of `old` if this plan starts with it; otherwise withdraws it.

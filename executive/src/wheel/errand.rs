@@ -12,7 +12,7 @@ use super::event::Effect;
 use crate::Step;
 use crate::narration::Narration;
 use crate::outcome::{Stuck, Trouble};
-use dsr::{Snapshot, Time};
+use dsr::{Edit, Snapshot, Time};
 use high_to_low::{Failure, Methods, Moment, Refinement, Status};
 use planner::State;
 use std::time::Duration;
@@ -115,6 +115,11 @@ impl Errand {
         if let Some(mut refinement) = self.refinement.take() {
             write(refinement.cancel(snapshot), effects);
         }
+    }
+
+    /// What takes back its intentions if PELEA is gone.
+    pub(super) fn withdrawal(&self, methods: &Methods) -> Vec<Edit> {
+        self.refinement.as_ref().map(|refinement| refinement.withdrawal(methods)).unwrap_or_default()
     }
 
     /// There is no plan for `state`.

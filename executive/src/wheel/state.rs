@@ -9,7 +9,7 @@ use super::policy::Policy;
 use super::sight::Sight;
 use crate::Model;
 use crate::decision_support::{Decision, RequestId};
-use dsr::{AgentId, Interest, Time};
+use dsr::{AgentId, Edit, Interest, Time};
 use high_to_low::{Methods, Moment};
 use low_to_high::Perception;
 use planner::{OperatorId, State};
@@ -139,6 +139,15 @@ impl Wheel {
         interest.add_tokens(&self.methods.mentions());
         interest.follow_commits(writer);
         interest
+    }
+
+    /// What takes back all that it intends now, if it is gone: the edits of the reflex that guards its intentions.
+    pub fn withdrawal(&self) -> Vec<Edit> {
+        match &self.hand {
+            Hand::Plan(course) => course.withdrawal(&self.methods),
+            Hand::Errand(errand) => errand.withdrawal(&self.methods),
+            Hand::Empty | Hand::Rest(_) => Vec::new(),
+        }
     }
 
     /// Takes what is being carried out, to be put back or replaced.

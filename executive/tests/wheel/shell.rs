@@ -61,6 +61,7 @@ fn run<F: Future<Output = ()>>(latency: Duration, happens: impl FnOnce(Room) -> 
             latency: move |_| latency,
             record: |_: &executive::Turn<'_>| {},
             gives_way: false,
+            lasting: executive::Lasting::default(),
         };
         let wheel = wheel.with_pulse(Duration::from_secs(1));
         let (ending, ()) = tokio::join!(shell.run(wheel), happens(room.clone()));

@@ -14,8 +14,8 @@ use crate::{Clinic, Device, DeviceError, Operation, Urgency};
 const TO_DELIVER: Duration = Duration::from_millis(100);
 
 impl Clinic for SimRoom {
-    fn call<'a>(&'a self, need: &'a str, urgency: Urgency) -> Operation<'a, ()> {
-        self.operate(Device::Clinic, Calling { need, urgency, called: None, arrived: None })
+    fn call<'a>(&'a self, id: &'a str, need: &'a str, urgency: Urgency) -> Operation<'a, ()> {
+        self.operate(Device::Clinic, Calling { id, need, urgency, called: None, arrived: None })
     }
 
     fn next_command<'a>(&'a self, name: &'a str) -> Operation<'a, ()> {
@@ -28,7 +28,7 @@ impl Clinic for SimRoom {
         })
     }
 
-    fn deliver<'a>(&'a self, report: &'a serde_json::Value) -> Operation<'a, ()> {
+    fn deliver<'a>(&'a self, id: &'a str, report: &'a serde_json::Value) -> Operation<'a, ()> {
         let mut since = None;
         self.operate(Device::Clinic, move |state: &mut State, now: Instant| {
             let ready = *since.get_or_insert(now) + TO_DELIVER;
@@ -36,7 +36,7 @@ impl Clinic for SimRoom {
                 return Step::Until(ready);
             }
             if state.works(Device::Clinic) {
-                state.happens(now, RoomEvent::ReportDelivered { report: report.clone() });
+                state.happens(now, RoomEvent::ReportDelivered { report: report.clone(), id: id.to_owned() });
             }
             Step::Done(Ok(()))
         })
@@ -44,6 +44,7 @@ impl Clinic for SimRoom {
 }
 
 struct Calling<'a> {
+    id: &'a str,
     need: &'a str,
     urgency: Urgency,
     called: Option<Instant>,
@@ -59,7 +60,7 @@ impl Activity<()> for Calling<'_> {
         let urgent = self.urgency == Urgency::Urgent;
         let need = || self.need.to_owned();
         let called = *self.called.get_or_insert_with(|| {
-            state.happens(now, RoomEvent::ClinicianCalled { need: need(), urgent });
+            state.happens(now, RoomEvent::ClinicianCalled { need: need(), urgent, id: self.id.to_owned() });
             now
         });
         let since = match self.arrived {

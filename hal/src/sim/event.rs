@@ -44,6 +44,8 @@ pub enum RoomEvent {
         need: String,
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
         urgent: bool,
+        #[serde(default)]
+        id: String,
     },
     /// The robot withdraws its call.
     CallWithdrawn { need: String },
@@ -54,7 +56,11 @@ pub enum RoomEvent {
     /// The clinician presses a command.
     ClinicianCommands { command: String },
     /// The clinician receives the report.
-    ReportDelivered { report: serde_json::Value },
+    ReportDelivered {
+        report: serde_json::Value,
+        #[serde(default)]
+        id: String,
+    },
     /// A device fails from now on.
     DeviceFails { device: Device },
     /// A device reports success from now on, and does nothing.

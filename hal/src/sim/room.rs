@@ -34,8 +34,19 @@ impl fmt::Debug for SimRoom {
 impl SimRoom {
     /// A room whose time starts now, on tokio's clock.
     pub fn new(patient: PatientScript, clinician: ClinicianScript) -> Self {
-        let state = Mutex::new(State::new(patient, clinician, Instant::now()));
+        Self::since(Instant::now(), patient, clinician)
+    }
+
+    /// A room whose time started at an instant, on tokio's clock.
+    pub fn since(started: Instant, patient: PatientScript, clinician: ClinicianScript) -> Self {
+        let state = Mutex::new(State::new(patient, clinician, started));
         Self { inner: Arc::new(Inner { state, observers: Mutex::new((Vec::new(), 0)) }) }
+    }
+
+    /// Puts people and devices where these moments of an earlier simulation left them: who is in view, and how each
+    /// device behaves. What the robot did there ended with it.
+    pub fn go_on_after(&self, moments: &[Moment]) {
+        self.change(|state, _| moments.iter().for_each(|moment| state.take_over(moment)));
     }
 
     /// The devices in it.

@@ -118,6 +118,44 @@ impl State {
         self.changed = true;
     }
 
+    /// A moment of an earlier simulation whose outcome lasts.
+    pub(super) fn take_over(&mut self, moment: &Moment) {
+        let at = self.started + moment.at;
+        let mut behave = |device: Device, behaviour| _ = self.behaviour.insert(device, (behaviour, at));
+        match &moment.event {
+            RoomEvent::PersonLeaves | RoomEvent::PersonLeavesRoom => {
+                self.view = View { inside: false, since: at };
+            }
+            RoomEvent::PersonReturns => self.view = View { inside: true, since: at },
+            RoomEvent::VisitorComes { name } => {
+                self.visitors.insert(name.clone(), View { inside: true, since: at });
+            }
+            RoomEvent::VisitorGoes { name } => {
+                self.visitors.insert(name.clone(), View { inside: false, since: at });
+            }
+            RoomEvent::DeviceFails { device } => behave(*device, Behaviour::Fails),
+            RoomEvent::DeviceLies { device } => behave(*device, Behaviour::Lies),
+            RoomEvent::DeviceStalls { device } => behave(*device, Behaviour::Stalls),
+            RoomEvent::DeviceSlows { device } => behave(*device, Behaviour::Slow),
+            RoomEvent::DeviceRefuses { device } => behave(*device, Behaviour::Refuses),
+            RoomEvent::DevicePanics { device } => behave(*device, Behaviour::Panics),
+            RoomEvent::DeviceRecovers { device } => behave(*device, Behaviour::Works),
+            RoomEvent::RobotSays { .. }
+            | RoomEvent::RobotStops { .. }
+            | RoomEvent::ScreenShows { .. }
+            | RoomEvent::ScreenClears
+            | RoomEvent::PersonSays { .. }
+            | RoomEvent::PersonTouches { .. }
+            | RoomEvent::PersonAsks { .. }
+            | RoomEvent::ClinicianCalled { .. }
+            | RoomEvent::CallWithdrawn { .. }
+            | RoomEvent::ClinicianArrives { .. }
+            | RoomEvent::ClinicianGoes { .. }
+            | RoomEvent::ClinicianCommands { .. }
+            | RoomEvent::ReportDelivered { .. } => {}
+        }
+    }
+
     /// Stores a waker under the number of its operation, or under a new number.
     pub(super) fn keep_waker(&mut self, held: Option<u64>, waker: Waker) -> u64 {
         let id = held.unwrap_or(self.next_waker);

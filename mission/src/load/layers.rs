@@ -191,8 +191,8 @@ fn tokens(
     let mut predicate = |m: &Mention| resolve.name("predicate", m, &predicates, nodes.predicate(&m.name));
     let (offers, answer, unanswered) =
         (predicate(&report.offers), predicate(&report.answer), predicate(&report.unanswered));
-    if let Some(sensed) = &report.sensed {
-        predicate(sensed)?;
+    for mention in report.sensed.iter().chain(&report.lasting) {
+        predicate(mention)?;
     }
     let score = resolve.name("function", &report.score, &functions, nodes.function(&report.score.name));
     Some(NamedTokens {
