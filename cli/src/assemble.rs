@@ -10,6 +10,7 @@
 use crate::console::Console;
 use crate::disk::{Disk, show};
 use crate::exit::Exit;
+use crate::goals;
 use crate::render;
 use agents::{Agent, skills};
 use diagnostics::{Finding, Place, SourceId};
@@ -163,8 +164,16 @@ fn put_together(mission: &Mission, findings: &mut Vec<Finding>) -> Option<Assemb
             }
         }
     }
-    let perception = Perception::new(&layers.perception.model, &vocabulary).map_err(|errors| {
-        findings.extend(errors.iter().map(|e| finding("E1004", layers.perception.source, e.span, e)));
+    let (perception, conditions) = goals::perception(mission);
+    let perception = Perception::new(&perception, &vocabulary).map_err(|errors| {
+        findings.extend(errors.iter().map(|e| {
+            let source = if conditions.contains(&e.span) {
+                mission.manifest_source()
+            } else {
+                layers.perception.source
+            };
+            finding("E1004", source, e.span, e)
+        }));
     });
     let methods = Methods::new(&layers.methods.model, &vocabulary).map_err(|errors| {
         findings.extend(errors.iter().map(|e| finding("E1005", layers.methods.source, e.span(), e)));
@@ -173,7 +182,8 @@ fn put_together(mission: &Mission, findings: &mut Vec<Finding>) -> Option<Assemb
     let numbers = perception.iter().flat_map(Perception::numbers);
     let numbers: Vec<_> = numbers.map(|(name, value)| (name.clone(), value)).collect();
     let sensed = Sensed { predicates: &predicates, numbers: &numbers };
-    let model = Model::new(layers.domain.model.clone(), layers.problem.model.clone(), sensed);
+    let (domain, problem) = (layers.domain.model.clone(), layers.problem.model.clone());
+    let model = Model::with_goals(domain, problem, sensed, goals::texts(mission));
     let model = model.map_err(|error| {
         findings.push(finding("E1006", layers.problem.source, layers.problem.model.goal_span, &error));
     });

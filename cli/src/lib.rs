@@ -33,6 +33,7 @@ mod exit;
 mod explain;
 mod files;
 mod fmt;
+mod goals;
 mod interrupt;
 mod lsp;
 mod memory;

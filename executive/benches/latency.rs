@@ -9,7 +9,9 @@
 
 use budget::Cancellation;
 use dsr::{Edit, Graph, Time, Transaction};
-use executive::{Decision, Effect, Event, Model, Monitor, Policy, Request, RequestId, Step, Wheel, decide};
+use executive::{
+    Decision, Effect, Event, GoalId, Model, Monitor, Policy, Request, RequestId, Step, Wheel, decide,
+};
 use high_to_low::Methods;
 use low_to_high::{Change, Fact, Perception};
 use pddl::model::{Domain, Name};
@@ -136,7 +138,16 @@ fn percentiles(name: &str, mut times: Vec<Duration>) {
 
 fn plan(model: &Arc<Model>, state: &State) -> Vec<OperatorId> {
     let (state, broken, barred) = (state.clone(), Vec::new(), Vec::new());
-    let request = Request { id: RequestId(0), state, broken, running: None, barred, expansions: 20_000 };
+    let request = Request {
+        id: RequestId(0),
+        state,
+        goals: vec![GoalId(0)],
+        broken,
+        served: vec![GoalId(0)],
+        running: None,
+        barred,
+        expansions: 20_000,
+    };
     match decide(model, &request, &Cancellation::default()) {
         Decision::Plan { operators, .. } => operators,
         other => panic!("{other:?}"),

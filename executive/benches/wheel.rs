@@ -6,7 +6,7 @@
 use budget::Cancellation;
 use criterion::{Criterion, criterion_group, criterion_main};
 use dsr::{Edit, Graph, Time, Transaction};
-use executive::{Decision, Effect, Event, Model, Policy, Request, RequestId, Step, Wheel};
+use executive::{Decision, Effect, Event, GoalId, Model, Policy, Request, RequestId, Step, Wheel};
 use high_to_low::Methods;
 use low_to_high::{LowToHigh, Perception};
 use pddl::model::{Domain, Name};
@@ -150,7 +150,9 @@ fn replan(bench: &mut Criterion) {
     let mut request = Request {
         id: RequestId(0),
         state: present,
+        goals: vec![GoalId(0)],
         broken: Vec::new(),
+        served: vec![GoalId(0)],
         running: None,
         barred: Vec::new(),
         expansions: 20_000,

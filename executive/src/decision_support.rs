@@ -14,12 +14,14 @@
 //!
 //! Source: Fox, Gerevini, Long & Serina, "Plan stability: replanning versus plan repair", ICAPS 2006.
 
+use crate::goal::GoalId;
+use crate::goals::{Aim, Choice, Stage, choose};
 use crate::outcome::{NoPlan, Unsolvable};
 use crate::{Model, Step};
 use budget::Cancellation;
 use planner::{
-    Attempt, Budget, Distance, OperatorId, Outcome, Preference, Query, Repaired, Report, SearchConfiguration,
-    State, Way, explain, improve, repair, solve,
+    Attempt, Budget, Distance, Goal, Impossible, OperatorId, Outcome, Plan, Preference, Query, Repaired,
+    Report, SearchConfiguration, State, UnsolvableReason, Way, explain, improve, repair, solve, still_needed,
 };
 use serde::Serialize;
 use std::sync::Arc;
@@ -35,8 +37,12 @@ pub struct Request {
     pub id: RequestId,
     /// The state to plan from.
     pub state: State,
+    /// The goals that are wanted, the most important first.
+    pub goals: Vec<GoalId>,
     /// The rest of the plan that no longer fits, from the current step on; empty without a plan.
     pub broken: Vec<OperatorId>,
+    /// The goals that it was made for.
+    pub served: Vec<GoalId>,
     /// The step that is under way, which goes on if the new plan can start with it.
     pub running: Option<OperatorId>,
     /// Steps that just failed in this very state.
@@ -60,6 +66,10 @@ pub enum Decision {
         expanded: u64,
         /// How it compares with the rest of the old plan; `None` without one.
         repair: Option<Repair>,
+        /// Its parts, and the goals that each serves.
+        stages: Vec<Stage>,
+        /// The goals that it does not serve, and why.
+        postponed: Vec<(GoalId, NoPlan)>,
     },
     /// None, and why.
     NoPlan(NoPlan),
@@ -134,49 +144,172 @@ pub fn decide(model: &Arc<Model>, request: &Request, cancellation: &Cancellation
     } else {
         task.operators().ids().filter(|&o| request.barred.contains(&model.step(o))).collect()
     };
-    let query = Query { state: &request.state, goal: task.goal(), excluded: &excluded };
     let interrupted = || cancellation.is_cancelled();
     let budget = Budget { work: Some(request.expansions), interrupted: &interrupted, ..Budget::default() };
-    let configuration = SearchConfiguration::default();
-    let (Report { outcome, statistics }, repair) = if request.broken.is_empty() {
-        (cheap(model, &query, &configuration, &budget), None)
-    } else {
-        let broken = &request.broken;
-        let repaired = repair(task, &query, broken, &configuration, Preference::Stability, &budget);
-        (repaired.report(), Repair::of(&repaired))
-    };
-    match outcome {
-        Outcome::Solved(plan) => {
-            let operators = going_on(model, &query, plan.operators, request.running);
-            let distance = || Distance::between(task, &request.broken, &operators);
-            let repair = repair.map(|repair: Repair| repair.reordered(distance()));
-            match objection(model, &request.state, &operators) {
-                None => Decision::Plan { operators, expanded: statistics.expanded, repair },
-                Some(finding) => Decision::NoPlan(NoPlan::Invalid(finding)),
-            }
-        }
-        Outcome::Unsolvable(reason) => {
-            let work = Some(request.expansions.saturating_sub(statistics.expanded).min(VISITED));
-            let rest = Budget { work, ..budget };
-            let explanation = explain(model.domain(), model.problem(), task, &query, &reason, &rest);
-            let why = NoPlan::Unsolvable(Unsolvable {
-                model: Arc::clone(model),
-                explanation,
-                barred: request.barred.clone(),
-            });
-            if excluded.is_empty() {
-                return Decision::NoPlan(why);
-            }
-            let free = Query { excluded: &[], ..query };
-            match solve(task, &free, &configuration, &budget).outcome {
-                Outcome::Solved(_) => Decision::Barred(why),
-                _ => Decision::NoPlan(why),
-            }
-        }
-        Outcome::Unsupported(feature) => Decision::NoPlan(NoPlan::Unsupported(feature)),
-        Outcome::LimitReached(_) if cancellation.is_cancelled() => Decision::NoPlan(NoPlan::Stopped),
-        Outcome::LimitReached(_) => Decision::NoPlan(NoPlan::LimitReached(request.expansions)),
+    let (mut expanded, mut repaired) = (0, None);
+    let choice = choose(&model.levels(&request.goals), |aim| {
+        let search = Search { model, request, excluded: &excluded, budget };
+        let found = search.reach(&aim)?;
+        expanded += found.expanded;
+        repaired = found.repair.or(repaired);
+        Ok(found.operators)
+    });
+    if choice.stages.is_empty() {
+        return without_plan(model, request, &excluded, choice, budget);
     }
+    let served = choice.served();
+    let goal = model.goal(&served);
+    let query = Query { state: &request.state, goal: &goal, excluded: &excluded };
+    let Choice { operators, stages, postponed } = choice;
+    let first = stages.first().map_or(0, |stage| stage.end);
+    let operators = going_on(model, &query, operators, first, request.running);
+    let distance = || Distance::between(task, &request.broken, &operators);
+    let repair = repaired.map(|repair: Repair| repair.reordered(distance()));
+    match objection(model, &request.state, &served, &operators) {
+        None => Decision::Plan { operators, expanded, repair, stages, postponed },
+        Some(finding) => Decision::NoPlan(NoPlan::Invalid(finding)),
+    }
+}
+
+/// No goal has a plan: the reason of the most important one, and whether it is only what has just failed.
+fn without_plan(
+    model: &Arc<Model>,
+    request: &Request,
+    excluded: &[OperatorId],
+    choice: Choice,
+    budget: Budget<'_>,
+) -> Decision {
+    let solvable = |goal: GoalId| {
+        let goal = model.goal(&[goal]);
+        let free = Query { state: &request.state, goal: &goal, excluded: &[] };
+        let report = solve(model.task(), &free, &SearchConfiguration::default(), &budget);
+        matches!(report.outcome, Outcome::Solved(_))
+    };
+    let barred = |(goal, why): &(GoalId, NoPlan)| {
+        !excluded.is_empty() && matches!(why, NoPlan::Unsolvable(_)) && solvable(*goal)
+    };
+    match choice.postponed.iter().find(|postponed| barred(postponed)) {
+        Some((_, why)) => Decision::Barred(why.clone()),
+        None => {
+            let first = choice.postponed.into_iter().next().map(|(_, why)| why);
+            Decision::NoPlan(first.unwrap_or(NoPlan::Stopped))
+        }
+    }
+}
+
+/// A search for some of the goals.
+struct Search<'a> {
+    model: &'a Arc<Model>,
+    request: &'a Request,
+    excluded: &'a [OperatorId],
+    budget: Budget<'a>,
+}
+
+/// What an old plan was made for, beside what a new one is made for.
+enum Relation {
+    /// Other goals.
+    None,
+    /// Some of the same: what they need of it is kept, if it still reaches them.
+    Part,
+    /// The same: it is repaired.
+    Same,
+}
+
+/// A plan for some of the goals.
+struct Found {
+    operators: Vec<OperatorId>,
+    expanded: u64,
+    repair: Option<Repair>,
+}
+
+impl Search<'_> {
+    /// Steps that reach all goals of an aim behind those that come first.
+    fn reach(&self, aim: &Aim<'_>) -> Result<Found, Box<NoPlan>> {
+        let Self { model, request, excluded, budget } = *self;
+        let task = model.task();
+        let state = task.after(&request.state, aim.after).ok_or(NoPlan::Stopped).map_err(Box::new)?;
+        let mut goal = model.goal(aim.all);
+        goal.impossible = goal.impossible.take().or_else(|| rivals(model, &state, &goal));
+        let query = Query { state: &state, goal: &goal, excluded };
+        let configuration = SearchConfiguration::default();
+        let (Report { outcome, statistics }, repair) = match self.relation(aim) {
+            Relation::None => (cheap(model, &query, &configuration, &budget), None),
+            Relation::Part => {
+                let fresh = cheap(model, &query, &configuration, &budget);
+                let kept = still_needed(task, &query, &request.broken, budget.interrupted);
+                (as_good(kept, fresh), None)
+            }
+            Relation::Same => {
+                let broken = &request.broken;
+                let repaired = repair(task, &query, broken, &configuration, Preference::Stability, &budget);
+                (repaired.report(), Repair::of(&repaired))
+            }
+        };
+        let expanded = statistics.expanded;
+        Err(Box::new(match outcome {
+            Outcome::Solved(plan) => return Ok(Found { operators: plan.operators, expanded, repair }),
+            Outcome::Unsolvable(reason) => self.unsolvable(aim, &query, &reason, expanded),
+            Outcome::Unsupported(feature) => NoPlan::Unsupported(feature),
+            Outcome::LimitReached(_) if (budget.interrupted)() => NoPlan::Stopped,
+            Outcome::LimitReached(_) => NoPlan::LimitReached(request.expansions),
+        }))
+    }
+
+    /// What the old plan has to do with an aim.
+    fn relation(&self, aim: &Aim<'_>) -> Relation {
+        let Request { broken, served, .. } = self.request;
+        let same = aim.after.is_empty()
+            && served.len() == aim.all.len()
+            && served.iter().all(|goal| aim.all.contains(goal));
+        match () {
+            () if broken.is_empty() || !aim.fresh.iter().any(|goal| served.contains(goal)) => Relation::None,
+            () if same => Relation::Same,
+            () => Relation::Part,
+        }
+    }
+
+    fn unsolvable(
+        &self,
+        aim: &Aim<'_>,
+        query: &Query<'_>,
+        reason: &UnsolvableReason,
+        expanded: u64,
+    ) -> NoPlan {
+        let Self { model, request, budget, .. } = *self;
+        let work = Some(request.expansions.saturating_sub(expanded).min(VISITED));
+        let rest = Budget { work, ..budget };
+        let problem = model.problem_for(aim.all);
+        let explanation = explain(model.domain(), &problem, model.task(), query, reason, &rest);
+        NoPlan::Unsolvable(Unsolvable {
+            model: Arc::clone(model),
+            explanation,
+            barred: request.barred.clone(),
+        })
+    }
+}
+
+/// What is kept of an old plan, unless a new one is cheaper: nothing is done for a goal that has ended.
+fn as_good(kept: Option<Plan>, fresh: Report) -> Report {
+    let cheaper = |kept: &Plan| !matches!(&fresh.outcome, Outcome::Solved(plan) if plan.cost < kept.cost);
+    match kept.filter(cheaper) {
+        Some(plan) => Report { outcome: Outcome::Solved(plan), ..fresh },
+        None => fresh,
+    }
+}
+
+/// Two facts of goals that exclude each other in every state that can follow from this one: no search is needed.
+fn rivals(model: &Model, state: &State, goal: &Goal) -> Option<Impossible> {
+    let task = model.task();
+    let facts = &goal.literals.positive;
+    let mut pairs =
+        facts.iter().enumerate().flat_map(|(at, &a)| facts[at + 1..].iter().map(move |&b| (a, b)));
+    let (a, b) = pairs.find(|&(a, b)| task.mutexes().are_mutex(a, b))?;
+    if !task.mutexes().hold_in(state) {
+        return None;
+    }
+    let atoms = [a, b].map(|fact| task.facts()[fact].atom.clone());
+    let atoms: Option<Vec<_>> = atoms.into_iter().collect();
+    Some(atoms.map_or(Impossible::Formula, Impossible::Exclusive))
 }
 
 /// The cheapest plan that the budget allows if the problem has a metric; otherwise the first plan.
@@ -192,14 +325,17 @@ fn cheap(
     improve(model.task(), query, configuration, budget, &mut |_| ()).report
 }
 
-/// The plan with the running step first, if it is in the plan and the goal is still reached.
+/// The plan with the running step first, if it is in its first part and the goal is still reached.
 fn going_on(
     model: &Model,
     query: &Query<'_>,
     plan: Vec<OperatorId>,
+    part: usize,
     running: Option<OperatorId>,
 ) -> Vec<OperatorId> {
-    let Some(at) = running.and_then(|running| plan.iter().position(|&o| o == running)) else { return plan };
+    let Some(at) = running.and_then(|running| plan[..part].iter().position(|&o| o == running)) else {
+        return plan;
+    };
     let mut other = plan.clone();
     other[..=at].rotate_right(1);
     let task = model.task();
@@ -208,7 +344,12 @@ fn going_on(
 }
 
 /// What the validator, which shares nothing with the planner, finds against the plan.
-fn objection(model: &Model, state: &State, plan: &[OperatorId]) -> Option<validator::Finding> {
+fn objection(
+    model: &Model,
+    state: &State,
+    goals: &[GoalId],
+    plan: &[OperatorId],
+) -> Option<validator::Finding> {
     let steps = plan
         .iter()
         .map(|&operator| {
@@ -217,7 +358,7 @@ fn objection(model: &Model, state: &State, plan: &[OperatorId]) -> Option<valida
             pddl::PlanStep { action: operator.action, arguments, span: pddl::Span::default() }
         })
         .collect();
-    let (problem, plan) = (model.problem_in(state), pddl::SequentialPlan::new(steps));
+    let (problem, plan) = (model.problem_in(state, goals), pddl::SequentialPlan::new(steps));
     let verdict = validator::validate(model.domain(), &problem, &plan);
     validator::explain(model.domain(), &problem, &plan, &verdict)
 }

@@ -4,7 +4,7 @@
 //! effects (write intentions, plan, set a timer, report). It is pure; [`Shell`] carries its effects out on tokio.
 //!
 //! ```
-//! use executive::{Decision, Model, Request, RequestId, decide};
+//! use executive::{Decision, GoalId, Model, Request, RequestId, decide};
 //! use pddl::{Source, model::Name, parse_domain, parse_problem};
 //! use std::sync::Arc;
 //!
@@ -19,7 +19,8 @@
 //! let dark = low_to_high::Fact { predicate: Name::new("dark"), arguments: Vec::new() };
 //! let state = model.state([&dark]);
 //! let request = Request {
-//!     id: RequestId(0), state, broken: Vec::new(), running: None, barred: Vec::new(), expansions: 100,
+//!     id: RequestId(0), state, goals: vec![GoalId(0)], broken: Vec::new(), served: Vec::new(), running: None,
+//!     barred: Vec::new(), expansions: 100,
 //! };
 //! let never = budget::Cancellation::default();
 //! assert!(matches!(decide(&model, &request, &never), Decision::Plan { operators, .. } if operators.len() == 1));
@@ -30,6 +31,7 @@
 //! | `wheel` | High Level Executive |
 //! | `monitoring` | Monitoring |
 //! | `decision_support` | Decision Support |
+//! | `goal`, `goals` | the mission's goals: their text, their lives, which of them one plan serves |
 //! | `model` | the high-level model that they share |
 //! | `outcome` | why there is no plan, why a step failed, how the mission ended |
 //! | `narration` | the story: every decision with its reason |
@@ -39,6 +41,8 @@
 //! | `wording` | outcomes and reasons as sentences |
 
 mod decision_support;
+mod goal;
+mod goals;
 mod lasting;
 mod model;
 mod monitoring;
@@ -50,6 +54,8 @@ mod wheel;
 mod wording;
 
 pub use decision_support::{Decision, Figures, Repair, Request, RequestId, decide};
+pub use goal::{GoalId, GoalText, Importance};
+pub use goals::{GoalChange, Life, Reason, Stage};
 pub use lasting::Lasting;
 pub use model::{Changes, Model, ModelError, Sensed, Step};
 pub use monitoring::{BrokenLiteral, Deviation, Monitor};

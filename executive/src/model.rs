@@ -5,10 +5,13 @@
 //! grounding keeps every value that they can take and no replan grounds again; all others are as in the
 //! problem. Cost: one hash look-up per fact or number that changes, and a copy of the state's bits.
 
+use crate::goal::{GoalId, GoalText, Goals};
 use indexmap::{IndexMap, IndexSet};
 use low_to_high::{Change, Fact, Fluent};
 use pddl::model::{Domain, FluentFact, FluentValue, GroundApplication, Name, ObjectId, PredicateId, Problem};
-use planner::{FactId, GroundAtom, GroundError, GroundOptions, Number, OperatorId, State, Task, ground};
+use planner::{
+    FactId, Goal, GroundAtom, GroundError, GroundOptions, Number, OperatorId, State, Task, ground,
+};
 use rustc_hash::FxHashMap;
 
 /// The grounded task with its names.
@@ -24,6 +27,7 @@ pub struct Model {
     numbers: IndexMap<Fluent, (GroundApplication, Option<Number>)>,
     /// Facts of the initial state that are not perceived, sorted.
     given: Vec<FactId>,
+    goals: Goals,
 }
 
 /// What perception derives of the planner's domain.
@@ -85,14 +89,29 @@ impl Model {
         problem: Problem,
         sensed: impl Into<Sensed<'s>>,
     ) -> Result<Self, ModelError> {
+        Self::with_goals(domain, problem, sensed, Vec::new())
+    }
+
+    /// The same for several goals; without any, the goal is the problem's own.
+    ///
+    /// # Errors
+    /// If the planner cannot ground the domain.
+    pub fn with_goals<'s>(
+        mut domain: Domain,
+        mut problem: Problem,
+        sensed: impl Into<Sensed<'s>>,
+        goals: Vec<GoalText>,
+    ) -> Result<Self, ModelError> {
         let sensed = sensed.into();
         let exogenous: IndexSet<_> =
             sensed.predicates.iter().filter_map(|name| domain.predicate(name)).collect();
         let volatile: Vec<_> = exogenous.iter().copied().collect();
         let functions: Vec<_> = sensed.numbers.iter().filter_map(|(name, _)| domain.function(name)).collect();
+        let (goals, kept) = Goals::new(goals, &mut domain, &mut problem, &volatile);
         let options = GroundOptions {
             exogenous: &volatile,
             exogenous_functions: &functions,
+            kept: &kept,
             ..GroundOptions::default()
         };
         let task = ground(&domain, &problem, &options)?;
@@ -115,7 +134,7 @@ impl Model {
             Some((fluent, (application.clone(), default.and_then(Number::from_f64))))
         });
         let numbers = numbers.collect();
-        Ok(Self { domain, problem, task, predicates, objects, exogenous, numbers, given })
+        Ok(Self { domain, problem, task, predicates, objects, exogenous, numbers, given, goals })
     }
 
     /// The grounded task.
@@ -131,6 +150,31 @@ impl Model {
     /// The problem as it was given.
     pub fn problem(&self) -> &Problem {
         &self.problem
+    }
+
+    /// The goals, by their numbers.
+    pub fn goals(&self) -> &[GoalText] {
+        self.goals.texts()
+    }
+
+    /// Whether the mission names its goals; otherwise the problem's own is the only one.
+    pub fn names_goals(&self) -> bool {
+        self.goals.are_named()
+    }
+
+    /// The hard ones among these goals, in levels of the same priority, the highest first.
+    pub(crate) fn levels(&self, goals: &[GoalId]) -> Vec<Vec<GoalId>> {
+        self.goals.levels(goals)
+    }
+
+    /// All of these goals as one goal of the planner.
+    pub fn goal(&self, goals: &[GoalId]) -> Goal {
+        self.goals.together(&self.task, goals)
+    }
+
+    /// The problem with these goals as its goal.
+    pub(crate) fn problem_for(&self, goals: &[GoalId]) -> Problem {
+        self.goals.problem(&self.problem, goals)
     }
 
     /// The planner's number of a perceived fact; `None` if no plan depends on it.
@@ -206,9 +250,9 @@ impl Model {
         }
     }
 
-    /// The problem as it stands in `state`, for a validator that shares nothing with the planner.
-    pub fn problem_in(&self, state: &State) -> Problem {
-        let mut problem = self.problem.clone();
+    /// The problem as it stands in `state`, with these goals, for a validator that shares nothing with the planner.
+    pub fn problem_in(&self, state: &State, goals: &[GoalId]) -> Problem {
+        let mut problem = self.problem_for(goals);
         problem.init.retain(|fact| !self.exogenous.contains(&fact.predicate));
         let known: Vec<_> = problem.init.iter().map(|f| (f.predicate, f.arguments.clone())).collect();
         let mut add = |predicate: PredicateId, arguments: &[ObjectId]| {

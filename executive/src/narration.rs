@@ -2,10 +2,12 @@
 
 use crate::Step;
 use crate::decision_support::Repair;
+use crate::goals::GoalChange;
 use crate::monitoring::Deviation;
 use crate::outcome::{Ending, NoPlan, StepFailure, Stuck};
 use dsr::TransactionError;
 use high_to_low::{Failure, RefinementEvent};
+use pddl::model::Name;
 use serde::{Serialize, Serializer};
 use std::fmt::Display;
 
@@ -27,7 +29,13 @@ pub enum Narration {
         repair: Option<Repair>,
         /// How many plans there have been, this one included.
         count: u32,
+        /// The goals that it serves, those that it serves together in one list, the first ones first; none if the mission
+        /// does not name its goals.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        goals: Vec<Vec<Name>>,
     },
+    /// A goal passed into another stage of its life.
+    Goal(GoalChange),
     /// A step starts.
     Started {
         /// Its place in the plan, from 0.

@@ -3,6 +3,7 @@
 use crate::{Model, Step};
 use dsr::TransactionError;
 use high_to_low::Failure;
+use pddl::model::Name;
 use planner::Explanation;
 use std::fmt;
 use std::sync::Arc;
@@ -101,6 +102,11 @@ pub enum Trouble {
 pub enum Ending {
     /// The goal was seen to hold.
     Accomplished,
+    /// Every goal has ended, and these, which had to be achieved, were given up.
+    GivenUp {
+        /// Their names.
+        goals: Vec<Name>,
+    },
     /// There was no plan any more, and the fallback was carried out: the person is with a human.
     WithHuman {
         /// Why there was no plan.
@@ -122,6 +128,7 @@ impl Ending {
     pub fn name(&self) -> &'static str {
         match self {
             Self::Accomplished => "accomplished",
+            Self::GivenUp { .. } => "given_up",
             Self::WithHuman { .. } => "with_human",
             Self::StillCalling { .. } => "still_calling",
             Self::StillGoing => "still_going",

@@ -9,6 +9,7 @@
 
 use crate::Step;
 use crate::decision_support::{Decision, RequestId};
+use crate::goal::GoalId;
 use crate::narration::Narration;
 use crate::outcome::{Ending, NoPlan};
 use crate::wheel::{Effect, Event};
@@ -83,7 +84,14 @@ impl Serialize for Effect {
         #[serde(rename_all = "snake_case")]
         enum Record<'a> {
             Write(&'a [Edit]),
-            Plan { request: RequestId, broken: usize, is_running: bool, barred: &'a [Step], expansions: u64 },
+            Plan {
+                request: RequestId,
+                goals: &'a [GoalId],
+                broken: usize,
+                is_running: bool,
+                barred: &'a [Step],
+                expansions: u64,
+            },
             Cancel(RequestId),
             WakeAt(u64),
             Tell(&'a Narration),
@@ -93,6 +101,7 @@ impl Serialize for Effect {
             Self::Write(edits) => Record::Write(edits),
             Self::Plan(request) => Record::Plan {
                 request: request.id,
+                goals: &request.goals,
                 broken: request.broken.len(),
                 is_running: request.running.is_some(),
                 barred: &request.barred,

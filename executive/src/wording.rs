@@ -6,6 +6,7 @@ use planner::Wording;
 use serde::{Serialize, Serializer};
 
 use crate::Step;
+use crate::goals::{GoalChange, Life, Reason};
 use crate::monitoring::{BrokenLiteral, Deviation};
 use crate::outcome::{Ending, NoPlan, StepFailure, Stuck, Trouble, Unsolvable};
 
@@ -94,6 +95,10 @@ impl Display for Ending {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         match self {
             Self::Accomplished => f.write_str("mission accomplished"),
+            Self::GivenUp { goals } => {
+                let names: Vec<_> = goals.iter().map(ToString::to_string).collect();
+                write!(f, "mission ended without {}", names.join(", "))
+            }
             Self::WithHuman { why } => write!(f, "mission ended with a human: {why}"),
             Self::StillCalling { why } => write!(f, "mission ended still calling: {why}"),
             Self::StillGoing => f.write_str("mission still going on at the horizon of the run"),
@@ -117,10 +122,49 @@ impl Serialize for Ending {
         }
         let why = match self {
             Self::Accomplished | Self::StillGoing | Self::Interrupted => None,
+            Self::GivenUp { goals } => {
+                Some(goals.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "))
+            }
             Self::WithHuman { why } => Some(why.to_string()),
             Self::StillCalling { why } => Some(why.to_string()),
         };
         Record { ending: self.name(), why }.serialize(serializer)
+    }
+}
+
+impl Display for Life {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        f.write_str(self.name())
+    }
+}
+
+impl Display for Reason {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        match self {
+            Self::Mission => f.write_str("the mission wants it from the start"),
+            Self::Seen(tokens) => f.write_str(&tokens.join(", ")),
+            Self::Lost => f.write_str("it does not hold any more"),
+            Self::Released => f.write_str("nobody holds it any more"),
+            Self::Turn => f.write_str("its turn has come"),
+            Self::After(goal) => write!(f, "{goal} goes first"),
+            Self::NoPlan(why) => why.fmt(f),
+            Self::Late(seconds) => write!(f, "{seconds} s have passed"),
+            Self::Penalty(penalty) => write!(f, "a plan without it is cheaper, by more than {penalty}"),
+        }
+    }
+}
+
+/// A change of a goal in a record: the goal, its stage, and why.
+impl Serialize for GoalChange {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Record<'a> {
+            goal: &'a str,
+            life: &'static str,
+            #[serde(skip_serializing_if = "String::is_empty")]
+            why: String,
+        }
+        Record { goal: &self.goal, life: self.life.name(), why: self.why.to_string() }.serialize(serializer)
     }
 }
 

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use budget::Cancellation;
-use executive::{Decision, Model, Monitor, Request, RequestId, decide};
+use executive::{Decision, GoalId, Model, Monitor, Request, RequestId, decide};
 use pddl::model::Name;
 use pddl::{Source, parse_domain, parse_problem};
 use std::sync::Arc;
@@ -35,7 +35,9 @@ fn plan(model: &Arc<Model>) -> Vec<planner::OperatorId> {
     let request = Request {
         id: RequestId(0),
         state: model.task().initial_state().clone(),
+        goals: vec![GoalId(0)],
         broken: Vec::new(),
+        served: vec![GoalId(0)],
         running: None,
         barred: Vec::new(),
         expansions: 1_000,

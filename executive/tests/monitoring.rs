@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use executive::{Decision, Model, Monitor, Request, RequestId, decide};
+use executive::{Decision, GoalId, Model, Monitor, Request, RequestId, decide};
 use low_to_high::{Change, Fact};
 use pddl::model::Name;
 use pddl::{Source, parse_domain, parse_problem};
@@ -49,7 +49,9 @@ fn plan(model: &Arc<Model>) -> Vec<OperatorId> {
     let request = Request {
         id: RequestId(0),
         state,
+        goals: vec![GoalId(0)],
         broken: Vec::new(),
+        served: vec![GoalId(0)],
         running: None,
         barred: Vec::new(),
         expansions: 10_000,

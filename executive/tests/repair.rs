@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use budget::Cancellation;
-use executive::{Decision, Model, Request, RequestId, Step};
+use executive::{Decision, GoalId, Model, Request, RequestId, Step};
 use expect_test::{Expect, expect};
 use low_to_high::Fact;
 use pddl::model::Name;
@@ -48,7 +48,9 @@ fn request(model: &Model, seen: &[&str], broken: &[&str], running: Option<&str>)
     Request {
         id: RequestId(0),
         state: model.state(&facts),
+        goals: vec![GoalId(0)],
         broken: broken.iter().map(|name| operator(model, name)).collect(),
+        served: vec![GoalId(0)],
         running: running.map(|name| operator(model, name)),
         barred: Vec::new(),
         expansions: 1_000,

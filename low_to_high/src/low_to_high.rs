@@ -123,6 +123,11 @@ impl LowToHigh {
         (before.or(default) != value).then_some((fluent, value))
     }
 
+    /// Whether one of the planner's facts holds.
+    pub fn perceives(&self, fact: &Fact) -> bool {
+        self.facts.contains(fact)
+    }
+
     /// All derived facts, auxiliary ones included, sorted by declaration and arguments.
     pub fn derived(&self) -> impl Iterator<Item = Fact> + '_ {
         let predicates = self.perception.predicates.enumerate();

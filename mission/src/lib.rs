@@ -18,13 +18,16 @@
 //! ```
 //!
 //! Map, from the ground up: `files` (paths), `errors` (findings are [`diagnostics::Finding`]) → `manifest`
-//! (`mission.toml`), `layers` (the PDDL) → `content` (words) → `mission` → `load`, `check` (between the layers),
+//! (`mission.toml`, with `goal_entry`), `layers` (the PDDL), `goals` → `content` (words) → `mission` → `load`, `check` (between the layers),
 //! [`report`] → [`scenario`].
 
 mod check;
 mod content;
 mod errors;
 mod files;
+mod fragment;
+mod goal_entry;
+mod goals;
 mod layers;
 mod load;
 mod manifest;
@@ -36,6 +39,8 @@ pub use check::SkillOutcomes;
 pub use content::{OptionWords, ReportLabels, Words};
 pub use errors::MissionErrors;
 pub use files::{FileError, Files, MemoryFiles};
+pub use goal_entry::Worth;
+pub use goals::{MissionGoal, Perceived};
 pub use layers::{Layer, Layers, NamedTokens};
 pub use manifest::{Budget, Manifest, Mention, Patience, ReportTokens};
 pub use mission::{Mission, MissionTask};

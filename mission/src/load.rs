@@ -16,6 +16,7 @@ use self::loader::Loader;
 use crate::content::Words;
 use crate::errors::MissionErrors;
 use crate::files::{FileError, Files, join};
+use crate::goals;
 use crate::manifest::{self, TaskText};
 use crate::mission::Mission;
 use diagnostics::toml::Reader;
@@ -75,6 +76,9 @@ fn load_into(loader: &mut Loader<'_>, path: &str) -> Option<Mission> {
     // A mistake in one of them is a finding, which keeps the mission from being loaded.
     let escalation = manifest.escalation.as_ref().and_then(&mut task);
     let meanwhile = manifest.meanwhile.as_ref().and_then(task);
+    let mut reader = Reader { source: manifest_source, text: source.text(), findings: Vec::new() };
+    let goals = goals::resolve(&mut reader, &manifest.goals, &layers);
+    loader.findings.extend(reader.findings);
     let words: BTreeMap<String, Words> = words.into_iter().map(|w| (w.tag().to_owned(), w)).collect();
     // Scenarios are optional.
     let scenarios = match loader.files.list(&manifest.paths.scenarios) {
@@ -90,6 +94,7 @@ fn load_into(loader: &mut Loader<'_>, path: &str) -> Option<Mission> {
         fallback,
         escalation,
         meanwhile,
+        goals,
         scenarios,
         warnings: Vec::new(),
         sources: Sources::new(),

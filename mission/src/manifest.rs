@@ -9,6 +9,7 @@ use pddl::Span;
 use pddl::model::Name;
 
 use crate::files::join;
+use crate::goal_entry::{self, GoalEntry};
 use diagnostics::toml::{Reader, Table, Text};
 
 /// A name that the manifest mentions, with its place.
@@ -148,6 +149,8 @@ pub struct Manifest {
     pub(crate) paths: Paths,
     /// The place of `invariants = "none"`, if the mission is to run without invariants.
     pub(crate) no_invariants: Option<Span>,
+    /// The goals; without any, the problem's goal is the only one.
+    pub(crate) goals: Vec<GoalEntry>,
     /// The limits of planning and of retries.
     pub budget: Budget,
     /// The limits of progress and of decisions.
@@ -169,6 +172,7 @@ pub(crate) fn read(reader: &mut Reader<'_>, mut root: Table<'_>, folder: &str) -
     let fallback = root.required_text(reader, "fallback");
     let meanwhile = root.text(reader, "meanwhile");
     let no_invariants = no_invariants(reader, &mut root);
+    let goals = goal_entry::entries(reader, &mut root);
     let mut patience = Patience::default();
     let budget = budget(reader, &mut root, &mut patience);
     let escalation = progress(reader, &mut root, &mut patience);
@@ -194,6 +198,7 @@ pub(crate) fn read(reader: &mut Reader<'_>, mut root: Table<'_>, folder: &str) -
         meanwhile,
         paths,
         no_invariants,
+        goals,
         budget,
         patience,
         report: report?,

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use pddl::model::{Name, TaskId};
 
 use crate::content::Words;
+use crate::goals::MissionGoal;
 use crate::layers::Layers;
 use crate::manifest::Manifest;
 use diagnostics::{Finding, Place, SourceId, Sources};
@@ -37,6 +38,8 @@ pub struct Mission {
     pub escalation: Option<MissionTask>,
     /// The task to execute while a decision takes its time.
     pub meanwhile: Option<MissionTask>,
+    /// The goals; empty if the problem's goal is the only one.
+    pub goals: Vec<MissionGoal>,
     /// The findings that are not errors.
     pub warnings: Vec<Finding>,
     /// Every text of the mission.
@@ -46,6 +49,11 @@ pub struct Mission {
 }
 
 impl Mission {
+    /// The source of `mission.toml`.
+    pub fn manifest_source(&self) -> SourceId {
+        self.manifest_source
+    }
+
     /// The words of a language, by its tag; `None` if the mission does not have the language.
     pub fn words(&self, tag: &str) -> Option<&Words> {
         self.words.get(tag)

@@ -57,7 +57,7 @@ pub use ids::{FactId, FluentId, OperatorId};
 pub use number::Number;
 pub use search::{
     Attempt, Distance, Improved, Limit, Outcome, Plan, Preference, Quality, Query, Repair, Repaired, Report,
-    SearchConfiguration, Statistics, UnsolvableReason, Way, improve, repair, solve,
+    SearchConfiguration, Statistics, UnsolvableReason, Way, improve, repair, solve, still_needed,
 };
 pub use task::{
     AtomStatus, AxiomRule, ConditionalEffect, ConditionalEffects, Fact, Goal, GroundAtom, Impossible,

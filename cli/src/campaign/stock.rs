@@ -192,6 +192,7 @@ impl Stock {
 fn outcome(ending: &Ending) -> Outcome {
     match ending {
         Ending::Accomplished => Outcome::Accomplished,
+        Ending::GivenUp { .. } => Outcome::GivenUp,
         Ending::WithHuman { .. } => Outcome::WithHuman,
         Ending::StillCalling { .. } => Outcome::StillCalling,
         Ending::StillGoing | Ending::Interrupted => Outcome::StillGoing,

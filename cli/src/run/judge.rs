@@ -28,6 +28,8 @@ pub(super) struct Record<'a> {
     plans: u32,
     repairs: Repairs,
     broken: Vec<Breakage>,
+    /// The goals that have been wanted, and the stages in which their lives are.
+    goals: Vec<(Name, String)>,
 }
 
 /// A broken invariant, in the summary.
@@ -66,6 +68,7 @@ impl<'a> Record<'a> {
             plans: 0,
             repairs: Repairs::default(),
             broken: Vec::new(),
+            goals: Vec::new(),
         }
     }
 
@@ -89,6 +92,11 @@ impl<'a> Record<'a> {
         &self.broken
     }
 
+    /// The goals that have been wanted, and the stages in which their lives are.
+    pub(super) fn goals(&self) -> &[(Name, String)] {
+        &self.goals
+    }
+
     /// Records an entry.
     pub(super) fn note(&mut self, entry: &Entry) {
         match &entry.what {
@@ -110,6 +118,13 @@ impl<'a> Record<'a> {
                     self.repairs.removed += figures.removed;
                     self.repairs.added += figures.added;
                     self.repairs.moved += figures.moved;
+                }
+            }
+            What::Pelea(Narration::Goal(change)) => {
+                let life = change.life.name().to_owned();
+                match self.goals.iter_mut().find(|(goal, _)| *goal == change.goal) {
+                    Some((_, known)) => *known = life,
+                    None => self.goals.push((change.goal.clone(), life)),
                 }
             }
             What::Graph(commit) => self.note_commit(commit),
@@ -146,6 +161,7 @@ impl<'a> Record<'a> {
             report: &report,
             replans: &self.replans,
             asked_again: &self.asked_again,
+            goals: &self.goals,
         };
         staged.scenario.expect.judge(&outcome, |condition| staged.holds(condition, snapshot))
     }

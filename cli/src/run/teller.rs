@@ -13,6 +13,7 @@ use dsr::{Snapshot, Version};
 use executive::Ending;
 use mission::scenario::Scenario;
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Duration;
 
@@ -29,6 +30,8 @@ struct Summary<'a> {
     asked_again: Vec<String>,
     violations: Vec<String>,
     broken: &'a [Breakage],
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    goals: BTreeMap<&'a str, &'a str>,
     report: &'a mission::report::Report,
 }
 
@@ -118,6 +121,7 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
         let time = seconds(elapsed);
         let word = match ending {
             Ending::Accomplished => "accomplished",
+            Ending::GivenUp { .. } => "ended without all its goals",
             Ending::WithHuman { .. } => "ended with a human",
             Ending::StillCalling { .. } => "ended still calling",
             Ending::StillGoing => "still going on",
@@ -125,6 +129,11 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
         };
         self.console
             .result(&format!("\nmission {word} after {time:.1} s, {}", counted(replans, repairs.reuse)));
+        if !self.record.goals().is_empty() {
+            let goals =
+                self.record.goals().iter().map(|(goal, life)| format!("{goal} {}", life.replace('_', " ")));
+            self.console.result(&format!("goals: {}", goals.collect::<Vec<_>>().join(", ")));
+        }
         let asked_again = self.record.asked_again().iter().map(ToString::to_string).collect();
         for violation in &violations {
             self.console.note(&format!("expectation not met: {violation}"));
@@ -145,6 +154,7 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
             asked_again,
             violations,
             broken,
+            goals: self.record.goals().iter().map(|(goal, life)| (&**goal, &**life)).collect(),
             report: &report,
         });
         if let Some(path) = report_file {

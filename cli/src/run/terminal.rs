@@ -7,8 +7,9 @@
 
 use super::story::{Alarm, Commit, Entry, What};
 use crate::clock::seconds;
-use executive::{Ending, Figures, Narration, Repair};
+use executive::{Ending, Figures, Life, Narration, Repair};
 use hal::sim::RoomEvent;
+use pddl::model::Name;
 use planner::Way;
 
 /// Converts entries to lines.
@@ -187,14 +188,29 @@ impl Terminal {
     fn pelea(&mut self, time: f64, narration: &Narration) {
         use Narration as N;
         match narration {
-            N::Planned { plan, survives, repair, count, .. } => {
+            N::Goal(change) => {
+                let tone = match change.life {
+                    Life::GivenUp | Life::Suspended => Tone::Trouble,
+                    _ => Tone::Plan,
+                };
+                let text =
+                    format!("{} {}: {}", change.goal, change.life.to_string().replace('_', " "), change.why);
+                self.line(time, tone, "goal", text.trim_end_matches([':', ' ']));
+            }
+            N::Planned { plan, survives, repair, count, goals, .. } => {
                 self.steps = plan.len();
                 let head = if *count > 1 { "replan" } else { "plan" };
                 let first: Vec<_> = plan.iter().take(3).map(ToString::to_string).collect();
                 let more =
                     if plan.len() > 3 { format!(" … {}", plan[plan.len() - 1]) } else { String::new() };
                 let runs_on = if *survives { ", its first step runs on" } else { "" };
-                let text = format!("{} steps{runs_on}: {}{more}", plan.len(), first.join(" "));
+                let together = |names: &Vec<Name>| {
+                    names.iter().map(ToString::to_string).collect::<Vec<_>>().join(" and ")
+                };
+                let names: Vec<_> = goals.iter().map(together).collect();
+                let serves =
+                    if names.is_empty() { String::new() } else { format!(" for {}", names.join(", then ")) };
+                let text = format!("{} steps{serves}{runs_on}: {}{more}", plan.len(), first.join(" "));
                 self.line(time, Tone::Plan, head, &text);
                 if let Some(repair) = repair {
                     self.line(time, Tone::Plan, "repair", &repaired(repair));

@@ -7,7 +7,7 @@ use crate::monitoring::Monitor;
 use crate::narration::Narration;
 use dsr::{Edit, Snapshot, Time};
 use high_to_low::{Methods, Moment, Refinement, Status};
-use planner::{OperatorId, State, Task};
+use planner::{Goal, OperatorId, State, Task};
 
 /// A plan, its current step, and that step's refinement.
 pub(super) struct Course {
@@ -33,8 +33,7 @@ pub(super) enum Progress {
 }
 
 impl Course {
-    pub(super) fn new(model: &Model, plan: Vec<OperatorId>, state: &State) -> Self {
-        let goal = model.task().goal().clone();
+    pub(super) fn new(model: &Model, plan: Vec<OperatorId>, goal: Goal, state: &State) -> Self {
         Self {
             monitor: Monitor::new(model.task(), plan, goal, state),
             current: 0,

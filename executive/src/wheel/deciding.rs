@@ -10,6 +10,8 @@ use super::errand::{Errand, Purpose};
 use super::event::Effect;
 use super::state::{Hand, Inquiry, Rest, Wheel};
 use crate::decision_support::{Decision, Repair, Request, RequestId};
+use crate::goal::GoalId;
+use crate::goals::Stage;
 use crate::narration::Narration;
 use crate::outcome::{Ending, NoPlan, Stuck, Trouble};
 use dsr::Time;
@@ -19,20 +21,26 @@ impl Wheel {
     /// Asks for a plan from here. `stopped`: what is left of a plan whose current step has ended.
     pub(super) fn ask(&mut self, stopped: Vec<OperatorId>, effects: &mut Vec<Effect>) {
         self.moot(effects);
-        let Some(sight) = &self.sight else { return };
+        let goals = self.agenda.candidates();
+        let Some(sight) = self.sight.as_ref().filter(|_| !goals.is_empty()) else { return };
         let id = RequestId(self.next_request);
         self.next_request += 1;
         let (left, running) = self.hand.left();
         effects.push(Effect::Plan(Request {
             id,
             state: sight.state.clone(),
+            goals: goals.clone(),
             broken: if left.is_empty() { stopped.clone() } else { left },
+            served: self.agenda.unachieved(),
             running,
             barred: self.failures.barred(&sight.state, self.moment.now),
             expansions: self.policy.expansions,
         }));
         let (from, asked) = (sight.state.clone(), self.moment.now);
-        self.inquiry = Some(Inquiry { id, from, asked, stopped, late: false });
+        let fits = |course: &Course| !matches!(course.progress(self.model.task()), Progress::Deviates);
+        let review = matches!(&self.hand, Hand::Plan(course) if fits(course));
+        self.inquiry = Some(Inquiry { id, from, asked, stopped, late: false, review });
+        self.agenda.considered(goals);
     }
 
     /// An answer to the open question, if any, is no longer needed.
@@ -47,7 +55,12 @@ impl Wheel {
         if let Hand::Plan(course) = &self.hand
             && !matches!(course.progress(self.model.task()), Progress::Deviates)
         {
-            return self.goes_on(effects);
+            return match inquiry.review {
+                // The plan rests only as long as a decision may take.
+                true if now < after(inquiry.asked, self.policy.deciding) => {}
+                true => self.moot(effects),
+                false => self.goes_on(effects),
+            };
         }
         if inquiry.late {
             // Too old to wait for, and for another state.
@@ -91,7 +104,9 @@ impl Wheel {
     pub(super) fn decision_due(&self) -> Option<Time> {
         let inquiry = self.inquiry.as_ref().filter(|inquiry| !inquiry.late)?;
         let late = after(inquiry.asked, self.policy.deciding);
-        let may_bridge = self.policy.meanwhile.is_some() && matches!(self.hand, Hand::Empty | Hand::Plan(_));
+        let may_bridge = self.policy.meanwhile.is_some()
+            && !inquiry.review
+            && matches!(self.hand, Hand::Empty | Hand::Plan(_));
         let bridge = may_bridge.then(|| after(inquiry.asked, self.policy.meanwhile_after));
         Some(bridge.map_or(late, |bridge| bridge.min(late)))
     }
@@ -100,16 +115,27 @@ impl Wheel {
     pub(super) fn decided(&mut self, decision: Decision, inquiry: Inquiry, effects: &mut Vec<Effect>) {
         let Some(sight) = &self.sight else { return };
         let moved_on = sight.state != inquiry.from;
+        let other_goals = self.agenda.candidates() != self.agenda.last_considered();
         match decision {
-            Decision::Plan { operators, expanded, repair } => {
-                let course = Course::new(&self.model, operators, &sight.state);
-                match course.monitor.furthest(self.model.task()) {
-                    Some(_) => self.adopt(course, expanded, repair, effects),
-                    None => self.ask_again(inquiry.stopped, effects),
+            Decision::Plan { operators, stages, postponed, .. }
+                if inquiry.review && self.is_confirmed(&operators, &stages) =>
+            {
+                let changes = self.agenda.confirm(&postponed);
+                self.tell_goals(changes, effects);
+                self.advance(effects);
+            }
+            Decision::Plan { operators, expanded, repair, stages, postponed } => {
+                let served: Vec<_> = stages.iter().flat_map(|stage| stage.goals.iter().copied()).collect();
+                let goal = self.model.goal(&served);
+                let course = Course::new(&self.model, operators, goal, &sight.state);
+                let fits = course.monitor.furthest(self.model.task()).is_some();
+                match fits && self.agenda.still_want(&served) {
+                    true => self.adopt(course, (expanded, repair), (stages, &postponed), effects),
+                    false => self.ask_again(inquiry.stopped, effects),
                 }
             }
-            // A decision for another state does not hold for this one.
-            Decision::NoPlan(_) | Decision::Barred(_) if moved_on => {
+            // A decision for another state, or for other goals, does not hold for this one.
+            Decision::NoPlan(_) | Decision::Barred(_) if moved_on || other_goals => {
                 self.ask_again(inquiry.stopped, effects);
             }
             Decision::NoPlan(why) => self.fall_back(why, effects),
@@ -121,8 +147,8 @@ impl Wheel {
     fn adopt(
         &mut self,
         mut course: Course,
-        expanded: u64,
-        repair: Option<Repair>,
+        (expanded, repair): (u64, Option<Repair>),
+        (stages, postponed): (Vec<Stage>, &[(GoalId, NoPlan)]),
         effects: &mut Vec<Effect>,
     ) {
         let Some(sight) = &self.sight else { return };
@@ -150,8 +176,11 @@ impl Wheel {
         };
         self.plans += 1;
         let plan = course.monitor.plan().iter().map(|&o| self.model.step(o)).collect();
-        let count = self.plans;
-        effects.push(Effect::Tell(Narration::Planned { plan, expanded, survives, repair, count }));
+        let (count, goals) = (self.plans, self.names_of(&stages));
+        effects.push(Effect::Tell(Narration::Planned { plan, expanded, survives, repair, count, goals }));
+        self.expected = self.sight.as_ref().filter(|_| !postponed.is_empty()).map(|s| s.state.clone());
+        let changes = self.agenda.serve(stages, postponed);
+        self.tell_goals(changes, effects);
         self.act(course, effects);
     }
 

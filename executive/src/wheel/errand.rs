@@ -122,6 +122,11 @@ impl Errand {
         self.refinement.as_ref().map(|refinement| refinement.withdrawal(methods)).unwrap_or_default()
     }
 
+    /// The goals have changed: no answer from before counts.
+    pub(super) fn reconsider(&mut self) {
+        self.answer = None;
+    }
+
     /// There is no plan for `state`.
     pub(super) fn answered(&mut self, state: State, now: Time) {
         self.note(Some(state), now);

@@ -3,7 +3,7 @@
 use crate::model::{Changes, Model};
 use crate::monitoring::Deviation;
 use dsr::{Delta, Snapshot, Time};
-use low_to_high::{LowToHigh, Perception};
+use low_to_high::{Fact, LowToHigh, Perception};
 use planner::State;
 use std::sync::Arc;
 
@@ -43,6 +43,16 @@ impl Sight {
         let facts: Vec<_> = gone.chain(come).collect();
         let numbers = facts.is_empty() && before != after;
         Changes { facts, numbers }
+    }
+
+    /// Whether a fact of the planner, or a condition of a goal, is perceived.
+    pub(super) fn perceives(&self, fact: &Fact) -> bool {
+        self.low_to_high.perceives(fact)
+    }
+
+    /// The tokens of the graph behind a fact.
+    pub(super) fn tokens_of(&self, fact: &Fact) -> Vec<String> {
+        self.low_to_high.explain(&self.snapshot, fact)
     }
 
     /// Adds the tokens of the graph to each reason.

@@ -9,10 +9,12 @@ use super::policy::Policy;
 use super::sight::Sight;
 use crate::Model;
 use crate::decision_support::{Decision, RequestId};
+use crate::goal::GoalId;
+use crate::goals::Agenda;
 use dsr::{AgentId, Edit, Interest, Time};
 use high_to_low::{Methods, Moment};
 use low_to_high::Perception;
-use planner::{OperatorId, State};
+use planner::{Goal, OperatorId, State};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -36,6 +38,12 @@ pub struct Wheel {
     pub(super) hand: Hand,
     /// The question that Decision Support has not answered.
     pub(super) inquiry: Option<Inquiry>,
+    /// The mission's goals over time.
+    pub(super) agenda: Agenda,
+    /// Each goal for the planner.
+    pub(super) aims: Vec<Goal>,
+    /// Where the plan under way should be after its last step; `None` if it serves all goals that are wanted.
+    pub(super) expected: Option<State>,
     pub(super) failures: Failures,
     pub(super) patience: Patience,
     pub(super) next_request: u64,
@@ -78,6 +86,8 @@ pub(super) struct Inquiry {
     pub(super) stopped: Vec<OperatorId>,
     /// The decision takes longer than the mission allows.
     pub(super) late: bool,
+    /// It was asked because of the goals: the plan under way may still fit.
+    pub(super) review: bool,
 }
 
 impl Wheel {
@@ -90,6 +100,8 @@ impl Wheel {
     ) -> Self {
         let failures = Failures::new(policy.attempts);
         let patience = Patience::new(policy.bounds);
+        let agenda = Agenda::new(model.goals());
+        let aims = (0..).map(GoalId).zip(model.goals()).map(|(id, _)| model.goal(&[id])).collect();
         Self {
             model,
             methods,
@@ -101,6 +113,9 @@ impl Wheel {
             sight: None,
             hand: Hand::Empty,
             inquiry: None,
+            agenda,
+            aims,
+            expected: None,
             failures,
             patience,
             next_request: 0,

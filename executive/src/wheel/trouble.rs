@@ -16,6 +16,7 @@ impl Wheel {
         }
         self.stop(effects);
         effects.push(Effect::Tell(Narration::FellBack { why: why.clone() }));
+        self.postpone_all(&why, effects);
         let mut errand = Errand::new(self.policy.fallback.clone(), Purpose::Trouble(Trouble::NoPlan(why)));
         self.note_answer(&mut errand);
         self.start(errand, effects);
@@ -92,11 +93,21 @@ impl Wheel {
             && let Purpose::Trouble(Trouble::NoPlan(why)) = &errand.purpose
         {
             let why = why.clone();
-            return self.end(Ending::WithHuman { why }, effects);
+            return self.handed_over(why, effects);
         }
         if self.next_question().is_some_and(|at| self.moment.now >= at) {
             self.ask(Vec::new(), effects);
         }
+    }
+
+    /// A human has come, and there is no plan: the mission ends, or goes on with what may be wanted later.
+    fn handed_over(&mut self, why: NoPlan, effects: &mut Vec<Effect>) {
+        if self.agenda.has_lasting() {
+            return self.end(Ending::WithHuman { why }, effects);
+        }
+        let changes = self.agenda.give_up_all(&why);
+        self.tell_goals(changes, effects);
+        self.stop(effects);
     }
 
     /// When an errand asks for a plan, in the wheel's time.
@@ -104,6 +115,9 @@ impl Wheel {
         let (Hand::Errand(errand), None, Some(sight)) = (&self.hand, &self.inquiry, &self.sight) else {
             return None;
         };
+        if self.agenda.candidates().is_empty() {
+            return None;
+        }
         let bar = self.failures.next_end(&sight.state, self.moment.now);
         errand.asks_at(&sight.state, sight.since, bar, self.patience.level())
     }

@@ -105,14 +105,17 @@ impl Wheel {
 
     /// Decides what to do from here, and does it.
     pub(super) fn advance(&mut self, effects: &mut Vec<Effect>) {
-        // Between asking for a write and seeing it, there is nothing to decide on.
-        if self.unanswered || self.ended {
+        if self.ended || self.sight.is_none() {
             return;
         }
-        let Some(sight) = &self.sight else { return };
-        let task = self.model.task();
-        if task.satisfies(&sight.state, task.goal()) {
-            return self.accomplished(effects);
+        // What was achieved counts, even if it is over when the wheel can decide again.
+        self.follow_goals(effects);
+        // Between asking for a write and seeing it, there is nothing to decide on.
+        if self.unanswered {
+            return;
+        }
+        if self.agenda.is_over() {
+            return self.over(effects);
         }
         if self.horizon.is_some_and(|horizon| self.moment.now >= self.clock.horizon(horizon)) {
             return self.out_of_time(effects);
@@ -126,6 +129,10 @@ impl Wheel {
         if self.ended || effects.iter().any(is_write) {
             return;
         }
+        if self.agenda.candidates().is_empty() {
+            return self.idle(effects);
+        }
+        self.reconsider();
         match self.take_hand() {
             Hand::Empty => {
                 if self.inquiry.is_none() {
@@ -148,7 +155,8 @@ impl Wheel {
             Hand::Errand(errand) => errand.wake_at(),
             Hand::Empty | Hand::Plan(_) => None,
         };
-        [horizon, hand, self.next_question(), self.decision_due()].into_iter().flatten().min()
+        let deadline = self.agenda.next_deadline();
+        [horizon, hand, deadline, self.next_question(), self.decision_due()].into_iter().flatten().min()
     }
 
     /// The graph refused what the wheel wanted to write.
@@ -167,18 +175,31 @@ impl Wheel {
         }
     }
 
-    fn accomplished(&mut self, effects: &mut Vec<Effect>) {
+    /// Every goal has ended.
+    fn over(&mut self, effects: &mut Vec<Effect>) {
         let hand = self.take_hand();
-        let sight = self.sight.as_ref().expect("the goal was seen to hold");
+        let sight = self.sight.as_ref().expect("the goals were seen to end");
         match hand {
             Hand::Plan(mut course) => {
                 let end = course.monitor.plan().len();
-                course.move_to(end, &self.model, &sight.snapshot, effects);
+                match course.monitor.furthest(self.model.task()) {
+                    Some(to) if to == end && course.current < end => {
+                        course.move_to(end, &self.model, &sight.snapshot, effects);
+                    }
+                    _ => course.withdraw(&sight.snapshot, effects),
+                }
             }
             Hand::Errand(mut errand) => errand.withdraw(&sight.snapshot, effects),
             Hand::Empty | Hand::Rest(_) => {}
         }
-        self.end(Ending::Accomplished, effects);
+        let ending = self.agenda_ending();
+        self.end(ending, effects);
+    }
+
+    /// How a mission ends of which no goal is open.
+    fn agenda_ending(&self) -> Ending {
+        let goals = self.agenda.failed();
+        if goals.is_empty() { Ending::Accomplished } else { Ending::GivenUp { goals } }
     }
 
     /// The run is over. A call that nobody has attended stands.
@@ -189,6 +210,8 @@ impl Wheel {
                 Purpose::Trouble(why) => Ending::StillCalling { why },
                 Purpose::Meanwhile => Ending::StillGoing,
             },
+            // A robot that is there for what may come has done all that came.
+            Hand::Empty if self.agenda.is_idle() => self.agenda_ending(),
             Hand::Empty | Hand::Plan(_) | Hand::Rest(_) => Ending::StillGoing,
         };
         self.end(ending, effects);

@@ -2,7 +2,7 @@
 //! suffix from there. The validator shares no code with the planner.
 
 use budget::Cancellation;
-use executive::{Decision, Model, Monitor, Request, RequestId, decide};
+use executive::{Decision, GoalId, Model, Monitor, Request, RequestId, decide};
 use pddl::model::{Domain, Name, Problem};
 use pddl::{PlanStep, SequentialPlan, Source, Span, parse_domain, parse_problem};
 use planner::{FactId, GroundOptions, OperatorId, State, ground};
@@ -91,7 +91,16 @@ fn changing(domain: &Domain, task: &planner::Task) -> Vec<Name> {
 fn plan(model: &Arc<Model>, expansions: u64) -> Result<Vec<OperatorId>, Skipped> {
     let state = model.task().initial_state().clone();
     let (broken, barred) = (Vec::new(), Vec::new());
-    let request = Request { id: RequestId(0), state, broken, running: None, barred, expansions };
+    let request = Request {
+        id: RequestId(0),
+        state,
+        goals: vec![GoalId(0)],
+        broken,
+        served: vec![GoalId(0)],
+        running: None,
+        barred,
+        expansions,
+    };
     match decide(model, &request, &Cancellation::default()) {
         Decision::Plan { operators, .. } => Ok(operators),
         other => Err(format!("no plan: {}", format!("{other:?}").chars().take(80).collect::<String>())),
@@ -158,7 +167,7 @@ fn steps(model: &Model, plan: &[OperatorId]) -> Vec<PlanStep> {
 
 /// The last suffix that the validator accepts from this state.
 fn judged(model: &Model, steps: &[PlanStep], state: &State, count: &mut usize) -> Option<usize> {
-    let problem = model.problem_in(state);
+    let problem = model.problem_in(state, &[GoalId(0)]);
     (0..=steps.len()).rev().find(|&start| {
         *count += 1;
         let plan = SequentialPlan::new(steps[start..].to_vec());

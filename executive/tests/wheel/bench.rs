@@ -52,7 +52,11 @@ impl Bench {
 
     pub(crate) fn of(policy: Policy, prepare: impl FnOnce(Wheel) -> Wheel) -> Self {
         let (graph, wheel) = lamps(policy);
-        let wheel = prepare(wheel);
+        Self::begin(graph, prepare(wheel), false)
+    }
+
+    /// A wheel that looks at its graph for the first time.
+    pub(crate) fn begin(graph: Graph, wheel: Wheel, at_once: bool) -> Self {
         let pelea = graph.vocabulary().agent("pelea").unwrap();
         let mut subscription = graph.subscribe_to(wheel.interest(pelea));
         let start = subscription.try_recv().unwrap().snapshot;
@@ -66,7 +70,7 @@ impl Bench {
             alarm: None,
             requests: VecDeque::new(),
             refuses: false,
-            at_once: false,
+            at_once,
         };
         bench.turn(Event::Seen(start));
         bench
@@ -136,7 +140,11 @@ impl Bench {
     }
 
     pub(crate) fn edit(&mut self, agent: &str, edit: Edit) {
-        self.commit(agent, vec![edit]);
+        self.edits(agent, vec![edit]);
+    }
+
+    pub(crate) fn edits(&mut self, agent: &str, edits: Vec<Edit>) {
+        self.commit(agent, edits);
         for event in self.seen() {
             self.turn(event);
         }

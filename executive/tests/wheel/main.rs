@@ -4,6 +4,7 @@
 
 mod bench;
 mod deciding;
+mod goals;
 mod progress;
 mod shell;
 mod time;

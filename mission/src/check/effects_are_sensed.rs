@@ -93,6 +93,7 @@ fn costs(context: &Context<'_>) -> BTreeSet<Name> {
     }
     domain.axioms.iter().for_each(|axiom| read.condition(&axiom.body));
     read.condition(&layers.problem.model.goal);
+    context.mission.goals.iter().for_each(|goal| read.condition(&goal.condition));
     let is_number = |name: &&Name| {
         let id = domain.function(name);
         id.is_some_and(|id| domain.functions[id].value == pddl::model::FunctionValue::Number)

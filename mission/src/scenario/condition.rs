@@ -1,12 +1,9 @@
-//! A PDDL condition inside a TOML string.
-//!
-//! Problem: `pddl` reads files, not fragments. Idea: the fragment becomes the goal of a small problem over the vocabulary;
-//! the spans of the findings are then moved back from the surrounding text to the TOML literal. Invariant: a condition
-//! that was read names only tokens of the vocabulary and nodes of the initial graph.
+//! A condition over the graph, in a scenario.
 
+use pddl::Span;
 use pddl::model::{Condition, Variables};
-use pddl::{Source, Span};
 
+use crate::fragment;
 use crate::layers::Layers;
 use diagnostics::toml::{Reader, Text};
 
@@ -23,70 +20,8 @@ pub struct GraphCondition {
     pub span: Span,
 }
 
-const FLAGS: &str = ":adl :fluents";
-
 /// Reads the condition in `text`.
 pub(super) fn read(reader: &mut Reader<'_>, layers: &Layers, text: &Text) -> Option<GraphCondition> {
-    let prefix = format!(
-        "(define (problem condition) (:domain {}) (:requirements {FLAGS}) (:init) (:goal ",
-        layers.nodes.name
-    );
-    let offset = u32::try_from(prefix.len()).expect("the text around a condition is short");
-    if let Some(span) = unbalanced(&text.value) {
-        reader.error("E0902", text.within(span), "the parentheses of this condition do not match");
-        return None;
-    }
-    let source = Source::new("condition", format!("{prefix}{}))", text.value));
-    let parsed = pddl::parse_problem(&source, &layers.nodes);
-    let moved = |span: Span| {
-        text.within(Span::new(span.start.saturating_sub(offset), span.end.saturating_sub(offset)))
-    };
-    for diagnostic in parsed.diagnostics {
-        let mut finding = diagnostic.finding(reader.source);
-        finding.place.span = moved(finding.place.span);
-        // Related places are in the vocabulary or in the text around the condition.
-        finding.related.clear();
-        reader.findings.push(finding);
-    }
-    let problem = parsed.model?;
-    Some(GraphCondition {
-        text: text.value.clone(),
-        condition: problem.goal,
-        variables: problem.goal_variables,
-        span: text.span,
-    })
-}
-
-/// The first place where the fragment is not one list, so that it would escape from the goal around it.
-fn unbalanced(text: &str) -> Option<Span> {
-    let mut depth = 0_u32;
-    let mut closed = false;
-    for (at, c) in (0_u32..).zip(text.bytes()) {
-        match c {
-            b'(' if !closed => depth += 1,
-            b')' if depth > 0 => {
-                depth -= 1;
-                closed = depth == 0;
-            }
-            // A comment would swallow the text behind the fragment.
-            b';' => return Some(Span::new(at, at + 1)),
-            c if c.is_ascii_whitespace() || depth > 0 => {}
-            _ => return Some(Span::new(at, at + 1)),
-        }
-    }
-    let end = u32::try_from(text.len()).unwrap_or(u32::MAX);
-    (!closed).then(|| Span::new(end.saturating_sub(1), end))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::unbalanced;
-
-    #[test]
-    fn a_fragment_is_one_list() {
-        assert_eq!(unbalanced(" (a (b) c) "), None);
-        for wrong in ["", "a", "(a", "(a))", "(a) (b)", "(a ; )", "(a) b"] {
-            assert!(unbalanced(wrong).is_some(), "{wrong}");
-        }
-    }
+    let (condition, variables) = fragment::read(reader, &layers.nodes, text)?;
+    Some(GraphCondition { text: text.value.clone(), condition, variables, span: text.span })
 }

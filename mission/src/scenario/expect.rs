@@ -6,6 +6,7 @@ use pddl::model::Name;
 use super::GraphCondition;
 use super::names::node;
 use crate::layers::Layers;
+use crate::mission::Mission;
 use diagnostics::Finding;
 use diagnostics::did_you_mean;
 use diagnostics::toml::{Reader, Table, Text};
@@ -58,10 +59,13 @@ pub struct Expectation {
     pub replans: ReplanExpectation,
     /// The only answered items that may be asked again.
     pub asked_again: Option<Expected<Vec<Name>>>,
+    /// The stages in which the lives of these goals end.
+    pub goals: Vec<(Name, Expected<String>)>,
 }
 
 /// Reads `[expect]`.
-pub(super) fn read(reader: &mut Reader<'_>, layers: &Layers, table: Option<Table<'_>>) -> Expectation {
+pub(super) fn read(reader: &mut Reader<'_>, mission: &Mission, table: Option<Table<'_>>) -> Expectation {
+    let layers = &mission.layers;
     let mut expect = Expectation::default();
     let Some(mut table) = table else { return expect };
     let span = table.key_span("accomplished");
@@ -82,12 +86,36 @@ pub(super) fn read(reader: &mut Reader<'_>, layers: &Layers, table: Option<Table
         }
         replans.finish(reader);
     }
+    if let Some(goals) = table.table(reader, "goals") {
+        expect.goals = self::goals(reader, mission, goals);
+    }
     table.finish(reader);
     expect
 }
 
+/// The stages that a goal's life may end in, and "dormant" for a goal that was never wanted.
+const STAGES: [&str; 9] =
+    ["dormant", "wanted", "selected", "pursued", "suspended", "held", "achieved", "dropped", "given_up"];
+
+/// `[expect.goals]`: a stage for each goal that it names.
+fn goals(reader: &mut Reader<'_>, mission: &Mission, mut table: Table<'_>) -> Vec<(Name, Expected<String>)> {
+    let mut expected = Vec::new();
+    for goal in &mission.goals {
+        let Some(text) = table.text(reader, &goal.name) else { continue };
+        if STAGES.contains(&text.value.as_str()) {
+            expected.push((goal.name.clone(), Expected { value: text.value, span: text.span }));
+        } else {
+            let message =
+                format!("no goal is `{}` in the end; it is one of {}", text.value, STAGES.join(", "));
+            reader.error("E0705", text.span, message);
+        }
+    }
+    table.finish(reader);
+    expected
+}
+
 /// The ways in which a run ends, as its result names them.
-const ENDINGS: [&str; 4] = ["accomplished", "with_human", "still_calling", "still_going"];
+const ENDINGS: [&str; 5] = ["accomplished", "given_up", "with_human", "still_calling", "still_going"];
 
 fn ending(reader: &mut Reader<'_>, text: &Text) -> Option<Expected<String>> {
     if !ENDINGS.contains(&text.value.as_str()) {

@@ -26,6 +26,8 @@ pub struct Outcome<'a> {
     pub replans: &'a [Replan],
     /// Answered items that were asked again.
     pub asked_again: &'a [Name],
+    /// The goals, and the stages in which their lives are.
+    pub goals: &'a [(Name, String)],
 }
 
 /// An expectation that was not met.
@@ -59,6 +61,9 @@ pub enum Violation {
     /// No replan names the token.
     #[error("no replan names `{token}`")]
     NotNamed { token: Name, span: Span },
+    /// The life of a goal is in another stage.
+    #[error("the goal `{goal}` is {found} in the end, {expected} expected")]
+    Goal { goal: Name, expected: String, found: String, span: Span },
     /// An item that was answered was asked again.
     #[error("`{item}` was asked again after it had been answered")]
     AskedAgain { item: Name, span: Span },
@@ -77,6 +82,7 @@ impl Violation {
             | Self::TooFewReplans { span, .. }
             | Self::TooManyReplans { span, .. }
             | Self::NotNamed { span, .. }
+            | Self::Goal { span, .. }
             | Self::AskedAgain { span, .. } => *span,
         }
     }
@@ -116,6 +122,14 @@ impl Expectation {
             expected.sort_unstable();
             if found != expected {
                 violations.push(Violation::Unanswered { expected, found, span: e.span });
+            }
+        }
+        for (goal, e) in &self.goals {
+            let found = outcome.goals.iter().find(|(name, _)| name == goal);
+            let found = found.map_or("dormant", |(_, stage)| stage);
+            if e.value != found {
+                let (goal, expected, found) = (goal.clone(), e.value.clone(), found.to_owned());
+                violations.push(Violation::Goal { goal, expected, found, span: e.span });
             }
         }
         self.judge_replans(outcome, &mut violations);

@@ -68,7 +68,7 @@ fn read_root(
         .filter_map(|t| disruption::read(reader, layers, t, Triggers::Required))
         .collect();
     let expect = root.table(reader, "expect");
-    let expect = expect::read(reader, layers, expect);
+    let expect = expect::read(reader, mission, expect);
     root.finish(reader);
     Some(Scenario {
         name: stem(source.name()).to_owned(),

@@ -100,6 +100,7 @@ asked-again = []
         report: &report,
         replans: &[],
         asked_again: &again,
+        goals: &[],
     };
     let violations = scenario.expect.judge(&bad, |c| !c.text.starts_with("(is_with"));
     let lines: Vec<String> = violations
@@ -128,6 +129,7 @@ asked-again = []
         report: &report,
         replans: &replans,
         asked_again: &[],
+        goals: &[],
     };
     assert_eq!(scenario.expect.judge(&good, |_| true), []);
 }

@@ -14,6 +14,8 @@ pub struct GroundOptions<'a> {
     /// Functions whose numbers an outside event may change. Each fluent that something reads may have
     /// any value, or none, in an observed state ([`Task::with_numbers`](crate::Task::with_numbers)).
     pub exogenous_functions: &'a [FunctionId],
+    /// Predicates of goals that are asked for later: their facts are kept although nothing else reads them.
+    pub kept: &'a [PredicateId],
     /// The limits of grounding. A unit of work takes about a nanosecond. The bytes are an estimate
     /// of the memory for atoms and instances; without a limit, they are limited by what 32-bit
     /// numbers can count.

@@ -45,7 +45,8 @@ use std::cmp::Reverse;
 /// # Errors
 /// An unsupported feature, an exceeded limit of `options`, or an interruption.
 pub fn ground(domain: &Domain, problem: &Problem, options: &GroundOptions<'_>) -> Result<Task, GroundError> {
-    let outside = Outside { predicates: options.exogenous, functions: options.exogenous_functions };
+    let outside =
+        Outside { predicates: options.exogenous, functions: options.exogenous_functions, kept: options.kept };
     metered(domain, problem, outside, &Meter::new(memory::limited(options.budget)))
 }
 

@@ -124,7 +124,9 @@ pub(crate) fn prune(
         compared,
     };
     always_derived(raw, &mut pruned, meter)?;
-    relevance(raw, exogenous, &mut pruned, meter)?;
+    let is_kept = |a: u32| a < known && model.kept.contains(&table.predicate(a));
+    let kept: Vec<bool> = (0..raw.atoms).map(|a| exogenous[a as usize] || is_kept(a)).collect();
+    relevance(raw, &kept, &mut pruned, meter)?;
     Ok(pruned)
 }
 
@@ -339,7 +341,7 @@ fn changed_by(raw: &RawTask, meter: &Meter<'_>) -> Result<Rows, Interrupted> {
 
 fn relevance(
     raw: &RawTask,
-    exogenous: &[bool],
+    kept: &[bool],
     pruned: &mut Pruned,
     meter: &Meter<'_>,
 ) -> Result<(), Interrupted> {
@@ -369,7 +371,7 @@ fn relevance(
         meter.spend(8 + change.condition.len())?;
         change.condition.iter().for_each(|&l| need(l, pruned, &mut queue));
     }
-    for a in (0..n).filter(|&a| exogenous[a]) {
+    for a in (0..n).filter(|&a| kept[a]) {
         meter.spend(8)?;
         need(id32(a) << 1, pruned, &mut queue);
     }

@@ -51,6 +51,26 @@ pub(crate) fn without_needless(
     }
 }
 
+/// What is left to do of steps that were planned for other goals: those that can be applied and that the goal of the query
+/// needs; `None` if they do not reach it.
+pub fn still_needed(
+    task: &Task,
+    query: &Query<'_>,
+    steps: &[OperatorId],
+    interrupted: &dyn Fn() -> bool,
+) -> Option<Plan> {
+    let mut state = query.state.clone();
+    let mut kept = Vec::new();
+    for &operator in steps.iter().filter(|operator| !query.excluded.contains(operator)) {
+        if let Some(next) = task.successor(&state, operator) {
+            state = next;
+            kept.push(operator);
+        }
+    }
+    let reaches = task.satisfies(&state, query.goal);
+    reaches.then(|| without_needless(task, query, &Plan::of(task, kept), interrupted))
+}
+
 /// Returns the steps after the first that are applicable without it, if they reach the goal.
 fn left_out(task: &Task, query: &Query<'_>, from: &[u64], steps: &[OperatorId]) -> Option<Vec<OperatorId>> {
     let mut state = from.to_vec();

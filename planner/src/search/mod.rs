@@ -37,6 +37,7 @@ pub use crate::query::{Limit, Query};
 pub use anytime::{Improved, Quality, improve};
 pub use configuration::SearchConfiguration;
 pub use distance::Distance;
+pub use elimination::still_needed;
 pub use outcome::{Outcome, Plan, Report, Statistics, UnsolvableReason};
 pub(crate) use registry::StateRegistry;
 pub use repair::{Attempt, Preference, Repair, Repaired, Way, repair};

@@ -29,6 +29,8 @@ use std::sync::Arc;
 pub(crate) struct Outside<'m> {
     pub(crate) predicates: &'m [PredicateId],
     pub(crate) functions: &'m [FunctionId],
+    /// Predicates whose facts are kept although nothing reads them.
+    pub(crate) kept: &'m [PredicateId],
 }
 
 /// A model without object fluents, in normal form.
@@ -37,6 +39,8 @@ pub(crate) struct Normalised<'m> {
     pub(crate) problem: &'m Problem,
     /// Predicates that outside events change.
     pub(crate) exogenous: &'m [PredicateId],
+    /// Predicates whose facts nothing needs to read.
+    pub(crate) kept: &'m [PredicateId],
     /// The predicates that stand for object fluents.
     pub(crate) values: ValuePredicates,
     /// By predicate: whether no action, axiom or outside event changes it.
@@ -72,6 +76,7 @@ pub(crate) fn normalise<'m>(
         domain,
         problem,
         exogenous,
+        kept: outside.kept,
         values,
         is_static,
         fluents,

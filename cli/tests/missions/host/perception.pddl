@@ -1,0 +1,7 @@
+(define (domain host-perception)
+  (:requirements :typing :existential-preconditions :derived-predicates)
+  (:import waiter host)
+  (:derived (greeted ?p - person)
+    (exists (?h - part) (and (addresses ?h ?p) (was_said_in welcome ?h))))
+  (:derived (ordered ?i - item) (exists (?o - option) (was_chosen_in ?o ?i)))
+  (:derived (parted) (was_said_in goodbye farewell)))
