@@ -49,6 +49,7 @@ mod task;
 mod test;
 mod turns;
 mod validate;
+mod what_if;
 
 pub use arguments::run;
 pub use console::Console;

@@ -9,8 +9,10 @@ use crate::disk::show;
 use crate::dsr::Moment;
 use crate::exit::Exit;
 use crate::render;
-use crate::run::Terminal;
+use crate::run::{Content, Terminal};
+use crate::scenario;
 use crate::turns::{self, Heading, Life, Recorded};
+use crate::what_if::{self, Question};
 use clap::Args;
 use dsr::{Played, Recording, Replay, Snapshot, Time, Version};
 use executive::{Decision, Effect, Event, NoPlan, Occurrence, Request, RequestId, Wheel, decide};
@@ -29,6 +31,21 @@ pub(crate) struct Arguments {
     /// Stop after the turns on this version of the graph, or of this time, and show all that was decided on it
     #[arg(long, value_name = "VERSION|TIMEs")]
     at: Option<Moment>,
+    /// Go on from this version, or time, with the edits, and show which decisions would have been others
+    #[arg(long, value_name = "VERSION|TIMEs", requires = "edit", conflicts_with = "at")]
+    from: Option<Moment>,
+    /// A token to add to the graph or to remove from it: `+ person asks help`, `- person is with robot`
+    #[arg(long, value_name = "EDIT", requires = "from", allow_hyphen_values = true)]
+    edit: Vec<String>,
+    /// The scenario that goes on after the edits
+    #[arg(long, value_name = "NAME|FILE", requires = "from")]
+    scenario: Option<String>,
+    /// The seed of the run
+    #[arg(long, requires = "from", default_value_t = 0)]
+    seed: u64,
+    /// The language of the run [default: the mission's language]
+    #[arg(long, value_name = "TAG", requires = "from")]
+    lang: Option<String>,
     /// Also show how each step was executed
     #[arg(long)]
     verbose: bool,
@@ -70,8 +87,37 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     };
     let (assembly, findings) = assemble(&mission);
     let Some(assembly) = assembly else { return show(&mission.sources, &findings, console) };
+    if let Some(from) = arguments.from {
+        return what_if(from, arguments, &mission, &assembly, console);
+    }
     let replayed = again(arguments, &mission, &assembly, console);
     match replayed {
+        Ok(exit) => exit,
+        Err(error) => {
+            render::error(error.to_string(), console);
+            Exit::Unreadable
+        }
+    }
+}
+
+/// Goes on from a version with edits.
+fn what_if(
+    from: Moment,
+    arguments: &Arguments,
+    mission: &Mission,
+    assembly: &Assembly,
+    console: &mut Console<'_>,
+) -> Exit {
+    let stage = |name: &str| scenario::stage(scenario::read(mission, name)?, mission, &assembly.vocabulary);
+    if let Some(Err(error)) = arguments.scenario.as_deref().map(stage) {
+        return error.show(console);
+    }
+    let staged = || arguments.scenario.as_deref().and_then(|name| stage(name).ok());
+    let language = arguments.lang.clone().unwrap_or_else(|| mission.manifest.language.clone());
+    let question =
+        Question { journal: &arguments.journal, from, edits: &arguments.edit, seed: arguments.seed };
+    let content = Content { mission: Arc::new(mission.clone()), language };
+    match what_if::answer(&question, &content, staged, assembly, console) {
         Ok(exit) => exit,
         Err(error) => {
             render::error(error.to_string(), console);

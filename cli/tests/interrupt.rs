@@ -35,4 +35,13 @@ fn an_interrupted_run_reports_what_there_is_and_leaves_a_journal_that_reads() {
     let log = Command::new(env!("CARGO_BIN_EXE_pelea")).args(["dsr", "log"]).arg(&journal).output().unwrap();
     assert_eq!(log.status.code(), Some(0));
     assert!(String::from_utf8_lossy(&log.stdout).contains("greeting was told in opening"));
+    let resume = Command::new(env!("CARGO_BIN_EXE_pelea"))
+        .current_dir(&root)
+        .args(["run", "domains/barthel", "--speed", "max", "--resume"])
+        .arg(&journal)
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&resume.stdout).into_owned();
+    assert_eq!(resume.status.code(), Some(0), "{said}");
+    assert!(said.contains("mission accomplished") && !said.contains("(greet person)"), "{said}");
 }

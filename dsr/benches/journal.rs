@@ -45,8 +45,33 @@ fn report(what: &str, mut times: Vec<Duration>, took: Duration, journal: Option<
     );
 }
 
+/// What waiting for the disk costs whoever does: from the commit to its version on disk, one after the other, with a pause
+/// of nothing between them.
+fn durable(ward: &ward::Ward, journal: &Journal) {
+    let mut times: Vec<_> = (0..2_000)
+        .map(|round| {
+            let transaction = ward::three_edits(ward, round);
+            let before = Instant::now();
+            let commit = ward.graph.commit(&transaction, Time(round)).unwrap();
+            journal.wait(commit.version).unwrap();
+            before.elapsed()
+        })
+        .collect();
+    times.sort_unstable();
+    let at = |part: usize| times[(times.len() * part / 1_000).min(times.len() - 1)].as_secs_f64() * 1e3;
+    println!("until on disk: p50 {:.2} ms, p99 {:.2} ms, longest {:.1} ms", at(500), at(990), at(1_000));
+}
+
 fn main() {
     const NODES: usize = 10_000;
+    let folder = std::env::temp_dir().join(format!("pelea-journal-{}", std::process::id()));
+    let _ = std::fs::remove_dir_all(&folder);
+    let ward = ward::ward(NODES);
+    let journal = ward.graph.journal(Folder::new(&folder).unwrap(), Settings::default()).unwrap();
+    durable(&ward, &journal);
+    journal.close().unwrap();
+    std::fs::remove_dir_all(&folder).unwrap();
+
     let ward = ward::ward(NODES);
     let (times, took) = commit(&ward);
     report("without a journal", times, took, None);

@@ -45,6 +45,15 @@ impl Room {
 
 /// Runs PELEA beside what happens in the room.
 fn run<F: Future<Output = ()>>(latency: Duration, happens: impl FnOnce(Room) -> F) -> (Ending, Room) {
+    run_on(latency, None, happens)
+}
+
+/// The same with a disk on which it must be that a lamp is lit.
+fn run_on<F: Future<Output = ()>>(
+    latency: Duration,
+    disk: Option<Arc<dyn Fn(dsr::Version) + Send + Sync>>,
+    happens: impl FnOnce(Room) -> F,
+) -> (Ending, Room) {
     let runtime =
         tokio::runtime::Builder::new_current_thread().enable_time().start_paused(true).build().unwrap();
     runtime.block_on(async {
@@ -52,6 +61,7 @@ fn run<F: Future<Output = ()>>(latency: Duration, happens: impl FnOnce(Room) -> 
         let room = Room { graph: graph.clone(), epoch: Instant::now(), told: Rc::default() };
         let (writer, epoch) = (graph.vocabulary().agent("pelea").unwrap(), room.epoch);
         let told = room.told.clone();
+        let lit = graph.vocabulary().label("is").unwrap();
         let tell = move |_: Time, narration: Narration| told.borrow_mut().push(narration);
         let shell = Shell {
             graph,
@@ -61,7 +71,7 @@ fn run<F: Future<Output = ()>>(latency: Duration, happens: impl FnOnce(Room) -> 
             latency: move |_| latency,
             record: |_: &executive::Turn<'_>| {},
             gives_way: false,
-            lasting: executive::Lasting::default(),
+            lasting: executive::Lasting { labels: disk.iter().map(|_| lit).collect(), disk },
         };
         let wheel = wheel.with_pulse(Duration::from_secs(1));
         let (ending, ()) = tokio::join!(shell.run(wheel), happens(room.clone()));
@@ -98,4 +108,55 @@ fn breakage_16_a_decision_takes_its_time_on_the_simulated_clock() {
     // Longer than the ten seconds after which the fallback starts.
     assert_eq!(room.count(|n| matches!(n, Narration::FellBack { .. })), 1);
     assert_eq!(room.count(|n| matches!(n, Narration::Displaced { .. })), 1);
+}
+
+#[test]
+fn what_must_last_is_on_disk_before_it_is_achieved() {
+    let (write, written) = std::sync::mpsc::channel();
+    let written = std::sync::Mutex::new(written);
+    let (reach, reached) = tokio::sync::mpsc::unbounded_channel();
+    let disk = move |version| {
+        let _ = reach.send(version);
+        let _ = written.lock().unwrap().recv();
+    };
+    let (ending, room) = run_on(Duration::ZERO, Some(Arc::new(disk)), |room| async move {
+        let mut reached = reached;
+        room.until_wanted("a").await;
+        // Its own write has that label, too.
+        reached.recv().await.unwrap();
+        write.send(()).unwrap();
+        room.light("a");
+        let version = reached.recv().await.unwrap();
+        assert_eq!(version, room.graph.snapshot().version());
+        for _ in 0..10 {
+            tokio::task::yield_now().await;
+        }
+        assert_eq!(room.count(|n| matches!(n, Narration::Achieved { .. })), 0, "{:?}", room.told);
+        drop(write);
+        room.until_wanted("b").await;
+        assert_eq!(room.count(|n| matches!(n, Narration::Achieved { .. })), 1, "{:?}", room.told);
+        room.light("b");
+    });
+    assert_eq!(ending, Ending::Accomplished);
+    assert_eq!(room.count(|n| matches!(n, Narration::StoodStill { .. })), 0);
+}
+
+#[test]
+fn what_the_executive_intends_goes_with_it() {
+    let (ending, room) = run(Duration::ZERO, |room| async move {
+        room.until_wanted("a").await;
+        let pelea = room.graph.vocabulary().agent("pelea").unwrap();
+        let gone = room.graph.expire(pelea, room.graph.snapshot().time()).unwrap();
+        assert!(
+            !gone.snapshot.sentences().contains(&"a is wanted".to_owned()),
+            "{:?}",
+            gone.snapshot.sentences()
+        );
+        // It is still there and goes on, although nothing guards what it writes next.
+        room.light("a");
+        room.until_wanted("b").await;
+        room.light("b");
+    });
+    assert_eq!(ending, Ending::Accomplished);
+    assert!(room.count(|n| matches!(n, Narration::Achieved { .. })) >= 1);
 }

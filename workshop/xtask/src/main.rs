@@ -35,6 +35,8 @@ const HELP: &str = "cargo xtask COMMAND
          8 writers, 8 readers and what stalls on one graph, 10 s; ends with an error if an update was lost
   mutants MISSION [--sample N] [--seed S] [--fresh] [--list]
          changes a token of a mission's texts at a time, and lists what no check, test or scenario notices
+  crashes [MISSION] [--scenarios A,B] [--every N] [--kills N] [--seed S]
+         cuts recorded runs after and within every commit, kills real processes, and goes on with all of them
   record draws docs/figure-8.svg, the README's picture, from a run
 ";
 
@@ -49,6 +51,7 @@ fn main() -> ExitCode {
         "loom" => loom(),
         "soak" => soak(&arguments.collect::<Vec<_>>()),
         "mutants" => mutants(&arguments.collect::<Vec<_>>()),
+        "crashes" => crashes(&arguments.collect::<Vec<_>>()),
         "record" => record::record(),
         "ci" => test().and_then(|()| lint()).and_then(|()| tidy()),
         _ => {
@@ -88,6 +91,13 @@ fn soak(arguments: &[String]) -> Result<(), Failure> {
 
 fn mutants(arguments: &[String]) -> Result<(), Failure> {
     let mut command = vec!["run", "--release", "-p", "pelea-tests", "--bin", "mutants", "--"];
+    command.extend(arguments.iter().map(String::as_str));
+    cargo::run(&command)
+}
+
+fn crashes(arguments: &[String]) -> Result<(), Failure> {
+    cargo::run(&["build", "--release", "-p", "pelea"])?;
+    let mut command = vec!["run", "--release", "-p", "pelea-tests", "--bin", "crashes", "--"];
     command.extend(arguments.iter().map(String::as_str));
     cargo::run(&command)
 }
