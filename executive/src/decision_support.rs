@@ -17,6 +17,7 @@
 use crate::goal::GoalId;
 use crate::goals::{Aim, Choice, Stage, choose};
 use crate::outcome::{NoPlan, Unsolvable};
+use crate::soft_plans::soft_plan;
 use crate::{Model, Step};
 use budget::Cancellation;
 use planner::{
@@ -70,6 +71,8 @@ pub enum Decision {
         stages: Vec<Stage>,
         /// The goals that it does not serve, and why.
         postponed: Vec<(GoalId, NoPlan)>,
+        /// The soft goals that cost more than they are worth, or for which the effort was not enough.
+        forgone: Vec<GoalId>,
     },
     /// None, and why.
     NoPlan(NoPlan),
@@ -147,13 +150,25 @@ pub fn decide(model: &Arc<Model>, request: &Request, cancellation: &Cancellation
     let interrupted = || cancellation.is_cancelled();
     let budget = Budget { work: Some(request.expansions), interrupted: &interrupted, ..Budget::default() };
     let (mut expanded, mut repaired) = (0, None);
-    let choice = choose(&model.levels(&request.goals), |aim| {
+    let (mut levels, fresh) = levels(model, request);
+    let mut reach = |aim: Aim<'_>| {
         let search = Search { model, request, excluded: &excluded, budget };
         let found = search.reach(&aim)?;
         expanded += found.expanded;
         repaired = found.repair.or(repaired);
         Ok(found.operators)
-    });
+    };
+    let mut choice = choose(&levels, &mut reach);
+    let is_soft = |(goal, _): &(GoalId, NoPlan)| model.soft(*goal).is_some();
+    let lost: Vec<_> = choice.postponed.iter().filter(|postponed| is_soft(postponed)).cloned().collect();
+    if !lost.is_empty() {
+        // A soft goal must not keep the hard ones of its level from being planned for together.
+        levels.iter_mut().for_each(|level| level.retain(|goal| lost.iter().all(|(other, _)| other != goal)));
+        levels.retain(|level| !level.is_empty());
+        choice = choose(&levels, reach);
+        choice.postponed.extend(lost);
+    }
+    let forgone = go_for(model, request, &fresh, &mut choice, &budget);
     if choice.stages.is_empty() {
         return without_plan(model, request, &excluded, choice, budget);
     }
@@ -166,9 +181,63 @@ pub fn decide(model: &Arc<Model>, request: &Request, cancellation: &Cancellation
     let distance = || Distance::between(task, &request.broken, &operators);
     let repair = repaired.map(|repair: Repair| repair.reordered(distance()));
     match objection(model, &request.state, &served, &operators) {
-        None => Decision::Plan { operators, expanded, repair, stages, postponed },
+        None => Decision::Plan { operators, expanded, repair, stages, postponed, forgone },
         Some(finding) => Decision::NoPlan(NoPlan::Invalid(finding)),
     }
+}
+
+/// The goals in levels of priority, and the soft ones that no plan has served yet. Those that the plan before collected
+/// belong to the last level.
+fn levels(model: &Model, request: &Request) -> (Vec<Vec<GoalId>>, Vec<GoalId>) {
+    let mut levels = model.levels(&request.goals);
+    let soft = request.goals.iter().copied().filter(|&goal| model.soft(goal).is_some());
+    let (kept, fresh): (Vec<_>, Vec<_>) = soft.partition(|goal| request.served.contains(goal));
+    match levels.last_mut() {
+        Some(last) => last.extend(kept),
+        None if kept.is_empty() => {}
+        None => levels.push(kept),
+    }
+    (levels, fresh)
+}
+
+/// Lets the last part of a plan go for soft goals as far as they are worth it. Returns those that are not; one that no plan
+/// reaches is postponed, with the reason.
+fn go_for(
+    model: &Arc<Model>,
+    request: &Request,
+    soft: &[GoalId],
+    choice: &mut Choice,
+    budget: &Budget<'_>,
+) -> Vec<GoalId> {
+    if soft.is_empty() || (choice.stages.is_empty() && !choice.postponed.is_empty()) {
+        return Vec::new();
+    }
+    let task = model.task();
+    let start = choice.stages.iter().rev().nth(1).map_or(0, |stage| stage.end);
+    let Some(state) = task.after(&request.state, &choice.operators[..start]) else { return soft.to_vec() };
+    let found = soft_plan(model, &state, &choice.served(), soft, &request.barred, budget);
+    let collected = found.as_ref().map_or(&[][..], |found| &found.collected).to_vec();
+    if let Some(found) = found.filter(|found| !found.collected.is_empty()) {
+        choice.operators.truncate(start);
+        choice.operators.extend(found.operators);
+        let end = choice.operators.len();
+        match choice.stages.last_mut() {
+            Some(last) => {
+                last.goals.extend(&collected);
+                last.end = end;
+            }
+            None => choice.stages.push(Stage { goals: collected.clone(), end }),
+        }
+    }
+    let mut forgone = Vec::new();
+    for &goal in soft.iter().filter(|goal| !collected.contains(goal)) {
+        let search = Search { model, request, excluded: &[], budget: *budget };
+        match search.reach(&Aim { after: &[], all: &[goal], fresh: &[goal] }) {
+            Ok(_) => forgone.push(goal),
+            Err(why) => choice.postponed.push((goal, *why)),
+        }
+    }
+    forgone
 }
 
 /// No goal has a plan: the reason of the most important one, and whether it is only what has just failed.

@@ -32,6 +32,7 @@
 //! | `monitoring` | Monitoring |
 //! | `decision_support` | Decision Support |
 //! | `goal`, `goals` | the mission's goals: their text, their lives, which of them one plan serves |
+//! | `soft_plans` | plans that go for soft goals as far as they are worth it |
 //! | `model` | the high-level model that they share |
 //! | `outcome` | why there is no plan, why a step failed, how the mission ended |
 //! | `narration` | the story: every decision with its reason |
@@ -50,6 +51,7 @@ mod narration;
 mod outcome;
 mod record;
 mod shell;
+mod soft_plans;
 mod wheel;
 mod wording;
 

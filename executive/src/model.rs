@@ -8,7 +8,9 @@
 use crate::goal::{GoalId, GoalText, Goals};
 use indexmap::{IndexMap, IndexSet};
 use low_to_high::{Change, Fact, Fluent};
-use pddl::model::{Domain, FluentFact, FluentValue, GroundApplication, Name, ObjectId, PredicateId, Problem};
+use pddl::model::{
+    Condition, Domain, FluentFact, FluentValue, GroundApplication, Name, ObjectId, PredicateId, Problem,
+};
 use planner::{
     FactId, Goal, GroundAtom, GroundError, GroundOptions, Number, OperatorId, State, Task, ground,
 };
@@ -165,6 +167,11 @@ impl Model {
     /// The hard ones among these goals, in levels of the same priority, the highest first.
     pub(crate) fn levels(&self, goals: &[GoalId]) -> Vec<Vec<GoalId>> {
         self.goals.levels(goals)
+    }
+
+    /// A soft goal as conditions, with its penalty; `None` for a hard one.
+    pub(crate) fn soft(&self, goal: GoalId) -> Option<(Vec<Condition>, f64)> {
+        self.goals.soft(goal)
     }
 
     /// All of these goals as one goal of the planner.

@@ -2,7 +2,9 @@
 
 mod compile;
 mod set;
+mod soft;
 mod text;
 
 pub(crate) use set::Goals;
+pub(crate) use soft::{Compilation, compile as compile_soft};
 pub use text::{GoalId, GoalText, Importance};

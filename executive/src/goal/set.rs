@@ -79,6 +79,12 @@ impl Goals {
         Goal { literals: Literals { positive, negative }, impossible }
     }
 
+    /// A soft goal as conditions without variables, with its penalty; `None` for a hard one.
+    pub(crate) fn soft(&self, goal: GoalId) -> Option<(Vec<Condition>, f64)> {
+        let Importance::Soft(penalty) = self.texts[goal.index()].importance else { return None };
+        Some((self.compiled.get(goal.index())?.conditions().collect(), penalty))
+    }
+
     /// The problem with these goals as its goal.
     pub(crate) fn problem(&self, problem: &Problem, goals: &[GoalId]) -> Problem {
         let mut problem = problem.clone();

@@ -104,12 +104,8 @@ impl Agenda {
 
     /// The goals that a plan should serve, the most important first, soft ones last.
     pub(crate) fn candidates(&self) -> Vec<GoalId> {
-        let mut wanted: Vec<GoalId> = self
-            .texts()
-            .filter(|(_, text)| text.priority().is_some())
-            .map(|(id, _)| id)
-            .filter(|&id| self.life(id).is_wanted())
-            .collect();
+        let wants = |id: &GoalId| self.life(*id).is_wanted();
+        let mut wanted: Vec<GoalId> = self.texts().map(|(id, _)| id).filter(wants).collect();
         wanted.sort_by_key(|&id| std::cmp::Reverse(self.goals[id.index()].text.priority()));
         wanted
     }
@@ -180,9 +176,20 @@ impl Agenda {
     }
 
     /// The plan under way goes on, and these goals wait.
-    pub(crate) fn confirm(&mut self, postponed: &[(GoalId, NoPlan)]) -> Vec<GoalChange> {
-        let mut changes = Vec::new();
+    pub(crate) fn confirm(&mut self, postponed: &[(GoalId, NoPlan)], forgone: &[GoalId]) -> Vec<GoalChange> {
+        let mut changes = self.forgo(forgone);
         self.postpone(postponed, &mut changes);
+        changes
+    }
+
+    /// These soft goals are not worth their price.
+    pub(crate) fn forgo(&mut self, goals: &[GoalId]) -> Vec<GoalChange> {
+        let mut changes = Vec::new();
+        for &id in goals {
+            if let Importance::Soft(penalty) = self.goals[id.index()].text.importance {
+                self.pass(id, Life::GivenUp, Reason::Penalty(penalty), &mut changes);
+            }
+        }
         changes
     }
 
@@ -245,12 +252,17 @@ impl Agenda {
     /// Whether nothing is left to do: every goal that is wanted from the start has ended, and no other one is open.
     pub(crate) fn is_over(&self) -> bool {
         let begun = |entry: &Entry| entry.text.recurs() || entry.life != Life::Dormant;
-        self.has_lasting() && self.is_idle() && self.goals.iter().all(begun)
+        // A soft goal that a plan serves is worth the rest of the plan.
+        let served = |id: &GoalId| self.life(*id).is_wanted();
+        self.has_lasting()
+            && self.is_idle()
+            && self.goals.iter().all(begun)
+            && !self.served().iter().any(served)
     }
 
     /// Whether a goal is wanted from the start, once: when all of those have ended, the mission is over.
     pub(crate) fn has_lasting(&self) -> bool {
-        self.goals.iter().any(|entry| !entry.text.recurs())
+        self.goals.iter().any(|entry| !entry.text.recurs() && entry.text.priority().is_some())
     }
 
     /// No plan serves what is wanted, and a human has come.

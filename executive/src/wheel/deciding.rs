@@ -117,26 +117,36 @@ impl Wheel {
         let moved_on = sight.state != inquiry.from;
         let other_goals = self.agenda.candidates() != self.agenda.last_considered();
         match decision {
-            Decision::Plan { operators, stages, postponed, .. }
+            Decision::Plan { operators, stages, postponed, forgone, .. }
                 if inquiry.review && self.is_confirmed(&operators, &stages) =>
             {
-                let changes = self.agenda.confirm(&postponed);
+                let changes = self.agenda.confirm(&postponed, &forgone);
                 self.tell_goals(changes, effects);
                 self.advance(effects);
             }
-            Decision::Plan { operators, expanded, repair, stages, postponed } => {
+            Decision::Plan { operators, expanded, repair, stages, postponed, forgone } => {
+                let without = self.agenda.forgo(&forgone);
                 let served: Vec<_> = stages.iter().flat_map(|stage| stage.goals.iter().copied()).collect();
                 let goal = self.model.goal(&served);
                 let course = Course::new(&self.model, operators, goal, &sight.state);
                 let fits = course.monitor.furthest(self.model.task()).is_some();
                 match fits && self.agenda.still_want(&served) {
-                    true => self.adopt(course, (expanded, repair), (stages, &postponed), effects),
+                    true => {
+                        self.adopt(course, (expanded, repair), (stages, &postponed), effects);
+                        self.tell_goals(without, effects);
+                    }
                     false => self.ask_again(inquiry.stopped, effects),
                 }
             }
             // A decision for another state, or for other goals, does not hold for this one.
             Decision::NoPlan(_) | Decision::Barred(_) if moved_on || other_goals => {
                 self.ask_again(inquiry.stopped, effects);
+            }
+            // Nobody is called because of something that would have been nice.
+            Decision::NoPlan(why) | Decision::Barred(why) if self.agenda.is_idle() => {
+                let changes = self.agenda.give_up_all(&why);
+                self.tell_goals(changes, effects);
+                self.advance(effects);
             }
             Decision::NoPlan(why) => self.fall_back(why, effects),
             Decision::Barred(why) => self.barred(why, effects),

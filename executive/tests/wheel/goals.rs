@@ -332,6 +332,62 @@ fn a_robot_that_only_waits_for_goals_has_done_all_of_them_at_the_horizon() {
     assert_eq!(walk.0.ending, Some(Ending::Accomplished));
 }
 
+/// A round to the dock that must be, and a visit to the desk that may be.
+fn round_and_visit(penalty: f64) -> Walk {
+    Walk::new(|places| {
+        let visit = goal(places, "visit", "(seen desk)", 0);
+        let visit = GoalText { importance: Importance::Soft(penalty), ..visit };
+        vec![goal(places, "round", "(and (at dock) (seen dock))", 1), visit]
+    })
+}
+
+#[test]
+fn a_soft_goal_that_is_worth_its_price_is_a_part_of_the_plan() {
+    let mut walk = round_and_visit(1.5);
+    assert!(walk.wants("desk"), "{:?}", walk.lives());
+    walk.arrive("hall", "desk");
+    assert!(walk.wants("dock"), "{:?}", walk.lives());
+    walk.arrive("desk", "dock");
+    assert_eq!(walk.0.ending, Some(Ending::Accomplished));
+    assert_eq!(walk.lives()[4..], ["visit achieved", "round achieved"]);
+}
+
+#[test]
+fn a_soft_goal_that_costs_more_than_it_is_worth_is_given_up() {
+    let mut walk = round_and_visit(0.5);
+    assert!(walk.wants("dock") && !walk.wants("desk"));
+    assert_eq!(walk.why("visit"), "a plan without it is cheaper, by more than 0.5");
+    walk.arrive("hall", "dock");
+    assert_eq!(walk.0.ending, Some(Ending::Accomplished), "nobody fails for a soft goal");
+}
+
+#[test]
+fn a_plan_goes_without_a_soft_goal_that_is_out_of_reach_and_says_why() {
+    let mut walk = Walk::new(|places| {
+        let visit = goal(places, "visit", "(and (at desk) (at door))", 0);
+        let visit = GoalText { importance: Importance::Soft(100.0), ..visit };
+        vec![goal(places, "round", "(seen dock)", 1), visit]
+    });
+    assert!(walk.wants("dock"));
+    assert!(walk.lives().contains(&"visit given_up".to_owned()), "{:?}", walk.lives());
+    assert!(!walk.why("visit").is_empty());
+    walk.arrive("hall", "dock");
+    assert_eq!(walk.0.ending, Some(Ending::Accomplished));
+    assert_eq!(walk.0.count(|n| matches!(n, Narration::FellBack { .. })), 0);
+}
+
+#[test]
+fn a_soft_goal_that_a_plan_serves_and_that_fails_calls_nobody() {
+    let mut walk = round_and_visit(1.5);
+    let is = walk.label("is");
+    walk.0.edit("mover", Edit::AddEdge { from: "desk".into(), label: is, to: "closed".into() });
+    assert!(walk.wants("dock") && !walk.wants("desk"), "{:?}", walk.lives());
+    assert!(walk.lives().contains(&"visit given_up".to_owned()), "{:?}", walk.lives());
+    walk.arrive("hall", "dock");
+    assert_eq!(walk.0.ending, Some(Ending::Accomplished));
+    assert_eq!(walk.0.count(|n| matches!(n, Narration::FellBack { .. })), 0);
+}
+
 #[test]
 fn the_fallback_is_displaced_by_a_goal_that_has_a_plan() {
     let mut walk = Walk::new(|places| {

@@ -5,7 +5,7 @@
     hello hello-visitor farewell - part
     drink cake - item
     black green plain - option
-    welcome goodbye - utterance
+    welcome goodbye cheers - utterance
     which - question
     dessert - goal)
   (:init

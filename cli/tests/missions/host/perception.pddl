@@ -4,4 +4,7 @@
   (:derived (greeted ?p - person)
     (exists (?h - part) (and (addresses ?h ?p) (was_said_in welcome ?h))))
   (:derived (ordered ?i - item) (exists (?o - option) (was_chosen_in ?o ?i)))
-  (:derived (parted) (was_said_in goodbye farewell)))
+  (:derived (parted) (was_said_in goodbye farewell))
+  (:derived (toasted ?p - person)
+    (exists (?h - part) (and (addresses ?h ?p) (was_said_in cheers ?h))))
+  (:derived (has_glass ?p - person) (holds_up ?p glass)))

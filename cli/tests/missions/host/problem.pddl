@@ -1,4 +1,5 @@
 (define (problem one-evening)
   (:domain host)
   (:objects guest visitor - person drink cake - item)
+  (:init (has_glass guest) (has_glass visitor))
   (:goal (ordered drink)))

@@ -11,12 +11,13 @@
   (:constants
     pelea voice - agent
     loudspeaker - resource
-    speaking held dropped - state
+    speaking held dropped glass - state
     help - request
     bill - document)
   (:predicates
     (is ?x - (either robot goal) ?s - state)
     (addresses ?p - part ?g - person)
+    (holds_up ?p - person ?s - state)
     (is_with ?p - person ?r - robot)
     (offers ?i - item ?o - option)
     (was_said_in ?u - utterance ?p - part)
