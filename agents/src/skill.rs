@@ -165,7 +165,7 @@ pub struct Call {
     pub arguments: Vec<Arc<str>>,
     /// The graph right after the rule's effects at start.
     pub snapshot: Snapshot,
-    /// Since when the rule has been due for this binding: the same when it begins again after a restart.
+    /// Since when what the rule is about stands: the same when it begins again after a restart.
     pub since: Version,
 }
 

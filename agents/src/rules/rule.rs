@@ -102,9 +102,11 @@ impl Rule {
         self.trigger.holds(snapshot, &self.binding(parameters))
     }
 
-    /// Since when the condition before holds for this binding: the oldest of its alternatives that hold.
+    /// Since when a rule that has started is about what it is about: what must hold over all; without such a condition, what
+    /// held before. The same when the rule starts again after the end of the process, if these tokens stand.
     pub(crate) fn since(&self, snapshot: &Snapshot, parameters: &Parameters) -> Option<Version> {
-        let keep = self.trigger.keep(&self.binding(parameters));
+        let lasting = if self.keep.is_always() { &self.trigger } else { &self.keep };
+        let keep = lasting.keep(&self.binding(parameters));
         keep.any.iter().filter_map(|bound| bound.pattern.since(snapshot, &bound.binding)).min()
     }
 
