@@ -15,7 +15,7 @@ use crate::render;
 use agents::{Agent, skills};
 use diagnostics::{Finding, Place, SourceId};
 use dsr::{AgentId, Graph, Interest, LabelId, Time};
-use executive::{Bounds, Model, Policy, Sensed, Step, Wheel};
+use executive::{Arrivals, Bounds, Model, Policy, Sensed, Step, Wheel};
 use high_to_low::Methods;
 use low_to_high::Perception;
 use mission::{Mission, MissionErrors, MissionTask, SkillOutcomes};
@@ -50,13 +50,15 @@ struct Parts {
     perception: Arc<Perception>,
     methods: Arc<Methods>,
     policy: Policy,
+    /// Which nodes are objects that have appeared.
+    arrivals: Arc<Arrivals>,
 }
 
 impl Assembly {
     /// A wheel that has not turned yet.
     pub(crate) fn wheel(&self) -> Wheel {
-        let Parts { model, perception, methods, policy } = self.parts.clone();
-        Wheel::new(model, perception, methods, policy)
+        let Parts { model, perception, methods, policy, arrivals } = self.parts.clone();
+        Wheel::new(model, perception, methods, policy).with_arrivals(arrivals)
     }
 
     /// The same mission on a graph of its own, which begins like this one is now.
@@ -205,7 +207,8 @@ fn put_together(mission: &Mission, findings: &mut Vec<Finding>) -> Option<Assemb
         return None;
     };
     let (model, perception, methods) = (Arc::new(model), Arc::new(perception), Arc::new(methods));
-    let parts = Parts { model, perception, methods, policy: policy(mission) };
+    let arrivals = Arc::new(Arrivals::new(model.domain(), &graph.snapshot()));
+    let parts = Parts { model, perception, methods, policy: policy(mission), arrivals };
     let invariants = Arc::new(invariants);
     let vocabulary = Arc::new(vocabulary);
     let labels = mission.manifest.report.lasting();

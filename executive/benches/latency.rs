@@ -147,6 +147,7 @@ fn plan(model: &Arc<Model>, state: &State) -> Vec<OperatorId> {
         running: None,
         barred,
         expansions: 20_000,
+        arrived: None,
     };
     match decide(model, &request, &Cancellation::default()) {
         Decision::Plan { operators, .. } => operators,

@@ -156,6 +156,7 @@ fn replan(bench: &mut Criterion) {
         running: None,
         barred: Vec::new(),
         expansions: 20_000,
+        arrived: None,
     };
     let Decision::Plan { operators, .. } = decide(model, &request) else { panic!("there is a plan") };
     request.state = state;

@@ -14,12 +14,14 @@
 //!
 //! Source: Fox, Gerevini, Long & Serina, "Plan stability: replanning versus plan repair", ICAPS 2006.
 
+use crate::arrivals::Arrival;
 use crate::goal::GoalId;
 use crate::goals::{Aim, Choice, Stage, choose};
 use crate::outcome::{NoPlan, Unsolvable};
 use crate::soft_plans::soft_plan;
 use crate::{Model, Step};
 use budget::Cancellation;
+use low_to_high::{Fact, Fluent};
 use planner::{
     Attempt, Budget, Distance, Goal, Impossible, OperatorId, Outcome, Plan, Preference, Query, Repaired,
     Report, SearchConfiguration, State, UnsolvableReason, Way, explain, improve, repair, solve, still_needed,
@@ -50,6 +52,19 @@ pub struct Request {
     pub barred: Vec<Step>,
     /// How many states may be expanded.
     pub expansions: u64,
+    /// What is perceived, if there are other objects than those of the model.
+    pub arrived: Option<Arrived>,
+}
+
+/// What is perceived of a world with other objects than those of the model.
+#[derive(Clone, Debug)]
+pub struct Arrived {
+    /// The objects that the problem does not have.
+    pub objects: Vec<Arrival>,
+    /// The facts.
+    pub facts: Vec<Fact>,
+    /// The numbers.
+    pub numbers: Vec<(Fluent, f64)>,
 }
 
 /// The number of a request.
@@ -73,6 +88,8 @@ pub enum Decision {
         postponed: Vec<(GoalId, NoPlan)>,
         /// The soft goals that cost more than they are worth, or for which the effort was not enough.
         forgone: Vec<GoalId>,
+        /// The model that its operators are of, if it was made with other objects.
+        model: Option<Arc<Model>>,
     },
     /// None, and why.
     NoPlan(NoPlan),
@@ -141,6 +158,28 @@ impl Repair {
 
 /// Plans. Deterministic: the same request on the same model gives the same decision, if it is not cancelled.
 pub fn decide(model: &Arc<Model>, request: &Request, cancellation: &Cancellation) -> Decision {
+    let Some(arrived) = &request.arrived else { return decide_on(model, request, cancellation) };
+    let grown = match model.with_arrivals(&arrived.objects) {
+        Ok(grown) => Arc::new(grown),
+        Err(error) => return Decision::NoPlan(NoPlan::TooLarge(error.to_string())),
+    };
+    let state = grown.state(&arrived.facts);
+    let state =
+        grown.with_numbers(state, arrived.numbers.iter().map(|(fluent, value)| (fluent, Some(*value))));
+    let steps: Vec<_> = request.broken.iter().chain(&request.running).map(|&o| model.step(o)).collect();
+    let mut operators = grown.operators(&steps);
+    let running = operators.split_off(request.broken.len()).into_iter().flatten().next();
+    let broken = operators.into_iter().flatten().collect();
+    let request = Request { state, broken, running, arrived: None, ..request.clone() };
+    match decide_on(&grown, &request, cancellation) {
+        Decision::Plan { operators, expanded, repair, stages, postponed, forgone, .. } => {
+            Decision::Plan { operators, expanded, repair, stages, postponed, forgone, model: Some(grown) }
+        }
+        other => other,
+    }
+}
+
+fn decide_on(model: &Arc<Model>, request: &Request, cancellation: &Cancellation) -> Decision {
     let task = model.task();
     let excluded: Vec<OperatorId> = if request.barred.is_empty() {
         Vec::new()
@@ -181,7 +220,7 @@ pub fn decide(model: &Arc<Model>, request: &Request, cancellation: &Cancellation
     let distance = || Distance::between(task, &request.broken, &operators);
     let repair = repaired.map(|repair: Repair| repair.reordered(distance()));
     match objection(model, &request.state, &served, &operators) {
-        None => Decision::Plan { operators, expanded, repair, stages, postponed, forgone },
+        None => Decision::Plan { operators, expanded, repair, stages, postponed, forgone, model: None },
         Some(finding) => Decision::NoPlan(NoPlan::Invalid(finding)),
     }
 }

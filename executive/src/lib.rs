@@ -20,7 +20,7 @@
 //! let state = model.state([&dark]);
 //! let request = Request {
 //!     id: RequestId(0), state, goals: vec![GoalId(0)], broken: Vec::new(), served: Vec::new(), running: None,
-//!     barred: Vec::new(), expansions: 100,
+//!     barred: Vec::new(), expansions: 100, arrived: None,
 //! };
 //! let never = budget::Cancellation::default();
 //! assert!(matches!(decide(&model, &request, &never), Decision::Plan { operators, .. } if operators.len() == 1));
@@ -32,6 +32,7 @@
 //! | `monitoring` | Monitoring |
 //! | `decision_support` | Decision Support |
 //! | `goal`, `goals` | the mission's goals: their text, their lives, which of them one plan serves |
+//! | `arrivals` | objects that appear at run time |
 //! | `soft_plans` | plans that go for soft goals as far as they are worth it |
 //! | `model` | the high-level model that they share |
 //! | `outcome` | why there is no plan, why a step failed, how the mission ended |
@@ -41,6 +42,7 @@
 //! | `shell` | where the pure wheel meets graph, clock and threads |
 //! | `wording` | outcomes and reasons as sentences |
 
+mod arrivals;
 mod decision_support;
 mod goal;
 mod goals;
@@ -55,7 +57,8 @@ mod soft_plans;
 mod wheel;
 mod wording;
 
-pub use decision_support::{Decision, Figures, Repair, Request, RequestId, decide};
+pub use arrivals::{Arrival, Arrivals};
+pub use decision_support::{Arrived, Decision, Figures, Repair, Request, RequestId, decide};
 pub use goal::{GoalId, GoalText, Importance};
 pub use goals::{GoalChange, Life, Reason, Stage};
 pub use lasting::Lasting;

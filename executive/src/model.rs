@@ -5,16 +5,19 @@
 //! grounding keeps every value that they can take and no replan grounds again; all others are as in the
 //! problem. Cost: one hash look-up per fact or number that changes, and a copy of the state's bits.
 
+use crate::arrivals::Arrival;
 use crate::goal::{GoalId, GoalText, Goals};
 use indexmap::{IndexMap, IndexSet};
 use low_to_high::{Change, Fact, Fluent};
 use pddl::model::{
-    Condition, Domain, FluentFact, FluentValue, GroundApplication, Name, ObjectId, PredicateId, Problem,
+    Condition, Domain, FluentFact, FluentValue, GroundApplication, Name, Object, ObjectId, ObjectTypes,
+    PredicateId, Problem,
 };
 use planner::{
     FactId, Goal, GroundAtom, GroundError, GroundOptions, Number, OperatorId, State, Task, ground,
 };
 use rustc_hash::FxHashMap;
+use std::sync::Arc;
 
 /// The grounded task with its names.
 #[derive(Clone, Debug)]
@@ -30,6 +33,20 @@ pub struct Model {
     /// Facts of the initial state that are not perceived, sorted.
     given: Vec<FactId>,
     goals: Goals,
+    /// What it was made from, to be made again with other objects.
+    base: Arc<Base>,
+    /// The objects that the problem does not have.
+    arrivals: Vec<Arrival>,
+}
+
+/// What a model is made from.
+#[derive(Debug)]
+struct Base {
+    domain: Domain,
+    problem: Problem,
+    predicates: Vec<Name>,
+    numbers: Vec<(Name, Option<f64>)>,
+    goals: Vec<GoalText>,
 }
 
 /// What perception derives of the planner's domain.
@@ -99,12 +116,34 @@ impl Model {
     /// # Errors
     /// If the planner cannot ground the domain.
     pub fn with_goals<'s>(
-        mut domain: Domain,
-        mut problem: Problem,
+        domain: Domain,
+        problem: Problem,
         sensed: impl Into<Sensed<'s>>,
         goals: Vec<GoalText>,
     ) -> Result<Self, ModelError> {
         let sensed = sensed.into();
+        let (predicates, numbers) = (sensed.predicates.to_vec(), sensed.numbers.to_vec());
+        Self::of(Arc::new(Base { domain, problem, predicates, numbers, goals }), Vec::new())
+    }
+
+    /// The same model with other objects that the problem does not have.
+    ///
+    /// # Errors
+    /// If the planner cannot ground the domain.
+    pub(crate) fn with_arrivals(&self, arrivals: &[Arrival]) -> Result<Self, ModelError> {
+        Self::of(Arc::clone(&self.base), arrivals.to_vec())
+    }
+
+    fn of(base: Arc<Base>, arrivals: Vec<Arrival>) -> Result<Self, ModelError> {
+        let (mut domain, mut problem) = (base.domain.clone(), base.problem.clone());
+        for Arrival { name, of } in &arrivals {
+            if let Some(of) = domain.types.find(of) {
+                let (name, types) = (name.clone(), ObjectTypes::one(of));
+                problem.objects.push(Object { name, types, span: problem.goal_span });
+            }
+        }
+        let sensed = Sensed { predicates: &base.predicates, numbers: &base.numbers };
+        let goals = base.goals.clone();
         let exogenous: IndexSet<_> =
             sensed.predicates.iter().filter_map(|name| domain.predicate(name)).collect();
         let volatile: Vec<_> = exogenous.iter().copied().collect();
@@ -136,7 +175,33 @@ impl Model {
             Some((fluent, (application.clone(), default.and_then(Number::from_f64))))
         });
         let numbers = numbers.collect();
-        Ok(Self { domain, problem, task, predicates, objects, exogenous, numbers, given, goals })
+        Ok(Self {
+            domain,
+            problem,
+            task,
+            predicates,
+            objects,
+            exogenous,
+            numbers,
+            given,
+            goals,
+            base,
+            arrivals,
+        })
+    }
+
+    /// The objects that the problem does not have.
+    pub fn arrivals(&self) -> &[Arrival] {
+        &self.arrivals
+    }
+
+    /// The operators of these names; those of an object that is gone are left out.
+    pub(crate) fn operators(&self, steps: &[Step]) -> Vec<Option<OperatorId>> {
+        let mut known: FxHashMap<Step, OperatorId> = FxHashMap::default();
+        for operator in self.task.operators().ids() {
+            known.entry(self.step(operator)).or_insert(operator);
+        }
+        steps.iter().map(|step| known.get(step).copied()).collect()
     }
 
     /// The grounded task.

@@ -34,6 +34,13 @@ pub enum Narration {
         #[serde(skip_serializing_if = "Vec::is_empty")]
         goals: Vec<Vec<Name>>,
     },
+    /// Objects of the plan appeared or are gone.
+    Objects {
+        /// Those that appeared.
+        come: Vec<Name>,
+        /// Those that are gone.
+        gone: Vec<Name>,
+    },
     /// A goal passed into another stage of its life.
     Goal(GoalChange),
     /// A step starts.

@@ -19,6 +19,8 @@ pub enum NoPlan {
     Unsupported(planner::Feature),
     /// The plan that was found does not validate: a bug of ours, with the validator's finding.
     Invalid(validator::Finding),
+    /// With the objects that have appeared, the domain cannot be grounded.
+    TooLarge(String),
     /// The planner panicked, a bug of ours, or was cancelled.
     Stopped,
     /// There is none yet: the decision takes longer than this many seconds.

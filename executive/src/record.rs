@@ -8,6 +8,7 @@
 //! effects, byte for byte in their serialised form.
 
 use crate::Step;
+use crate::arrivals::Arrival;
 use crate::decision_support::{Decision, RequestId};
 use crate::goal::GoalId;
 use crate::narration::Narration;
@@ -91,6 +92,8 @@ impl Serialize for Effect {
                 is_running: bool,
                 barred: &'a [Step],
                 expansions: u64,
+                #[serde(skip_serializing_if = "<[_]>::is_empty")]
+                objects: &'a [Arrival],
             },
             Cancel(RequestId),
             WakeAt(u64),
@@ -106,6 +109,7 @@ impl Serialize for Effect {
                 is_running: request.running.is_some(),
                 barred: &request.barred,
                 expansions: request.expansions,
+                objects: request.arrived.as_ref().map_or(&[], |arrived| &arrived.objects),
             },
             Self::Cancel(request) => Record::Cancel(*request),
             Self::WakeAt(time) => Record::WakeAt(time.0),

@@ -29,6 +29,7 @@ impl Display for NoPlan {
             Self::Unsolvable(proof) => proof.fmt(f),
             Self::LimitReached(most) => write!(f, "no plan within {most} expansions"),
             Self::Unsupported(feature) => write!(f, "the planner does not support {feature}"),
+            Self::TooLarge(why) => write!(f, "with the objects that have appeared: {why}"),
             Self::Invalid(finding) => write!(f, "the plan found does not validate: {}", finding.sentence),
             Self::Stopped => f.write_str("the planner stopped"),
             Self::Late(seconds) => write!(f, "no plan within {seconds} s"),

@@ -41,6 +41,7 @@ fn plan(model: &Arc<Model>) -> Vec<planner::OperatorId> {
         running: None,
         barred: Vec::new(),
         expansions: 1_000,
+        arrived: None,
     };
     match decide(model, &request, &Cancellation::default()) {
         Decision::Plan { operators, .. } => operators,

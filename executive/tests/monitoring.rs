@@ -55,6 +55,7 @@ fn plan(model: &Arc<Model>) -> Vec<OperatorId> {
         running: None,
         barred: Vec::new(),
         expansions: 10_000,
+        arrived: None,
     };
     match decide(model, &request, &budget::Cancellation::default()) {
         Decision::Plan { operators, .. } => operators,

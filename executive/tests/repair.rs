@@ -54,6 +54,7 @@ fn request(model: &Model, seen: &[&str], broken: &[&str], running: Option<&str>)
         running: running.map(|name| operator(model, name)),
         barred: Vec::new(),
         expansions: 1_000,
+        arrived: None,
     }
 }
 

@@ -188,6 +188,13 @@ impl Terminal {
     fn pelea(&mut self, time: f64, narration: &Narration) {
         use Narration as N;
         match narration {
+            N::Objects { come, gone } => {
+                let name = |what: &str, names: &[Name]| {
+                    names.iter().map(|name| format!("{what} {name}")).collect::<Vec<_>>()
+                };
+                let text = [name("there is", come), name("gone is", gone)].concat().join(", ");
+                self.line(time, Tone::Plan, "objects", &text);
+            }
             N::Goal(change) => {
                 let tone = match change.life {
                     Life::GivenUp | Life::Suspended => Tone::Trouble,

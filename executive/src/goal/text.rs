@@ -71,6 +71,11 @@ impl GoalText {
         }
     }
 
+    /// Whether it is about objects that it does not name.
+    pub(crate) fn is_quantified(&self) -> bool {
+        !self.variables.slots.is_empty()
+    }
+
     /// Its priority; `None` for a soft goal.
     pub fn priority(&self) -> Option<i64> {
         match self.importance {

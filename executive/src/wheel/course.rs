@@ -42,6 +42,12 @@ impl Course {
         }
     }
 
+    /// The same plan with what has been begun of the current step of another.
+    pub(super) fn carrying(mut self, other: Self) -> Self {
+        (self.refinement, self.wake_at) = (other.refinement, other.wake_at);
+        self
+    }
+
     /// The steps from the current one on.
     pub(super) fn left(&self) -> &[OperatorId] {
         &self.monitor.plan()[self.current.min(self.monitor.plan().len())..]

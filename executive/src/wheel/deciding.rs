@@ -16,6 +16,7 @@ use crate::narration::Narration;
 use crate::outcome::{Ending, NoPlan, Stuck, Trouble};
 use dsr::Time;
 use planner::OperatorId;
+use std::sync::Arc;
 
 impl Wheel {
     /// Asks for a plan from here. `stopped`: what is left of a plan whose current step has ended.
@@ -35,7 +36,9 @@ impl Wheel {
             running,
             barred: self.failures.barred(&sight.state, self.moment.now),
             expansions: self.policy.expansions,
+            arrived: self.arrived(),
         }));
+        self.considered_objects.clone_from(&self.arrived);
         let (from, asked) = (sight.state.clone(), self.moment.now);
         let fits = |course: &Course| !matches!(course.progress(self.model.task()), Progress::Deviates);
         let review = matches!(&self.hand, Hand::Plan(course) if fits(course));
@@ -113,6 +116,9 @@ impl Wheel {
 
     /// Compares an answer with the present.
     pub(super) fn decided(&mut self, decision: Decision, inquiry: Inquiry, effects: &mut Vec<Effect>) {
+        if let Decision::Plan { model: Some(model), .. } = &decision {
+            self.switch(Arc::clone(model), effects);
+        }
         let Some(sight) = &self.sight else { return };
         let moved_on = sight.state != inquiry.from;
         let other_goals = self.agenda.candidates() != self.agenda.last_considered();
@@ -124,7 +130,7 @@ impl Wheel {
                 self.tell_goals(changes, effects);
                 self.advance(effects);
             }
-            Decision::Plan { operators, expanded, repair, stages, postponed, forgone } => {
+            Decision::Plan { operators, expanded, repair, stages, postponed, forgone, .. } => {
                 let without = self.agenda.forgo(&forgone);
                 let served: Vec<_> = stages.iter().flat_map(|stage| stage.goals.iter().copied()).collect();
                 let goal = self.model.goal(&served);

@@ -26,8 +26,10 @@ impl Wheel {
     pub(super) fn follow_goals(&mut self, effects: &mut Vec<Effect>) {
         let Some(sight) = &self.sight else { return };
         let task = self.model.task();
+        let outgrown = self.is_outgrown();
         let view = |(text, aim): (&GoalText, &planner::Goal)| View {
-            holds: task.satisfies(&sight.state, aim),
+            // Of an object that the model lacks, it does not know what "all of them" means.
+            holds: task.satisfies(&sight.state, aim) && !(outgrown && text.is_quantified()),
             when: text.when.as_ref().is_none_or(|fact| sight.perceives(fact)),
             hold: text.hold.as_ref().is_some_and(|fact| sight.perceives(fact)),
             drop: text.drop.as_ref().is_some_and(|fact| sight.perceives(fact)),
@@ -68,6 +70,7 @@ impl Wheel {
             false => Review::AfterStep,
         };
         self.agenda.review(&self.agenda.candidates()) >= due
+            || (self.has_new_objects() && !course.is_under_way())
     }
 
     /// No goal is wanted now: what is carried out ends, except a call.
@@ -87,7 +90,7 @@ impl Wheel {
 
     /// A task outside any plan, or a rest, was chosen for other goals: they may have a plan.
     pub(super) fn reconsider(&mut self) {
-        if self.agenda.candidates() == self.agenda.last_considered() {
+        if self.agenda.candidates() == self.agenda.last_considered() && !self.has_new_objects() {
             return;
         }
         match &mut self.hand {

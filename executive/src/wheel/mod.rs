@@ -17,7 +17,7 @@
 //!
 //! From the ground up: `policy` (what the mission decides), `backoff`, `clock` (time without stops), `failures`,
 //! `patience` (progress), `sight` (what is seen) → `event`, `effects` → `course` (a plan under way), `errand` (a task
-//! outside a plan) → `state` (the wheel) → `turn`, and what a turn may lead to: `acting`, `deciding`, `goals`, `trouble`.
+//! outside a plan) → `state` (the wheel) → `turn`, and what a turn may lead to: `acting`, `deciding`, `goals`, `objects`, `trouble`.
 //!
 //! Source: §4.2 of the CORTEX/CLARC paper (HLE, Monitoring, Decision Support, HighToLow, LowToHigh).
 
@@ -31,6 +31,7 @@ mod errand;
 mod event;
 mod failures;
 mod goals;
+mod objects;
 mod patience;
 mod policy;
 mod sight;

@@ -8,6 +8,7 @@
 //! counts start anew, and each bound is twice as large. Progress restores the mission's own bounds.
 
 use super::policy::Bounds;
+use crate::Model;
 use crate::outcome::Stuck;
 use planner::{FactId, OperatorId, State, Task};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -38,6 +39,21 @@ impl Patience {
             wanted: FxHashSet::default(),
             achieved: FxHashSet::default(),
         }
+    }
+
+    /// The same of another model, by names.
+    pub(super) fn rename(&mut self, old: &Model, new: &Model) {
+        let facts = |of: &FxHashSet<FactId>| -> FxHashSet<FactId> {
+            of.iter().filter_map(|&fact| new.fact(&old.name(fact)?)).collect()
+        };
+        let (held, wanted) = (facts(&self.held), facts(&self.wanted));
+        (self.held, self.wanted) = (held, wanted);
+        let steps: Vec<_> = self.achieved.iter().map(|&step| old.step(step)).collect();
+        self.achieved = new.operators(&steps).into_iter().flatten().collect();
+        let (steps, times): (Vec<_>, Vec<_>) =
+            self.starts.drain().map(|(step, times)| (old.step(step), times)).unzip();
+        let renamed = new.operators(&steps).into_iter().zip(times);
+        self.starts = renamed.filter_map(|(step, times)| Some((step?, times))).collect();
     }
 
     /// How many escalations there were since the last progress.

@@ -3,7 +3,7 @@
 use crate::model::{Changes, Model};
 use crate::monitoring::Deviation;
 use dsr::{Delta, Snapshot, Time};
-use low_to_high::{Fact, LowToHigh, Perception};
+use low_to_high::{Fact, Fluent, LowToHigh, Perception};
 use planner::State;
 use std::sync::Arc;
 
@@ -43,6 +43,18 @@ impl Sight {
         let facts: Vec<_> = gone.chain(come).collect();
         let numbers = facts.is_empty() && before != after;
         Changes { facts, numbers }
+    }
+
+    /// Everything that is perceived.
+    pub(super) fn perceived(&self) -> (Vec<Fact>, Vec<(Fluent, f64)>) {
+        let numbers = self.low_to_high.numbers().map(|(fluent, value)| (fluent.clone(), value));
+        (self.low_to_high.facts().cloned().collect(), numbers.collect())
+    }
+
+    /// The state as another model has it.
+    pub(super) fn restate(&mut self, model: &Model) {
+        let numbers = self.low_to_high.numbers().map(|(fluent, value)| (fluent, Some(value)));
+        self.state = model.with_numbers(model.state(self.low_to_high.facts()), numbers);
     }
 
     /// Whether a fact of the planner, or a condition of a goal, is perceived.

@@ -8,6 +8,7 @@ use super::patience::Patience;
 use super::policy::Policy;
 use super::sight::Sight;
 use crate::Model;
+use crate::arrivals::{Arrival, Arrivals};
 use crate::decision_support::{Decision, RequestId};
 use crate::goal::GoalId;
 use crate::goals::Agenda;
@@ -42,6 +43,12 @@ pub struct Wheel {
     pub(super) agenda: Agenda,
     /// Each goal for the planner.
     pub(super) aims: Vec<Goal>,
+    /// Which nodes are objects that have appeared; `None` if none is.
+    pub(super) arrivals: Option<Arc<Arrivals>>,
+    /// The objects that have appeared and are there.
+    pub(super) arrived: Vec<Arrival>,
+    /// Those for which the last decision was made.
+    pub(super) considered_objects: Vec<Arrival>,
     /// Where the plan under way should be after its last step; `None` if it serves all goals that are wanted.
     pub(super) expected: Option<State>,
     pub(super) failures: Failures,
@@ -115,6 +122,9 @@ impl Wheel {
             inquiry: None,
             agenda,
             aims,
+            arrivals: None,
+            arrived: Vec::new(),
+            considered_objects: Vec::new(),
             expected: None,
             failures,
             patience,
@@ -130,6 +140,13 @@ impl Wheel {
     #[must_use]
     pub fn until(mut self, horizon: Time) -> Self {
         self.horizon = Some(horizon);
+        self
+    }
+
+    /// The same wheel, for a world in which objects may appear.
+    #[must_use]
+    pub fn with_arrivals(mut self, arrivals: Arc<Arrivals>) -> Self {
+        self.arrivals = Some(arrivals);
         self
     }
 

@@ -79,6 +79,7 @@ impl Wheel {
                 self.changed(&changes);
             }
         }
+        self.follow_objects(None, effects);
         self.advance(effects);
     }
 
@@ -87,6 +88,7 @@ impl Wheel {
         let Some(sight) = &mut self.sight else { return self.look(snapshot, effects) };
         let changes = sight.follow(&self.model, snapshot, delta, self.moment.now);
         self.changed(&changes);
+        self.follow_objects(Some(delta), effects);
         self.advance(effects);
     }
 

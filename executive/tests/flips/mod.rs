@@ -100,6 +100,7 @@ fn plan(model: &Arc<Model>, expansions: u64) -> Result<Vec<OperatorId>, Skipped>
         running: None,
         barred,
         expansions,
+        arrived: None,
     };
     match decide(model, &request, &Cancellation::default()) {
         Decision::Plan { operators, .. } => Ok(operators),

@@ -2,7 +2,9 @@
 
 use crate::bench::{Bench, domain, later};
 use dsr::{Edit, Graph, Time};
-use executive::{Effect, Ending, Event, GoalText, Importance, Model, Narration, Policy, Step, Wheel};
+use executive::{
+    Arrivals, Effect, Ending, Event, GoalText, Importance, Model, Narration, Policy, Step, Wheel,
+};
 use high_to_low::Methods;
 use low_to_high::{Fact, Perception};
 use pddl::model::{Domain, Name};
@@ -17,7 +19,7 @@ const LAB: &str = "(define (domain lab)
   (:constants pelea mover - agent robot - symbol wanted reached closed low guest away paused - state)
   (:predicates (is ?p - place ?s - state) (sees ?p - place ?s - state))
   (:writes pelea (is _ wanted))
-  (:writes mover (is _ reached) (is _ wanted) (is _ closed) sees))";
+  (:writes mover place (is _ reached) (is _ wanted) (is _ closed) sees))";
 
 const PLACES: &str = "(define (domain places)
   (:requirements :strips :typing :negative-preconditions)
@@ -137,6 +139,11 @@ impl Walk {
     fn no_longer(&mut self, place: &str, what: &str) {
         let sees = self.label("sees");
         self.0.edit("mover", Edit::RemoveEdge { from: place.into(), label: sees, to: what.into() });
+    }
+
+    fn saw(&self, place: &str) -> bool {
+        let sentences = self.0.graph.snapshot().sentences();
+        sentences.iter().any(|sentence| sentence.starts_with(place) && sentence.ends_with("sees guest"))
     }
 
     fn wants(&self, place: &str) -> bool {
@@ -386,6 +393,39 @@ fn a_soft_goal_that_a_plan_serves_and_that_fails_calls_nobody() {
     walk.arrive("hall", "dock");
     assert_eq!(walk.0.ending, Some(Ending::Accomplished));
     assert_eq!(walk.0.count(|n| matches!(n, Narration::FellBack { .. })), 0);
+}
+
+#[test]
+fn an_object_that_appears_belongs_to_the_goal_and_one_that_goes_does_not() {
+    let (graph, wheel) =
+        rooms(|places| vec![goal(places, "all", "(forall (?p - place) (or (seen ?p) (shut ?p)))", 1)]);
+    let arrivals = Arrivals::new(wheel.model().domain(), &graph.snapshot());
+    let mut walk = Walk(Bench::begin(graph, wheel.with_arrivals(Arc::new(arrivals)), true));
+    let place = walk.0.graph.vocabulary().node_type("place").unwrap();
+    let wanted = |walk: &Walk, but: &str| {
+        let places = ["hall", "desk", "door", "dock", "chair"];
+        places.into_iter().find(|place| *place != but && walk.wants(place) && !walk.saw(place))
+    };
+    let mut at = "hall";
+    for step in 0..4 {
+        let next = wanted(&walk, at).unwrap_or_else(|| panic!("{step}: {}", walk.0.story()));
+        match step {
+            0 => walk.0.edit("mover", Edit::AddNode { name: "chair".into(), node_type: place }),
+            1 => walk.0.edit("mover", Edit::AddNode { name: "stool".into(), node_type: place }),
+            2 => walk.0.edit("mover", Edit::RemoveNode { node: "stool".into() }),
+            _ => {}
+        }
+        assert!(walk.wants(next), "the step under way goes on: {}", walk.0.story());
+        walk.arrive(at, next);
+        at = next;
+    }
+    assert_eq!(walk.0.ending, None, "the chair has not been seen");
+    let next = wanted(&walk, at).unwrap_or_else(|| panic!("{}", walk.0.story()));
+    walk.arrive(at, next);
+    assert!(walk.saw("chair"), "{}", walk.0.story());
+    assert_eq!(walk.0.ending, Some(Ending::Accomplished), "{}", walk.0.story());
+    let objects = walk.0.count(|n| matches!(n, Narration::Objects { .. }));
+    assert_eq!(objects, 3);
 }
 
 #[test]

@@ -25,6 +25,11 @@ use smallvec::SmallVec;
 pub struct ObjectTypes(SmallVec<[TypeId; 4]>);
 
 impl ObjectTypes {
+    /// One type.
+    pub fn one(of: TypeId) -> Self {
+        Self(SmallVec::from_slice(&[of]))
+    }
+
     /// Those behind an object's hyphen.
     pub(crate) fn each_of(declared: TypeSet) -> Self {
         Self(declared.0)
