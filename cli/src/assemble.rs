@@ -129,8 +129,12 @@ pub(crate) fn assemble(mission: &Mission) -> (Option<Assembly>, Vec<Finding>) {
     let mut objections = Vec::new();
     let assembly = put_together(mission, &mut objections);
     let good = objections.is_empty() && !findings.iter().any(Finding::is_error);
-    // The checks between the layers may have reported the same place already.
-    findings.extend(objections.into_iter().filter(|f| !places.contains(&(f.place.source, f.place.span))));
+    // The checks between the layers may have reported the same place already, or what the planner does not support.
+    let domain = mission.layers.domain.source;
+    let refused = findings.iter().any(|f| f.is_error() && f.place.source == domain);
+    objections.retain(|f| !places.contains(&(f.place.source, f.place.span)));
+    objections.retain(|f| f.code != Some(UNPLANNABLE) || !refused);
+    findings.append(&mut objections);
     findings.sort_by_key(|f| (f.place.source, f.place.span));
     (assembly.filter(|_| good), findings)
 }
@@ -187,7 +191,7 @@ fn put_together(mission: &Mission, findings: &mut Vec<Finding>) -> Option<Assemb
     let (domain, problem) = (layers.domain.model.clone(), layers.problem.model.clone());
     let model = Model::with_goals(domain, problem, sensed, goals::texts(mission));
     let model = model.map_err(|error| {
-        findings.push(finding("E1006", layers.problem.source, layers.problem.model.goal_span, &error));
+        findings.push(finding(UNPLANNABLE, layers.problem.source, layers.problem.model.goal_span, &error));
     });
     let invariants = Invariants::new(layers.safety.iter().map(|layer| &layer.model), &vocabulary);
     let invariants = invariants.map_err(|errors| {
@@ -215,6 +219,9 @@ fn put_together(mission: &Mission, findings: &mut Vec<Finding>) -> Option<Assemb
     let lasting = labels.filter_map(|mention| graph.vocabulary().label(&mention.name)).collect();
     Some(Assembly { vocabulary, graph, agents, parts, writer, invariants, lasting })
 }
+
+/// The planner cannot use the planning problem.
+const UNPLANNABLE: &str = "E1006";
 
 /// The agent that PELEA writes as.
 const PELEA: &str = "pelea";

@@ -1,23 +1,26 @@
 //! `pelea explain [CODE]`: the meaning of a diagnostic code, with a wrong example and a right one.
 //!
-//! Without a code, it lists all codes, one per line. With `--json`, one line per code:
+//! Every crate that reports codes has its own pages; this module puts them together. Without a code, it lists all codes,
+//! one per line. With `--json`, one line per code:
 //!
 //! ```json
 //! {"kind": "explanation", "code": "E0202", "title": "unknown predicate", "meaning": "…", "why": "…",
 //!  "wrong": ["…"], "right": ["…"]}
 //! ```
 //!
-//! `wrong` and `right` contain the texts of files, each after the files that it needs. The code of
+//! `wrong` and `right` contain the texts of files, each after the files that it needs; the first line of a part of a mission
+//! names its file. The code of
 //! a lint also has the field `lint`, the lint's name.
 
 use crate::console::{Console, Form};
 use crate::exit::Exit;
 use crate::render::error_with_help;
 use clap::Args;
+use diagnostics::{Explanation, explained, nearest};
 use lints::{Level, Lint};
-use pddl::Explanation;
 use serde::Serialize;
 use std::fmt::Write as _;
+use std::sync::LazyLock;
 
 /// The length of the longest line.
 const WIDTH: usize = 80;
@@ -29,17 +32,21 @@ pub(crate) struct Arguments {
     code: Option<String>,
 }
 
+/// The codes that `assemble` and `scenario` report.
+#[rustfmt::skip]
+static OWN: LazyLock<Vec<Explanation>> = LazyLock::new(|| explained![
+    "assemble": "E1001" "E1002" "E1003" "E1004" "E1005" "E1006" "E1007" "E1008" "E1009";
+]);
+
+/// All explanations but those of lints: of the language, of missions, of suites.
+fn explanations() -> impl Iterator<Item = &'static Explanation> {
+    let mission = diagnostics::toml::explanations().chain(mission::explanations());
+    pddl::explanations().chain(mission).chain(OWN.iter()).chain(suite::explanations())
+}
+
 pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
     let Some(code) = &arguments.code else {
-        for explanation in pddl::explanations() {
-            show(explanation, None, &format!("{}  {}", explanation.code, explanation.title), console);
-        }
-        for lint in lints::all() {
-            let Lint { name, explanation, level, .. } = lint;
-            let pedantic = if *level == Level::Pedantic { ", pedantic" } else { "" };
-            let line = format!("{}  {} ({name}{pedantic})", explanation.code, explanation.title);
-            show(explanation, Some(lint), &line, console);
-        }
+        list(console);
         return Exit::Yes;
     };
     if let Some(lint) = lints::find(code) {
@@ -47,23 +54,36 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         show(&lint.explanation, Some(lint), text.trim_end(), console);
         return Exit::Yes;
     }
-    match pddl::explain(code) {
-        Ok(explanation) => {
-            show(explanation, None, text(explanation).trim_end(), console);
-            Exit::Yes
-        }
-        Err(unknown) => {
-            let names = lints::all().flat_map(|lint| [lint.code(), lint.name]);
-            let suggestion =
-                unknown.suggestion.map(str::to_owned).or_else(|| diagnostics::nearest(code, names));
-            let help = match suggestion {
-                Some(nearest) => format!("did you mean `{nearest}`?"),
-                None => "`pelea explain` lists all codes".to_owned(),
-            };
-            error_with_help(format!("no diagnostic has the code `{code}`"), Some(&help), console);
-            Exit::Unreadable
-        }
+    if let Some(explanation) = explanations().find(|e| e.code.eq_ignore_ascii_case(code)) {
+        show(explanation, None, text(explanation).trim_end(), console);
+        return Exit::Yes;
     }
+    let help = match similar(code) {
+        Some(nearest) => format!("did you mean `{nearest}`?"),
+        None => "`pelea explain` lists all codes".to_owned(),
+    };
+    error_with_help(format!("no diagnostic has the code `{code}`"), Some(&help), console);
+    Exit::Unreadable
+}
+
+fn list(console: &mut Console<'_>) {
+    for explanation in explanations() {
+        show(explanation, None, &format!("{}  {}", explanation.code, explanation.title), console);
+    }
+    for lint in lints::all() {
+        let Lint { name, explanation, level, .. } = lint;
+        let pedantic = if *level == Level::Pedantic { ", pedantic" } else { "" };
+        let line = format!("{}  {} ({name}{pedantic})", explanation.code, explanation.title);
+        show(explanation, Some(lint), &line, console);
+    }
+}
+
+/// The code of the same number, or else the code or lint with the most similar spelling.
+fn similar(code: &str) -> Option<String> {
+    let codes = || explanations().map(|e| e.code).chain(lints::all().map(Lint::code));
+    let same_number = |known: &&str| code.len() > 1 && known.get(1..) == code.get(1..);
+    let same = codes().find(same_number).map(str::to_owned);
+    same.or_else(|| nearest(code, codes().chain(lints::all().map(|lint| lint.name))))
 }
 
 /// How to silence a lint if its finding is intended.

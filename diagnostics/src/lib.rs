@@ -2,7 +2,8 @@
 //!
 //! A [`Source`] is a named text, a [`Span`] a byte range of it. A [`Finding`] reports a mistake at a
 //! [`Place`]: a span of one of several [`Sources`]. [`nearest`] finds the known name that is most similar to
-//! an unknown one. [`toml`] reads TOML files so that each value, valid or not, keeps its place.
+//! an unknown one. [`toml`] reads TOML files so that each value, valid or not, keeps its place. An [`Explanation`] is the
+//! page about a finding's code.
 //!
 //! ```
 //! use diagnostics::toml::Reader;
@@ -21,8 +22,9 @@
 //! ```
 //!
 //! Map, from the ground up: `severity`, `source` (a text, its lines), `finding` with `sources` (texts by number),
-//! `suggest` (did you mean), `toml`.
+//! `suggest` (did you mean), `explanation` (what a code means), `toml`.
 
+mod explanation;
 mod finding;
 mod severity;
 mod source;
@@ -30,6 +32,7 @@ mod sources;
 mod suggest;
 pub mod toml;
 
+pub use explanation::Explanation;
 pub use finding::{Finding, Place};
 pub use severity::Severity;
 pub use source::{LineColumn, Source, SourceId, Span};

@@ -19,11 +19,12 @@
 //!
 //! Map, from the ground up: `files` (paths), `errors` (findings are [`diagnostics::Finding`]) → `manifest`
 //! (`mission.toml`, with `goal_entry`), `layers` (the PDDL), `goals` → `content` (words) → `mission` → `load`, `check` (between the layers),
-//! [`report`] → [`scenario`].
+//! [`report`] → [`scenario`]; `explain` has a page for each code.
 
 mod check;
 mod content;
 mod errors;
+mod explain;
 mod files;
 mod fragment;
 mod goal_entry;
@@ -38,6 +39,7 @@ pub mod scenario;
 pub use check::SkillOutcomes;
 pub use content::{OptionWords, ReportLabels, Words};
 pub use errors::MissionErrors;
+pub use explain::explanations;
 pub use files::{FileError, Files, MemoryFiles};
 pub use goal_entry::Worth;
 pub use goals::{MissionGoal, Perceived};

@@ -49,8 +49,7 @@ pub mod syntax;
 pub use analysis::{Analysis, Names, analyze_domain, analyze_plan, analyze_problem};
 pub use decimal::{Decimal, NotADecimal};
 pub use diagnostic::{
-    Diagnostic, DiagnosticKind, Explanation, FileKind, Label, SymbolKind, UnknownCode, UnsupportedFeature,
-    explain, explanations,
+    Diagnostic, DiagnosticKind, FileKind, Label, SymbolKind, UnsupportedFeature, explain, explanations,
 };
 /// Texts and places in them, for callers that read nothing but PDDL.
 pub use diagnostics::{Severity, Source, Span};

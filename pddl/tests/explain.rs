@@ -69,10 +69,8 @@ fn wrong_examples_give_their_code_and_right_ones_none() {
 }
 
 #[test]
-fn a_code_in_any_case_is_found_and_a_wrong_one_gets_the_nearest() {
-    assert_eq!(explain("e0202").map(|e| e.code), Ok("E0202"));
-    assert_eq!(explain("E0110").map_err(|e| e.suggestion).unwrap_err(), Some("W0110"));
-    assert_eq!(explain("E022").map_err(|e| e.suggestion).unwrap_err(), Some("E0202"));
-    assert_eq!(explain("nothing").map_err(|e| e.suggestion).unwrap_err(), None);
-    assert!(explain("é").is_err());
+fn a_code_in_any_case_is_found() {
+    assert_eq!(explain("e0202").map(|e| e.code), Some("E0202"));
+    assert_eq!(explain("E0110"), None);
+    assert_eq!(explain("é"), None);
 }

@@ -5,20 +5,11 @@
 
 use std::sync::LazyLock;
 
-use diagnostics::nearest;
-
-use super::explanation::Explanation;
-
-/// The explanations of these codes, from the files that are named after them.
-macro_rules! explained {
-    ($($code:literal)*) => {
-        vec![$(Explanation::included($code, include_str!(concat!("explain/", $code, ".md")))),*]
-    };
-}
+use diagnostics::{Explanation, explained};
 
 /// In order of the numbers.
 #[rustfmt::skip]
-static EXPLANATIONS: LazyLock<Vec<Explanation>> = LazyLock::new(|| explained![
+static EXPLANATIONS: LazyLock<Vec<Explanation>> = LazyLock::new(|| explained!["explain":
     // Parentheses, sections and keys.
     "E0101" "E0102" "E0103" "E0104" "E0105" "E0106" "E0107" "E0108" "E0109" "W0110" "W0111" "W0112"
     // Names that nothing declares.
@@ -35,18 +26,8 @@ static EXPLANATIONS: LazyLock<Vec<Explanation>> = LazyLock::new(|| explained![
     // Preferences, constraints, metrics, continuous changes.
     "E0506" "E0507" "E0508" "E0509" "E0510"
     // Parts of the language that no model holds.
-    "U0601"
+    "U0601";
 ]);
-
-/// No diagnostic has that code.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("no diagnostic has the code `{code}`")]
-pub struct UnknownCode {
-    /// The code in question.
-    pub code: String,
-    /// A code with a similar spelling.
-    pub suggestion: Option<&'static str>,
-}
 
 /// All explanations, in order of their numbers.
 pub fn explanations() -> impl Iterator<Item = &'static Explanation> {
@@ -54,17 +35,6 @@ pub fn explanations() -> impl Iterator<Item = &'static Explanation> {
 }
 
 /// The explanation of a code, in upper or lower case.
-///
-/// # Errors
-/// [`UnknownCode`], with the nearest known code.
-pub fn explain(code: &str) -> Result<&'static Explanation, UnknownCode> {
-    if let Some(explanation) = explanations().find(|e| e.code.eq_ignore_ascii_case(code)) {
-        return Ok(explanation);
-    }
-    let same_number = |e: &&Explanation| code.len() > 1 && e.code.get(1..) == code.get(1..);
-    let suggestion = explanations().find(same_number).map(|e| e.code).or_else(|| {
-        let near = nearest(code, explanations().map(|e| e.code))?;
-        explanations().map(|e| e.code).find(|code| **code == *near)
-    });
-    Err(UnknownCode { code: code.to_owned(), suggestion })
+pub fn explain(code: &str) -> Option<&'static Explanation> {
+    explanations().find(|e| e.code.eq_ignore_ascii_case(code))
 }

@@ -7,11 +7,9 @@
 
 mod describe;
 mod explain;
-mod explanation;
 mod kind;
 
-pub use explain::{UnknownCode, explain, explanations};
-pub use explanation::Explanation;
+pub use explain::{explain, explanations};
 pub use kind::{DiagnosticKind, FileKind, SymbolKind, UnsupportedFeature};
 
 use diagnostics::{Severity, Span};

@@ -45,7 +45,7 @@ pub fn hover(project: &Project, at: Position) -> Option<Hover> {
             continue;
         }
         let explanation = finding.code.and_then(|code| {
-            pddl::explain(code).ok().or_else(|| lints::find(code).map(|lint| &*lint.explanation))
+            pddl::explain(code).or_else(|| lints::find(code).map(|lint| &*lint.explanation))
         });
         if let Some(explanation) = explanation {
             span.get_or_insert(place);

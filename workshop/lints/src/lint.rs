@@ -2,8 +2,7 @@
 
 use std::sync::LazyLock;
 
-use diagnostics::{Finding, Place};
-use pddl::Explanation;
+use diagnostics::{Explanation, Finding, Place};
 
 use crate::finding::{Findings, Linted};
 use crate::view::{DomainView, ProblemView};
@@ -44,7 +43,9 @@ impl Lint {
 /// The explanation of a code, from the page beside the lint's file.
 macro_rules! explanation {
     ($code:literal) => {
-        std::sync::LazyLock::new(|| pddl::Explanation::included($code, include_str!(concat!($code, ".md"))))
+        std::sync::LazyLock::new(|| {
+            diagnostics::Explanation::included($code, include_str!(concat!($code, ".md")))
+        })
     };
 }
 pub(crate) use explanation;

@@ -39,10 +39,11 @@
 //! `solve` and `language` (the comparison for plans, problems and diagnostics), `judge` (runs a case), `touched` (which
 //! suites a change affects), `draft` (a first `expected.toml` from the present results).
 //!
-//! Codes: T01 an inconsistent suite, T02 a file without an expectation, T03 a failed case.
+//! Codes: T01 an inconsistent suite, T02 a file without an expectation, T03 a failed case; `explain` has a page for each.
 
 mod draft;
 mod expected;
+mod explain;
 mod fault;
 mod folder;
 mod found;
@@ -55,6 +56,7 @@ mod suite;
 mod touched;
 
 pub use draft::draft;
+pub use explain::explanations;
 pub use fault::Fault;
 pub use folder::{File, Folder};
 pub use solve::Clock;

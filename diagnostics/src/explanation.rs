@@ -21,9 +21,13 @@
 //! ```
 //! ````
 //!
-//! The language is for the reader: `pddl` for domains and problems, `plan` for plans. Several blocks of the same kind
-//! are files that belong together, a domain before its problem and the problem before its plan. In a text, `…` inside
-//! `(and …` and `…)` stands for a thousand repetitions.
+//! The language is for the reader: `pddl` for domains and problems, `plan` for plans, `toml` for TOML. Several blocks of
+//! the same kind are files that belong together, a domain before its problem and the problem before its plan. In a text,
+//! `…` inside `(and …` and `…)` stands for a thousand repetitions.
+//!
+//! Where the name of a file matters, as in a mission folder, the first line of its block is a comment that is the file's
+//! path. Such a block may be a part of the file: the wrong one stands where the right one stands in a mission that is
+//! otherwise good.
 
 use serde::Serialize;
 
@@ -96,12 +100,24 @@ impl Explanation {
     }
 
     /// Reads a page that is part of the program: `Explanation::included("W0701", include_str!("W0701.md"))`.
+    /// [`explained!`](crate::explained) includes many.
     ///
     /// # Panics
     /// If the page is malformed. Each table of pages has a test that reads all of them.
     pub fn included(code: &'static str, page: &'static str) -> Self {
         Self::parse(code, page).unwrap_or_else(|malformed| panic!("{code}.md: {malformed}"))
     }
+}
+
+/// The explanations of codes, from the files that are named after them in folders beside the caller:
+/// `explained!["check": "C0101" "C0102"; "load": "E0706";]`.
+#[macro_export]
+macro_rules! explained {
+    ($($folder:literal: $($code:literal)+;)+) => {
+        vec![$($(
+            $crate::Explanation::included($code, include_str!(concat!($folder, "/", $code, ".md"))),
+        )+)+]
+    };
 }
 
 #[cfg(test)]
