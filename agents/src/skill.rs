@@ -150,12 +150,19 @@ impl Ended {
 pub struct Signature {
     /// Its name in `:skill`.
     pub name: &'static str,
-    /// How many arguments it takes.
-    pub arity: RangeInclusive<usize>,
+    /// The nodes that it takes, by what they stand for; `?` ends the name of one that may be left out.
+    pub arguments: &'static [&'static str],
     /// The results that it returns at `end`.
     pub results: &'static [DatumKind],
     /// The outcomes that it can report besides `end`.
     pub outcomes: &'static [&'static str],
+}
+
+impl Signature {
+    /// How many arguments it takes.
+    pub fn arity(&self) -> RangeInclusive<usize> {
+        self.arguments.iter().filter(|name| !name.ends_with('?')).count()..=self.arguments.len()
+    }
 }
 
 /// The arguments of a launch.

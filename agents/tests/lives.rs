@@ -50,7 +50,12 @@ struct Rogue {
 
 impl Skill for Rogue {
     fn signature(&self) -> Signature {
-        Signature { name: "say", arity: 2..=2, results: &[], outcomes: &[Outcome::FAILURE] }
+        Signature {
+            name: "say",
+            arguments: &["part", "utterance"],
+            results: &[],
+            outcomes: &[Outcome::FAILURE],
+        }
     }
 
     fn launch(&self, call: Call, _: &Equipment) -> Work {

@@ -96,7 +96,7 @@ pub enum StartError {
     #[error("there is no task `{0}`")]
     UnknownTask(Name),
     /// The wrong number of arguments.
-    #[error("task `{task}` takes {expected} arguments, not {found}")]
+    #[error("task `{task}` takes {expected} argument{}, not {found}", if *expected == 1 { "" } else { "s" })]
     Arity {
         /// The task.
         task: Name,

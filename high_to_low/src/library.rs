@@ -252,7 +252,7 @@ impl Compiler<'_> {
             if let TimeSpecifier::Outcome(name) = &timed.when
                 && timed.when != timeout
             {
-                let (name, span) = (name.clone(), timed.effect.span);
+                let (name, span) = (name.clone(), timed.when_span);
                 self.errors.push(MethodsError::UnknownOutcome { name, span });
             }
         }

@@ -281,7 +281,7 @@ fn a_refinement_that_cannot_start_reports_why() {
         Refinement::new(&house.methods, &house.graph.snapshot(), task, &arguments).unwrap_err().to_string()
     };
     expect!["there is no task `dance`"].assert_eq(&start("dance", &[]));
-    expect!["task `round` takes 1 arguments, not 0"].assert_eq(&start("round", &[]));
+    expect!["task `round` takes 1 argument, not 0"].assert_eq(&start("round", &[]));
     expect!["there is no node `q` in the graph"].assert_eq(&start("round", &["q"]));
 }
 
@@ -311,7 +311,7 @@ fn mistakes_in_a_methods_file_are_reported_with_their_places() {
         5:58: the deadline of an intention is `(<= ?duration SECONDS)` with a number of seconds
         6:25: an intention has no condition `at end`; its `at end` effects are what must be seen
         6:69: `nearby` is not a token of vocabulary `house`
-        6:94: an intention has effects `at start`, `at end` and `at timeout`, not `at failure`
+        6:86: an intention has effects `at start`, `at end` and `at timeout`, not `at failure`
         8:57: `jump` is an action; a method's primitives are durative actions, whose `at end` effects must be seen
         9:3: task `u` has no method"#]]
     .assert_eq(&lines.join("\n"));

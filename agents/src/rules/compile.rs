@@ -130,7 +130,8 @@ impl<'a> Compiler<'a> {
             self.report(call.span, RuleErrorKind::UnknownSkill { skill: call.name.clone(), known });
             return None;
         };
-        let Signature { arity, results: yields, .. } = skill.signature();
+        let signature = skill.signature();
+        let (arity, yields) = (signature.arity(), signature.results);
         if !arity.contains(&call.arguments.len()) {
             let (skill, found) = (call.name.clone(), call.arguments.len());
             self.report(call.span, RuleErrorKind::SkillArity { skill, expected: arity, found });
@@ -290,7 +291,7 @@ impl<'a> Compiler<'a> {
         let guarded = action.conditions.iter().any(|timed| timed.when == TimeSpecifier::OverAll)
             || action.rule.as_ref().is_some_and(|rule| !rule.claims.is_empty());
         for timed in &action.effects {
-            let span = timed.effect.span;
+            let span = timed.when_span;
             let name = match &timed.when {
                 TimeSpecifier::End => continue,
                 TimeSpecifier::Start | TimeSpecifier::OverAll => Name::new("start"),
@@ -298,7 +299,10 @@ impl<'a> Compiler<'a> {
             };
             if let Some(&result) = results.iter().find(|&&result| mentions(&timed.effect, result)) {
                 let variable = action.variables[result].name.clone();
-                self.report(span, RuleErrorKind::ResultUnbound { variable, outcome: name.clone() });
+                self.report(
+                    timed.effect.span,
+                    RuleErrorKind::ResultUnbound { variable, outcome: name.clone() },
+                );
             }
             if !matches!(timed.when, TimeSpecifier::Outcome(_)) {
                 continue;
@@ -313,8 +317,10 @@ impl<'a> Compiler<'a> {
                     if let (Some(call), Some(signature)) = (call, signature)
                         && !signature.outcomes.contains(&other)
                     {
-                        let kind = RuleErrorKind::UnknownOutcome { skill: call.name.clone(), outcome: name };
-                        self.report(span, kind);
+                        let (skill, outcome) = (call.name.clone(), name.clone());
+                        let always = [Outcome::END, Outcome::ABORT, Outcome::TIMEOUT];
+                        let known = always.into_iter().chain(signature.outcomes.iter().copied()).collect();
+                        self.report(span, RuleErrorKind::UnknownOutcome { skill, outcome, known });
                     }
                 }
             }

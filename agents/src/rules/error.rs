@@ -30,13 +30,13 @@ pub enum RuleErrorKind {
     #[error("there is no skill '{skill}'; there are: {}", known.join(", "))]
     UnknownSkill { skill: Name, known: Vec<&'static str> },
     /// The skill takes another number of arguments.
-    #[error("skill '{skill}' takes {} arguments, not {found}", range(expected))]
+    #[error("skill '{skill}' takes {}, not {found}", range(expected))]
     SkillArity { skill: Name, expected: RangeInclusive<usize>, found: usize },
     /// An argument of a skill is a result of the same skill.
     #[error("'?{variable}' is known only after the skill that it is given to")]
     ArgumentUnbound { variable: Name },
     /// The skill yields another number of results.
-    #[error("skill '{skill}' yields {expected} results, not {found}")]
+    #[error("skill '{skill}' yields {expected} result{}, not {found}", if *expected == 1 { "" } else { "s" })]
     ResultCount { skill: Name, expected: usize, found: usize },
     /// A result without a type.
     #[error("the result '?{variable}' needs a type")]
@@ -48,8 +48,8 @@ pub enum RuleErrorKind {
     #[error("'?{variable}' is yielded at end only, not at {outcome}")]
     ResultUnbound { variable: Name, outcome: Name },
     /// The skill does not have this outcome.
-    #[error("skill '{skill}' never ends with '{outcome}'")]
-    UnknownOutcome { skill: Name, outcome: Name },
+    #[error("skill '{skill}' never ends with '{outcome}'; it ends with: {}", known.join(", "))]
+    UnknownOutcome { skill: Name, outcome: Name, known: Vec<&'static str> },
     /// Effects of an abort that no reflex can cause.
     #[error("nothing can abort this rule: it has no condition over all and claims nothing")]
     NeverAborted,
@@ -77,9 +77,9 @@ pub enum RuleErrorKind {
 }
 
 fn range(range: &RangeInclusive<usize>) -> String {
-    if range.start() == range.end() {
-        range.start().to_string()
-    } else {
-        format!("{} to {}", range.start(), range.end())
+    match (range.start(), range.end()) {
+        (1, 1) => "1 argument".to_owned(),
+        (least, most) if least == most => format!("{least} arguments"),
+        (least, most) => format!("{least} to {most} arguments"),
     }
 }

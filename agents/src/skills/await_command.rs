@@ -6,7 +6,12 @@ pub(super) struct AwaitCommand;
 
 impl Skill for AwaitCommand {
     fn signature(&self) -> Signature {
-        Signature { name: "await-command", arity: 1..=1, results: &[], outcomes: Outcome::ONLY_FAILURE }
+        Signature {
+            name: "await-command",
+            arguments: &["command"],
+            results: &[],
+            outcomes: Outcome::ONLY_FAILURE,
+        }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {

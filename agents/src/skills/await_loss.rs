@@ -6,7 +6,12 @@ pub(super) struct AwaitLoss;
 
 impl Skill for AwaitLoss {
     fn signature(&self) -> Signature {
-        Signature { name: "await-loss", arity: 0..=1, results: &[], outcomes: Outcome::ONLY_FAILURE }
+        Signature {
+            name: "await-loss",
+            arguments: &["person?"],
+            results: &[],
+            outcomes: Outcome::ONLY_FAILURE,
+        }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {

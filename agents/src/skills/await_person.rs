@@ -8,7 +8,7 @@ impl Skill for AwaitPerson {
     fn signature(&self) -> Signature {
         Signature {
             name: "await-person",
-            arity: 0..=1,
+            arguments: &["person?"],
             results: &[DatumKind::Pose],
             outcomes: Outcome::ONLY_FAILURE,
         }

@@ -6,7 +6,12 @@ pub(super) struct AwaitRequest;
 
 impl Skill for AwaitRequest {
     fn signature(&self) -> Signature {
-        Signature { name: "await-request", arity: 1..=2, results: &[], outcomes: Outcome::ONLY_FAILURE }
+        Signature {
+            name: "await-request",
+            arguments: &["request", "person?"],
+            results: &[],
+            outcomes: Outcome::ONLY_FAILURE,
+        }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {

@@ -9,7 +9,7 @@ impl Skill for AwaitTouch {
     fn signature(&self) -> Signature {
         Signature {
             name: "await-touch",
-            arity: 1..=2,
+            arguments: &["part", "question?"],
             results: &[DatumKind::Node],
             outcomes: Outcome::ONLY_FAILURE,
         }

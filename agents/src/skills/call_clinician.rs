@@ -9,7 +9,12 @@ pub(super) struct CallClinician;
 
 impl Skill for CallClinician {
     fn signature(&self) -> Signature {
-        Signature { name: "call-clinician", arity: 1..=2, results: &[], outcomes: Outcome::ONLY_FAILURE }
+        Signature {
+            name: "call-clinician",
+            arguments: &["need", "urgency?"],
+            results: &[],
+            outcomes: Outcome::ONLY_FAILURE,
+        }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {

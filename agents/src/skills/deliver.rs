@@ -6,7 +6,7 @@ pub(super) struct Deliver;
 
 impl Skill for Deliver {
     fn signature(&self) -> Signature {
-        Signature { name: "deliver", arity: 1..=1, results: &[], outcomes: Outcome::ONLY_FAILURE }
+        Signature { name: "deliver", arguments: &["document"], results: &[], outcomes: Outcome::ONLY_FAILURE }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {

@@ -22,7 +22,7 @@ pub(super) const ALL: [OfDevice; 3] = [
 
 impl Skill for OfDevice {
     fn signature(&self) -> Signature {
-        Signature { name: self.name, arity: 1..=1, results: &[], outcomes: Outcome::ONLY_FAILURE }
+        Signature { name: self.name, arguments: &["device"], results: &[], outcomes: Outcome::ONLY_FAILURE }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {

@@ -11,7 +11,7 @@ impl Skill for Listen {
     fn signature(&self) -> Signature {
         Signature {
             name: "listen",
-            arity: 1..=2,
+            arguments: &["part", "question?"],
             results: &[DatumKind::Node],
             outcomes: &["misheard", Outcome::FAILURE],
         }

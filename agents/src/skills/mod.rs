@@ -1,19 +1,5 @@
-//! The skills over the hardware abstraction, a file each.
-//!
-//! | skill | arguments | results | outcomes besides `end` |
-//! |---|---|---|---|
-//! | `say` | part, utterance | | claimed, unsensed, refused, failure |
-//! | `show` | part, utterance | | claimed, unsensed, refused, failure |
-//! | `listen` | part, question? | option | misheard, failure |
-//! | `spot` | request, person? | | failure |
-//! | `await-touch` | part, question? | option | failure |
-//! | `await-request` | request, person? | | failure |
-//! | `await-person`, `await-loss` | person? | pose; – | failure |
-//! | `await-command` | command | | failure |
-//! | `call-clinician` | need, urgency? | | failure |
-//! | `deliver` | document | | failure |
-//! | `await-fault`, `await-recovery`, `test-device` | device | | failure |
-//! | `wait` | | | |
+//! The skills over the hardware abstraction, a file each; docs/rules.md has their table, which a test holds against
+//! [`standard`].
 //!
 //! The optional question distinguishes two askings of one part; the device gets its name only. An output ends with `end`
 //! if a sensor noticed it, with `claimed` if no sensor can tell now, and with `unsensed` if a sensor noticed nothing.

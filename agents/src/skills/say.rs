@@ -6,7 +6,12 @@ pub(super) struct Say;
 
 impl Skill for Say {
     fn signature(&self) -> Signature {
-        Signature { name: "say", arity: 2..=2, results: &[], outcomes: Outcome::OF_OUTPUT }
+        Signature {
+            name: "say",
+            arguments: &["part", "utterance"],
+            results: &[],
+            outcomes: Outcome::OF_OUTPUT,
+        }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {

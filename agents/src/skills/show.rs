@@ -9,7 +9,12 @@ pub(super) struct Show;
 
 impl Skill for Show {
     fn signature(&self) -> Signature {
-        Signature { name: "show", arity: 2..=2, results: &[], outcomes: Outcome::OF_OUTPUT }
+        Signature {
+            name: "show",
+            arguments: &["part", "utterance"],
+            results: &[],
+            outcomes: Outcome::OF_OUTPUT,
+        }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {

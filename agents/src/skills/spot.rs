@@ -8,7 +8,12 @@ pub(super) struct Spot;
 
 impl Skill for Spot {
     fn signature(&self) -> Signature {
-        Signature { name: "spot", arity: 1..=2, results: &[], outcomes: Outcome::ONLY_FAILURE }
+        Signature {
+            name: "spot",
+            arguments: &["request", "person?"],
+            results: &[],
+            outcomes: Outcome::ONLY_FAILURE,
+        }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {

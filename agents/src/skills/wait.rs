@@ -6,7 +6,7 @@ pub(super) struct Wait;
 
 impl Skill for Wait {
     fn signature(&self) -> Signature {
-        Signature { name: "wait", arity: 0..=0, results: &[], outcomes: &[] }
+        Signature { name: "wait", arguments: &[], results: &[], outcomes: &[] }
     }
 
     fn launch(&self, _: Call, _: &Equipment) -> Work {

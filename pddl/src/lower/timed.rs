@@ -121,7 +121,7 @@ impl Body<'_> {
             }
             let effect = self.effect(what);
             self.schema.unbind(bound);
-            into.push(TimedEffect { when, given, effect });
+            into.push(TimedEffect { when, when_span: node.span(), given, effect });
         }
     }
 
@@ -267,7 +267,8 @@ impl Body<'_> {
                 Timed::At(when, what) => {
                     if wanted(&when, only) {
                         let effect = self.effect(what);
-                        into.push(TimedEffect { when, given: Vec::new(), effect });
+                        let when_span = node.children().nth(1).unwrap_or(node).span();
+                        into.push(TimedEffect { when, when_span, given: Vec::new(), effect });
                     }
                 }
                 Timed::Unknown(when) => self.unknown_time(when),
@@ -287,7 +288,7 @@ impl Body<'_> {
             let inner = all_effects(parts, inner);
             let kind = EffectKind::Forall(bound, Box::new(inner));
             let effect = Effect { kind, span: node.span() };
-            into.push(TimedEffect { when, given: Vec::new(), effect });
+            into.push(TimedEffect { when, when_span: node.span(), given: Vec::new(), effect });
         }
     }
 
@@ -314,7 +315,7 @@ impl Body<'_> {
             self.timed_effects(effect, Some(&when), &mut effects);
             let kind = EffectKind::When(guard, Box::new(all_effects(effects, effect)));
             let effect = Effect { kind, span: node.span() };
-            into.push(TimedEffect { when, given: Vec::new(), effect });
+            into.push(TimedEffect { when, when_span: node.span(), given: Vec::new(), effect });
         }
     }
 

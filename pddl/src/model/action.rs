@@ -62,6 +62,8 @@ pub enum Given {
 pub struct TimedEffect {
     /// The time.
     pub when: TimeSpecifier,
+    /// The word for the time: `end` in `(at end …)`. All of a `forall` or `when` that has the time inside.
+    pub when_span: Span,
     /// The forms around it, outermost first, if one has a condition at another time than the effect.
     /// Conditions at the effect's own time are part of the effect.
     pub given: Vec<Given>,
