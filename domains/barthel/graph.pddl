@@ -1,6 +1,7 @@
-; The Barthel index as nodes and edges: its parts in order, the options of each item, and the score
+; The Barthel index as nodes and edges: its parts, the options of each item in order, and the score
 ; of each option (Mahoney & Barthel, "Functional evaluation: the Barthel index", 1965).
-; The best option comes first; the scores add up to at most 100.
+; The best option comes first; the scores add up to at most 100. The order in which the items are asked is that of
+; problem.pddl (`next`).
 (define (problem barthel-graph)
   (:domain clarc)
   (:objects
@@ -14,17 +15,6 @@
   (:init
     (is_in barthel opening)
     (precedes option-1 option-2) (precedes option-2 option-3) (precedes option-3 option-4)
-    (precedes opening feeding)
-    (precedes feeding bathing)
-    (precedes bathing grooming)
-    (precedes grooming dressing)
-    (precedes dressing bowels)
-    (precedes bowels bladder)
-    (precedes bladder toilet-use)
-    (precedes toilet-use transfers)
-    (precedes transfers mobility)
-    (precedes mobility stairs)
-    (precedes stairs closing)
     (offers feeding option-1) (offers feeding option-2) (offers feeding option-3)
     (= (score feeding option-1) 10) (= (score feeding option-2) 5) (= (score feeding option-3) 0)
     (offers bathing option-1) (offers bathing option-2)

@@ -34,7 +34,7 @@
     (finish ?r - robot ?s - state)
     ; the present part of the test, and what was said and shown in each part
     (is_in ?t - test ?p - part)
-    (precedes ?x ?y - (either part option))
+    (precedes ?x ?y - option)
     (offers ?i - item ?o - option)
     (was_said_in ?u - utterance ?p - part)
     (was_shown_in ?u - utterance ?p - part)
