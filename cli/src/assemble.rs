@@ -5,15 +5,17 @@
 //!
 //! Codes: E10xx. E1001 vocabulary, E1002 world and graph, E1003 rules, E1004 perception, E1005 methods,
 //! E1006 planning problem, E1007 a condition of a scenario (`scenario`), E1008 no agent for PELEA to write as,
-//! E1009 invariants.
+//! E1009 invariants, E1010 a device that the robot does not have (`devices`).
+
+mod devices;
 
 use crate::console::Console;
 use crate::disk::{Disk, show};
 use crate::exit::Exit;
 use crate::goals;
 use crate::render;
-use agents::{Agent, skills};
-use diagnostics::{Finding, Place, SourceId};
+use agents::{Agent, RuleErrorKind, skills};
+use diagnostics::{Finding, Place, SourceId, did_you_mean};
 use dsr::{AgentId, Graph, Interest, LabelId, Time};
 use executive::{Arrivals, Bounds, Model, Policy, Sensed, Step, Wheel};
 use high_to_low::Methods;
@@ -166,10 +168,15 @@ fn put_together(mission: &Mission, findings: &mut Vec<Finding>) -> Option<Assemb
         match agents::compile(&layer.model, &vocabulary, &skills) {
             Ok(agent) => agents.push(Arc::new(agent)),
             Err(errors) => {
-                findings.extend(errors.iter().map(|e| finding("E1003", layer.source, e.span, e)));
+                findings.extend(
+                    errors
+                        .iter()
+                        .map(|e| finding("E1003", layer.source, e.span, e).help_if(nearest_name(&e.kind))),
+                );
             }
         }
     }
+    devices::check(mission, &skills, findings);
     let (perception, conditions) = goals::perception(mission);
     let perception = Perception::new(&perception, &vocabulary).map_err(|errors| {
         findings.extend(errors.iter().map(|e| {
@@ -222,6 +229,15 @@ fn put_together(mission: &Mission, findings: &mut Vec<Finding>) -> Option<Assemb
 
 /// The planner cannot use the planning problem.
 const UNPLANNABLE: &str = "E1006";
+
+/// The skill or the outcome that a rule may mean.
+fn nearest_name(mistake: &RuleErrorKind) -> Option<String> {
+    match mistake {
+        RuleErrorKind::UnknownSkill { skill, known } => did_you_mean(skill, known.iter().copied()),
+        RuleErrorKind::UnknownOutcome { outcome, known, .. } => did_you_mean(outcome, known.iter().copied()),
+        _ => None,
+    }
+}
 
 /// The agent that PELEA writes as.
 const PELEA: &str = "pelea";

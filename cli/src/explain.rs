@@ -35,13 +35,16 @@ pub(crate) struct Arguments {
 /// The codes that `assemble` and `scenario` report.
 #[rustfmt::skip]
 static OWN: LazyLock<Vec<Explanation>> = LazyLock::new(|| explained![
-    "assemble": "E1001" "E1002" "E1003" "E1004" "E1005" "E1006" "E1007" "E1008" "E1009";
+    "assemble": "E1001" "E1002" "E1003" "E1004" "E1005" "E1006" "E1007" "E1008" "E1009" "E1010";
 ]);
+
+/// The codes of scenarios as tests.
+static PLAYED: LazyLock<Vec<Explanation>> = LazyLock::new(|| explained!["test": "T0401" "T0402";]);
 
 /// All explanations but those of lints: of the language, of missions, of suites.
 fn explanations() -> impl Iterator<Item = &'static Explanation> {
     let mission = diagnostics::toml::explanations().chain(mission::explanations());
-    pddl::explanations().chain(mission).chain(OWN.iter()).chain(suite::explanations())
+    pddl::explanations().chain(mission).chain(OWN.iter()).chain(suite::explanations()).chain(PLAYED.iter())
 }
 
 pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {

@@ -19,7 +19,7 @@
 //! `dsr`, `lsp`, `explain` (one command each); `task` (a domain with its problem, read from files);
 //! `assemble` (builds a mission from its folder); `scenario`; `pool` (work on all cores); `files`;
 //! `nearby` (the contents of folders); `disk` (mission folders); `memory`; `clock`; `render`
-//! (diagnostics as text with excerpts, or as JSON); `console` and `exit`.
+//! (diagnostics as text with excerpts, or as JSON); `panics` (of runs); `console` and `exit`.
 
 mod arguments;
 mod assemble;
@@ -39,6 +39,7 @@ mod lsp;
 mod memory;
 mod nearby;
 mod outlet;
+mod panics;
 mod plan;
 mod pool;
 mod render;

@@ -13,3 +13,8 @@ pub struct MissionErrors {
     /// All findings, by file and place.
     pub findings: Vec<Finding>,
 }
+
+/// `1 argument`, `2 arguments`.
+pub(crate) fn counted(count: usize, one: &str, more: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { more })
+}

@@ -69,7 +69,7 @@ pub struct Layers {
 
 impl Layers {
     /// The place of the declaration of a node of the initial graph.
-    pub(crate) fn node_place(&self, node: ObjectId) -> Place {
+    pub fn node_place(&self, node: ObjectId) -> Place {
         let constants = self.vocabulary.model.constants.len();
         let source = if node.index() < constants {
             self.vocabulary.source

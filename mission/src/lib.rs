@@ -18,7 +18,8 @@
 //! ```
 //!
 //! Map, from the ground up: `files` (paths), `errors` (findings are [`diagnostics::Finding`]) → `manifest`
-//! (`mission.toml`, with `goal_entry`), `layers` (the PDDL), `goals` → `content` (words) → `mission` → `load`, `check` (between the layers),
+//! (`mission.toml`, with `goal_entry`), `layers` (the PDDL), `goals` → `content` (words) → `mission` → `load`, `check`
+//! (between the layers),
 //! [`report`] → [`scenario`]; `explain` has a page for each code.
 
 mod check;

@@ -75,6 +75,9 @@ pub(super) fn scenario(base: &Table, file: &File, version: &Value) -> Table {
         {
             let key = if version.is_float() { "at" } else { "version" };
             table.insert(key.to_owned(), version.clone());
+        } else if let Some(table) = disruption.as_table_mut() {
+            // It answers to what others did, if they did.
+            table.insert("optional".to_owned(), Value::Boolean(true));
         }
         disruptions.push(disruption);
     }

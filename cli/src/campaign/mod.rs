@@ -25,6 +25,7 @@ mod table;
 use crate::clock::{Seconds, Stopwatch};
 use crate::console::Console;
 use crate::exit::Exit;
+use crate::panics;
 use crate::run::latency;
 use crate::{pool, render};
 use clap::Args;
@@ -121,7 +122,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         Ok(campaign) => campaign,
         Err(exit) => return exit,
     };
-    match stock::without_their_panics(|| campaign.play(arguments, old.as_ref(), console)) {
+    match panics::without_those_of_runs(|| campaign.play(arguments, old.as_ref(), console)) {
         Ok(exit) => exit,
         Err(error) => {
             let folder = arguments.out.as_deref().unwrap_or(Path::new(".")).display().to_string();

@@ -12,6 +12,7 @@ use crate::clock::Seconds;
 use crate::console::Console;
 use crate::disk::show;
 use crate::exit::Exit;
+use crate::panics;
 use crate::run::{Audience, Content, Kept, Latency, Narrator, Performed, Production, latency, perform};
 use crate::scenario::{self, Staged};
 use agents::Housing;
@@ -21,10 +22,9 @@ use mission::Mission;
 use mission::scenario::Scenario;
 use pddl::Source;
 use safety::Broken;
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 use std::future::pending;
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::panic::{self, AssertUnwindSafe, PanicHookInfo, catch_unwind};
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -124,16 +124,14 @@ impl Stock {
     /// One run of a scenario, whatever happens in it.
     fn run(&self, scenario: Scenario, key: &Key, lines: &Arc<Lines>) -> Run {
         let diary = Diary::new(lines);
-        PLAYING.set(true);
-        let played = catch_unwind(AssertUnwindSafe(|| {
+        let played = panics::survive(|| {
             let staged = self.staged(scenario).ok()?;
             Some(self.perform(self.assembly.again(), staged, key.seed, diary.clone()))
-        }));
-        PLAYING.set(false);
+        });
         let Diaries { story, replans, broken, .. } = diary.close();
         let (outcome, seconds) = match played {
-            Ok(Some(performed)) => (outcome(&performed.ending), performed.elapsed.as_secs_f64()),
-            Ok(None) | Err(_) => (Outcome::Panicked, 0.0),
+            Some(Some(performed)) => (outcome(&performed.ending), performed.elapsed.as_secs_f64()),
+            Some(None) | None => (Outcome::Panicked, 0.0),
         };
         // To the millisecond: short in JSON.
         let seconds = (seconds * 1e3).round() / 1e3;
@@ -199,26 +197,7 @@ fn outcome(ending: &Ending) -> Outcome {
     }
 }
 
-/// Does not report the panics of runs: drivers panic on purpose, agents survive it, and a run that does not is a result.
-/// Panics of the program itself are reported as before.
-pub(super) fn without_their_panics<T>(work: impl FnOnce() -> T) -> T {
-    let before: Arc<PanicHook> = Arc::from(panic::take_hook());
-    let reporter = Arc::clone(&before);
-    panic::set_hook(Box::new(move |info| {
-        if !PLAYING.get() {
-            reporter(info);
-        }
-    }));
-    let result = work();
-    panic::set_hook(Box::new(move |info| before(info)));
-    result
-}
-
-type PanicHook = dyn Fn(&PanicHookInfo<'_>) + Send + Sync;
-
 thread_local! {
-    /// Whether this thread plays a run.
-    static PLAYING: Cell<bool> = const { Cell::new(false) };
     /// The runtime of a thread: its planner's thread lives on from run to run.
     static RUNTIME: RefCell<Option<Runtime>> = const { RefCell::new(None) };
 }

@@ -81,8 +81,8 @@ pub(super) fn solved(
                 return Exit::Unwritable;
             }
             console.note(&format!(
-                "{} steps, cost {}, written to {}",
-                valid.steps,
+                "{}, cost {}, written to {}",
+                render::counted(valid.steps as usize, "step", "steps"),
                 valid.cost(),
                 path.display()
             ));

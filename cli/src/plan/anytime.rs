@@ -94,9 +94,9 @@ impl Writer<'_> {
         let after_ms = self.watch.milliseconds();
         let place = file.as_ref().map(|file| format!(", written to {}", file.display()));
         console.note(&format!(
-            "plan {}: {} steps, cost {}, after {after_ms} ms{}",
+            "plan {}: {}, cost {}, after {after_ms} ms{}",
             self.count,
-            valid.steps,
+            render::counted(valid.steps as usize, "step", "steps"),
             valid.cost(),
             place.unwrap_or_default()
         ));

@@ -13,11 +13,11 @@ use hal::Device;
 use hal::sim::{Behaviour, By, SimRoom};
 use mission::scenario::{self, Act, Trigger};
 use pddl::model::Name;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::future::pending;
 use std::num::NonZeroUsize;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use tokio::sync::{Notify, broadcast};
 use tokio::time::{Instant, sleep, sleep_until};
 
@@ -30,6 +30,23 @@ pub(super) struct Stage {
     pub(super) log: RoomLog,
     /// What happened before a restart.
     pub(super) happened: Arc<Happened>,
+    /// The disruptions that have begun since.
+    pub(super) begun: Begun,
+}
+
+/// The disruptions that have begun, by their numbers.
+#[derive(Clone, Default)]
+pub(super) struct Begun(Arc<Mutex<BTreeSet<usize>>>);
+
+impl Begun {
+    fn note(&self, number: usize) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).insert(number);
+    }
+
+    /// The numbers so far.
+    pub(super) fn numbers(&self) -> BTreeSet<usize> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
 }
 
 /// Runs until every disruption was applied. Its receivers must exist before the first step starts.
@@ -62,6 +79,7 @@ async fn follow(number: usize, cue: Cue, steps: broadcast::Receiver<Step>, stage
     }
     let begin = move |stage: &Stage, act: &Act| {
         stage.log.began(number, stage.epoch.elapsed());
+        stage.begun.note(number);
         carry_out(act, stage);
     };
     match &cue.disruption.trigger {

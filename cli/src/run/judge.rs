@@ -10,6 +10,7 @@ use dsr::Snapshot;
 use executive::{Ending, Narration};
 use mission::Mission;
 use mission::scenario::{Outcome, Replan, Violation};
+use pddl::Span;
 use pddl::model::{Condition, ConditionKind, Domain, Name};
 use planner::Way;
 use safety::Broken;
@@ -34,11 +35,11 @@ pub(super) struct Record<'a> {
 
 /// A broken invariant, in the summary.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct Breakage {
-    time: f64,
-    version: u64,
+pub(crate) struct Breakage {
+    pub(crate) time: f64,
+    pub(crate) version: u64,
     #[serde(flatten)]
-    what: Broken,
+    pub(crate) what: Broken,
 }
 
 /// The replacements of broken plans.
@@ -153,8 +154,12 @@ impl<'a> Record<'a> {
         ending: &Ending,
         content: &Content,
         snapshot: &Snapshot,
+        begun: &BTreeSet<usize>,
     ) -> Vec<Violation> {
         let report = content.report(snapshot);
+        let disruptions = staged.scenario.disruptions.iter().enumerate();
+        let idle = disruptions.filter(|(number, of)| !of.optional && !begun.contains(number));
+        let idle: Vec<Span> = idle.map(|(_, disruption)| disruption.span).collect();
         let outcome = Outcome {
             accomplished: *ending == Ending::Accomplished,
             ending: ending.name(),
@@ -162,6 +167,7 @@ impl<'a> Record<'a> {
             replans: &self.replans,
             asked_again: &self.asked_again,
             goals: &self.goals,
+            idle: &idle,
         };
         staged.scenario.expect.judge(&outcome, |condition| staged.holds(condition, snapshot))
     }

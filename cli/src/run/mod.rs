@@ -6,7 +6,7 @@
 //!
 //! From the ground up: `script`, `director` (the disruptions in the room), `story` (all events as one stream), `content`
 //! (the mission's words), `latency` (how long a decision takes), `guard` (the invariants) → `judge`, `terminal`, `teller` (reports of the story) →
-//! `play`.
+//! `play` → `rehearse` (a scenario played for its verdict).
 
 mod content;
 mod director;
@@ -18,6 +18,7 @@ mod narrate;
 mod past;
 mod perform;
 mod play;
+mod rehearse;
 mod room;
 mod script;
 mod speed;
@@ -42,11 +43,13 @@ pub(crate) use narrate::Narrator;
 pub(crate) use past::{Past, expire_all};
 pub(crate) use perform::{Audience, Kept, Performed, Production, perform};
 use play::Play;
+pub(crate) use rehearse::rehearse;
 pub(crate) use room::Happened;
 use speed::Speed;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
+pub(crate) use teller::Verdict;
 pub(crate) use terminal::Terminal;
 
 /// Arguments of `pelea run`.
@@ -159,12 +162,13 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
         latency: if simulated { latency.simulated() } else { latency },
         speed: arguments.speed,
         pulse,
+        interruptible: true,
         content: Content { mission: Arc::new(mission), language },
         staged,
         seed: arguments.seed,
         verbose: arguments.verbose,
     };
-    let exit = runtime.block_on(play.play(assembly, arguments.report.as_deref(), console));
+    let exit = runtime.block_on(play.play(assembly, arguments.report.as_deref(), console)).exit;
     // The planner's thread may still work on a plan that is no longer needed.
     runtime.shutdown_background();
     match journal.map(Journal::close) {

@@ -18,6 +18,7 @@ use executive::{Ending, Lasting, Narration, Shell, Step, Turn, Wheel};
 use hal::sim::{ClinicianScript, PatientScript, RoomEvent, SimRoom};
 use mission::scenario::Scenario;
 use safety::Broken;
+use std::collections::BTreeSet;
 use std::future::pending;
 use std::pin::pin;
 use std::sync::Arc;
@@ -82,6 +83,8 @@ pub(crate) struct Performed {
     pub(crate) snapshot: Snapshot,
     /// How long it took.
     pub(crate) elapsed: Duration,
+    /// The disruptions that happened, by their numbers.
+    pub(crate) begun: BTreeSet<usize>,
 }
 
 /// Performs a run. `first` takes its turn before all others, whether it ends or not; `last` after them, and its end is that
@@ -118,12 +121,14 @@ pub(crate) async fn perform(
     let (steps, _) = broadcast::channel(64);
     // Each disruption must receive the steps of the plan before the first one starts.
     let cues = cues.into_iter().map(|cue| (cue, steps.subscribe())).collect();
+    let begun = director::Begun::default();
     let stage = director::Stage {
         graph: graph.clone(),
         room: room.clone(),
         epoch,
         log: kept.room,
         happened: Arc::new(happened),
+        begun: begun.clone(),
     };
     let content = Arc::new(content);
     let environment = agents::Environment {
@@ -164,7 +169,7 @@ pub(crate) async fn perform(
         audience.ended();
         (ending, graph.snapshot())
     };
-    Performed { ending, snapshot, elapsed: epoch.elapsed() }
+    Performed { ending, snapshot, elapsed: epoch.elapsed(), begun: begun.numbers() }
 }
 
 async fn forever(work: impl Future<Output = ()>) {

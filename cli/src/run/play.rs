@@ -3,13 +3,12 @@
 use super::content::Content;
 use super::latency::Latency;
 use super::past::Past;
-use super::perform::{Kept, Performed, Production, perform};
+use super::perform::{Kept, Production, perform};
 use super::speed::Speed;
 use super::story::Story;
-use super::teller::Teller;
+use super::teller::{Teller, Verdict};
 use crate::assemble::Assembly;
 use crate::console::Console;
-use crate::exit::Exit;
 use crate::interrupt;
 use crate::scenario::Staged;
 use crate::turns::Turns;
@@ -39,6 +38,8 @@ pub(super) struct Play {
     pub(super) speed: Speed,
     /// How often PELEA must turn on a clock that does not wait for it.
     pub(super) pulse: Option<Duration>,
+    /// Whether Ctrl-C ends this run in order, and not the process at once.
+    pub(super) interruptible: bool,
 }
 
 impl Play {
@@ -48,7 +49,7 @@ impl Play {
         assembly: Assembly,
         report_file: Option<&Path>,
         console: &mut Console<'_>,
-    ) -> Exit {
+    ) -> Verdict {
         let (reader, mut entries) = mpsc::unbounded_channel();
         let story = Story::new(&assembly.graph, reader);
         let cues = self.staged.as_mut().map(|staged| std::mem::take(&mut staged.cues)).unwrap_or_default();
@@ -74,7 +75,7 @@ impl Play {
             teller.goes_on(elapsed, assembly.graph.snapshot().version());
         }
         let speed = self.speed;
-        let Performed { ending, snapshot, elapsed } = {
+        let performed = {
             let tell = async {
                 loop {
                     tokio::select! {
@@ -87,7 +88,7 @@ impl Play {
             let interrupted = async {
                 tokio::select! {
                     biased;
-                    () = interrupt::first() => Ending::Interrupted,
+                    () = interrupt::first(), if self.interruptible => Ending::Interrupted,
                     () = speed.pass_time() => std::future::pending().await,
                 }
             };
@@ -96,6 +97,6 @@ impl Play {
         while let Ok(entry) = entries.try_recv() {
             teller.tell(&entry);
         }
-        teller.end(&ending, &snapshot, elapsed, report_file)
+        teller.end(&performed, report_file)
     }
 }

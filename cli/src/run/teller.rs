@@ -2,16 +2,18 @@
 
 use super::content::Content;
 use super::judge::{Breakage, Record, Repairs};
+use super::perform::Performed;
 use super::story::Entry;
 use super::terminal::Terminal;
 use crate::clock::seconds;
 use crate::console::{Console, Form};
 use crate::exit::Exit;
 use crate::files;
+use crate::render;
 use crate::scenario::Staged;
-use dsr::{Snapshot, Version};
+use dsr::Version;
 use executive::Ending;
-use mission::scenario::Scenario;
+use mission::scenario::{Scenario, Violation};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -33,6 +35,15 @@ struct Summary<'a> {
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     goals: BTreeMap<&'a str, &'a str>,
     report: &'a mission::report::Report,
+}
+
+/// What came of a run: its exit code, and what its scenario did not expect.
+pub(crate) struct Verdict {
+    pub(crate) exit: Exit,
+    /// The name of the ending.
+    pub(crate) ending: &'static str,
+    pub(crate) violations: Vec<Violation>,
+    pub(crate) broken: Vec<Breakage>,
 }
 
 /// Reports the story entry by entry, and summarises it.
@@ -93,21 +104,17 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
     }
 
     /// The report, the expectations that were not met, and the exit code.
-    pub(super) fn end(
-        self,
-        ending: &Ending,
-        snapshot: &Snapshot,
-        elapsed: Duration,
-        report_file: Option<&Path>,
-    ) -> Exit {
+    pub(super) fn end(self, performed: &Performed, report_file: Option<&Path>) -> Verdict {
+        let Performed { ending, snapshot, elapsed, begun } = performed;
         let report = self.content.report(snapshot);
         // A run that was cut short could not meet all that was expected of it; of one that went on, the story has only
         // the last part.
         let is_whole = *ending != Ending::Interrupted && !self.resumed;
         let judged = self.staged.filter(|_| is_whole);
-        let violations = judged.map_or_else(Vec::new, |staged| {
-            let judged = self.record.judge(staged, ending, self.content, snapshot);
-            judged.iter().map(|v| format!("{}: {v}", place(&staged.scenario, v.span()))).collect()
+        let unmet = judged
+            .map_or_else(Vec::new, |staged| self.record.judge(staged, ending, self.content, snapshot, begun));
+        let violations: Vec<String> = judged.map_or_else(Vec::new, |staged| {
+            unmet.iter().map(|v| format!("{}: {v}", place(&staged.scenario, v.span()))).collect()
         });
         self.console.result("");
         let width = self.console.result_width().unwrap_or(usize::MAX);
@@ -118,7 +125,7 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
             self.console.result(&line);
         }
         let (replans, repairs) = (self.record.replans(), self.record.repairs());
-        let time = seconds(elapsed);
+        let time = seconds(*elapsed);
         let word = match ending {
             Ending::Accomplished => "accomplished",
             Ending::GivenUp { .. } => "ended without all its goals",
@@ -140,8 +147,8 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
         }
         let broken = self.record.broken();
         if !broken.is_empty() {
-            let count = broken.len();
-            self.console.note(&format!("{count} invariants broken; the lines `broken` above say where"));
+            let count = render::counted(broken.len(), "invariant", "invariants");
+            self.console.note(&format!("{count} broken; the lines `broken` above say where"));
         }
         let failed = !violations.is_empty() || !broken.is_empty();
         let source = "result";
@@ -157,18 +164,20 @@ impl<'m, 'c, 'o> Teller<'m, 'c, 'o> {
             goals: self.record.goals().iter().map(|(goal, life)| (&**goal, &**life)).collect(),
             report: &report,
         });
+        let verdict =
+            |exit| Verdict { exit, ending: ending.name(), violations: unmet, broken: broken.to_vec() };
         if let Some(path) = report_file {
             let json = serde_json::to_string_pretty(&report).unwrap_or_default();
             if let Err(error) = files::write(path, &format!("{json}\n")) {
                 self.console.complain(&format!("error: {error}\n"));
-                return Exit::Unwritable;
+                return verdict(Exit::Unwritable);
             }
         }
-        match ending {
+        verdict(match ending {
             Ending::Interrupted => Exit::Interrupted,
             Ending::Accomplished if !failed => Exit::Yes,
             _ => Exit::No,
-        }
+        })
     }
 }
 

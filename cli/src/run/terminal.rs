@@ -7,6 +7,7 @@
 
 use super::story::{Alarm, Commit, Entry, What};
 use crate::clock::seconds;
+use crate::render::counted;
 use executive::{Ending, Figures, Life, Narration, Repair};
 use hal::sim::RoomEvent;
 use pddl::model::Name;
@@ -217,7 +218,8 @@ impl Terminal {
                 let names: Vec<_> = goals.iter().map(together).collect();
                 let serves =
                     if names.is_empty() { String::new() } else { format!(" for {}", names.join(", then ")) };
-                let text = format!("{} steps{serves}{runs_on}: {}{more}", plan.len(), first.join(" "));
+                let steps = counted(plan.len(), "step", "steps");
+                let text = format!("{steps}{serves}{runs_on}: {}{more}", first.join(" "));
                 self.line(time, Tone::Plan, head, &text);
                 if let Some(repair) = repair {
                     self.line(time, Tone::Plan, "repair", &repaired(repair));

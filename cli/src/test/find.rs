@@ -14,11 +14,20 @@ pub(super) const EXPECTED: &str = "expected.toml";
 /// The folders with an `expected.toml` at or below a folder, in order. Skips hidden folders and
 /// `target`.
 pub(super) fn folders(folder: &Path, found: &mut Vec<PathBuf>) {
-    if folder.join(EXPECTED).is_file() {
+    folders_with(EXPECTED, folder, found);
+}
+
+/// The folders of missions at or below a folder, in order; skips the same ones.
+pub(super) fn missions(folder: &Path, found: &mut Vec<PathBuf>) {
+    folders_with(MISSION, folder, found);
+}
+
+fn folders_with(file: &str, folder: &Path, found: &mut Vec<PathBuf>) {
+    if folder.join(file).is_file() {
         found.push(folder.to_owned());
     }
     for below in folders_in(folder) {
-        folders(&below, found);
+        folders_with(file, &below, found);
     }
 }
 
@@ -87,7 +96,7 @@ fn elsewhere(folder: &Path, files: &[File]) -> Vec<Source> {
 }
 
 /// A path for display: `/` between folders, and no `./` before it.
-fn shown(path: &Path) -> String {
+pub(super) fn shown(path: &Path) -> String {
     with_slashes(path.strip_prefix(".").unwrap_or(path))
 }
 

@@ -1,7 +1,7 @@
 //! `pelea test PATH...`: tests for domains as text.
 //!
 //! Every folder with an `expected.toml`, at a path or below it, is a suite (`suite`); docs/testing.md documents its
-//! format. The cases of all suites run in parallel; each is shown on a line, in the order of suites and cases. The failed
+//! format. Every scenario of a mission there is a case, too (`scenarios`). The cases of all suites run in parallel; each is shown on a line, in the order of suites and cases. The failed
 //! cases are explained at the end. As JSON a case is
 //!
 //! ```json
@@ -9,7 +9,7 @@
 //!  "time_ms": 0.4}
 //! ```
 //!
-//! `outcome` is `pass` or `fail`; the diagnostics of a failed case come before it. The last line is
+//! `suite` is the folder of the suite or of the mission. `outcome` is `pass` or `fail`; the diagnostics of a failed case come before it. The last line is
 //!
 //! ```json
 //! {"kind": "tests", "suites": 2, "unreadable": 0, "passed": 30, "failed": 1, "left_out": 0, "time_ms": 20.1}
@@ -19,6 +19,7 @@ mod cases;
 mod find;
 mod init;
 mod report;
+mod scenarios;
 mod watch;
 
 use crate::clock::Seconds;
@@ -33,7 +34,8 @@ use std::path::PathBuf;
 /// The arguments of `pelea test`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Folders; every folder with an `expected.toml` at or below them is a suite
+    /// Folders; every folder with an `expected.toml` at or below them is a suite, and every scenario of a mission there is
+    /// a test
     #[arg(default_value = ".")]
     paths: Vec<PathBuf>,
     /// Run only the cases whose names contain this text; may be repeated
@@ -63,7 +65,7 @@ pub(crate) fn run(arguments: &Arguments, console: &mut Console<'_>) -> Exit {
 
 /// Runs every suite at these paths.
 fn once(paths: &[PathBuf], filter: &[String], console: &mut Console<'_>) -> Exit {
-    let mut folders = Vec::new();
+    let (mut folders, mut missions) = (Vec::new(), Vec::new());
     for path in paths {
         if !path.is_dir() {
             let name = path.display();
@@ -72,13 +74,15 @@ fn once(paths: &[PathBuf], filter: &[String], console: &mut Console<'_>) -> Exit
             return Exit::Unreadable;
         }
         find::folders(path, &mut folders);
+        find::missions(path, &mut missions);
     }
     folders.dedup();
-    if folders.is_empty() {
+    missions.dedup();
+    if folders.is_empty() && missions.is_empty() {
         let help = "`pelea test --init FOLDER` writes a first one";
-        let text = "there is no suite here: no folder has an `expected.toml`";
+        let text = "there is no suite here: no folder has an `expected.toml` or a `mission.toml`";
         render::error_with_help(text, Some(help), console);
         return Exit::Unreadable;
     }
-    run_folders(&folders, filter, console)
+    run_folders(&folders, &missions, filter, console)
 }

@@ -3,14 +3,14 @@
 use crate::console::{Console, Form};
 use crate::disk;
 use crate::exit::Exit;
-use diagnostics::Finding;
+use diagnostics::{Finding, Sources};
 use serde::Serialize;
-use suite::{CaseId, Suite};
 
 /// The outcomes of the cases so far.
 pub(super) struct Report<'a> {
     suites: usize,
-    /// Suites that could not be read.
+    missions: usize,
+    /// Suites and missions that could not be read.
     unreadable: usize,
     /// Cases that the filter excludes.
     pub(super) left_out: usize,
@@ -20,42 +20,41 @@ pub(super) struct Report<'a> {
 
 impl<'a> Report<'a> {
     /// The report before the first case.
-    pub(super) fn new(suites: usize, unreadable: usize) -> Self {
-        Self { suites, unreadable, left_out: 0, passed: 0, failed: Vec::new() }
+    pub(super) fn new(suites: usize, missions: usize, unreadable: usize) -> Self {
+        Self { suites, missions, unreadable, left_out: 0, passed: 0, failed: Vec::new() }
     }
 
     /// Reports a finished case.
     pub(super) fn case(
         &mut self,
-        suite: &'a Suite,
-        id: CaseId,
+        asked: Asked<'a>,
         findings: Vec<Finding>,
         time_ms: f64,
         console: &mut Console<'_>,
     ) {
-        let Some((_, case)) = suite.cases().find(|(other, _)| *other == id) else { return };
+        let Asked { suite, name, sources } = asked;
         let passed = findings.is_empty();
         let outcome = if passed { "pass" } else { "fail" };
         if console.form() == Form::Json {
-            disk::show(suite.sources(), &findings, console);
+            disk::show(sources, &findings, console);
         }
         let word = word(passed, console.result_colour());
-        console.result(&format!("        {word} [{:>8.3}s] {}", time_ms / 1e3, case.name));
-        console.record(&CaseRecord { kind: "case", suite: suite.path(), name: &case.name, outcome, time_ms });
+        console.result(&format!("        {word} [{:>8.3}s] {}", time_ms / 1e3, name));
+        console.record(&CaseRecord { kind: "case", suite, name, outcome, time_ms });
         console.flush();
         if passed {
             self.passed += 1;
         } else {
-            self.failed.push(Failed { suite, name: &case.name, findings });
+            self.failed.push(Failed { asked, findings });
         }
     }
 
     /// Reports the end: explains the failed cases, then the counts.
     pub(super) fn finish(self, time_ms: f64, console: &mut Console<'_>) -> Exit {
         if console.form() == Form::Text {
-            for Failed { suite, name, findings } in &self.failed {
-                console.note(&format!("\n──── {name}"));
-                disk::show(suite.sources(), findings, console);
+            for Failed { asked, findings } in &self.failed {
+                console.note(&format!("\n──── {}", asked.name));
+                disk::show(asked.sources, findings, console);
             }
         }
         let failed = self.failed.len();
@@ -70,16 +69,17 @@ impl<'a> Report<'a> {
             line.push_str(&format!(", {} left out", self.left_out));
         }
         if self.unreadable > 0 {
-            let suites = if self.unreadable == 1 { "suite" } else { "suites" };
+            let suites = if self.unreadable == 1 { "suite or mission" } else { "suites or missions" };
             line.push_str(&format!("; {} {suites} could not be read", self.unreadable));
         }
         console.result(&line);
-        for Failed { name, .. } in &self.failed {
-            console.result(&format!("        {} {name}", word(false, console.result_colour())));
+        for Failed { asked, .. } in &self.failed {
+            console.result(&format!("        {} {}", word(false, console.result_colour()), asked.name));
         }
         console.record(&TestsRecord {
             kind: "tests",
             suites: self.suites,
+            missions: self.missions,
             unreadable: self.unreadable,
             passed: self.passed,
             failed,
@@ -90,10 +90,19 @@ impl<'a> Report<'a> {
     }
 }
 
+/// What a case is about.
+#[derive(Clone, Copy)]
+pub(super) struct Asked<'a> {
+    /// The folder of the suite or the mission.
+    pub(super) suite: &'a str,
+    pub(super) name: &'a str,
+    /// The sources of its findings.
+    pub(super) sources: &'a Sources,
+}
+
 /// A case that failed.
 struct Failed<'a> {
-    suite: &'a Suite,
-    name: &'a str,
+    asked: Asked<'a>,
     findings: Vec<Finding>,
 }
 
@@ -119,6 +128,7 @@ struct CaseRecord<'a> {
 struct TestsRecord {
     kind: &'static str,
     suites: usize,
+    missions: usize,
     unreadable: usize,
     passed: usize,
     failed: usize,

@@ -64,7 +64,7 @@ pub(super) fn watch(
             continue;
         }
         console.note("");
-        run_folders(&concerned, filter, console);
+        run_folders(&concerned, &[], filter, console);
         if turn(&concerned).is_break() {
             return Exit::Yes;
         }

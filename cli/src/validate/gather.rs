@@ -9,6 +9,7 @@
 //! Invariant: every argument that leads to no plan is a [`Fault`]; none is ignored silently.
 
 use crate::files::{self, FileError};
+use crate::nearby::MANIFEST;
 use diagnostics::SourceId;
 use pddl::Source;
 use project::{FileKind, Project};
@@ -41,6 +42,12 @@ pub(super) enum Fault {
     /// A file beside folders.
     #[error("`{}` is no folder: give a domain, a problem and plans, or folders that hold all of them", .0.display())]
     NoFolder(PathBuf),
+    /// A folder of tasks that is a mission.
+    #[error(
+        "`{}` is a mission: `pelea test` judges its plans and plays its scenarios, `pelea check` checks its files",
+        .0.display()
+    )]
+    Mission(PathBuf),
     /// Too few arguments.
     #[error("no plan is given: give a domain, a problem and plans, or folders that hold all of them")]
     Nothing,
@@ -118,6 +125,10 @@ impl Gathered {
         for folder in folders {
             if !folder.is_dir() {
                 self.faults.push(Fault::NoFolder(folder.clone()));
+                continue;
+            }
+            if folder.join(MANIFEST).is_file() {
+                self.faults.push(Fault::Mission(folder.clone()));
                 continue;
             }
             let mut plans = 0;

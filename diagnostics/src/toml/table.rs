@@ -60,6 +60,11 @@ impl<'d> Table<'d> {
         self.entries.iter().any(|e| e.key == key)
     }
 
+    /// Counts a key as requested, whatever its value is: what it means is not known after another mistake.
+    pub fn ignore(&mut self, key: &str) {
+        let _ = self.take(key);
+    }
+
     /// A string.
     pub fn text(&mut self, reader: &mut Reader<'_>, key: &str) -> Option<Text> {
         let value = self.take(key)?;

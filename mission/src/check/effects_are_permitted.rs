@@ -15,6 +15,7 @@ use pddl::model::{
 
 use super::context::Context;
 use super::grounding::list;
+use super::nearest::one_line;
 use crate::layers::Layers;
 use diagnostics::{Finding, Place};
 
@@ -37,11 +38,14 @@ pub(super) fn check(context: &Context<'_>, findings: &mut Vec<Finding>) {
                     continue;
                 }
                 let place = Place { source: agent.source, span: written.span };
+                let text = mission.sources[agent.source].slice(written.span);
                 let message = format!(
                     "`{}` writes `{}`, which the agent `{}` may not write",
-                    rule.name, written.token, agent.model.name
+                    rule.name,
+                    one_line(text),
+                    agent.model.name
                 );
-                let help = format!("add it to (:writes {} …) in the vocabulary", agent.model.name);
+                let help = help(vocabulary, &own, &written, &agent.model.name);
                 findings.push(Finding::error("C0601", place, message).help(help));
             }
         }
@@ -85,10 +89,32 @@ fn intentions(context: &Context<'_>, findings: &mut Vec<Finding>) {
                     list(&intention.name, &names),
                     fact.text(&grounding.classes)
                 );
-                let help = format!("add it to (:writes {EXECUTIVE} …) in the vocabulary");
+                let help = help(vocabulary, &own, &written, EXECUTIVE);
                 findings.push(Finding::error("C0601", place, message).help(help));
             }
         }
+    }
+}
+
+/// What to add to the permissions, and what the agent may write of the same token.
+fn help(vocabulary: &Domain, own: &[&Permission], written: &Written, agent: &str) -> String {
+    let patterns = own.iter().flat_map(|permission| &permission.tokens);
+    let granted: Vec<String> = patterns
+        .filter(|pattern| symbol(vocabulary, pattern.symbol).is_some_and(|name| *name == written.token))
+        .map(|pattern| {
+            let name = |fixed: &Option<_>| fixed.map_or("_", |id| vocabulary.constants[id].name.as_str());
+            format!("`{}`", list(&written.token, &pattern.arguments.iter().map(name).collect::<Vec<_>>()))
+        })
+        .collect();
+    let add = format!("add it to (:writes {agent} …) in the vocabulary");
+    if granted.is_empty() { add } else { format!("it may write {}; {add}", granted.join(", ")) }
+}
+
+fn symbol(vocabulary: &Domain, symbol: TokenSymbol) -> Option<&Name> {
+    match symbol {
+        TokenSymbol::Predicate(id) => Some(&vocabulary.predicates[id].name),
+        TokenSymbol::Function(id) => Some(&vocabulary.functions[id].name),
+        TokenSymbol::Type(_) => None,
     }
 }
 
@@ -130,11 +156,7 @@ fn collect(domain: &Domain, effect: &Effect, add: &mut impl FnMut(Name, &[Term],
 /// Whether a permission covers a token under every binding of its variables.
 fn permits(vocabulary: &Domain, permission: &Permission, written: &Written) -> bool {
     permission.tokens.iter().any(|pattern| {
-        let symbol = match pattern.symbol {
-            TokenSymbol::Predicate(id) => &vocabulary.predicates[id].name,
-            TokenSymbol::Function(id) => &vocabulary.functions[id].name,
-            TokenSymbol::Type(_) => return false,
-        };
+        let Some(symbol) = symbol(vocabulary, pattern.symbol) else { return false };
         let fits = |(fixed, candidates): (&Option<_>, &Vec<Name>)| {
             fixed.is_none_or(|id| candidates.iter().all(|c| vocabulary.constants[id].name == *c))
         };

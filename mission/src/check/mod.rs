@@ -20,6 +20,7 @@ mod perception_is_written;
 mod preemptions_rest;
 mod rules_can_start;
 mod rules_come_to_rest;
+mod rules_end_in_time;
 mod tasks_of_actions;
 mod tokens;
 
@@ -34,12 +35,13 @@ use diagnostics::{Finding, Sources};
 type Check = fn(&Context<'_>, &mut Vec<Finding>);
 
 /// All checks, by code.
-const ALL: [Check; 13] = [
+const ALL: [Check; 14] = [
     tasks_of_actions::check,
     effects_are_sensed::check,
     intentions_are_heard::check,
     perception_is_written::check,
     rules_can_start::check,
+    rules_end_in_time::check,
     conditions_can_hold::check,
     objects_are_nodes::check,
     items_are_complete::check,

@@ -19,6 +19,8 @@ pub struct ReportLabels {
     pub unanswered: String,
     /// Mark of an item of which it is not known whether the person perceived the question.
     pub not_perceived: String,
+    /// Mark of an item that was asked, and something came between.
+    pub interrupted: String,
     /// Mark of an item that was not asked.
     pub not_reached: String,
     /// Remark when all items were answered.
@@ -32,8 +34,9 @@ pub(super) fn read(reader: &mut Reader<'_>, root: &mut Table<'_>) -> ReportLabel
     root.require(reader, "report");
     let Some(mut table) = root.table(reader, "report") else { return ReportLabels::default() };
     let not_perceived = table.text(reader, "not-perceived").map(|t| t.value);
+    let interrupted = table.text(reader, "interrupted").map(|t| t.value);
     let mut of = |key: &str| table.required_text(reader, key).map(|t| t.value).unwrap_or_default();
-    let unanswered = of("unanswered");
+    let (unanswered, not_reached) = (of("unanswered"), of("not-reached"));
     let labels = ReportLabels {
         heading: of("heading"),
         item: of("item"),
@@ -42,7 +45,8 @@ pub(super) fn read(reader: &mut Reader<'_>, root: &mut Table<'_>) -> ReportLabel
         total: of("total"),
         not_perceived: not_perceived.unwrap_or_else(|| unanswered.clone()),
         unanswered,
-        not_reached: of("not-reached"),
+        interrupted: interrupted.unwrap_or_else(|| not_reached.clone()),
+        not_reached,
         complete: of("complete"),
         incomplete: of("incomplete"),
     };

@@ -4,6 +4,7 @@ use pddl::Span;
 use pddl::model::{ObjectId, TypeSet};
 
 use super::loader::Loader;
+use crate::errors::counted;
 use crate::layers::Layers;
 use crate::manifest::TaskText;
 use crate::mission::MissionTask;
@@ -52,7 +53,8 @@ pub(super) fn resolve(
             }
         }
     } else if text.arguments.len() != parameters.len() {
-        let message = format!("`{}` takes {} arguments", wanted.name, parameters.len());
+        let takes = counted(parameters.len(), "argument", "arguments");
+        let message = format!("`{}` takes {takes}", wanted.name);
         return report(wanted.span, message);
     } else {
         for (mention, parameter) in text.arguments.iter().zip(parameters) {

@@ -62,7 +62,9 @@ pub enum Status {
     /// It was asked and has no answer, and no sensor noticed that a question was said or shown: a failure of the robot,
     /// not a silence of the person.
     NotPerceived,
-    /// It was not asked, or not completely.
+    /// It was asked, and something came between: the question has neither an answer nor a silence.
+    Interrupted,
+    /// It was not asked.
     NotReached,
 }
 
@@ -207,15 +209,35 @@ impl<'a> Graph<'a> {
         let tokens = &self.mission.manifest.report;
         let silent = self.incoming(item, &tokens.unanswered.name);
         let Some(sensed) = &tokens.sensed else {
-            return if silent.is_empty() { Status::NotReached } else { Status::Unanswered };
+            return if silent.is_empty() { self.untold(item) } else { Status::Unanswered };
         };
         let sensed = self.incoming(item, &sensed.name);
         if silent.is_empty() {
-            Status::NotReached
+            self.untold(item)
         } else if silent.iter().any(|question| sensed.iter().any(|noticed| noticed.from == question.from)) {
             Status::Unanswered
         } else {
             Status::NotPerceived
+        }
+    }
+
+    /// The state of an item without an answer or a silence: whether a question led to it. Whatever is written of a question
+    /// and the item, that it was said, shown or noticed, was written because it was asked.
+    fn untold(&self, item: &str) -> Status {
+        let layers = &self.mission.layers;
+        let unanswered = &layers.nodes.predicates[layers.tokens.unanswered];
+        let question = unanswered.variables.parameters().first();
+        let is_question = |name: &str| {
+            let node = layers.graph.model.object(name);
+            let types = |id| &layers.graph.model.objects[id];
+            node.zip(question).is_some_and(|(id, of)| types(id).is_of(&of.types, &layers.nodes.types))
+        };
+        let node = self.snapshot.node(item).and_then(|id| self.snapshot.get(id));
+        let mut edges = node.into_iter().flat_map(|node| node.incoming());
+        if edges.any(|edge| self.snapshot.name(edge.from).is_some_and(is_question)) {
+            Status::Interrupted
+        } else {
+            Status::NotReached
         }
     }
 

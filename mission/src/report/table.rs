@@ -11,6 +11,7 @@ impl fmt::Display for Report {
             Status::Answered => item.answer.clone().unwrap_or_default(),
             Status::Unanswered => format!("— {}", labels.unanswered),
             Status::NotPerceived => format!("— {}", labels.not_perceived),
+            Status::Interrupted => format!("— {}", labels.interrupted),
             Status::NotReached => format!("— {}", labels.not_reached),
         };
         let points = |item: &ItemReport| match item.score {

@@ -157,6 +157,8 @@ pub struct Disruption {
     pub after: Duration,
     /// The event of a disruption.
     pub act: Act,
+    /// Whether a run in which it never happens is as good as any.
+    pub optional: bool,
     /// Its place in the scenario.
     pub span: Span,
 }
@@ -199,9 +201,10 @@ pub(super) fn read(
     let span = table.span;
     let trigger = read_trigger(reader, layers, &mut table, triggers);
     let after = table.seconds(reader, "after").unwrap_or_default();
+    let optional = table.boolean(reader, "optional").unwrap_or_default();
     let act = read_act(reader, layers, &mut table);
     table.finish(reader);
-    Some(Disruption { trigger: trigger?, after, act: act?, span })
+    Some(Disruption { trigger: trigger?, after, act: act?, optional, span })
 }
 
 fn read_trigger(
@@ -285,7 +288,7 @@ fn read_act(reader: &mut Reader<'_>, layers: &Layers, table: &mut Table<'_>) -> 
             reader.findings.push(finding.help(help));
             // Do not report the keys that the intended act would have read.
             for key in ["request", "device", "person", "by", "for", "token"] {
-                let _ = table.text(reader, key);
+                table.ignore(key);
             }
             None
         }

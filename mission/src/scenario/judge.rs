@@ -4,6 +4,7 @@ use pddl::Span;
 use pddl::model::Name;
 
 use super::{Expectation, GraphCondition};
+use crate::errors::counted;
 use crate::report::Report;
 
 /// The part of a replan that a scenario judges.
@@ -28,6 +29,8 @@ pub struct Outcome<'a> {
     pub asked_again: &'a [Name],
     /// The goals, and the stages in which their lives are.
     pub goals: &'a [(Name, String)],
+    /// The places of the disruptions that did not happen.
+    pub idle: &'a [Span],
 }
 
 /// An expectation that was not met.
@@ -44,7 +47,7 @@ pub enum Violation {
     #[error("{condition} does not hold in the end")]
     DoesNotHold { condition: String, span: Span },
     /// Another number of items was answered.
-    #[error("{found} items were answered, {expected} expected")]
+    #[error("{} answered, {expected} expected", counted(*found, "item was", "items were"))]
     Answered { expected: u32, found: usize, span: Span },
     /// Another total.
     #[error("the total is {found}, {expected} expected")]
@@ -53,10 +56,10 @@ pub enum Violation {
     #[error("unanswered: [{}], expected: [{}]", found.join(", "), expected.join(", "))]
     Unanswered { expected: Vec<String>, found: Vec<String>, span: Span },
     /// Too few replans.
-    #[error("{found} replans, at least {expected} expected")]
+    #[error("{}, at least {expected} expected", counted(*found, "replan", "replans"))]
     TooFewReplans { expected: u32, found: usize, span: Span },
     /// Too many replans.
-    #[error("{found} replans, at most {expected} expected")]
+    #[error("{}, at most {expected} expected", counted(*found, "replan", "replans"))]
     TooManyReplans { expected: u32, found: usize, span: Span },
     /// No replan names the token.
     #[error("no replan names `{token}`")]
@@ -67,6 +70,9 @@ pub enum Violation {
     /// An item that was answered was asked again.
     #[error("`{item}` was asked again after it had been answered")]
     AskedAgain { item: Name, span: Span },
+    /// A disruption never happened, so the run was not the one that the scenario describes.
+    #[error("this disruption did not happen: the run ended before its trigger, or before its delay was over")]
+    DidNotHappen { span: Span },
 }
 
 impl Violation {
@@ -83,7 +89,8 @@ impl Violation {
             | Self::TooManyReplans { span, .. }
             | Self::NotNamed { span, .. }
             | Self::Goal { span, .. }
-            | Self::AskedAgain { span, .. } => *span,
+            | Self::AskedAgain { span, .. }
+            | Self::DidNotHappen { span } => *span,
         }
     }
 }
@@ -95,7 +102,9 @@ impl Expectation {
         outcome: &Outcome<'_>,
         mut holds: impl FnMut(&GraphCondition) -> bool,
     ) -> Vec<Violation> {
-        let mut violations = Vec::new();
+        // A scenario without its disruptions tests nothing, whatever else it expects.
+        let mut violations: Vec<Violation> =
+            outcome.idle.iter().map(|&span| Violation::DidNotHappen { span }).collect();
         if let Some(e) = self.accomplished.as_ref().filter(|e| e.value != outcome.accomplished) {
             violations.push(Violation::Accomplished { expected: e.value, span: e.span });
         }

@@ -5,6 +5,7 @@ use std::time::Duration;
 use pddl::model::{Name, ObjectId};
 
 use super::names::{argument, node};
+use crate::errors::counted;
 use crate::mission::Mission;
 use diagnostics::toml::{Reader, Table};
 
@@ -138,7 +139,8 @@ fn read_reply(
     if let Some((number, span)) = option {
         let few = items.iter().map(|&item| (item, layers.options(item).len()));
         for (item, offered) in few.filter(|&(_, offered)| (number as usize) > offered) {
-            let message = format!("`{}` offers {offered} options only", layers.name(item));
+            let offered = counted(offered, "option", "options");
+            let message = format!("`{}` offers {offered} only", layers.name(item));
             reader.error("E0905", span, message);
         }
         return Some(Reply { answer: Answer::Option(number), delay, by });

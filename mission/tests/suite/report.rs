@@ -4,20 +4,23 @@ use std::time::Duration;
 
 use dsr::{AgentId, Graph, HolderRef, Kind, LabelId, Nature, Time, VocabularyBuilder};
 use expect_test::expect;
-use mission::report::{Report, Times};
+use mission::report::{Report, Status, Times};
 use mission::scenario::{Outcome, Replan};
+use pddl::Span;
 
 use crate::tea;
 
 /// The tea mission's graph, with one edge `from -label-> drink` if asked for.
 fn graph(edge: Option<(&str, &str)>) -> Graph {
     let mut builder = VocabularyBuilder::new();
-    let [item, option, question] =
-        ["item", "option", "question"].map(|n| builder.node_type(n, None, Nature::Symbolic).unwrap());
+    let [item, option, utterance] =
+        ["item", "option", "utterance"].map(|n| builder.node_type(n, None, Nature::Symbolic).unwrap());
+    let question = builder.node_type("question", Some(utterance), Nature::Symbolic).unwrap();
     let score = builder.label("score", item, option).unwrap();
     let worth = builder.attribute_on_edge("score", score, (item, option), Kind::Number).unwrap();
     builder.label("was_chosen_in", option, item).unwrap();
     builder.label("was_unanswered_in", question, item).unwrap();
+    builder.label("was_said_in", utterance, item).unwrap();
     let vocabulary = builder.build();
     let graph = Graph::new(vocabulary.clone());
     let edit = |label: LabelId, from: &str, to: &str, at: u64| {
@@ -28,7 +31,7 @@ fn graph(edge: Option<(&str, &str)>) -> Graph {
     graph
         .edit(AgentId::DSR, Time(0), |tx| {
             tx.add_node("drink", item).add_node("black", option).add_node("green", option);
-            tx.add_node("which", question);
+            tx.add_node("which", question).add_node("welcome", utterance);
         })
         .unwrap();
     for (name, number) in [("black", 1.0), ("green", 2.0)] {
@@ -77,6 +80,17 @@ fn silence_and_not_reached_are_marked() {
 }
 
 #[test]
+fn a_question_that_was_asked_and_interrupted_is_told_apart() {
+    let asked = report(Some(("which", "was_said_in")), "en");
+    assert_eq!(asked.items[0].status, Status::Interrupted);
+    assert!(asked.to_string().contains("— asked, then interrupted"), "{asked}");
+    // A greeting in the item's part is no question about it.
+    assert_eq!(report(Some(("welcome", "was_said_in")), "en").items[0].status, Status::NotReached);
+    // Without a mark of its own it has that of an item that was not asked.
+    assert!(report(Some(("which", "was_said_in")), "fr").to_string().contains("— not asked"));
+}
+
+#[test]
 fn a_verdict_names_each_expectation_that_was_not_met() {
     let mission = tea::mission();
     let text = r#"
@@ -101,6 +115,7 @@ asked-again = []
         replans: &[],
         asked_again: &again,
         goals: &[],
+        idle: &[Span::new(9, 17)],
     };
     let violations = scenario.expect.judge(&bad, |c| !c.text.starts_with("(is_with"));
     let lines: Vec<String> = violations
@@ -108,6 +123,7 @@ asked-again = []
         .map(|v| format!("{}: {v}\n", scenario.source.line_column(v.span().start).line))
         .collect();
     expect![[r#"
+        2: this disruption did not happen: the run ended before its trigger, or before its delay was over
         4: the mission was not accomplished
         5: (is_with guest waiter) does not hold in the end
         6: 0 items were answered, 1 expected
@@ -130,6 +146,7 @@ asked-again = []
         replans: &replans,
         asked_again: &[],
         goals: &[],
+        idle: &[],
     };
     assert_eq!(scenario.expect.judge(&good, |_| true), []);
 }

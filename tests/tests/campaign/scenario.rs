@@ -146,7 +146,7 @@ fn after(dice: &mut Dice) -> String {
 fn disruption(dice: &mut Dice, trigger: &str, made_up: &mut MadeUp) {
     // An abort ends what could still be found: it is rarer.
     let act = if dice.chance(5) { &"abort" } else { dice.pick(&ACTS) };
-    write!(made_up.text, "\n[[disruption]]\n{trigger}\ndo = \"{act}\"\n").unwrap();
+    write!(made_up.text, "\n[[disruption]]\n{trigger}\noptional = true\ndo = \"{act}\"\n").unwrap();
     match *act {
         "ask" => made_up.text.push_str("request = \"help\"\n"),
         "fail" | "lie" | "recover" => {
@@ -164,7 +164,10 @@ fn disruption(dice: &mut Dice, trigger: &str, made_up: &mut MadeUp) {
     if let Some(undone) = undone.filter(|_| dice.chance(70)) {
         let when = if *act == "pause" { "(is barthel paused)" } else { "(not (is_with person robot))" };
         let after = dice.seconds(90);
-        write!(made_up.text, "\n[[disruption]]\nwhen = \"{when}\"\nafter = {after}\ndo = \"{undone}\"\n")
-            .unwrap();
+        write!(
+            made_up.text,
+            "\n[[disruption]]\nwhen = \"{when}\"\noptional = true\nafter = {after}\ndo = \"{undone}\"\n"
+        )
+        .unwrap();
     }
 }

@@ -2,6 +2,7 @@
 
 use pddl::model::{ActionId, Name, ObjectId};
 
+use crate::errors::counted;
 use crate::layers::Layers;
 use crate::manifest::{Mention, symbols};
 use diagnostics::Finding;
@@ -37,8 +38,8 @@ pub(super) fn read(reader: &mut Reader<'_>, layers: &Layers, text: &Text) -> Opt
     let parameters = domain.actions[action].variables.parameters();
     let arguments: Vec<Mention> = mentions.collect();
     if arguments.len() != parameters.len() {
-        let (takes, given) = (parameters.len(), arguments.len());
-        let message = format!("`{}` takes {takes} arguments, {given} given", head.name);
+        let (takes, given) = (counted(parameters.len(), "argument", "arguments"), arguments.len());
+        let message = format!("`{}` takes {takes}, {given} given", head.name);
         reader.error("E0907", text.span, message);
         return None;
     }
