@@ -5,7 +5,8 @@
 //!
 //! Codes: E10xx. E1001 vocabulary, E1002 world and graph, E1003 rules, E1004 perception, E1005 methods,
 //! E1006 planning problem, E1007 a condition of a scenario (`scenario`), E1008 no agent for PELEA to write as,
-//! E1009 invariants, E1010 a device that the robot does not have (`devices`).
+//! E1009 invariants, E1010 a device that the robot does not have (`devices`), E1011 a durative action that cannot be
+//! planned as one step.
 
 mod devices;
 
@@ -17,7 +18,7 @@ use crate::render;
 use agents::{Agent, RuleErrorKind, skills};
 use diagnostics::{Finding, Place, SourceId, did_you_mean};
 use dsr::{AgentId, Graph, Interest, LabelId, Time};
-use executive::{Arrivals, Bounds, Model, Policy, Sensed, Step, Wheel};
+use executive::{Arrivals, Bounds, Model, ModelError, Policy, Sensed, Step, Wheel};
 use high_to_low::Methods;
 use low_to_high::Perception;
 use mission::{Mission, MissionErrors, MissionTask, SkillOutcomes};
@@ -198,7 +199,12 @@ fn put_together(mission: &Mission, findings: &mut Vec<Finding>) -> Option<Assemb
     let (domain, problem) = (layers.domain.model.clone(), layers.problem.model.clone());
     let model = Model::with_goals(domain, problem, sensed, goals::texts(mission));
     let model = model.map_err(|error| {
-        findings.push(finding(UNPLANNABLE, layers.problem.source, layers.problem.model.goal_span, &error));
+        findings.push(match &error {
+            ModelError::Concurrency(why) => finding("E1011", layers.domain.source, why.span(), &error),
+            ModelError::Ground(_) => {
+                finding(UNPLANNABLE, layers.problem.source, layers.problem.model.goal_span, &error)
+            }
+        });
     });
     let invariants = Invariants::new(layers.safety.iter().map(|layer| &layer.model), &vocabulary);
     let invariants = invariants.map_err(|errors| {

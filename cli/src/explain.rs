@@ -35,7 +35,8 @@ pub(crate) struct Arguments {
 /// The codes that `assemble` and `scenario` report.
 #[rustfmt::skip]
 static OWN: LazyLock<Vec<Explanation>> = LazyLock::new(|| explained![
-    "assemble": "E1001" "E1002" "E1003" "E1004" "E1005" "E1006" "E1007" "E1008" "E1009" "E1010";
+    "assemble": "E1001" "E1002" "E1003" "E1004" "E1005" "E1006" "E1007" "E1008" "E1009" "E1010"
+    "E1011";
 ]);
 
 /// The codes of scenarios as tests.

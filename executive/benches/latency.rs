@@ -144,7 +144,7 @@ fn plan(model: &Arc<Model>, state: &State) -> Vec<OperatorId> {
         goals: vec![GoalId(0)],
         broken,
         served: vec![GoalId(0)],
-        running: None,
+        running: Vec::new(),
         barred,
         expansions: 20_000,
         arrived: None,

@@ -153,7 +153,7 @@ fn replan(bench: &mut Criterion) {
         goals: vec![GoalId(0)],
         broken: Vec::new(),
         served: vec![GoalId(0)],
-        running: None,
+        running: Vec::new(),
         barred: Vec::new(),
         expansions: 20_000,
         arrived: None,
@@ -163,7 +163,7 @@ fn replan(bench: &mut Criterion) {
     bench.bench_function("replan: the person is lost, 35 steps to go, validated", |b| {
         b.iter(|| black_box(decide(model, &request)));
     });
-    request.running = operators.first().copied();
+    request.running = operators.first().copied().into_iter().collect();
     request.broken = operators;
     bench.bench_function("the same, repaired and planned from scratch, validated", |b| {
         b.iter(|| black_box(decide(model, &request)));

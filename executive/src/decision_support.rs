@@ -46,8 +46,8 @@ pub struct Request {
     pub broken: Vec<OperatorId>,
     /// The goals that it was made for.
     pub served: Vec<GoalId>,
-    /// The step that is under way, which goes on if the new plan can start with it.
-    pub running: Option<OperatorId>,
+    /// The steps that are being carried out, which go on where the new plan can start with them.
+    pub running: Vec<OperatorId>,
     /// Steps that just failed in this very state.
     pub barred: Vec<Step>,
     /// How many states may be expanded.
@@ -166,10 +166,10 @@ pub fn decide(model: &Arc<Model>, request: &Request, cancellation: &Cancellation
     let state = grown.state(&arrived.facts);
     let state =
         grown.with_numbers(state, arrived.numbers.iter().map(|(fluent, value)| (fluent, Some(*value))));
-    let steps: Vec<_> = request.broken.iter().chain(&request.running).map(|&o| model.step(o)).collect();
-    let mut operators = grown.operators(&steps);
-    let running = operators.split_off(request.broken.len()).into_iter().flatten().next();
-    let broken = operators.into_iter().flatten().collect();
+    let broken = grown.counterparts(model, &request.broken).into_iter().flatten().collect();
+    let running: Vec<_> = grown.counterparts(model, &request.running).into_iter().flatten().collect();
+    let mut state = state;
+    grown.task().change(&mut state, grown.under_way(&running).into_iter().map(|fact| (fact, true)));
     let request = Request { state, broken, running, arrived: None, ..request.clone() };
     match decide_on(&grown, &request, cancellation) {
         Decision::Plan { operators, expanded, repair, stages, postponed, forgone, .. } => {
@@ -216,7 +216,8 @@ fn decide_on(model: &Arc<Model>, request: &Request, cancellation: &Cancellation)
     let query = Query { state: &request.state, goal: &goal, excluded: &excluded };
     let Choice { operators, stages, postponed } = choice;
     let first = stages.first().map_or(0, |stage| stage.end);
-    let operators = going_on(model, &query, operators, first, request.running);
+    let going_on = |plan, &running: &OperatorId| going_on(model, &query, plan, first, running);
+    let operators = request.running.iter().rev().fold(operators, going_on);
     let distance = || Distance::between(task, &request.broken, &operators);
     let repair = repaired.map(|repair: Repair| repair.reordered(distance()));
     match objection(model, &request.state, &served, &operators) {
@@ -294,7 +295,8 @@ fn without_plan(
         matches!(report.outcome, Outcome::Solved(_))
     };
     let barred = |(goal, why): &(GoalId, NoPlan)| {
-        !excluded.is_empty() && matches!(why, NoPlan::Unsolvable(_)) && solvable(*goal)
+        let proven = matches!(why, NoPlan::Unsolvable(_) | NoPlan::Concurrency(_));
+        !excluded.is_empty() && proven && solvable(*goal)
     };
     match choice.postponed.iter().find(|postponed| barred(postponed)) {
         Some((_, why)) => Decision::Barred(why.clone()),
@@ -356,6 +358,9 @@ impl Search<'_> {
         let expanded = statistics.expanded;
         Err(Box::new(match outcome {
             Outcome::Solved(plan) => return Ok(Found { operators: plan.operators, expanded, repair }),
+            Outcome::Unsolvable(_) if !model.meanwhile().is_empty() => {
+                NoPlan::Concurrency(model.meanwhile().to_vec())
+            }
             Outcome::Unsolvable(reason) => self.unsolvable(aim, &query, &reason, expanded),
             Outcome::Unsupported(feature) => NoPlan::Unsupported(feature),
             Outcome::LimitReached(_) if (budget.interrupted)() => NoPlan::Stopped,
@@ -433,17 +438,15 @@ fn cheap(
     improve(model.task(), query, configuration, budget, &mut |_| ()).report
 }
 
-/// The plan with the running step first, if it is in its first part and the goal is still reached.
+/// The plan with a running step first, if it is in its first part and the goal is still reached.
 fn going_on(
     model: &Model,
     query: &Query<'_>,
     plan: Vec<OperatorId>,
     part: usize,
-    running: Option<OperatorId>,
+    running: OperatorId,
 ) -> Vec<OperatorId> {
-    let Some(at) = running.and_then(|running| plan[..part].iter().position(|&o| o == running)) else {
-        return plan;
-    };
+    let Some(at) = plan[..part].iter().position(|&o| o == running) else { return plan };
     let mut other = plan.clone();
     other[..=at].rotate_right(1);
     let task = model.task();

@@ -19,8 +19,8 @@
 //! let dark = low_to_high::Fact { predicate: Name::new("dark"), arguments: Vec::new() };
 //! let state = model.state([&dark]);
 //! let request = Request {
-//!     id: RequestId(0), state, goals: vec![GoalId(0)], broken: Vec::new(), served: Vec::new(), running: None,
-//!     barred: Vec::new(), expansions: 100, arrived: None,
+//!     id: RequestId(0), state, goals: vec![GoalId(0)], broken: Vec::new(), served: Vec::new(),
+//!     running: Vec::new(), barred: Vec::new(), expansions: 100, arrived: None,
 //! };
 //! let never = budget::Cancellation::default();
 //! assert!(matches!(decide(&model, &request, &never), Decision::Plan { operators, .. } if operators.len() == 1));
@@ -35,6 +35,7 @@
 //! | `arrivals` | objects that appear at run time |
 //! | `soft_plans` | plans that go for soft goals as far as they are worth it |
 //! | `model` | the high-level model that they share |
+//! | `compression`, `order`, `timing` | durative actions: as single steps, in a partial order, with deadlines |
 //! | `outcome` | why there is no plan, why a step failed, how the mission ended |
 //! | `narration` | the story: every decision with its reason |
 //! | `record` | a turn of the wheel as data, to be taken again |
@@ -43,21 +44,28 @@
 //! | `wording` | outcomes and reasons as sentences |
 
 mod arrivals;
+mod compression;
 mod decision_support;
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test")]
+mod dispatch_tests;
 mod goal;
 mod goals;
 mod lasting;
 mod model;
 mod monitoring;
 mod narration;
+mod order;
 mod outcome;
 mod record;
 mod shell;
 mod soft_plans;
+mod timing;
 mod wheel;
 mod wording;
 
 pub use arrivals::{Arrival, Arrivals};
+pub use compression::{CompressionError, Meanwhile};
 pub use decision_support::{Arrived, Decision, Figures, Repair, Request, RequestId, decide};
 pub use goal::{GoalId, GoalText, Importance};
 pub use goals::{GoalChange, Life, Reason, Stage};
@@ -68,4 +76,5 @@ pub use narration::Narration;
 pub use outcome::{Ending, NoPlan, StepFailure, Stuck, Trouble, Unsolvable};
 pub use record::{Occurrence, Turn};
 pub use shell::Shell;
+pub use timing::Duration;
 pub use wheel::{Bounds, Effect, Event, Policy, Wheel};

@@ -6,7 +6,9 @@
 //! problem. Cost: one hash look-up per fact or number that changes, and a copy of the state's bits.
 
 use crate::arrivals::Arrival;
+use crate::compression::{CompressionError, Meanwhile, compress};
 use crate::goal::{GoalId, GoalText, Goals};
+use crate::timing::{Duration, Timing};
 use indexmap::{IndexMap, IndexSet};
 use low_to_high::{Change, Fact, Fluent};
 use pddl::model::{
@@ -33,6 +35,8 @@ pub struct Model {
     /// Facts of the initial state that are not perceived, sorted.
     given: Vec<FactId>,
     goals: Goals,
+    timing: Timing,
+    meanwhile: Vec<Meanwhile>,
     /// What it was made from, to be made again with other objects.
     base: Arc<Base>,
     /// The objects that the problem does not have.
@@ -87,6 +91,9 @@ pub enum ModelError {
     /// The domain cannot be grounded.
     #[error(transparent)]
     Ground(#[from] GroundError),
+    /// A durative action cannot be planned as one step.
+    #[error(transparent)]
+    Concurrency(#[from] CompressionError),
 }
 
 /// An operator by name: `introduce`, `[person, opening, feeding]`.
@@ -135,17 +142,21 @@ impl Model {
     }
 
     fn of(base: Arc<Base>, arrivals: Vec<Arrival>) -> Result<Self, ModelError> {
-        let (mut domain, mut problem) = (base.domain.clone(), base.problem.clone());
+        let (timed, mut problem) = (&base.domain, base.problem.clone());
         for Arrival { name, of } in &arrivals {
-            if let Some(of) = domain.types.find(of) {
+            if let Some(of) = timed.types.find(of) {
                 let (name, types) = (name.clone(), ObjectTypes::one(of));
                 problem.objects.push(Object { name, types, span: problem.goal_span });
             }
         }
         let sensed = Sensed { predicates: &base.predicates, numbers: &base.numbers };
         let goals = base.goals.clone();
-        let exogenous: IndexSet<_> =
+        let compressed = compress(timed, &problem)?;
+        let mut domain = compressed.domain.clone();
+        let mut exogenous: IndexSet<_> =
             sensed.predicates.iter().filter_map(|name| domain.predicate(name)).collect();
+        // Whether an action is under way is the executive's to know.
+        exogenous.extend(compressed.steps.iter().map(|steps| steps.under_way));
         let volatile: Vec<_> = exogenous.iter().copied().collect();
         let functions: Vec<_> = sensed.numbers.iter().filter_map(|(name, _)| domain.function(name)).collect();
         let (goals, kept) = Goals::new(goals, &mut domain, &mut problem, &volatile);
@@ -175,6 +186,8 @@ impl Model {
             Some((fluent, (application.clone(), default.and_then(Number::from_f64))))
         });
         let numbers = numbers.collect();
+        let timing = Timing::new(timed, &compressed, &task);
+        let meanwhile = compressed.meanwhile;
         Ok(Self {
             domain,
             problem,
@@ -185,6 +198,8 @@ impl Model {
             numbers,
             given,
             goals,
+            timing,
+            meanwhile,
             base,
             arrivals,
         })
@@ -195,10 +210,22 @@ impl Model {
         &self.arrivals
     }
 
-    /// The operators of these names; those of an object that is gone are left out.
+    /// These operators of another model; those of an object that is gone are left out.
+    pub(crate) fn counterparts(&self, other: &Self, operators: &[OperatorId]) -> Vec<Option<OperatorId>> {
+        let steps: Vec<Step> = operators.iter().map(|&operator| other.step(operator)).collect();
+        let own = self.operators(&steps).into_iter().zip(operators);
+        own.map(|(own, &operator)| match other.timing.is_rest(&other.task, operator) {
+            true => self.timing.rest(&self.task, own?),
+            false => own,
+        })
+        .collect()
+    }
+
+    /// The operators of these names; those of an object that is gone are left out. Of a durative action, the whole.
     pub(crate) fn operators(&self, steps: &[Step]) -> Vec<Option<OperatorId>> {
         let mut known: FxHashMap<Step, OperatorId> = FxHashMap::default();
-        for operator in self.task.operators().ids() {
+        let is_whole = |operator: &OperatorId| !self.timing.is_rest(&self.task, *operator);
+        for operator in self.task.operators().ids().filter(is_whole) {
             known.entry(self.step(operator)).or_insert(operator);
         }
         steps.iter().map(|step| known.get(step).copied()).collect()
@@ -209,7 +236,33 @@ impl Model {
         &self.task
     }
 
-    /// The domain.
+    /// What is known of durative actions.
+    pub(crate) fn timing(&self) -> &Timing {
+        &self.timing
+    }
+
+    /// The facts that the actions are under way of which these operators are the rest.
+    pub(crate) fn under_way(&self, operators: &[OperatorId]) -> Vec<FactId> {
+        let rests = operators.iter().filter(|&&operator| self.timing.is_rest(&self.task, operator));
+        rests.filter_map(|&operator| self.timing.under_way(&self.task, operator)).collect()
+    }
+
+    /// Actions that could use what another one gives only while it runs: no plan does.
+    pub fn meanwhile(&self) -> &[Meanwhile] {
+        &self.meanwhile
+    }
+
+    /// For each step of a plan, the earlier steps that must be done before it starts.
+    pub fn order(&self, plan: &[OperatorId]) -> Vec<Vec<usize>> {
+        self.timing.order(&self.domain, &self.task, plan)
+    }
+
+    /// How long a step takes from a state; `None` for an action without a duration.
+    pub fn duration(&self, step: OperatorId, state: &State) -> Option<Duration> {
+        self.timing.duration(&self.problem, &self.task, step, state)
+    }
+
+    /// The domain as it is planned: each durative action as instantaneous ones.
     pub fn domain(&self) -> &Domain {
         &self.domain
     }

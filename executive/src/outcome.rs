@@ -1,5 +1,6 @@
 //! Why there is no plan, why a step failed, how a mission ended: as data. `wording` makes sentences of it.
 
+use crate::compression::Meanwhile;
 use crate::{Model, Step};
 use dsr::TransactionError;
 use high_to_low::Failure;
@@ -13,6 +14,8 @@ use std::sync::Arc;
 pub enum NoPlan {
     /// No plan exists.
     Unsolvable(Unsolvable),
+    /// None exists in which no action depends on another one that runs at the same time; with that, there may be one.
+    Concurrency(Vec<Meanwhile>),
     /// None was found within this many expansions.
     LimitReached(u64),
     /// The domain asks for something that the planner cannot do.
@@ -68,6 +71,8 @@ pub enum StepFailure {
     Refinement(Failure),
     /// It was carried out, but its effects were not sensed.
     NotSensed,
+    /// It took longer than its deadline of so many seconds.
+    Late(f64),
     /// The graph refused what it was to write.
     Refused(TransactionError),
 }

@@ -106,7 +106,7 @@ impl Serialize for Effect {
                 request: request.id,
                 goals: &request.goals,
                 broken: request.broken.len(),
-                is_running: request.running.is_some(),
+                is_running: !request.running.is_empty(),
                 barred: &request.barred,
                 expansions: request.expansions,
                 objects: request.arrived.as_ref().map_or(&[], |arrived| &arrived.objects),

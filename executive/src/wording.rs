@@ -6,6 +6,7 @@ use planner::Wording;
 use serde::{Serialize, Serializer};
 
 use crate::Step;
+use crate::compression::Meanwhile;
 use crate::goals::{GoalChange, Life, Reason};
 use crate::monitoring::{BrokenLiteral, Deviation};
 use crate::outcome::{Ending, NoPlan, StepFailure, Stuck, Trouble, Unsolvable};
@@ -27,6 +28,13 @@ impl Display for NoPlan {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         match self {
             Self::Unsolvable(proof) => proof.fmt(f),
+            Self::Concurrency(lost) => {
+                f.write_str("no plan without actions that depend on each other while they run")?;
+                let texts = lost.iter().map(|Meanwhile { action, predicate, giver }| {
+                    format!("`{giver}` gives `{predicate}` to `{action}` only while it runs")
+                });
+                write!(f, ": {}", texts.collect::<Vec<_>>().join("; "))
+            }
             Self::LimitReached(most) => write!(f, "no plan within {most} expansions"),
             Self::Unsupported(feature) => write!(f, "the planner does not support {feature}"),
             Self::TooLarge(why) => write!(f, "with the objects that have appeared: {why}"),
@@ -62,6 +70,7 @@ impl Display for StepFailure {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         match self {
             Self::Refinement(failure) => failure.fmt(f),
+            Self::Late(seconds) => write!(f, "it was not done after {seconds} s"),
             Self::NotSensed => f.write_str("carried out, but what it was to achieve was not sensed"),
             Self::Refused(error) => error.fmt(f),
         }

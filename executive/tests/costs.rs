@@ -38,7 +38,7 @@ fn plan(model: &Arc<Model>) -> Vec<planner::OperatorId> {
         goals: vec![GoalId(0)],
         broken: Vec::new(),
         served: vec![GoalId(0)],
-        running: None,
+        running: Vec::new(),
         barred: Vec::new(),
         expansions: 1_000,
         arrived: None,

@@ -52,7 +52,7 @@ fn plan(model: &Arc<Model>) -> Vec<OperatorId> {
         goals: vec![GoalId(0)],
         broken: Vec::new(),
         served: vec![GoalId(0)],
-        running: None,
+        running: Vec::new(),
         barred: Vec::new(),
         expansions: 10_000,
         arrived: None,

@@ -51,7 +51,7 @@ fn request(model: &Model, seen: &[&str], broken: &[&str], running: Option<&str>)
         goals: vec![GoalId(0)],
         broken: broken.iter().map(|name| operator(model, name)).collect(),
         served: vec![GoalId(0)],
-        running: running.map(|name| operator(model, name)),
+        running: running.map(|name| operator(model, name)).into_iter().collect(),
         barred: Vec::new(),
         expansions: 1_000,
         arrived: None,

@@ -148,6 +148,14 @@ impl Activity {
         }));
     }
 
+    /// The edits that it has written.
+    pub(crate) fn written(&self) -> &[Edit] {
+        match &self.state {
+            State::Waiting => &[],
+            State::Written { edits, .. } => edits,
+        }
+    }
+
     /// Takes back the tokens that it has added, if they are still as it wrote them. It does not restore the tokens that
     /// it has removed: they were true once, and need not be true now.
     pub(crate) fn withdraw(&self, snapshot: &Snapshot, edits: &mut Vec<Edit>) {

@@ -96,6 +96,13 @@ impl Refinement {
         edits
     }
 
+    /// The edits of its intentions that were written and are not yet seen to have their effect.
+    pub fn written(&self) -> impl Iterator<Item = &Edit> {
+        let mut edits = Vec::new();
+        self.root.written(&mut edits);
+        edits.into_iter()
+    }
+
     /// Cancels the refinement. Returns the edits that take back what its running intentions have written.
     pub fn cancel(&mut self, snapshot: &Snapshot) -> Vec<Edit> {
         let mut edits = Vec::new();
@@ -252,6 +259,18 @@ impl Goal {
             match child {
                 Child::Task(goal) => goal.withdrawal(methods, edits),
                 Child::Intention(activity) => activity.withdrawal(methods, edits),
+                Child::NotYet | Child::Done => {}
+            }
+        }
+    }
+}
+
+impl Goal {
+    fn written<'g>(&'g self, edits: &mut Vec<&'g Edit>) {
+        for child in self.expansion.iter().flat_map(|expansion| &expansion.children) {
+            match child {
+                Child::Task(goal) => goal.written(edits),
+                Child::Intention(activity) => edits.extend(activity.written()),
                 Child::NotYet | Child::Done => {}
             }
         }

@@ -55,6 +55,9 @@ pub struct Layers {
     pub nodes: Domain,
     /// The planning domain.
     pub domain: Layer<Domain>,
+    /// The planning domain, in which each durative action is an action too: its conditions at start, and all its
+    /// effects. Enough for what may happen at all, and for names and parameters.
+    pub steps: Domain,
     /// The planning problem.
     pub problem: Layer<Problem>,
     /// LowToHigh; imports [`Layers::nodes`] and the planning domain.

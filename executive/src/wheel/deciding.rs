@@ -93,13 +93,12 @@ impl Wheel {
         self.moot(effects);
         effects.push(Effect::Tell(Narration::FitsAgain));
         let Hand::Plan(course) = &self.hand else { return };
-        let Some(&step) = course.left().first() else { return };
         // Whoever breaks a step off and lets it go on makes it start again, as far as a listener can tell.
-        if course.is_under_way()
-            && let Err(times) = self.patience.starts(step)
-        {
-            let step = self.model.step(step);
-            self.escalate(Stuck::Restarts { step, times }, effects);
+        for step in course.running().into_iter().map(|step| course.operator(step)) {
+            if let Err(times) = self.patience.starts(step) {
+                let step = self.model.step(step);
+                return self.escalate(Stuck::Restarts { step, times }, effects);
+            }
         }
     }
 
@@ -135,7 +134,7 @@ impl Wheel {
                 let served: Vec<_> = stages.iter().flat_map(|stage| stage.goals.iter().copied()).collect();
                 let goal = self.model.goal(&served);
                 let course = Course::new(&self.model, operators, goal, &sight.state);
-                let fits = course.monitor.furthest(self.model.task()).is_some();
+                let fits = !matches!(course.progress(self.model.task()), Progress::Deviates);
                 match fits && self.agenda.still_want(&served) {
                     true => {
                         self.adopt(course, (expanded, repair), (stages, &postponed), effects);
@@ -168,19 +167,21 @@ impl Wheel {
         effects: &mut Vec<Effect>,
     ) {
         let Some(sight) = &self.sight else { return };
-        if let Err(stuck) = self.patience.adopts(self.model.task(), course.monitor.plan()) {
+        if let Err(stuck) = self.patience.adopts(self.model.task(), course.plan()) {
             return self.escalate(stuck, effects);
         }
         // Asked before anything is withdrawn: a call that goes on as an escalation stands.
-        let first = course.left().first().copied();
-        if let Some(first) = first.filter(|_| first != self.hand.left().1)
-            && let Err(times) = self.patience.may_start(first)
-        {
-            let step = self.model.step(first);
-            return self.escalate(Stuck::Restarts { step, times }, effects);
+        let running = self.hand.left().1;
+        for first in course.front().into_iter().map(|step| course.operator(step)) {
+            if !running.contains(&first)
+                && let Err(times) = self.patience.may_start(first)
+            {
+                let step = self.model.step(first);
+                return self.escalate(Stuck::Restarts { step, times }, effects);
+            }
         }
         let survives = match std::mem::replace(&mut self.hand, Hand::Empty) {
-            Hand::Plan(old) => course.take_over(old, &sight.snapshot, effects),
+            Hand::Plan(old) => course.take_over(old, &self.model, &sight.snapshot, effects),
             Hand::Errand(mut errand) => {
                 errand.withdraw(&sight.snapshot, effects);
                 if matches!(errand.purpose, Purpose::Trouble(_)) {
@@ -191,7 +192,7 @@ impl Wheel {
             Hand::Empty | Hand::Rest(_) => false,
         };
         self.plans += 1;
-        let plan = course.monitor.plan().iter().map(|&o| self.model.step(o)).collect();
+        let plan = course.plan().iter().map(|&o| self.model.step(o)).collect();
         let (count, goals) = (self.plans, self.names_of(&stages));
         effects.push(Effect::Tell(Narration::Planned { plan, expanded, survives, repair, count, goals }));
         self.expected = self.sight.as_ref().filter(|_| !postponed.is_empty()).map(|s| s.state.clone());

@@ -6,11 +6,11 @@
 use super::course::Course;
 use super::event::Effect;
 use super::state::{Hand, Wheel};
+use crate::Model;
 use crate::arrivals::Arrival;
 use crate::decision_support::Arrived;
 use crate::goal::GoalId;
 use crate::narration::Narration;
-use crate::{Model, Step};
 use dsr::{Change, Delta};
 use pddl::model::Name;
 use std::sync::Arc;
@@ -63,13 +63,15 @@ impl Wheel {
         self.expected = None;
         match std::mem::replace(&mut self.hand, Hand::Empty) {
             Hand::Plan(course) => {
-                let steps: Vec<Step> = course.left().iter().map(|&operator| old.step(operator)).collect();
                 let goal = self.model.goal(&self.agenda.unachieved());
-                let operators = self.model.operators(&steps);
+                let operators = self.model.counterparts(&old, &course.left());
                 if operators.first().is_some_and(Option::is_some) {
+                    let mut kept = 0..;
+                    let places: Vec<_> = operators.iter().map(|own| own.and_then(|_| kept.next())).collect();
                     let plan = operators.into_iter().flatten().collect();
                     let other = Course::new(&self.model, plan, goal, &sight.state);
-                    self.hand = Hand::Plan(other.carrying(course));
+                    let other = other.carrying(course, &places, &sight.snapshot, effects);
+                    self.hand = Hand::Plan(other);
                 } else {
                     let mut course = course;
                     course.withdraw(&sight.snapshot, effects);
@@ -81,5 +83,8 @@ impl Wheel {
             }
             Hand::Rest(_) | Hand::Empty => {}
         }
+        // The facts of the old model mean nothing here.
+        self.under_way.clear();
+        self.note_starts();
     }
 }

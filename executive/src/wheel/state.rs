@@ -15,7 +15,7 @@ use crate::goals::Agenda;
 use dsr::{AgentId, Edit, Interest, Time};
 use high_to_low::{Methods, Moment};
 use low_to_high::Perception;
-use planner::{Goal, OperatorId, State};
+use planner::{FactId, Goal, OperatorId, State};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -37,6 +37,8 @@ pub struct Wheel {
     /// LowToHigh over the last graph seen; `None` before the first.
     pub(super) sight: Option<Sight>,
     pub(super) hand: Hand,
+    /// The facts of the state that are the wheel's own: actions whose start was seen.
+    pub(super) under_way: Vec<FactId>,
     /// The question that Decision Support has not answered.
     pub(super) inquiry: Option<Inquiry>,
     /// The mission's goals over time.
@@ -63,12 +65,10 @@ pub struct Wheel {
 }
 
 /// What is being carried out.
-#[expect(clippy::large_enum_variant, reason = "a wheel has one of it")]
 pub(super) enum Hand {
     /// Nothing.
     Empty,
-    /// A plan. While a question is open, the plan does not fit: its current step keeps its intentions, and no other
-    /// starts.
+    /// A plan. While a question is open, the plan does not fit: its steps keep their intentions, and no other starts.
     Plan(Course),
     /// Nothing yet: the only plans need a step that has just failed.
     Rest(Rest),
@@ -119,6 +119,7 @@ impl Wheel {
             moment: Moment::at(Time(0)),
             sight: None,
             hand: Hand::Empty,
+            under_way: Vec::new(),
             inquiry: None,
             agenda,
             aims,
@@ -189,10 +190,9 @@ impl Wheel {
 }
 
 impl Hand {
-    /// What is left of a plan, and its step that is under way.
-    pub(super) fn left(&self) -> (Vec<OperatorId>, Option<OperatorId>) {
-        let Self::Plan(course) = self else { return (Vec::new(), None) };
-        let left = course.left();
-        (left.to_vec(), left.first().copied().filter(|_| course.is_under_way()))
+    /// What is left of a plan, and its steps that are being carried out.
+    pub(super) fn left(&self) -> (Vec<OperatorId>, Vec<OperatorId>) {
+        let Self::Plan(course) = self else { return (Vec::new(), Vec::new()) };
+        (course.left(), course.running().into_iter().map(|step| course.operator(step)).collect())
     }
 }

@@ -1,5 +1,6 @@
 //! One turn of the wheel: what is seen, then what follows from it, then when to turn next.
 
+use super::course::Progress;
 use super::effects::{in_one_transaction, is_write};
 use super::errand::Purpose;
 use super::event::{Effect, Event};
@@ -64,7 +65,8 @@ impl Wheel {
 
     /// Takes in a version of the graph as a whole.
     fn look(&mut self, snapshot: Snapshot, effects: &mut Vec<Effect>) {
-        let sight = Sight::new(&self.perception, &self.model, snapshot, self.moment.now);
+        let mut sight = Sight::new(&self.perception, &self.model, snapshot, self.moment.now);
+        self.model.task().change(&mut sight.state, self.under_way.iter().map(|&fact| (fact, true)));
         match self.sight.replace(sight) {
             None => {
                 let sight = self.sight.as_ref().expect("it was just put there");
@@ -97,7 +99,7 @@ impl Wheel {
             return;
         }
         if let (Hand::Plan(course), Some(sight)) = (&mut self.hand, &self.sight) {
-            course.monitor.observe(self.model.task(), &sight.state);
+            course.observe(self.model.task(), &sight.state);
         }
         let became_true = changes.facts.iter().filter(|(_, now)| *now).map(|&(fact, _)| fact);
         if self.patience.became_true(became_true) {
@@ -110,6 +112,7 @@ impl Wheel {
         if self.ended || self.sight.is_none() {
             return;
         }
+        self.note_starts();
         // What was achieved counts, even if it is over when the wheel can decide again.
         self.follow_goals(effects);
         // Between asking for a write and seeing it, there is nothing to decide on.
@@ -165,8 +168,12 @@ impl Wheel {
     fn refused(&mut self, why: TransactionError, effects: &mut Vec<Effect>) {
         effects.push(Effect::Tell(Narration::Refused { why: why.clone() }));
         match self.take_hand() {
-            Hand::Plan(course) if self.inquiry.is_none() => {
-                self.failed(course, StepFailure::Refused(why), effects);
+            Hand::Plan(mut course) if self.inquiry.is_none() && !course.running().is_empty() => {
+                // One transaction has the writes of all steps: none of them stands.
+                let step = course.running()[0];
+                let sight = self.sight.as_ref().expect("a plan is made from what was seen");
+                course.withdraw(&sight.snapshot, effects);
+                self.failed(course, step, StepFailure::Refused(why), effects);
             }
             // An errand goes on: the missing write is noticed at its deadline, and the next method is tried. To end here
             // would leave the person alone.
@@ -182,15 +189,12 @@ impl Wheel {
         let hand = self.take_hand();
         let sight = self.sight.as_ref().expect("the goals were seen to end");
         match hand {
-            Hand::Plan(mut course) => {
-                let end = course.monitor.plan().len();
-                match course.monitor.furthest(self.model.task()) {
-                    Some(to) if to == end && course.current < end => {
-                        course.move_to(end, &self.model, &sight.snapshot, effects);
-                    }
-                    _ => course.withdraw(&sight.snapshot, effects),
+            Hand::Plan(mut course) => match course.progress(self.model.task()) {
+                Progress::Moves(steps) if steps.len() == course.left().len() => {
+                    course.leave(&steps, &self.model, &sight.state, &sight.snapshot, effects);
                 }
-            }
+                _ => course.withdraw(&sight.snapshot, effects),
+            },
             Hand::Errand(mut errand) => errand.withdraw(&sight.snapshot, effects),
             Hand::Empty | Hand::Rest(_) => {}
         }

@@ -97,7 +97,7 @@ fn plan(model: &Arc<Model>, expansions: u64) -> Result<Vec<OperatorId>, Skipped>
         goals: vec![GoalId(0)],
         broken,
         served: vec![GoalId(0)],
-        running: None,
+        running: Vec::new(),
         barred,
         expansions,
         arrived: None,

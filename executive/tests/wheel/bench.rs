@@ -55,6 +55,12 @@ impl Bench {
         Self::begin(graph, prepare(wheel), false)
     }
 
+    /// With a planning domain, a goal and a perception of its own.
+    pub(crate) fn planning(policy: Policy, texts: [&str; 3]) -> Self {
+        let (graph, wheel) = planning(policy, texts);
+        Self::begin(graph, wheel, false)
+    }
+
     /// A wheel that looks at its graph for the first time.
     pub(crate) fn begin(graph: Graph, wheel: Wheel, at_once: bool) -> Self {
         let pelea = graph.vocabulary().agent("pelea").unwrap();
@@ -224,21 +230,29 @@ pub(crate) fn refusal() -> dsr::TransactionError {
 
 /// The graph of the lamps, and a wheel at rest.
 pub(crate) fn lamps(policy: Policy) -> (Graph, Wheel) {
+    let texts = [
+        include_str!("../../test_data/lamps/domain.pddl"),
+        include_str!("../../test_data/lamps/problem.pddl"),
+        include_str!("../../test_data/lamps/perception.pddl"),
+    ];
+    planning(policy, texts)
+}
+
+fn planning(policy: Policy, [lamps, problem, perception]: [&str; 3]) -> (Graph, Wheel) {
     let lab = domain("vocabulary", include_str!("../../test_data/lamps/vocabulary.pddl"), &[]);
-    let lamps = domain("domain", include_str!("../../test_data/lamps/domain.pddl"), &[]);
-    let perception =
-        domain("perception", include_str!("../../test_data/lamps/perception.pddl"), &[&lab, &lamps]);
+    let lamps = domain("domain", lamps, &[]);
+    let perception = domain("perception", perception, &[&lab, &lamps]);
     let methods = domain("methods", include_str!("../../test_data/lamps/methods.hddl"), &[&lab]);
     let world = Source::new("world", include_str!("../../test_data/lamps/world.pddl"));
     let world = parse_problem(&world, &lab).model.unwrap();
-    let problem = Source::new("problem", include_str!("../../test_data/lamps/problem.pddl"));
+    let problem = Source::new("problem", problem);
     let problem = parse_problem(&problem, &lamps).model.unwrap();
 
     let tokens = Tokens::new(&lab).unwrap();
     let graph = tokens.populate(&[&world], Time(0)).unwrap();
-    let perceived = [Name::new("bright"), Name::new("dead")];
-    let model = Arc::new(Model::new(lamps, problem, &perceived).unwrap());
     let perception = Arc::new(Perception::new(&perception, &tokens).unwrap());
+    let perceived: Vec<Name> = perception.derived().map(|(name, _)| name.clone()).collect();
+    let model = Arc::new(Model::new(lamps, problem, &perceived).unwrap());
     let methods = Arc::new(Methods::new(&methods, &tokens).unwrap());
     (graph, Wheel::new(model, perception, methods, policy))
 }

@@ -8,5 +8,6 @@ mod goals;
 mod progress;
 mod shell;
 mod time;
+mod together;
 mod trouble;
 mod turning;

@@ -23,7 +23,7 @@ pub(super) fn check(context: &Context<'_>, findings: &mut Vec<Finding>) {
     let numbers = perception.derived_functions.iter();
     derived.extend(numbers.map(|f| perception.functions[f.function].name.clone()));
     let costs = costs(context);
-    for (_, action) in domain.model.actions.enumerate() {
+    for (_, action) in layers.steps.actions.enumerate() {
         let mut changed = Tokens::of(&domain.model);
         changed.effect(&action.effect);
         let place = Place { source: domain.source, span: action.effect.span };
@@ -53,7 +53,7 @@ fn never_seen(
     derived: &BTreeSet<Name>,
     findings: &mut Vec<Finding>,
 ) {
-    let (grounding, domain) = (context.grounding, &context.mission.layers.domain.model);
+    let (grounding, domain) = (context.grounding, &context.mission.layers.steps);
     let mut reported = BTreeSet::new();
     for (id, arguments) in &grounding.actions {
         if domain.actions[*id].name != action.name {
@@ -77,7 +77,7 @@ fn never_seen(
 /// The numbers that actions change and that no condition, value or goal reads.
 fn costs(context: &Context<'_>) -> BTreeSet<Name> {
     let layers = &context.mission.layers;
-    let domain = &layers.domain.model;
+    let domain = &layers.steps;
     let mut read = Tokens::of(domain);
     let mut changed = Tokens::of(domain);
     for (_, action) in domain.actions.enumerate() {
@@ -91,6 +91,8 @@ fn costs(context: &Context<'_>) -> BTreeSet<Name> {
             _ => {}
         });
     }
+    let durative = domain.durative_actions.iter().flat_map(|action| &action.conditions);
+    durative.for_each(|timed| read.condition(&timed.condition));
     domain.axioms.iter().for_each(|axiom| read.condition(&axiom.body));
     read.condition(&layers.problem.model.goal);
     context.mission.goals.iter().for_each(|goal| read.condition(&goal.condition));

@@ -1,7 +1,7 @@
-//! C0101–C0103: an action of the plan without a task or a method, or with a duration.
+//! C0101, C0102: an action of the plan without a task or a method.
 //!
 //! **What** Every action of `domain.pddl` has a task of its name in `methods.hddl`, with parameters of the
-//! same types, and the task has at least one method. No action of the plan has a duration: its intentions have deadlines.
+//! same types, and the task has at least one method.
 //! **Why** The planner puts the action into a plan, and the executive cannot execute it in front of the
 //! patient.
 //! **Example** `(:action greet :parameters (?p - person) …)` with no `(:task greet …)`.
@@ -14,13 +14,7 @@ use diagnostics::{Finding, Place};
 pub(super) fn check(context: &Context<'_>, findings: &mut Vec<Finding>) {
     let mission = context.mission;
     let (domain, methods) = (&mission.layers.domain, &mission.layers.methods);
-    for (_, action) in domain.model.durative_actions.enumerate() {
-        let place = Place { source: domain.source, span: action.name_span };
-        let message = format!("`{}` has a duration, which a plan of a mission cannot have", action.name);
-        let help = "declare it as an (:action …); the intentions of its methods have durations";
-        findings.push(Finding::error("C0103", place, message).help(help));
-    }
-    for (_, action) in domain.model.actions.enumerate() {
+    for (_, action) in mission.layers.steps.actions.enumerate() {
         let place = Place { source: domain.source, span: action.name_span };
         let Some(task) = methods.model.task(&action.name) else {
             let message = format!("no task carries out the action `{}`", action.name);

@@ -1,6 +1,8 @@
 //! Reading the PDDL layers, and resolving the tokens that the manifest names.
 
-use pddl::model::{Domain, Feature, Problem};
+use pddl::model::{
+    Action, Condition, ConditionKind, Domain, Effect, EffectKind, Feature, Problem, TimeSpecifier,
+};
 use pddl::{Parsed, Source, Span};
 
 use super::loader::Loader;
@@ -43,6 +45,7 @@ pub(super) fn read(loader: &mut Loader<'_>, from: SourceId, manifest: &Manifest)
         agents: agents?,
         graph,
         nodes,
+        steps: steps(&domain.model),
         domain,
         problem: problem?,
         perception: perception?,
@@ -50,6 +53,27 @@ pub(super) fn read(loader: &mut Loader<'_>, from: SourceId, manifest: &Manifest)
         safety: safety?,
         tokens: tokens?,
     })
+}
+
+/// The domain with each durative action as an action too.
+fn steps(domain: &Domain) -> Domain {
+    let mut steps = domain.clone();
+    for action in &domain.durative_actions {
+        let at_start = action.conditions.iter().filter(|timed| timed.when == TimeSpecifier::Start);
+        let conditions = at_start.map(|timed| timed.condition.clone()).collect();
+        let effects = action.effects.iter().map(|timed| timed.effect.clone()).collect();
+        let (span, name_span) = (action.span, action.name_span);
+        steps.actions.push(Action {
+            name: action.name.clone(),
+            variables: action.variables.clone(),
+            precondition: Condition { kind: ConditionKind::And(conditions), span: name_span },
+            preferences: Vec::new(),
+            effect: Effect { kind: EffectKind::And(effects), span: name_span },
+            span,
+            name_span,
+        });
+    }
+    steps
 }
 
 /// The model of a layer.

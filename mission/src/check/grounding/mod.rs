@@ -159,7 +159,7 @@ impl<'m> Grounding<'m> {
 
     /// The actions of the plan, and their effects as if they were perceived.
     fn plan(&mut self, meter: &Meter) {
-        let domain = &self.layers.domain.model;
+        let domain = &self.layers.steps;
         let (mut actions, mut written) = (BTreeSet::new(), Facts::default());
         for (id, action) in domain.actions.enumerate() {
             let mut conditions = Vec::new();
@@ -185,7 +185,7 @@ impl<'m> Grounding<'m> {
             callers.extend(arguments.collect::<Option<Vec<_>>>().map(|arguments| (named.task, arguments)));
         }
         for (action, arguments) in &self.actions {
-            let name = &self.layers.domain.model.actions[*action].name;
+            let name = &self.layers.steps.actions[*action].name;
             callers.extend(methods.task(name).map(|task| (task, arguments.clone())));
         }
         let mut calls = Calls::default();

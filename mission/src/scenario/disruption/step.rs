@@ -24,7 +24,7 @@ pub struct Step {
 
 /// Reads `(action argument …)`.
 pub(super) fn read(reader: &mut Reader<'_>, layers: &Layers, text: &Text) -> Option<Step> {
-    let (domain, problem) = (&layers.domain.model, &layers.problem.model);
+    let (domain, problem) = (&layers.steps, &layers.problem.model);
     let mut mentions = symbols(text).into_iter();
     let Some(head) = mentions.next() else {
         reader.error("E0907", text.span, "a step is an action of the plan with its arguments");

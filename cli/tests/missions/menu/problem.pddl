@@ -1,0 +1,5 @@
+(define (problem one-menu)
+  (:domain menu)
+  (:objects guest - person drink - item)
+  (:init (present guest) (= (silences drink) 0))
+  (:goal (and (informed guest) (served drink))))
