@@ -9,6 +9,7 @@
 //! before endings of skills, so that a skill which a reflex stopped can no longer end; skills are polled in the order of
 //! their launch. Dropping the future drops every skill, which stops every device, and expires every agent.
 
+mod attentive;
 mod drive;
 mod pulse;
 mod supervisor;

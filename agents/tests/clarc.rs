@@ -320,7 +320,7 @@ async fn silence_help_commands_calls_and_the_report() {
             seconds(1.0).await;
             s.holds(&format!("person asks {}", s.name("request")));
             let need = s.node("need");
-            s.edge(true, clinician, "is_needed_for", need);
+            s.edge(true, clinician, "is_wanted_for", need);
             seconds(30.0).await;
             s.holds(&format!("clinician attended {}", s.name("need")));
             s.holds_not(&format!("person asks {}", s.name("request")));

@@ -12,10 +12,15 @@
     first-question second-question - question)
   (:predicates
     (unusable ?d - device)
+    (told ?u - utterance ?i - part)
     (answered ?i - item))
 
   (:derived (unusable ?d - device)
     (or (is ?d broken) (is ?d doubted)))
+
+  ; Two tokens say so: one that is wrong deceives nobody.
+  (:derived (told ?u - utterance ?i - part)
+    (and (was_told_in ?u ?i) (or (was_said_in ?u ?i) (was_shown_in ?u ?i))))
 
   (:derived (answered ?i - item)
     (exists (?o - option) (was_chosen_in ?o ?i)))
@@ -25,13 +30,14 @@
     (exists (?r - robot) (is_with ?p ?r)))
   (:derived (away ?p - person)
     (exists (?m - room) (has_left ?p ?m)))
-  ; Blind at once; mute or deaf and blank only once the clinician has been called about it.
+  ; Blind at once; in doubt about it, mute or deaf and blank only once the clinician has been called about it.
   (:derived (impaired ?p - person)
     (or (and (is tracker broken)
              (not (exists (?c - clinician) (attended ?c repair))))
         (exists (?c - clinician)
           (and (or (is_needed_for ?c repair) (is_called_for ?c repair))
-               (or (and (unusable microphone) (or (unusable touch) (unusable screen)))
+               (or (is tracker doubted)
+                   (and (unusable microphone) (or (unusable touch) (unusable screen)))
                    (and (unusable speaker) (unusable screen)))))))
   (:derived (calling ?p - person)
     (exists (?c - clinician) (or (is_needed_for ?c assistance) (is_called_for ?c assistance))))
@@ -48,23 +54,23 @@
 
   ; the progress of the test
   (:derived (greeted ?p - person)
-    (was_told_in greeting opening))
+    (told greeting opening))
   (:derived (introduced ?i - item)
-    (was_told_in introduction ?i))
+    (told introduction ?i))
   (:derived (described ?i - item)
     (and (introduced ?i)
-         (forall (?o - option) (imply (offers ?i ?o) (was_told_in ?o ?i)))))
+         (forall (?o - option) (imply (offers ?i ?o) (told ?o ?i)))))
   (:derived (unanswered-once ?i - item)
     (and (was_unanswered_in first-question ?i) (not (answered ?i))))
   (:derived (unanswered-twice ?i - item)
     (and (was_unanswered_in second-question ?i) (not (answered ?i))))
   (:derived (done ?i - phase)
-    (was_told_in explanation ?i))
+    (told explanation ?i))
   (:derived (done ?i - item)
     (or (answered ?i)
-        (and (unanswered-twice ?i) (was_told_in moving-on ?i))))
+        (and (unanswered-twice ?i) (told moving-on ?i))))
   (:derived (thanked ?p - person)
-    (exists (?i - phase) (was_told_in farewell ?i)))
+    (exists (?i - phase) (told farewell ?i)))
   ; What the fallback delivers before the goodbye is not the report of a whole test.
   (:derived (reported ?p - person)
     (and (thanked ?p) (exists (?c - clinician) (was_delivered_to report ?c)))))

@@ -24,5 +24,4 @@
   (:invariant report-is-delivered
     :parameters (?c - clinician)
     :says (?c gets the report, or it is still due)
-    :constraint
-      (at end (or (was_delivered_to report ?c) (is_due_to report ?c) (is console broken)))))
+    :constraint (at end (or (was_delivered_to report ?c) (is_owed_to report ?c)))))

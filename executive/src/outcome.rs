@@ -28,6 +28,8 @@ pub enum NoPlan {
     Stopped,
     /// There is none yet: the decision takes longer than this many seconds.
     Late(f64),
+    /// There are plans, and the mission has not got on with them, however often that was escalated.
+    Stuck(Stuck),
 }
 
 /// The proof that no plan exists.

@@ -90,6 +90,7 @@ where
         let mut guard = None;
         let mut hold = None;
         let mut durable = Version::default();
+        let mut ending = None;
         loop {
             while let Some(event) = events.pop_front() {
                 if let Some(version) = self.lasting.awaits(&event).filter(|version| *version > durable) {
@@ -101,6 +102,7 @@ where
                 let occurrence = Occurrence::from(&event);
                 let effects = wheel.step(event, now);
                 (self.record)(&Turn::new(now, occurrence, &effects));
+                ending = ending.filter(|_| wheel.has_ended());
                 for effect in effects {
                     match effect {
                         Effect::Write(edits) => {
@@ -116,10 +118,22 @@ where
                             }
                         }
                         Effect::WakeAt(time) => alarm = Some(self.instant(time)),
+                        // Told when it is certain.
+                        Effect::Tell(Narration::Ended(_)) => {}
                         Effect::Tell(narration) => (self.tell)(now, narration),
-                        Effect::End(ending) => return ending,
+                        Effect::End(end) => {
+                            ending = Some(end);
+                            take_in(&mut graph, &mut events);
+                        }
                     }
                 }
+            }
+            // Everything that was committed until now has been seen.
+            if hold.is_none()
+                && let Some(ending) = ending.take()
+            {
+                (self.tell)(now, Narration::Ended(ending.clone()));
+                return ending;
             }
             let event = tokio::select! {
                 biased;

@@ -41,6 +41,7 @@ impl Display for NoPlan {
             Self::Invalid(finding) => write!(f, "the plan found does not validate: {}", finding.sentence),
             Self::Stopped => f.write_str("the planner stopped"),
             Self::Late(seconds) => write!(f, "no plan within {seconds} s"),
+            Self::Stuck(stuck) => stuck.fmt(f),
         }
     }
 }

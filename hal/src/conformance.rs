@@ -347,7 +347,7 @@ async fn a_fault_is_noticed_and_a_recovery(rig: &dyn Rig) -> Result<(), Violatio
         waits(rig, "await_fault", &mut fault).await?;
         rig.stimulate(Stimulus::Unplug(device));
         ends(rig, "await_fault", fault).await?;
-        let mut recovery = health.await_recovery(device);
+        let mut recovery = health.await_recovery(device, Duration::from_secs(2));
         waits(rig, "await_recovery", &mut recovery).await?;
         rig.stimulate(Stimulus::PlugIn(device));
         ends(rig, "await_recovery", recovery).await?;

@@ -1,5 +1,7 @@
 //! What a robot can find out about its devices beside their work.
 
+use std::time::Duration;
+
 use crate::{Device, Operation};
 
 /// Health of devices.
@@ -10,8 +12,8 @@ pub trait Health: Send + Sync {
     /// Waits until the device is out of order: disconnected, or without an answer for some seconds.
     fn await_fault(&self, device: Device) -> Operation<'_, ()>;
 
-    /// Waits until the device has been in order for some seconds.
-    fn await_recovery(&self, device: Device) -> Operation<'_, ()>;
+    /// Waits until the device has been in order for this long.
+    fn await_recovery(&self, device: Device, steady: Duration) -> Operation<'_, ()>;
 
     /// Tests the device once against an independent sensor, in a way that does not disturb a person: a loudspeaker
     /// against the microphone, a page against the screen's report. Fails with

@@ -9,7 +9,7 @@
 
   ; ---- help ----------------------------------------------------------------------------------
   ; A request ends with the call that answers it, so this holds until a clinician has come. A console
-  ; that is known to be broken cannot be called: then the call is due.
+  ; that is known to be broken, or to reject calls, cannot be called: then the call is due.
   (:invariant help-is-acted-upon
     :parameters (?p - person)
     :says (while ?p asks for help the clinician is called, within two seconds and without a longer
@@ -18,7 +18,8 @@
                                (exists (?c - clinician ?n - need)
                                  (or
                                    (is_called_for ?c ?n)
-                                   (and (is_needed_for ?c ?n) (is console broken))))))
+                                   (and (is_needed_for ?c ?n)
+                                        (or (is console broken) (is console doubted)))))))
 
   (:invariant call-stands
     :parameters (?c - clinician ?n - need)
@@ -29,10 +30,11 @@
                                                        (is_called_for ?c ?n)
                                                        (is_needed_for ?c ?n))))))))
 
+  ; A call that fails at once is repeated after 1, 2, 4 … 30 seconds, as every rule is.
   (:invariant call-is-repeated
     :parameters (?c - clinician ?n - need)
-    :says (while ?c is needed for ?n a call is under way but for five seconds)
-    :constraint (always-within 5 (and (is_needed_for ?c ?n) (not (is console broken)))
+    :says (while ?c is needed for ?n a call is under way but for half a minute)
+    :constraint (always-within 31 (and (is_needed_for ?c ?n) (not (is console broken)))
                                (or (is_called_for ?c ?n) (is console broken) (attended ?c ?n))))
 
   ; ---- speaking ------------------------------------------------------------------------------

@@ -17,9 +17,9 @@
     option question - remark)
   (:constants
     pelea speech panel person-agent cgamed health - agent
-    loudspeaker display - resource
+    loudspeaker display turn - resource    ; `turn`: the person's turn to answer
     speaker screen microphone touch tracker console - device
-    speaking showing paused aborted broken doubted patient - state
+    speaking showing paused aborted broken doubted unsteady patient - state
     pause resume abort - command
     help - request
     answer - answer
@@ -28,7 +28,8 @@
     unanswered assistance absence repair trouble - need)
   (:predicates
     ; the states of the robot, its devices and the test. A device is broken if it fails or does not
-    ; answer, and doubted if it claims success where nothing was sensed; both end when it is well again.
+    ; answer, and doubted if it claims success where nothing was sensed, or rejects what it must do; both end
+    ; when it is well again. It is unsteady for a minute after it broke: it may break again.
     (is ?x - (either robot device test person) ?s - state)
     (is_not ?r - robot ?s - state)
     (finish ?r - robot ?s - state)
@@ -51,12 +52,14 @@
     (was_chosen_in ?o - option ?i - item)
     (was_unanswered_in ?q - question ?i - item)
     (was_misheard_in ?q - question ?i - item)
-    ; the clinician
+    ; the clinician. PELEA wants, and may change its mind; CGAmed keeps what is needed until a clinician came.
+    (is_wanted_for ?c - clinician ?n - need)
     (is_needed_for ?c - clinician ?n - need)
     (is_called_for ?c - clinician ?n - need)
     (is_overdue_for ?c - clinician ?n - need)      ; was called for it, and did not come in time
     (attended ?c - clinician ?n - need)
-    (is_due_to ?d - document ?c - clinician)
+    (is_due_to ?d - document ?c - clinician)       ; PELEA wants it delivered
+    (is_owed_to ?d - document ?c - clinician)      ; CGAmed delivers it, however long that takes
     (was_delivered_to ?d - document ?c - clinician))
   (:functions
     (rt ?parent ?child - frame) - pose
@@ -72,23 +75,24 @@
 
   (:writes pelea
     is_in label view question (can _ answer) (got _ answer)
-    (is _ doubted) refuses (is_needed_for _ _) (attended _ _) (is_due_to _ _)
+    (is _ doubted) refuses (is_wanted_for _ _) (attended _ _) (is_due_to _ _)
     (was_delivered_to _ _))
   (:writes speech
     (is _ speaking) (is_not _ speaking) (finish _ speaking)
     (is speaker broken) (is speaker doubted) (is microphone broken) (is microphone doubted)
+    (is tracker doubted)
     label was_said_in was_told_in was_sensed_in refuses
     can waiting got was_chosen_in was_unanswered_in was_misheard_in
     (asks _ help))
   (:writes panel
     (is _ showing) (is_not _ showing) (finish _ showing)
-    (is screen broken) (is screen doubted) (is touch broken)
+    (is screen broken) (is screen doubted) (is touch broken) (is tracker doubted)
     view was_shown_in was_told_in refuses
     can waiting got was_chosen_in was_unanswered_in
     (asks _ help))
   (:writes person-agent is_with has_left rt (is tracker broken))
-  (:writes health (is _ broken) (is _ doubted))
+  (:writes health (is _ broken) (is _ doubted) (is _ unsteady))
   (:writes cgamed
-    (is _ paused) (is _ aborted) (is console broken)
-    is_needed_for is_called_for is_overdue_for attended (asks _ help)
-    is_due_to was_delivered_to))
+    (is _ paused) (is _ aborted) (is console doubted)
+    is_wanted_for is_needed_for is_called_for is_overdue_for attended (asks _ help)
+    is_due_to is_owed_to was_delivered_to))

@@ -90,7 +90,16 @@ impl Monitor {
     }
 
     /// The run is over. Returns what its end broke.
-    pub fn ended(mut self, now: Time) -> Vec<Broken> {
+    pub fn ended(self, now: Time) -> Vec<Broken> {
+        self.close(now, None)
+    }
+
+    /// The run was cut short. Returns what that broke; what had time left to come is not broken.
+    pub fn cut(self, now: Time) -> Vec<Broken> {
+        self.close(now, Some(true))
+    }
+
+    fn close(mut self, now: Time, in_time: Option<bool>) -> Vec<Broken> {
         let mut broken = self.elapse(now.0);
         let now = self.now.max(now.0);
         for (formula, instances) in self.invariants.formulas.iter().zip(&self.instances) {
@@ -98,7 +107,7 @@ impl Monitor {
             let how = (self.version, Time(now), Cause::End);
             // What was broken before has been reported.
             let open = instances.iter().filter(|(_, residue)| **residue != Residue::False);
-            let badly = open.filter(|(_, residue)| !at.ends_well(residue));
+            let badly = open.filter(|(_, residue)| !at.ends_well(residue, in_time));
             broken.extend(badly.map(|(environment, _)| Broken::new(formula, &self.facts, environment, how)));
         }
         broken

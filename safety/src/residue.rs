@@ -199,19 +199,21 @@ impl At<'_> {
         }
     }
 
-    /// Whether the formula holds if this state is the last.
-    pub(crate) fn ends_well(&self, residue: &Residue) -> bool {
+    /// Whether the formula holds if this state is the last. `in_time`: the truth of what had time left to come; it counts
+    /// as false where nothing is given.
+    pub(crate) fn ends_well(&self, residue: &Residue, in_time: Option<bool>) -> bool {
         match residue {
             Residue::True => true,
             Residue::False => false,
-            Residue::All(parts) => parts.iter().all(|part| self.ends_well(part)),
-            Residue::Any(parts) => parts.iter().any(|part| self.ends_well(part)),
-            Residue::Not(part) => !self.ends_well(part),
+            Residue::All(parts) => parts.iter().all(|part| self.ends_well(part, in_time)),
+            Residue::Any(parts) => parts.iter().any(|part| self.ends_well(part, in_time)),
+            Residue::Not(part) => !self.ends_well(part, in_time.map(|truth| !truth)),
             Residue::Open(id, environment, waiting) => match (self.formula.part(*id), waiting) {
                 // The last state lasts for ever, so the window opens on it.
                 (Part::Globally { part, .. }, Waiting::Window { .. }) | (Part::AtEnd(part), _) => {
-                    self.ends_well(&self.begin(*part, environment))
+                    self.ends_well(&self.begin(*part, environment), in_time)
                 }
+                (_, Waiting::State { by: Some(by) }) if *by >= self.now => in_time == Some(true),
                 (_, Waiting::State { .. }) => false,
                 _ => true,
             },

@@ -58,6 +58,10 @@ impl Ward {
                 broken.extend(monitor.ended(time));
                 return broken;
             }
+            if what == "cut" {
+                broken.extend(monitor.cut(time));
+                return broken;
+            }
             commit(&graph, what, time);
             broken.extend(look(&mut monitor, &mut subscription));
         }

@@ -1,6 +1,6 @@
-//! A small campaign: two disruptions of the library at a few instants of the Barthel test.
+//! Campaigns on the Barthel test: small ones, which take seconds.
 //!
-//! `pelea campaign domains/barthel` plays all of them.
+//! `pelea campaign domains/barthel` plays every disruption at every instant (docs/campaign.md).
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -73,4 +73,24 @@ fn a_campaign_gives_the_same_results_again_and_goes_on_where_it_stopped() {
     assert!(page.contains("the person is out of view for three seconds"));
     assert!(!page.contains("http"), "the page needs nothing from elsewhere");
     assert!(fs::read_to_string(first.join("junit.xml")).unwrap().contains("failures=\"0\""));
+}
+
+/// Every disruption of the library, each at the beginning and in the middle of the test.
+#[test]
+fn whatever_is_disturbed_no_invariant_is_broken_and_every_end_has_a_name() {
+    let mission = barthel();
+    // A program without optimisations is ten times slower: it plays the beginning alone.
+    let every = if cfg!(debug_assertions) { "400" } else { "200" };
+    let said = pelea(&["campaign", &mission, "--every", every, "--seeds", "1..2", "--json"]);
+    let records = said.records();
+    let rows: Vec<_> = records.iter().filter(|record| record["kind"] == "disruption").collect();
+    assert!(rows.len() > 100, "{} disruptions", rows.len());
+    let bad = rows.iter().filter(|row| {
+        let outcomes = row["outcomes"].as_object().unwrap();
+        let named = ["accomplished", "with-human", "still-calling"];
+        row["broken"] != 0 || outcomes.keys().any(|name| !named.contains(&name.as_str()))
+    });
+    let bad: Vec<_> = bad.map(ToString::to_string).collect();
+    assert!(bad.is_empty(), "{}\n{}", bad.join("\n"), said.err);
+    assert_eq!(said.exit, Exit::Yes, "{}", said.err);
 }

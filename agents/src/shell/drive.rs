@@ -1,6 +1,7 @@
 //! One life of an agent: news in, actions out, until it is dropped.
 
 use super::Environment;
+use super::attentive::Attentive;
 use super::pulse::{Gone, Pulse};
 use super::work::Launcher;
 use crate::rules::Agent;
@@ -13,6 +14,9 @@ use std::sync::Arc;
 use std::task::Poll;
 use std::time::Duration;
 use tokio::time::sleep;
+
+/// The skills at work, in the order of their launch.
+type Skills = BTreeMap<InstanceId, Attentive<Work>>;
 
 /// Runs one life of an agent, until it is fenced or dropped.
 pub(super) async fn drive(
@@ -27,7 +31,7 @@ pub(super) async fn drive(
     let mut subscription = graph.subscribe_to(runtime.agent().interest());
     let waker = Arc::clone(pulse.wake());
     subscription.on_wake(move || waker.notify_one());
-    let mut skills: BTreeMap<InstanceId, Work> = BTreeMap::new();
+    let mut skills = Skills::new();
     loop {
         pulse.beat();
         loop {
@@ -41,7 +45,8 @@ pub(super) async fn drive(
                     runtime.committed(result.as_ref(), now);
                 }
                 Some(Action::Launch { instance, skill, call }) => {
-                    skills.insert(instance, launcher.launch(skill, call, &equipment));
+                    let work = launcher.launch(skill, call, &equipment);
+                    skills.insert(instance, Attentive::new(work));
                 }
                 Some(Action::Stop(instance)) => drop(skills.remove(&instance)),
                 None if runtime.is_fenced() => return Gone::Fenced,
@@ -69,10 +74,10 @@ pub(super) async fn drive(
 }
 
 /// The first skill to end, in the order of their launch.
-async fn first_ended(skills: &mut BTreeMap<InstanceId, Work>) -> (InstanceId, Ended) {
+async fn first_ended(skills: &mut Skills) -> (InstanceId, Ended) {
     poll_fn(|context| {
         for (&instance, work) in &mut *skills {
-            if let Poll::Ready(ended) = work.as_mut().poll(context) {
+            if let Poll::Ready(ended) = work.attend(context) {
                 return Poll::Ready((instance, ended));
             }
         }

@@ -19,6 +19,7 @@ use tokio::time::{Instant, sleep};
 use tracing::{Instrument, debug_span, error, info};
 
 use super::Environment;
+use super::attentive::Attentive;
 use super::drive::drive;
 use super::pulse::{Absence, Gone, Pulse};
 use super::work::{Caught, Housing, Launcher, MOST_ABANDONED, Threads};
@@ -70,11 +71,12 @@ async fn supervise_all(
     environment: Environment,
     threads: Arc<Threads>,
 ) -> Infallible {
-    let supervise = |agent| Box::pin(supervise(agent, environment.clone(), Arc::clone(&threads)));
+    let supervise =
+        |agent| Attentive::new(Box::pin(supervise(agent, environment.clone(), Arc::clone(&threads))));
     let mut agents: Vec<_> = agents.into_iter().map(supervise).collect();
     poll_fn(|context| {
         for agent in &mut agents {
-            if let Poll::Ready(never) = agent.as_mut().poll(context) {
+            if let Poll::Ready(never) = agent.attend(context) {
                 return Poll::Ready(never);
             }
         }

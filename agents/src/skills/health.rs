@@ -1,7 +1,8 @@
 //! `await-fault`, `await-recovery`, `test-device`: what the robot finds out about one of its devices, by the name of its
-//! node.
+//! node. A second argument of `await-recovery` names a device that breaks again and again: it must be in order for longer.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use hal::{Device, Health, Operation};
 
@@ -10,19 +11,40 @@ use crate::skill::{Call, Ended, Equipment, Outcome, Signature, Skill, Work};
 /// One question about the health of a device.
 pub(super) struct OfDevice {
     name: &'static str,
-    ask: for<'a> fn(&'a dyn Health, Device) -> Operation<'a, ()>,
+    arguments: &'static [&'static str],
+    ask: for<'a> fn(&'a dyn Health, Device, &Call) -> Operation<'a, ()>,
 }
+
+/// How long a device is in order before it is used again.
+const STEADY: Duration = Duration::from_secs(2);
+/// The same for a device that breaks again and again.
+const STEADIER: Duration = Duration::from_secs(30);
 
 /// The three questions.
 pub(super) const ALL: [OfDevice; 3] = [
-    OfDevice { name: "await-fault", ask: |health, device| health.await_fault(device) },
-    OfDevice { name: "await-recovery", ask: |health, device| health.await_recovery(device) },
-    OfDevice { name: "test-device", ask: |health, device| health.test(device) },
+    OfDevice {
+        name: "await-fault",
+        arguments: &["device"],
+        ask: |health, device, _| health.await_fault(device),
+    },
+    OfDevice {
+        name: "await-recovery",
+        arguments: &["device", "unsteady?"],
+        ask: |health, device, call| {
+            health.await_recovery(device, if call.arguments.len() > 1 { STEADIER } else { STEADY })
+        },
+    },
+    OfDevice { name: "test-device", arguments: &["device"], ask: |health, device, _| health.test(device) },
 ];
 
 impl Skill for OfDevice {
     fn signature(&self) -> Signature {
-        Signature { name: self.name, arguments: &["device"], results: &[], outcomes: Outcome::ONLY_FAILURE }
+        Signature {
+            name: self.name,
+            arguments: self.arguments,
+            results: &[],
+            outcomes: Outcome::ONLY_FAILURE,
+        }
     }
 
     fn launch(&self, call: Call, equipment: &Equipment) -> Work {
@@ -32,7 +54,7 @@ impl Skill for OfDevice {
                 tracing::warn!(?call.arguments, "no such device");
                 return Ended::otherwise(Outcome::FAILURE);
             };
-            Ended::of(ask(&*health, device).await, |()| Vec::new())
+            Ended::of(ask(&*health, device, &call).await, |()| Vec::new())
         })
     }
 }

@@ -11,6 +11,8 @@ use toml::{Table, Value};
 
 /// What stands in a template for the trigger at the instant.
 const PLACE: &str = "@VERSION@";
+/// What stands in a template for the token that the run has drawn.
+const TOKEN: &str = "@TOKEN@";
 
 /// A disruption of the library.
 pub(super) struct Disturbance {
@@ -45,7 +47,7 @@ pub(super) fn read(
     }
     let library = library.into_iter().filter(|d| wanted.is_empty() || wanted.contains(&d.name));
     let disturbance = |file: File| {
-        let template = scenario(base, &file, &Value::String(PLACE.to_owned())).to_string();
+        let template = scenario(base, &file, &Value::String(PLACE.to_owned()), TOKEN).to_string();
         let template = template.replace(&format!("\"{PLACE}\""), PLACE);
         Disturbance { name: file.name.clone(), title: file.title.clone(), template, file }
     };
@@ -56,8 +58,8 @@ fn names(library: &[File]) -> String {
     library.iter().map(|d| d.name.as_str()).collect::<Vec<_>>().join(", ")
 }
 
-/// The scenario as a table: the base with the disruption in it, at a version or at a time.
-pub(super) fn scenario(base: &Table, file: &File, version: &Value) -> Table {
+/// The scenario as a table: the base with the disruption in it, at a version or at a time, with the token that was drawn.
+pub(super) fn scenario(base: &Table, file: &File, version: &Value, token: &str) -> Table {
     let own: Table = file.source.text().parse().unwrap_or_default();
     let mut scenario = base.clone();
     scenario.remove("expect");
@@ -78,6 +80,12 @@ pub(super) fn scenario(base: &Table, file: &File, version: &Value) -> Table {
         } else if let Some(table) = disruption.as_table_mut() {
             // It answers to what others did, if they did.
             table.insert("optional".to_owned(), Value::Boolean(true));
+        }
+        if let Some(flip) = disruption.as_table_mut().filter(|table| table.contains_key("token"))
+            && file.token(0).is_some()
+        {
+            flip.insert("token".to_owned(), Value::String(token.to_owned()));
+            flip.remove("except");
         }
         disruptions.push(disruption);
     }

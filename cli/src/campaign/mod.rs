@@ -30,6 +30,7 @@ use crate::run::latency;
 use crate::{pool, render};
 use clap::Args;
 use library::Disturbance;
+use page::Stories;
 use progress::Progress;
 use record::{Key, Lines, Run};
 use serde::Serialize;
@@ -73,6 +74,9 @@ pub(crate) struct Arguments {
     /// Write results.jsonl, junit.xml, index.html and a scenario per kind of failure into this folder.
     #[arg(long, value_name = "FOLDER")]
     out: Option<PathBuf>,
+    /// Whose stories the page of `--out` has; without those of good runs it is small.
+    #[arg(long, value_name = "WHICH", value_enum, default_value_t = Stories::All, requires = "out")]
+    stories: Stories,
     /// Go on with the results in the folder of `--out`.
     #[arg(long, requires = "out")]
     resume: bool,
@@ -284,7 +288,7 @@ impl Campaign {
             console.note(&format!("{what}: {count} runs of {disruption}, first {instant}"));
             let Some(folder) = out else { continue };
             let Some(disturbance) = self.library.iter().find(|d| d.name == *disruption) else { continue };
-            let text = self.stock.smallest(disturbance, instant, run.key.seed, what);
+            let text = self.stock.smallest(disturbance, instant, &run.key, what);
             let folder = folder.join("failures");
             fs::create_dir_all(&folder)?;
             let name = format!("{}-{disruption}.toml", what.replace(' ', "-"));
@@ -297,9 +301,9 @@ impl Campaign {
         let (mission, title) = (arguments.mission.to_string_lossy(), self.stock.title());
         let Kept { instants, lines, runs, .. } = &self.kept;
         fs::write(folder.join("junit.xml"), junit::write(&title, &self.library, instants, runs))?;
-        let undisturbed = &self.undisturbed;
+        let (undisturbed, stories) = (&self.undisturbed, arguments.stories);
         let (mission, title, library) = (mission.as_ref(), title.as_str(), self.library.as_slice());
-        let input = page::Input { mission, title, library, instants, runs, lines, undisturbed };
+        let input = page::Input { mission, title, library, instants, runs, lines, undisturbed, stories };
         fs::write(folder.join("index.html"), page::write(&input))
     }
 }

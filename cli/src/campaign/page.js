@@ -37,22 +37,22 @@ function show(row, at) {
   const target = document.getElementById("run");
   target.replaceChildren();
   const disturbance = data.rows[row], [version, time, change] = data.instants[at];
-  const letter = disturbance.cells[at];
+  const letter = disturbance.cells[at], token = disturbance.tokens[at] || "";
   if (letter === undefined || letter === " ") return;
-  element("h2", `${disturbance.title}, after version ${version} (${time.toFixed(1)} s: ${change})`, target);
+  element("h2", `${disturbance.title} ${token}, after version ${version} (${time.toFixed(1)} s: ${change})`, target);
   element("p", `The run ended: ${names[letter.toLowerCase()]}.`, target);
   for (const text of disturbance.broken[at] || []) element("p", "Broken: " + text, target);
   const list = element("ol", "", target);
   const before = data.undisturbed.filter((_, i) => data.undisturbed[i - i % 2] <= time).slice(-12);
   lines(list, before);
   element("li", "", list).append(Object.assign(document.createElement("b"),
-    { textContent: time.toFixed(1).padStart(8) + "  — " + disturbance.title }));
+    { textContent: time.toFixed(1).padStart(8) + "  — " + disturbance.title + " " + token }));
   const story = disturbance.stories[at] || [];
   lines(list, story);
   if (disturbance.cut[at]) element("li", "…", list).className = "cut";
   element("p", "The whole story: save this as x.toml and run “pelea run " + data.mission +
     " --speed max --scenario x.toml --seed " + data.seed + "”.", target);
-  element("pre", disturbance.scenario.replaceAll("@VERSION@", version).replaceAll("@TIME@", time), target);
+  element("pre", disturbance.scenario.replaceAll("@TOKEN@", token).replaceAll("@VERSION@", version).replaceAll("@TIME@", time), target);
   location.hash = row + "," + at;
 }
 

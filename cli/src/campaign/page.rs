@@ -7,6 +7,7 @@
 use super::instants::Instant;
 use super::library::Disturbance;
 use super::record::{LineId, Outcome, Run};
+use clap::ValueEnum;
 use maud::{DOCTYPE, PreEscaped, html};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -23,6 +24,16 @@ pub(super) struct Input<'a> {
     pub(super) runs: &'a [Run],
     pub(super) lines: &'a [String],
     pub(super) undisturbed: &'a [(f64, LineId)],
+    pub(super) stories: Stories,
+}
+
+/// Which runs have their story in the page.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Stories {
+    /// Every run.
+    All,
+    /// Those that are not good; the page is small.
+    Failures,
 }
 
 #[derive(Serialize)]
@@ -32,7 +43,7 @@ struct Data<'a> {
     outcomes: Vec<Legend>,
     instants: Vec<(u64, f64, &'a str)>,
     rows: Vec<Row<'a>>,
-    lines: &'a [String],
+    lines: Vec<&'a str>,
     undisturbed: Vec<f64>,
 }
 
@@ -52,6 +63,8 @@ struct Row<'a> {
     cut: BTreeMap<usize, bool>,
     broken: BTreeMap<usize, Vec<&'a str>>,
     scenario: &'a str,
+    /// What the run of an instant has drawn.
+    tokens: BTreeMap<usize, &'a str>,
 }
 
 /// The letter and the colour of an outcome. The colours differ in lightness too.
@@ -69,7 +82,10 @@ fn legend(outcome: Outcome) -> Legend {
 
 /// The page.
 pub(super) fn write(input: &Input<'_>) -> String {
-    let rows: Vec<Row<'_>> = input.library.iter().map(|disturbance| row(disturbance, input)).collect();
+    let mut lines = Used::of(input.lines);
+    let undisturbed = lines.flat(input.undisturbed);
+    let rows: Vec<Row<'_>> =
+        input.library.iter().map(|disturbance| row(disturbance, input, &mut lines)).collect();
     let counts = super::table::rows(input.runs);
     let seed = input.runs.iter().map(|run| run.key.seed).min().unwrap_or_default();
     let outcomes: Vec<Legend> = Outcome::ALL.into_iter().map(legend).collect();
@@ -80,11 +96,15 @@ pub(super) fn write(input: &Input<'_>) -> String {
         outcomes,
         instants: input.instants.iter().map(|i| (i.version, i.time, i.change.as_str())).collect(),
         rows,
-        lines: input.lines,
-        undisturbed: flat(input.undisturbed),
+        lines: lines.kept,
+        undisturbed,
     };
     // `</script>` inside a string would end the element.
     let json = serde_json::to_string(&data).unwrap_or_default().replace("</", "<\\/");
+    let click = match input.stories {
+        Stories::All => "Click a cell for the run's story.",
+        Stories::Failures => "Click a cell for the scenario that plays its run.",
+    };
     let bad = input.runs.iter().filter(|run| !run.is_good()).count();
     let page = html! {
         (DOCTYPE)
@@ -97,7 +117,7 @@ pub(super) fn write(input: &Input<'_>) -> String {
             }
             body {
                 h1 { (input.title) ": " (input.runs.len()) " runs, " (bad) " not good" }
-                p { "A row is a disruption, a column an instant of the undisturbed run. Click a cell for the run's story." }
+                p { "A row is a disruption, a column an instant of the undisturbed run; the number counts runs that broke an invariant. " (click) }
                 p class="legend" {
                     @for (name, colour) in legends {
                         span { i style={ "background:" (colour) } {} (name) }
@@ -124,7 +144,7 @@ pub(super) fn write(input: &Input<'_>) -> String {
     page.into_string()
 }
 
-fn row<'a>(disturbance: &'a Disturbance, input: &Input<'a>) -> Row<'a> {
+fn row<'a>(disturbance: &'a Disturbance, input: &Input<'a>, lines: &mut Used<'_>) -> Row<'a> {
     let mut worst: BTreeMap<usize, &Run> = BTreeMap::new();
     for run in input.runs.iter().filter(|run| run.key.disruption == disturbance.name) {
         let at = worst.entry(run.key.instant).or_insert(run);
@@ -140,6 +160,7 @@ fn row<'a>(disturbance: &'a Disturbance, input: &Input<'a>) -> Row<'a> {
         cut: BTreeMap::new(),
         broken: BTreeMap::new(),
         scenario: &disturbance.template,
+        tokens: BTreeMap::new(),
     };
     for at in 0..input.instants.len() {
         let Some(run) = worst.get(&at) else {
@@ -148,11 +169,18 @@ fn row<'a>(disturbance: &'a Disturbance, input: &Input<'a>) -> Row<'a> {
         };
         let letter = legend(run.outcome).letter;
         row.cells.push(if run.broken.is_empty() { letter } else { letter.to_ascii_uppercase() });
-        let kept = if run.is_good() { run.story.len().min(LINES) } else { run.story.len() };
-        row.stories.insert(at, flat(&run.story[..kept]));
+        let kept = match (run.is_good(), input.stories) {
+            (false, _) => run.story.len(),
+            (true, Stories::All) => run.story.len().min(LINES),
+            (true, Stories::Failures) => 0,
+        };
+        if kept > 0 {
+            row.stories.insert(at, lines.flat(&run.story[..kept]));
+        }
         if kept < run.story.len() {
             row.cut.insert(at, true);
         }
+        row.tokens.extend(run.token.as_deref().map(|token| (at, token)));
         if !run.broken.is_empty() {
             row.broken.insert(at, run.broken.iter().map(|broken| broken.text.as_str()).collect());
         }
@@ -160,6 +188,28 @@ fn row<'a>(disturbance: &'a Disturbance, input: &Input<'a>) -> Row<'a> {
     row
 }
 
-fn flat(story: &[(f64, LineId)]) -> Vec<f64> {
-    story.iter().flat_map(|(time, line)| [*time, f64::from(*line)]).collect()
+/// The lines of the page's stories, each once.
+struct Used<'a> {
+    all: &'a [String],
+    kept: Vec<&'a str>,
+    numbers: BTreeMap<LineId, u32>,
+}
+
+impl<'a> Used<'a> {
+    fn of(all: &'a [String]) -> Self {
+        Self { all, kept: Vec::new(), numbers: BTreeMap::new() }
+    }
+
+    /// A story as times and numbers of lines.
+    fn flat(&mut self, story: &[(f64, LineId)]) -> Vec<f64> {
+        let Self { all, kept, numbers } = self;
+        let mut number = |line: LineId| {
+            *numbers.entry(line).or_insert_with(|| {
+                let at = usize::try_from(line).unwrap_or(usize::MAX);
+                kept.push(all.get(at).map_or("", String::as_str));
+                u32::try_from(kept.len() - 1).unwrap_or_default()
+            })
+        };
+        story.iter().flat_map(|(time, line)| [*time, f64::from(number(*line))]).collect()
+    }
 }

@@ -64,6 +64,13 @@ pub(super) struct Key {
     pub(super) seed: u64,
 }
 
+impl Key {
+    /// What chooses a token for the run, if the disruption leaves it open.
+    pub(super) fn draw(&self) -> u64 {
+        (self.seed << 32) | u64::try_from(self.instant).unwrap_or_default()
+    }
+}
+
 /// The number of a line of a story.
 pub(super) type LineId = u32;
 
@@ -73,6 +80,9 @@ pub(super) struct Run {
     /// Which run.
     #[serde(flatten)]
     pub(super) key: Key,
+    /// The token that the run has drawn, if the disruption leaves it open.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) token: Option<String>,
     /// How it ended.
     pub(super) outcome: Outcome,
     /// How long it lasted, in simulated seconds.
@@ -99,6 +109,21 @@ pub(super) struct Breakage {
     pub(super) invariant: String,
     /// What it says, who it was broken for, and the version.
     pub(super) text: String,
+    /// What broke it.
+    #[serde(skip)]
+    pub(super) by: By,
+}
+
+/// What broke an invariant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) enum By {
+    /// The commit that made a version.
+    Version(u64),
+    /// The end of the run.
+    End,
+    /// Time; or it is not known any more.
+    #[default]
+    Time,
 }
 
 /// The lines of all stories, each once.

@@ -6,7 +6,7 @@
 
 use super::instants::{Instant, Watcher};
 use super::library::{self, Disturbance};
-use super::record::{Breakage, Key, LineId, Lines, Outcome, Run};
+use super::record::{Breakage, By, Key, LineId, Lines, Outcome, Run};
 use crate::assemble::{Assembly, assemble, load};
 use crate::clock::Seconds;
 use crate::console::Console;
@@ -21,7 +21,7 @@ use hal::sim::RoomEvent;
 use mission::Mission;
 use mission::scenario::Scenario;
 use pddl::Source;
-use safety::Broken;
+use safety::{Broken, Cause};
 use std::cell::RefCell;
 use std::future::pending;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -33,6 +33,8 @@ use toml::{Table, Value};
 
 /// The scenario that is disturbed if none is named.
 const PLAIN: &str = "title = \"a person who answers\"\n\n[clinician]\ncomes-after = 20.0\n";
+/// How long the robot may take to put a wrong token right, in seconds.
+const TO_PUT_RIGHT: f64 = 2.0;
 /// Scenarios that are tried to make a failing one smaller.
 const TRIES: usize = 60;
 
@@ -114,8 +116,19 @@ impl Stock {
         key: &Key,
         lines: &Arc<Lines>,
     ) -> Run {
-        let scenario = disturbance.file.within(&self.scenario, &instant.trigger());
+        let scenario = disturbance.file.within(&self.scenario, &instant.trigger(), key.draw());
         let mut run = self.run(scenario, key, lines);
+        run.token = disturbance.file.token(key.draw()).map(ToString::to_string);
+        if run.token.is_some() {
+            // What the flip itself wrote is not the robot's doing: its commit is the one after the instant's. And what
+            // was flipped just before the end nobody can put right.
+            let late = run.seconds - instant.time < TO_PUT_RIGHT;
+            run.broken.retain(|broken| match broken.by {
+                By::Version(version) => version != instant.version + 1,
+                By::End => !late,
+                By::Time => true,
+            });
+        }
         // What was before is the story of the undisturbed run.
         run.story.retain(|(time, _)| *time >= instant.time);
         run
@@ -135,7 +148,7 @@ impl Stock {
         };
         // To the millisecond: short in JSON.
         let seconds = (seconds * 1e3).round() / 1e3;
-        Run { key: key.clone(), outcome, seconds, replans, broken, story }
+        Run { key: key.clone(), token: None, outcome, seconds, replans, broken, story }
     }
 
     fn staged(&self, scenario: Scenario) -> Result<Staged, scenario::ScenarioError> {
@@ -165,14 +178,15 @@ impl Stock {
         &self,
         disturbance: &Disturbance,
         instant: &Instant,
-        seed: u64,
+        key: &Key,
         what: &str,
     ) -> String {
         let at = match instant.version {
             0 => Value::Float(instant.time),
             version => Value::Integer(i64::try_from(version).unwrap_or(i64::MAX)),
         };
-        let whole = library::scenario(&self.base, &disturbance.file, &at);
+        let token = disturbance.file.token(key.draw()).map(ToString::to_string).unwrap_or_default();
+        let whole = library::scenario(&self.base, &disturbance.file, &at, &token);
         let lines = Arc::new(Lines::default());
         let fails = |table: &Table, seed: u64| {
             let source = Source::new("smaller.toml", table.to_string());
@@ -181,7 +195,7 @@ impl Stock {
             let run = self.run(scenario, &key, &lines);
             run.outcome.name() == what || run.broken.iter().any(|broken| broken.invariant == what)
         };
-        let seed = if fails(&whole, 0) { 0 } else { seed };
+        let seed = if fails(&whole, 0) { 0 } else { key.seed };
         let smallest = super::minimise::minimise(whole, TRIES, |table| fails(table, seed));
         format!("# {what}: pelea run MISSION --scenario THIS --speed max --seed {seed}\n{smallest}")
     }
@@ -277,7 +291,12 @@ impl Audience for Diary {
 
     fn alarm(&self, broken: Broken) {
         let text = broken.to_string();
-        let breakage = Breakage { invariant: broken.invariant.to_string(), text: text.clone() };
+        let by = match broken.by {
+            Cause::Change => By::Version(broken.version.0),
+            Cause::Time => By::Time,
+            Cause::End => By::End,
+        };
+        let breakage = Breakage { invariant: broken.invariant.to_string(), text: text.clone(), by };
         let at = Duration::from_nanos(broken.time.0);
         self.note(at, |pages| {
             pages.broken.push(breakage);

@@ -5,21 +5,21 @@
 //! the scenario.
 
 use super::room::{Happened, RoomLog};
+use super::script;
 use crate::scenario::{Cue, Watch};
 use dsr::{AgentId, Graph, Time};
 use executive::Step;
 use futures::future::join_all;
 use hal::Device;
 use hal::sim::{Behaviour, By, SimRoom};
-use mission::scenario::{self, Act, Trigger};
-use pddl::model::Name;
+use mission::scenario::{self, Act, Disruption, Token, Trigger};
 use std::collections::{BTreeMap, BTreeSet};
 use std::future::pending;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use tokio::sync::{Notify, broadcast};
-use tokio::time::{Instant, sleep, sleep_until};
+use tokio::time::{Instant, advance, sleep, sleep_until};
 
 /// The input of the director.
 #[derive(Clone)]
@@ -32,6 +32,14 @@ pub(super) struct Stage {
     pub(super) happened: Arc<Happened>,
     /// The disruptions that have begun since.
     pub(super) begun: Begun,
+    /// Whether time waits for what is done.
+    pub(super) simulated: bool,
+}
+
+impl Stage {
+    fn now(&self) -> Time {
+        Time(u64::try_from(self.epoch.elapsed().as_nanos()).unwrap_or(u64::MAX))
+    }
 }
 
 /// The disruptions that have begun, by their numbers.
@@ -74,7 +82,7 @@ async fn follow(number: usize, cue: Cue, steps: broadcast::Receiver<Step>, stage
     if let Some((at, over)) = stage.happened.began(number) {
         return match over {
             true => (),
-            false => last(number, &cue.disruption.act, stage.epoch + at, stage).await,
+            false => last(number, &cue.disruption, stage.epoch + at, stage).await,
         };
     }
     let begin = move |stage: &Stage, act: &Act| {
@@ -91,7 +99,7 @@ async fn follow(number: usize, cue: Cue, steps: broadcast::Receiver<Step>, stage
         Trigger::Version(version) if cue.disruption.after.is_zero() => {
             let (act, staged) = (cue.disruption.act.clone(), stage.clone());
             reaches(*version, &stage.graph, move || begin(&staged, &act)).await;
-            return last(number, &cue.disruption.act, Instant::now(), stage).await;
+            return last(number, &cue.disruption, Instant::now(), stage).await;
         }
         Trigger::Version(version) => reaches(*version, &stage.graph, || ()).await,
         // A campaign has replaced it.
@@ -99,17 +107,35 @@ async fn follow(number: usize, cue: Cue, steps: broadcast::Receiver<Step>, stage
         Trigger::Step { step, occurrence } => starts(step, *occurrence, steps).await,
     }
     sleep(cue.disruption.after).await;
-    let act = &cue.disruption.act;
-    begin(stage, act);
-    last(number, act, Instant::now(), stage).await;
+    begin(stage, &cue.disruption.act);
+    last(number, &cue.disruption, Instant::now(), stage).await;
 }
 
-/// Ends a fault that does not last for ever.
-async fn last(number: usize, act: &Act, began: Instant, stage: &Stage) {
-    if let Act::Disturb { device, lasts: Some(lasts), .. } = act {
-        sleep_until(began + *lasts).await;
-        stage.log.over(number, stage.epoch.elapsed());
-        stage.room.recover(hardware(*device));
+/// Ends a fault that does not last for ever, and repeats what happens more than once.
+async fn last(number: usize, disruption: &Disruption, began: Instant, stage: &Stage) {
+    let (mut began, mut left) =
+        (began, disruption.repeats.map_or(0, |r| r.times.map_or(u32::MAX, |n| n - 1)));
+    loop {
+        match &disruption.act {
+            Act::Disturb { device, lasts: Some(lasts), .. } => {
+                sleep_until(began + *lasts).await;
+                if left == 0 {
+                    stage.log.over(number, stage.epoch.elapsed());
+                }
+                stage.room.recover(hardware(*device));
+            }
+            // All timers of that time are due at once. A clock that runs waits for nobody: `kill -STOP` does it there.
+            Act::Stop { lasts } if stage.simulated => advance(*lasts).await,
+            _ => {}
+        }
+        let Some(repeats) = disruption.repeats.filter(|_| left > 0) else { return };
+        left -= 1;
+        began += repeats.every;
+        // What was due before a restart is not made up for.
+        if began >= Instant::now() {
+            sleep_until(began).await;
+            carry_out(&disruption.act, stage);
+        }
     }
 }
 
@@ -173,29 +199,40 @@ fn carry_out(act: &Act, stage: &Stage) {
         Act::VisitorComes { person } => room.visitor_comes(person),
         Act::VisitorGoes { person } => room.visitor_goes(person),
         Act::Ask { request, person, by } => {
-            let by = by.map(|by| match by {
-                scenario::By::Voice => By::Voice,
-                scenario::By::Touch => By::Touch,
-            });
+            // Who asks by both asks by whatever works.
+            let by = by.map(script::manner).filter(|by| *by != By::Both);
             room.ask_by(request, person.as_deref().unwrap_or_default(), by);
         }
+        Act::Answer(reply) => room.will_answer(script::reply(reply)),
         Act::Pause => room.command("pause"),
         Act::Resume => room.command("resume"),
         Act::Abort => room.command("abort"),
         Act::Disturb { device, fault, .. } => room.behave(hardware(*device), behaviour(*fault)),
         Act::Recover(device) => room.recover(hardware(*device)),
-        Act::Flip { label, ends } => flip(label, ends, stage),
+        Act::Kill { agent } => kill(agent, stage),
+        // Time passes in `last`.
+        Act::Stop { .. } => {}
+        Act::Flip(token) => flip(token, stage),
+        // A campaign has chosen one.
+        Act::FlipOneOf(_) => {}
+    }
+}
+
+/// Declares an agent dead: what it still writes is refused, and its supervisor begins it again.
+fn kill(agent: &str, stage: &Stage) {
+    if let Some(agent) = stage.graph.vocabulary().agent(agent) {
+        // It is no agent of the graph only if it never lived.
+        let _ = stage.graph.expire(agent, stage.now());
     }
 }
 
 /// Removes or adds a token, as no agent may: what a confused agent or a bug of ours would do.
-fn flip(label: &str, [from, to]: &[Name; 2], stage: &Stage) {
+fn flip(Token { label, ends: [from, to] }: &Token, stage: &Stage) {
     let snapshot = stage.graph.snapshot();
     let nodes = (snapshot.node(from), snapshot.vocabulary().label(label), snapshot.node(to));
     let (Some(from), Some(label), Some(to)) = nodes else { return };
-    let time = Time(u64::try_from(stage.epoch.elapsed().as_nanos()).unwrap_or(u64::MAX));
     // The graph may refuse a token that its limits exclude; then nothing happens.
-    let _ = stage.graph.edit(AgentId::DSR, time, |transaction| {
+    let _ = stage.graph.edit(AgentId::DSR, stage.now(), |transaction| {
         if snapshot.has_edge(from, label, to) {
             transaction.remove_edge(from, label, to);
         } else {

@@ -70,11 +70,11 @@ impl Guard {
         broken
     }
 
-    /// What was broken since the last look, and by the end of the run.
-    pub(super) fn end(mut self) -> Vec<Broken> {
+    /// What was broken since the last look, and by the end of the run. A run that goes on was cut short.
+    pub(super) fn end(mut self, goes_on: bool) -> Vec<Broken> {
         let mut broken = self.look();
         let now = self.now();
-        broken.extend(self.monitor.ended(now));
+        broken.extend(if goes_on { self.monitor.cut(now) } else { self.monitor.ended(now) });
         broken
     }
 

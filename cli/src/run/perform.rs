@@ -122,6 +122,7 @@ pub(crate) async fn perform(
     // Each disruption must receive the steps of the plan before the first one starts.
     let cues = cues.into_iter().map(|cue| (cue, steps.subscribe())).collect();
     let begun = director::Begun::default();
+    let simulated = housing == Housing::Together;
     let stage = director::Stage {
         graph: graph.clone(),
         room: room.clone(),
@@ -129,6 +130,7 @@ pub(crate) async fn perform(
         log: kept.room,
         happened: Arc::new(happened),
         begun: begun.clone(),
+        simulated,
     };
     let content = Arc::new(content);
     let environment = agents::Environment {
@@ -165,7 +167,8 @@ pub(crate) async fn perform(
                 ending = &mut last => break ending,
             }
         };
-        guard.end().into_iter().for_each(|broken| audience.alarm(broken));
+        let goes_on = !matches!(ending, Ending::Accomplished | Ending::WithHuman { .. });
+        guard.end(goes_on).into_iter().for_each(|broken| audience.alarm(broken));
         audience.ended();
         (ending, graph.snapshot())
     };

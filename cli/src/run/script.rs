@@ -18,14 +18,14 @@ pub(super) fn patient(mission: &Mission, patient: &scenario::Patient, seed: u64)
     for item in layers.items() {
         let topic = layers.name(item);
         for question in &questions {
-            let reply = reply(patient.reply(topic, question), &mut jitter);
+            let reply = jittered(patient.reply(topic, question), &mut jitter);
             replies.push(ReplyRule { topic: topic.to_owned(), question: Some(question.to_string()), reply });
         }
     }
     PatientScript {
         in_view: patient.in_view,
         replies,
-        otherwise: reply(&patient.default, &mut jitter),
+        otherwise: jittered(&patient.default, &mut jitter),
         ..PatientScript::default()
     }
 }
@@ -52,16 +52,26 @@ pub(super) fn questions(mission: &Mission) -> Vec<Name> {
     askable.map(|object| object.name.clone()).collect()
 }
 
-fn reply(reply: &scenario::Reply, jitter: &mut Jitter) -> Reply {
+/// A reply as the simulated person gives it.
+pub(super) fn reply(reply: &scenario::Reply) -> Reply {
+    jittered(reply, &mut Jitter::new(0))
+}
+
+/// The manner of an answer or a request.
+pub(super) fn manner(by: scenario::By) -> By {
+    match by {
+        scenario::By::Voice => By::Voice,
+        scenario::By::Touch => By::Touch,
+        scenario::By::Both => By::Both,
+    }
+}
+
+fn jittered(reply: &scenario::Reply, jitter: &mut Jitter) -> Reply {
     let delay = jitter.vary(reply.delay).as_secs_f64();
     match &reply.answer {
         scenario::Answer::Option(number) => {
             let option = (*number as usize).saturating_sub(1);
-            let by = match reply.by {
-                scenario::By::Voice => By::Voice,
-                scenario::By::Touch => By::Touch,
-            };
-            Reply::Answer { option, delay, by }
+            Reply::Answer { option, delay, by: manner(reply.by) }
         }
         scenario::Answer::Silent => Reply::Silent,
         scenario::Answer::Misheard(words) => Reply::Misheard { words: words.clone(), delay },

@@ -13,6 +13,14 @@ use crate::id::{Holder, NodeId};
 use crate::state::State;
 
 impl Pattern {
+    /// Whether deltas may have changed any match. Most commits concern few patterns, and this is the cheapest answer.
+    pub(crate) fn concerned_by<'d>(&self, deltas: impl IntoIterator<Item = &'d Delta>) -> bool {
+        !self.measured.is_empty()
+            || deltas.into_iter().flat_map(|delta| &delta.changes).any(|change| {
+                self.concerns_constant(change) || self.seeds.iter().any(|s| may_grow(s.seed, change))
+            })
+    }
+
     /// The matches that deltas may have changed; and, for negated parts that can be judged by it, what has moved in
     /// them. `state` is the state after the last delta. Cost: linear in the length of the deltas, plus at most
     /// `budget`.
@@ -112,6 +120,30 @@ impl Pattern {
             }
         }
         Growth::Slice(fixed)
+    }
+}
+
+/// Whether a seed may grow in a change, whatever the nodes.
+fn may_grow(seed: Seed, change: &Change) -> bool {
+    match change {
+        Change::EdgeAdded { edge } | Change::EdgeRemoved { edge } => {
+            matches!(seed, Seed::Edge { label, .. } if label == edge.label)
+        }
+        Change::AttributeAdded { attribute: changed, .. }
+        | Change::AttributeChanged { attribute: changed, .. }
+        | Change::AttributeRemoved { attribute: changed, .. } => match seed {
+            Seed::NodeAttribute { attribute, .. } | Seed::EdgeAttribute { attribute, .. } => {
+                attribute == *changed
+            }
+            _ => false,
+        },
+        Change::NodeAdded { .. } => matches!(seed, Seed::Loose(_)),
+        // What a negated part knows of the node is forgotten.
+        Change::NodeRemoved { .. } => true,
+        Change::TransformAdded { .. }
+        | Change::TransformChanged { .. }
+        | Change::TransformSampled { .. }
+        | Change::TransformRemoved { .. } => false,
     }
 }
 

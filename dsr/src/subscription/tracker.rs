@@ -64,6 +64,9 @@ impl Tracker {
     /// Matches the slices that these deltas may have changed; the snapshot is the state after the last one.
     pub(super) fn follow(&mut self, deltas: &[Arc<Delta>], snapshot: &Snapshot) -> Difference {
         let Difference { mut appeared, mut disappeared } = Difference::default();
+        if !self.pattern.concerned_by(deltas.iter().map(|delta| &**delta)) {
+            return Difference { appeared, disappeared };
+        }
         // The slices of several commits are those of each, all matched once in the last state.
         let deltas = deltas.iter().map(|delta| &**delta);
         let mut changes = deltas.clone().flat_map(|delta| &delta.changes);

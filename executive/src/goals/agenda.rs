@@ -274,6 +274,18 @@ impl Agenda {
         changes
     }
 
+    /// These goals were achieved in the end, and do not hold any more.
+    pub(crate) fn reopen(&mut self, lost: &[GoalId], now: Time) -> Vec<GoalChange> {
+        let mut changes = Vec::new();
+        for &id in lost {
+            if self.life(id) == Life::Achieved {
+                self.goals[id.index()].since = now;
+                self.pass(id, Life::Wanted, Reason::Lost, &mut changes);
+            }
+        }
+        changes
+    }
+
     /// Whether no goal is open that must be achieved.
     pub(crate) fn is_idle(&self) -> bool {
         !self.goals.iter().any(|entry| entry.life.is_open() && entry.text.priority().is_some())

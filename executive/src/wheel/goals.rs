@@ -57,6 +57,13 @@ impl Wheel {
         self.tell_goals(changes, effects);
     }
 
+    /// The goals whose condition holds now.
+    pub(super) fn holding_goals(&self) -> Vec<GoalId> {
+        let Some(sight) = &self.sight else { return Vec::new() };
+        let holds = |(_, aim): &(GoalId, &planner::Goal)| self.model.task().satisfies(&sight.state, aim);
+        (0..).map(GoalId).zip(&self.aims).filter(holds).map(|(id, _)| id).collect()
+    }
+
     pub(super) fn tell_goals(&self, changes: Vec<GoalChange>, effects: &mut Vec<Effect>) {
         if self.model.names_goals() {
             effects.extend(changes.into_iter().map(|change| Effect::Tell(Narration::Goal(change))));

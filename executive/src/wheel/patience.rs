@@ -5,13 +5,20 @@
 //! mission: a step that is achieved for the first time, or a fact that an adopted plan is to bring about and that holds for
 //! the first time. There are finitely many of both, so a world that only repeats itself makes none. What happens
 //! between two moments of progress is counted; each count has a bound. A bound that is reached is *escalated*: the
-//! counts start anew, and each bound is twice as large. Progress restores the mission's own bounds.
+//! counts start anew, and each bound is twice as large, up to four times its size. Progress restores the mission's own
+//! bounds. A mission that did not get on after three escalations in a row is given up: the next one is the fallback, and
+//! it stays with the human who has come.
 
 use super::policy::Bounds;
 use crate::Model;
 use crate::outcome::Stuck;
 use planner::{FactId, OperatorId, State, Task};
 use rustc_hash::{FxHashMap, FxHashSet};
+
+/// How often a bound doubles.
+const DOUBLINGS: u32 = 2;
+/// Escalations without progress after which a mission is given up.
+const ESCALATIONS: u32 = 3;
 
 pub(super) struct Patience {
     bounds: Bounds,
@@ -59,6 +66,11 @@ impl Patience {
     /// How many escalations there were since the last progress.
     pub(super) fn level(&self) -> u32 {
         self.level
+    }
+
+    /// Whether it was escalated so often that the mission is given up.
+    pub(super) fn is_over(&self) -> bool {
+        self.level > ESCALATIONS
     }
 
     /// What holds before anything is done is no progress.
@@ -139,6 +151,6 @@ impl Patience {
     }
 
     fn most(&self, bound: u32) -> u32 {
-        bound.saturating_mul(1 << self.level.min(20))
+        bound.saturating_mul(1 << self.level.min(DOUBLINGS))
     }
 }

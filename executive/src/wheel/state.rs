@@ -62,6 +62,8 @@ pub struct Wheel {
     /// A decision that came while its own write was out of view.
     pub(super) deferred: Option<(RequestId, Decision)>,
     pub(super) ended: bool,
+    /// The goals that held when it ended well; what was committed before anybody knew may still change that.
+    pub(super) accomplished: Vec<GoalId>,
 }
 
 /// What is being carried out.
@@ -134,6 +136,7 @@ impl Wheel {
             unanswered: false,
             deferred: None,
             ended: false,
+            accomplished: Vec::new(),
         }
     }
 
@@ -157,6 +160,11 @@ impl Wheel {
     pub fn with_pulse(mut self, pulse: Duration) -> Self {
         self.clock.pulse = Some(pulse);
         self
+    }
+
+    /// Whether it has ended. A wheel whose goal holds no longer goes on.
+    pub fn has_ended(&self) -> bool {
+        self.ended
     }
 
     /// The model it plans with; Decision Support needs it.

@@ -26,7 +26,8 @@ impl Wheel {
     pub(super) fn escalate(&mut self, why: Stuck, effects: &mut Vec<Effect>) {
         self.moot(effects);
         self.patience.escalated();
-        let task = self.policy.escalation().clone();
+        let over = self.patience.is_over();
+        let task = if over { &self.policy.fallback } else { self.policy.escalation() }.clone();
         effects.push(Effect::Tell(Narration::Escalated { why: why.clone(), task: task.clone() }));
         let attempts = matches!(why, Stuck::Attempts(_));
         let purpose = Purpose::Trouble(Trouble::Stuck(why));
@@ -86,13 +87,18 @@ impl Wheel {
             // What the mission wanted done about it is done: everything may be tried again.
             self.failures.forget_all();
         }
-        let ends = errand.done && self.inquiry.is_none() && errand.is_answered_for(&sight.state);
+        let ends = errand.done && self.inquiry.is_none();
+        let why = match &errand.purpose {
+            Purpose::Trouble(Trouble::NoPlan(why)) if errand.is_answered_for(&sight.state) => {
+                Some(why.clone())
+            }
+            Purpose::Trouble(Trouble::Stuck(why)) if self.patience.is_over() => {
+                Some(NoPlan::Stuck(why.clone()))
+            }
+            Purpose::Trouble(_) | Purpose::Meanwhile => None,
+        };
         self.hand = Hand::Errand(errand);
-        if ends
-            && let Hand::Errand(errand) = &self.hand
-            && let Purpose::Trouble(Trouble::NoPlan(why)) = &errand.purpose
-        {
-            let why = why.clone();
+        if let Some(why) = why.filter(|_| ends) {
             return self.handed_over(why, effects);
         }
         if self.next_question().is_some_and(|at| self.moment.now >= at) {

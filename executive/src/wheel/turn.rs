@@ -16,7 +16,7 @@ impl Wheel {
     /// One turn. `now` is the time on the clock, never less than before.
     pub fn step(&mut self, event: Event, now: Time) -> Vec<Effect> {
         let mut effects = Vec::new();
-        if self.ended {
+        if self.ended && self.accomplished.is_empty() {
             return effects;
         }
         self.turn_clock(&event, now, &mut effects);
@@ -37,6 +37,9 @@ impl Wheel {
                 self.refused(why, &mut effects);
             }
         }
+        if self.ended && self.is_undone(&mut effects) {
+            self.advance(&mut effects);
+        }
         let mut effects = in_one_transaction(effects);
         self.unanswered |= effects.iter().any(is_write);
         if !self.ended {
@@ -44,6 +47,21 @@ impl Wheel {
             effects.extend(wake_at.map(Effect::WakeAt));
         }
         effects
+    }
+
+    /// The goals held in the end, and a version that was committed before anybody knew shows that one holds no longer: who
+    /// asked for help in the last instant is not left alone.
+    fn is_undone(&mut self, effects: &mut Vec<Effect>) -> bool {
+        let holding = self.holding_goals();
+        let lost: Vec<_> = self.accomplished.iter().copied().filter(|id| !holding.contains(id)).collect();
+        if lost.is_empty() {
+            return false;
+        }
+        self.accomplished.clear();
+        self.ended = false;
+        let changes = self.agenda.reopen(&lost, self.moment.now);
+        self.tell_goals(changes, effects);
+        true
     }
 
     /// A version is judged by the time of its own commit, a timer by the present. Nothing else tells how far the graph
@@ -199,6 +217,9 @@ impl Wheel {
             Hand::Empty | Hand::Rest(_) => {}
         }
         let ending = self.agenda_ending();
+        if ending == Ending::Accomplished {
+            self.accomplished = self.holding_goals();
+        }
         self.end(ending, effects);
     }
 

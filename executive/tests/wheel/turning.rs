@@ -138,3 +138,17 @@ fn the_same_events_give_the_same_story() {
     };
     assert_eq!(run(), run());
 }
+
+/// What was committed in the last instant counts: a request for help that crosses the end is not lost.
+#[test]
+fn a_goal_that_is_undone_before_anybody_knew_of_the_end_is_pursued_further() {
+    let mut bench = Bench::new();
+    bench.plan();
+    bench.write("lighter", "a", "lit");
+    bench.write("lighter", "b", "lit");
+    assert_eq!(bench.ending, Some(Ending::Accomplished));
+    assert!(bench.requests.is_empty() && bench.wheel.has_ended());
+    bench.take("lighter", "b", "lit");
+    assert!(!bench.wheel.has_ended());
+    assert_eq!(bench.requests.len(), 1);
+}

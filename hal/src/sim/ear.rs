@@ -47,12 +47,12 @@ impl Activity<Heard> for Listening<'_> {
         if !std::mem::replace(&mut self.open, true) {
             state.open(self.question, By::Voice, now);
         }
-        let Some((at, reply)) = state.reply(self.question) else { return Step::Idle };
+        let Some((at, reply)) = state.reply(self.question, By::Voice) else { return Step::Idle };
         let Some((said, heard)) = spoken(state, &reply, &self.question.options) else { return Step::Idle };
         if now < at {
             return Step::Until(at);
         }
-        state.answered();
+        state.answered(By::Voice);
         state.happens(now, RoomEvent::PersonSays { words: said });
         if !state.works(Device::SpeechIn) {
             return Step::Idle;
@@ -75,7 +75,9 @@ fn spoken(state: &State, reply: &Reply, options: &[Phrase]) -> Option<(String, H
             let phrase = chosen(options, *option)?;
             match by {
                 By::Touch if state.offers(&phrase.id) => None,
-                By::Touch | By::Voice => Some((phrase.words.clone(), Heard::Phrase(phrase.id.clone()))),
+                By::Touch | By::Voice | By::Both => {
+                    Some((phrase.words.clone(), Heard::Phrase(phrase.id.clone())))
+                }
             }
         }
     }

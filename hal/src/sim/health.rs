@@ -1,5 +1,7 @@
 //! Health: what the robot finds out about its devices beside their work.
 
+use std::time::Duration;
+
 use tokio::time::Instant;
 
 use super::behaviour::Behaviour;
@@ -10,8 +12,6 @@ use crate::{Device, DeviceError, Health, Operation};
 
 /// How long a device may leave a request without an answer.
 const SECONDS_TO_ANSWER: f64 = 3.0;
-/// How long a device must have been in order to count as recovered.
-const SECONDS_TO_RECOVER: f64 = 2.0;
 /// How long a test takes.
 const SECONDS_TO_TEST: f64 = 1.0;
 
@@ -28,11 +28,11 @@ impl Health for SimRoom {
         })
     }
 
-    fn await_recovery(&self, device: Device) -> Operation<'_, ()> {
+    fn await_recovery(&self, device: Device, steady: Duration) -> Operation<'_, ()> {
         self.observe_devices(move |state: &mut State, now: Instant| match state.behaviour_since(device) {
             (Behaviour::Fails | Behaviour::Stalls | Behaviour::Panics, _) => Step::Idle,
             (_, None) => Step::Done(Ok(())),
-            (_, Some(since)) => from(since + seconds(SECONDS_TO_RECOVER), now),
+            (_, Some(since)) => from(since + steady, now),
         })
     }
 

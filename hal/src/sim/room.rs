@@ -142,6 +142,14 @@ impl SimRoom {
         self.change(|state, _| state.patient.replies.insert(0, rule));
     }
 
+    /// From now on the person gives this reply to every question.
+    pub fn will_answer(&self, reply: Reply) {
+        self.change(|state, _| {
+            state.patient.replies.clear();
+            state.patient.otherwise = reply;
+        });
+    }
+
     /// From now on the device fails. Its present operations fail at once.
     pub fn fail(&self, device: Device) {
         self.behave(device, Behaviour::Fails);

@@ -11,6 +11,8 @@ pub enum By {
     Voice,
     /// Touched if the screen offers the option, otherwise said aloud.
     Touch,
+    /// Said aloud, and the next option touched at the same time.
+    Both,
 }
 
 /// The person's reply to a question.

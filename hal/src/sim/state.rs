@@ -18,8 +18,8 @@ pub(super) struct Window {
     pub(super) name: String,
     pub(super) opened: Instant,
     pub(super) reply: Reply,
-    /// Whether the person has replied; they reply once.
-    pub(super) answered: bool,
+    /// Whether the person has replied, by voice and by touch; they reply once, or once by each.
+    answered: [bool; 2],
     /// Whether the person was asked this question before, as after an interruption.
     asked_before: bool,
     /// The number of percepts when the previous window closed.
@@ -224,7 +224,7 @@ impl State {
             name: question.name.clone(),
             opened: now,
             reply: self.patient.reply(&question.topic, &question.name).clone(),
-            answered: false,
+            answered: [false; 2],
             asked_before: self.asked.contains(&key),
             perceived_before: self.perceived_at_last_window,
             devices: 1,
@@ -253,9 +253,13 @@ impl State {
     }
 
     /// When and how the person replies to the open question; `None` if they do not reply now.
-    pub(super) fn reply(&self, question: &Question) -> Option<(Instant, Reply)> {
+    pub(super) fn reply(&self, question: &Question, by: By) -> Option<(Instant, Reply)> {
         let window = self.window.as_ref().filter(|window| window.is_of(question))?;
-        if window.answered || !self.view.inside || !window.asked(self.perceived) {
+        let answered = match &window.reply {
+            Reply::Answer { by: By::Both, .. } => window.answered[usize::from(by == By::Touch)],
+            _ => window.answered.contains(&true),
+        };
+        if answered || !self.view.inside || !window.asked(self.perceived) {
             return None;
         }
         let from = window.opened.max(self.view.since);
@@ -267,9 +271,9 @@ impl State {
         self.window.as_ref().is_some_and(|window| window.is_of(question) && window.ears > 0)
     }
 
-    pub(super) fn answered(&mut self) {
+    pub(super) fn answered(&mut self, by: By) {
         if let Some(window) = &mut self.window {
-            window.answered = true;
+            window.answered[usize::from(by == By::Touch)] = true;
         }
     }
 

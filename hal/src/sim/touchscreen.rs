@@ -104,9 +104,10 @@ impl Activity<String> for Touching<'_> {
         if !std::mem::replace(&mut self.open, true) {
             state.open(self.question, By::Touch, now);
         }
-        let Some((at, Reply::Answer { option, by, .. })) = state.reply(self.question) else {
+        let Some((at, Reply::Answer { option, by, .. })) = state.reply(self.question, By::Touch) else {
             return Step::Idle;
         };
+        let option = if by == By::Both { option + 1 } else { option };
         if by == By::Voice && state.is_listened_for(self.question) {
             return Step::Idle;
         }
@@ -118,7 +119,7 @@ impl Activity<String> for Touching<'_> {
             return Step::Until(at);
         }
         let (option, words) = (phrase.id.clone(), phrase.words.clone());
-        state.answered();
+        state.answered(By::Touch);
         state.happens(now, RoomEvent::PersonTouches { option: option.clone(), words });
         state.close(self.question, By::Touch);
         Step::Done(Ok(option))

@@ -1,21 +1,26 @@
 //! Disruptions: events of the patient, of the clinician's console and of the devices, and their times.
 
+mod flip;
 mod step;
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use pddl::Span;
 use pddl::model::Name;
 
+use self::flip::Flipped;
+pub use self::flip::Token;
+pub(super) use self::flip::by_label;
 pub use self::step::Step;
 use super::GraphCondition;
 use super::names::{self, node};
-use super::patient::By;
+use super::patient::{By, Reply};
 use crate::layers::Layers;
-use crate::manifest::{Mention, symbols};
+use crate::mission::Mission;
 use diagnostics::Finding;
 use diagnostics::did_you_mean;
-use diagnostics::toml::{Reader, Table, Text};
+use diagnostics::toml::{Reader, Table};
 
 /// A device that can be disturbed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -122,6 +127,8 @@ pub enum Act {
         /// By voice or by touch; `None` is by whatever works.
         by: Option<By>,
     },
+    /// The patient answers every question so from now on.
+    Answer(Reply),
     /// The clinician pauses the test.
     Pause,
     /// The clinician resumes it.
@@ -139,13 +146,29 @@ pub enum Act {
     },
     /// A device works again.
     Recover(Device),
-    /// A token of the graph is removed if it is there, and added if it is not.
-    Flip {
-        /// The label.
-        label: Name,
-        /// The nodes from which and to which it goes.
-        ends: [Name; 2],
+    /// An agent dies; its supervisor begins it again.
+    Kill {
+        /// The agent's name.
+        agent: Name,
     },
+    /// The process stands still, and all its clocks go on.
+    Stop {
+        /// For how long.
+        lasts: Duration,
+    },
+    /// A token of the graph is removed if it is there, and added if it is not.
+    Flip(Token),
+    /// One of these tokens, which a campaign chooses; only in a library.
+    FlipOneOf(Arc<[Token]>),
+}
+
+/// How an event happens again and again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Repeats {
+    /// From one time to the next.
+    pub every: Duration,
+    /// How often in all; `None` until the run ends.
+    pub times: Option<u32>,
 }
 
 /// One disruption.
@@ -159,16 +182,19 @@ pub struct Disruption {
     pub act: Act,
     /// Whether a run in which it never happens is as good as any.
     pub optional: bool,
+    /// Whether it happens again.
+    pub repeats: Option<Repeats>,
     /// Its place in the scenario.
     pub span: Span,
 }
 
-const ACTS: [&str; 16] = [
+const ACTS: [&str; 19] = [
     "lose-person",
     "return-person",
     "visitor-comes",
     "visitor-goes",
     "ask",
+    "answer",
     "pause",
     "resume",
     "abort",
@@ -179,6 +205,8 @@ const ACTS: [&str; 16] = [
     "refuse",
     "panic",
     "recover",
+    "kill",
+    "stop",
     "flip",
 ];
 
@@ -194,17 +222,41 @@ pub(super) enum Triggers {
 /// Reads a `[[disruption]]`.
 pub(super) fn read(
     reader: &mut Reader<'_>,
-    layers: &Layers,
+    mission: &Mission,
     mut table: Table<'_>,
     triggers: Triggers,
 ) -> Option<Disruption> {
+    let layers = &mission.layers;
     let span = table.span;
     let trigger = read_trigger(reader, layers, &mut table, triggers);
     let after = table.seconds(reader, "after").unwrap_or_default();
     let optional = table.boolean(reader, "optional").unwrap_or_default();
-    let act = read_act(reader, layers, &mut table);
+    let act = read_act(reader, mission, &mut table, triggers);
+    let repeats = read_repeats(reader, &mut table, act.as_ref());
     table.finish(reader);
-    Some(Disruption { trigger: trigger?, after, act: act?, optional, span })
+    Some(Disruption { trigger: trigger?, after, act: act?, optional, repeats, span })
+}
+
+/// `every = 5.0` and `times = 10`.
+fn read_repeats(reader: &mut Reader<'_>, table: &mut Table<'_>, act: Option<&Act>) -> Option<Repeats> {
+    let every = table.seconds(reader, "every");
+    let times = table.count(reader, "times", 2);
+    let Some(every) = every else {
+        if let Some((_, span)) = times {
+            reader.error("E0906", span, "`times` needs `every`: the time from one to the next");
+        }
+        return None;
+    };
+    let lasts = match act {
+        Some(Act::Disturb { lasts, .. }) => lasts.unwrap_or(Duration::MAX),
+        _ => Duration::ZERO,
+    };
+    if every <= lasts {
+        let place = table.key_span("every");
+        reader.error("E0906", place, "a fault must end, by `for`, before it comes `every` so many seconds");
+        return None;
+    }
+    Some(Repeats { every, times: times.map(|(times, _)| times) })
 }
 
 fn read_trigger(
@@ -257,7 +309,13 @@ fn read_trigger(
     at.map(Trigger::At)
 }
 
-fn read_act(reader: &mut Reader<'_>, layers: &Layers, table: &mut Table<'_>) -> Option<Act> {
+fn read_act(
+    reader: &mut Reader<'_>,
+    mission: &Mission,
+    table: &mut Table<'_>,
+    triggers: Triggers,
+) -> Option<Act> {
+    let layers = &mission.layers;
     let act = table.required_text(reader, "do")?;
     match act.value.as_str() {
         "lose-person" => Some(Act::LosePerson),
@@ -272,10 +330,28 @@ fn read_act(reader: &mut Reader<'_>, layers: &Layers, table: &mut Table<'_>) -> 
             let (by, person) = (super::patient::by(reader, table), person(reader, layers, table));
             Some(Act::Ask { request, person, by })
         }
+        "answer" => {
+            let items = layers.items();
+            super::patient::read_reply(reader, mission, table, &items).map(Act::Answer)
+        }
         "visitor-comes" => required_person(reader, layers, table).map(|person| Act::VisitorComes { person }),
         "visitor-goes" => required_person(reader, layers, table).map(|person| Act::VisitorGoes { person }),
         "recover" => read_device(reader, table).map(Act::Recover),
-        "flip" => read_flip(reader, layers, table),
+        "kill" => read_agent(reader, layers, table).map(|agent| Act::Kill { agent }),
+        "stop" => {
+            table.require(reader, "for");
+            table.seconds(reader, "for").map(|lasts| Act::Stop { lasts })
+        }
+        "flip" => match flip::read(reader, layers, table)? {
+            Flipped::This(token) => Some(Act::Flip(token)),
+            Flipped::OneOf(tokens, _) if triggers == Triggers::OrInstant => {
+                Some(Act::FlipOneOf(tokens.into()))
+            }
+            Flipped::OneOf(_, span) => {
+                reader.error("E0908", span, "which token? Only a campaign chooses one that fits");
+                None
+            }
+        },
         name if FAULTS.iter().any(|(known, _)| *known == name) => {
             let fault = FAULTS.into_iter().find(|(known, _)| *known == name)?.1;
             let lasts = table.seconds(reader, "for");
@@ -287,39 +363,12 @@ fn read_act(reader: &mut Reader<'_>, layers: &Layers, table: &mut Table<'_>) -> 
             let finding = Finding::error("E0908", reader.place(act.span), message);
             reader.findings.push(finding.help(help));
             // Do not report the keys that the intended act would have read.
-            for key in ["request", "device", "person", "by", "for", "token"] {
+            for key in ["request", "device", "person", "by", "for", "token", "agent", "except"] {
                 table.ignore(key);
             }
             None
         }
     }
-}
-
-/// `token = "(is_with person robot)"`: a predicate of the vocabulary with two nodes of the initial graph.
-fn read_flip(reader: &mut Reader<'_>, layers: &Layers, table: &mut Table<'_>) -> Option<Act> {
-    let text = table.required_text(reader, "token")?;
-    let mentions = symbols(&text);
-    let [label, from, to] = mentions.as_slice() else {
-        reader.error(
-            "E0908",
-            text.span,
-            "a token is a predicate with two nodes, as in \"(is_with person robot)\"",
-        );
-        return None;
-    };
-    let Some(predicate) = layers.nodes.predicate(&label.name) else {
-        let known = layers.nodes.predicates.enumerate().map(|(_, p)| p.name.as_str());
-        let message = format!("there is no token `{}`", label.name);
-        let finding = Finding::error("E0908", reader.place(label.span), message);
-        reader.findings.push(finding.help_if(did_you_mean(&label.name, known)));
-        return None;
-    };
-    let mut end = |mention: &Mention, position| {
-        let text = Text::new(&mention.name, mention.span, "");
-        names::argument(reader, layers, &text, predicate, position, "node for this token")
-    };
-    let ends = [end(from, 0)?, end(to, 1)?].map(|id| layers.graph.model.objects[id].name.clone());
-    Some(Act::Flip { label: label.name.clone(), ends })
 }
 
 /// The person of `person`, a node of the graph; `None` without the key.
@@ -332,6 +381,21 @@ fn person(reader: &mut Reader<'_>, layers: &Layers, table: &mut Table<'_>) -> Op
 fn required_person(reader: &mut Reader<'_>, layers: &Layers, table: &mut Table<'_>) -> Option<Name> {
     table.require(reader, "person");
     person(reader, layers, table)
+}
+
+/// The agent of `agent`, by the name of its rules.
+fn read_agent(reader: &mut Reader<'_>, layers: &Layers, table: &mut Table<'_>) -> Option<Name> {
+    let text = table.required_text(reader, "agent")?;
+    let names = || layers.agents.iter().map(|agent| &agent.model.name);
+    let found = names().find(|name| ***name == *text.value);
+    if found.is_none() {
+        let known: Vec<&str> = names().map(|name| &**name).collect();
+        let message = format!("there is no agent `{}`", text.value);
+        let finding = Finding::error("E0908", reader.place(text.span), message);
+        let help = did_you_mean(&text.value, known.iter().copied());
+        reader.findings.push(finding.help(help.unwrap_or_else(|| format!("one of: {}", known.join(", ")))));
+    }
+    found.cloned()
 }
 
 fn read_device(reader: &mut Reader<'_>, table: &mut Table<'_>) -> Option<Device> {

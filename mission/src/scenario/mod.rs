@@ -22,7 +22,7 @@ use std::time::Duration;
 use pddl::Source;
 
 pub use condition::GraphCondition;
-pub use disruption::{Act, Device, Disruption, Fault, Step, Trigger};
+pub use disruption::{Act, Device, Disruption, Fault, Repeats, Step, Token, Trigger};
 pub use expect::{Expectation, Expected, Naming, ReplanExpectation};
 pub use judge::{Outcome, Replan, Violation};
 pub use library::Disturbance;

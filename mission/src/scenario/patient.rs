@@ -17,6 +17,8 @@ pub enum By {
     Voice,
     /// Touched on the screen.
     Touch,
+    /// Said aloud, and another option touched at the same time.
+    Both,
 }
 
 /// The content of a reply.
@@ -119,7 +121,7 @@ fn read_rule(reader: &mut Reader<'_>, mission: &Mission, mut table: Table<'_>) -
 }
 
 /// Reads exactly one of `option`, `silent`, `misheard`, and `delay` and `by`. Each of `items` must offer the option.
-fn read_reply(
+pub(super) fn read_reply(
     reader: &mut Reader<'_>,
     mission: &Mission,
     table: &mut Table<'_>,
@@ -169,8 +171,9 @@ pub(super) fn by(reader: &mut Reader<'_>, table: &mut Table<'_>) -> Option<By> {
     match text.value.as_str() {
         "voice" => Some(By::Voice),
         "touch" => Some(By::Touch),
+        "both" => Some(By::Both),
         _ => {
-            reader.error("E0903", text.span, "`by` is \"voice\" or \"touch\"");
+            reader.error("E0903", text.span, "`by` is \"voice\", \"touch\" or \"both\"");
             None
         }
     }

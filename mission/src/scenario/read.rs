@@ -55,7 +55,6 @@ fn read_root(
     mut root: Table<'_>,
     source: &Arc<Source>,
 ) -> Option<Scenario> {
-    let layers = &mission.layers;
     let title = root.required_text(reader, "title");
     let patient = root.table(reader, "patient");
     let patient = patient::read(reader, mission, patient);
@@ -65,7 +64,7 @@ fn read_root(
     let disruptions = root.tables(reader, "disruption");
     let disruptions = disruptions
         .into_iter()
-        .filter_map(|t| disruption::read(reader, layers, t, Triggers::Required))
+        .filter_map(|t| disruption::read(reader, mission, t, Triggers::Required))
         .collect();
     let expect = root.table(reader, "expect");
     let expect = expect::read(reader, mission, expect);

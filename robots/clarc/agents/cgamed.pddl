@@ -1,9 +1,9 @@
 ; CGAmed: the clinician's side: commands from the clinician's console, calls to the clinician, and
 ; the report.
 ;
-; Who asks for help is answered here, with no plan in between. A call stands until a clinician has
-; attended to it, whoever asked for it and whatever became of them: it is repeated when the link fails or
-; nobody comes, and then it is urgent.
+; Who asks for help is answered here, with no plan in between. What a clinician is needed for stays needed
+; until one has attended to it, whoever wanted it and whatever became of them: the call is repeated when the
+; link fails or nobody comes, and then it is urgent.
 (define (domain cgamed)
   (:requirements :typing :equality :negative-preconditions :disjunctive-preconditions
                  :universal-preconditions :conditional-effects :durative-actions :agent-rules)
@@ -31,27 +31,45 @@
     :parameters (?c - clinician ?p - person)
     :condition (and
       (at start (asks ?p help))
-      (at start (not (is_needed_for ?c assistance)))
-      (at start (not (is_called_for ?c assistance))))
+      (at start (not (is_needed_for ?c assistance))))
     :effect (at start (is_needed_for ?c assistance)))
 
+  ; PELEA may withdraw what it wants. What is needed is not withdrawn.
+  (:durative-action note-need
+    :parameters (?c - clinician ?n - need)
+    :condition (and
+      (at start (is_wanted_for ?c ?n))
+      (at start (not (attended ?c ?n)))
+      (at start (not (is_needed_for ?c ?n))))
+    :effect (at start (is_needed_for ?c ?n)))
+
+  ; A call that nobody makes is the trace of an agent that is gone, or of a robot that was started again. It is
+  ; made: rather once too often.
+  (:durative-action note-call
+    :parameters (?c - clinician ?n - need)
+    :condition (and
+      (at start (is_called_for ?c ?n))
+      (at start (not (is_needed_for ?c ?n))))
+    :effect (at start (is_needed_for ?c ?n)))
+
   ; A call is under way until a clinician has attended to it, however long that takes; `call-urgently`
-  ; calls whoever else can come, beside it. One that stands while nobody makes it, because the robot was
-  ; started again, is made again.
+  ; calls whoever else can come, beside it.
   (:durative-action call
     :parameters (?c - clinician ?n - need)
     :condition (and
-      (at start (or (is_needed_for ?c ?n) (is_called_for ?c ?n)))
+      (at start (is_needed_for ?c ?n))
       (over all (is_called_for ?c ?n)))
     :effect (and
       (at start (is_called_for ?c ?n))
+      (at end (not (is console doubted)))
+      (at end (not (is_wanted_for ?c ?n)))
       (at end (not (is_needed_for ?c ?n)))
       (at end (not (is_called_for ?c ?n)))
       (at end (not (is_overdue_for ?c ?n)))
       (at end (forall (?p - person) (not (asks ?p help))))
       (at end (attended ?c ?n))
       (at failure (not (is_called_for ?c ?n)))
-      (at failure (is_needed_for ?c ?n)))
+      (at failure (is console doubted)))
     :skill (call-clinician ?n))
 
   (:durative-action find-overdue
@@ -69,6 +87,8 @@
       (at start (is_overdue_for ?c ?n))
       (over all (is_called_for ?c ?n)))
     :effect (and
+      (at end (not (is console doubted)))
+      (at end (not (is_wanted_for ?c ?n)))
       (at end (not (is_needed_for ?c ?n)))
       (at end (not (is_called_for ?c ?n)))
       (at end (not (is_overdue_for ?c ?n)))
@@ -86,6 +106,7 @@
       (at start (not (attended ?c repair)))
       (over all (or
                   (is tracker broken)
+                  (is tracker doubted)
                   (and (or (is microphone broken) (is microphone doubted))
                        (or (is touch broken) (is screen broken) (is screen doubted)))
                   (and (or (is speaker broken) (is speaker doubted))
@@ -101,6 +122,7 @@
       (at start (attended ?c repair))
       (over all (not (or
                        (is tracker broken)
+                       (is tracker doubted)
                        (and (or (is microphone broken) (is microphone doubted))
                             (or (is touch broken) (is screen broken) (is screen doubted)))
                        (and (or (is speaker broken) (is speaker doubted))
@@ -108,12 +130,21 @@
     :effect (at timeout (not (attended ?c repair)))
     :skill (wait))
 
-  ; What is due is delivered, whatever becomes of who wanted it.
+  ; What was due once is delivered, whatever becomes of who wanted it.
+  (:durative-action note-debt
+    :parameters (?d - document ?c - clinician)
+    :condition (and
+      (at start (is_due_to ?d ?c))
+      (at start (not (is_owed_to ?d ?c))))
+    :effect (at start (is_owed_to ?d ?c)))
+
   (:durative-action deliver
     :parameters (?d - document ?c - clinician)
-    :condition (at start (is_due_to ?d ?c))
+    :condition (over all (is_owed_to ?d ?c))
     :effect (and
+      (at end (not (is console doubted)))
       (at end (not (is_due_to ?d ?c)))
+      (at end (not (is_owed_to ?d ?c)))
       (at end (was_delivered_to ?d ?c))
-      (at failure (is_due_to ?d ?c)))
+      (at failure (is console doubted)))
     :skill (deliver ?d)))

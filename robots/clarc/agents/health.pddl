@@ -2,7 +2,7 @@
 ;
 ; What broke is used again as soon as it is well, and a doubt does not last: it is tested, or it fades.
 (define (domain health)
-  (:requirements :typing :negative-preconditions :durative-actions :agent-rules)
+  (:requirements :typing :equality :negative-preconditions :durative-actions :agent-rules)
   (:import clarc)
 
   (:durative-action find-broken
@@ -13,11 +13,28 @@
 
   (:durative-action find-working
     :parameters (?d - device)    ; waive(failure): it stays broken, and is tried again
-    :condition (over all (is ?d broken))
+    :condition (and (at start (not (is ?d unsteady))) (over all (is ?d broken)))
+    :effect (and
+      (at end (not (is ?d broken)))
+      (at end (not (is ?d doubted)))
+      (at end (is ?d unsteady)))
+    :skill (await-recovery ?d))
+
+  ; What broke again within a minute must be well for longer: who relies on it begins anew each time it breaks.
+  (:durative-action find-steady
+    :parameters (?d - device)    ; waive(failure): it stays broken, and is tried again
+    :condition (and (over all (is ?d unsteady)) (over all (is ?d broken)))
     :effect (and
       (at end (not (is ?d broken)))
       (at end (not (is ?d doubted))))
-    :skill (await-recovery ?d))
+    :skill (await-recovery ?d unsteady))
+
+  (:durative-action trust-again
+    :parameters (?d - device)
+    :duration (<= ?duration 60)
+    :condition (and (over all (is ?d unsteady)) (over all (not (is ?d broken))))
+    :effect (at timeout (not (is ?d unsteady)))
+    :skill (wait))
 
   ; A test that fails is repeated, less and less often.
   (:durative-action clear-doubt
@@ -26,10 +43,10 @@
     :effect (at end (not (is ?d doubted)))
     :skill (test-device ?d))
 
-  ; A doubt that no test can clear fades, so that the device is tried again.
+  ; A doubt that no test can clear fades, so that the device is tried again. The console is tried however doubted.
   (:durative-action forget-doubt
     :parameters (?d - device)
     :duration (<= ?duration 300)
-    :condition (over all (is ?d doubted))
+    :condition (and (at start (not (= ?d console))) (over all (is ?d doubted)))
     :effect (at timeout (not (is ?d doubted)))
     :skill (wait)))

@@ -139,9 +139,12 @@
       (at abort (not (waiting ?p ?a)))
       (at timeout (not (waiting ?p ?a)))
       (at timeout (was_unanswered_in ?q ?i))
+      (at timeout (is tracker doubted))
       (at failure (not (waiting ?p ?a)))
       (at failure (is touch broken)))
-    :skill (await-touch ?i ?q))
+    :skill (await-touch ?i ?q)
+    :claims (turn)
+    :priority 10)
 
   ; The button for help is on every page.
   (:durative-action see-request
@@ -152,4 +155,13 @@
     :effect (and
       (at end (asks ?p ?q))
       (at failure (is touch broken)))
-    :skill (await-request ?q ?p)))
+    :skill (await-request ?q ?p))
+
+  ; Who shows holds the display: while it is free, nobody shows.
+  (:durative-action clear
+    :parameters (?r - robot)
+    :duration (<= ?duration 0.1)
+    :condition (over all (is ?r showing))
+    :effect (and (at timeout (not (is ?r showing))) (at timeout (is_not ?r showing)))
+    :skill (wait)
+    :claims (display)))

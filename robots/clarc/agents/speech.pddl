@@ -106,7 +106,7 @@
 
   ; An answer may be spoken or touched. This rule starts to listen, and the panel's rule `touch` waits
   ; for the same `waiting`; the first to end stops the other. A broken microphone is reported as broken,
-  ; not as a silence of the person.
+  ; not as a silence of the person. A silence may be that of an empty chair: the tracker is tested.
   (:durative-action hear
     :parameters (?r - robot ?p - person ?t - test ?i - item ?a - answer ?q - question)
     :duration (<= ?duration 15)
@@ -131,12 +131,15 @@
       (at abort (not (waiting ?p ?a)))
       (at timeout (not (waiting ?p ?a)))
       (at timeout (was_unanswered_in ?q ?i))
+      (at timeout (is tracker doubted))
       (at misheard (not (waiting ?p ?a)))
       (at misheard (was_misheard_in ?q ?i))
       (at misheard (was_unanswered_in ?q ?i))
       (at failure (not (waiting ?p ?a)))
       (at failure (is microphone broken)))
-    :skill (listen ?i ?q))
+    :skill (listen ?i ?q)
+    :claims (turn)
+    :priority 20)
 
   ; A question that an interruption has closed is still being asked: it is listened for again.
   (:durative-action listen-again
@@ -165,4 +168,31 @@
     :effect (and
       (at end (asks ?p ?q))
       (at failure (is microphone broken)))
-    :skill (spot ?q ?p)))
+    :skill (spot ?q ?p))
+
+  ; ---- what an agent that is gone has left behind ------------------------------------------
+  ; Who speaks holds the loudspeaker: while it is free, nobody speaks.
+  (:durative-action fall-silent
+    :parameters (?r - robot)
+    :duration (<= ?duration 0.1)
+    :condition (over all (is ?r speaking))
+    :effect (and (at timeout (not (is ?r speaking))) (at timeout (is_not ?r speaking)))
+    :skill (wait)
+    :claims (loudspeaker))
+
+  ; Who waits for an answer holds the turn.
+  (:durative-action stop-waiting
+    :parameters (?p - person ?a - answer)
+    :duration (<= ?duration 0.1)
+    :condition (over all (waiting ?p ?a))
+    :effect (at timeout (not (waiting ?p ?a)))
+    :skill (wait)
+    :claims (turn))
+
+  ; An offer that nobody takes up is none.
+  (:durative-action close-offer
+    :parameters (?p - person ?a - answer)
+    :duration (<= ?duration 1)
+    :condition (over all (can ?p ?a))
+    :effect (at timeout (not (can ?p ?a)))
+    :skill (wait)))

@@ -83,7 +83,9 @@ impl Run {
             if token.contains(" was chosen in ") && self.given.pop().is_none() {
                 self.finding(record, &format!("no answer in the room explains {token}"));
             }
-            if made_up.sound && (token.ends_with(" is doubted") || token.ends_with(" is broken")) {
+            // A silence may be that of an empty chair, so the tracker is tested after it.
+            let unfounded = token.ends_with(" is doubted") && token != "tracker is doubted";
+            if made_up.sound && (unfounded || token.ends_with(" is broken")) {
                 self.finding(record, &format!("{token}, and no device failed"));
             }
             if token.starts_with("clinician is called for ") || token.starts_with("clinician attended ") {
