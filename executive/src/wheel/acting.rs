@@ -93,6 +93,9 @@ impl Wheel {
             redraws = course.notice_starts(&self.model, &sight.state);
             under_way = course.under_way(&self.model);
         }
+        if self.under_way.is_empty() && under_way.is_empty() {
+            return;
+        }
         let ended = self.under_way.iter().filter(|fact| !under_way.contains(fact));
         let changes = ended.map(|&fact| (fact, false)).chain(under_way.iter().map(|&fact| (fact, true)));
         let changed = self.model.task().change(&mut sight.state, changes.collect::<Vec<_>>());
